@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+
+namespace episcope {
+
+/// Base of every failure that a user is told about. The message is a sentence with the numbers in
+/// it: what failed, with which values, what to do.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A stated precondition is broken: a shape, a range, a name, a parameter.
+class InvalidInput : public Error {
+ public:
+  using Error::Error;
+};
+
+/// Reading or writing failed. The message begins with the path.
+class IoError : public Error {
+ public:
+  IoError(const std::filesystem::path& path, const std::string& reason)
+      : Error(path.string() + ": " + reason), path_(path) {}
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Something this build or this machine does not have: CUDA, a method, a format.
+class Unavailable : public Error {
+ public:
+  using Error::Error;
+};
+
+/// The user asked to stop. Not an `Error`, so that no handler of errors swallows it.
+class Cancelled {};
+
+}  // namespace episcope

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace episcope {
+
+/// Instruction sets that the hot kernels are compiled for. A source named by
+/// `episcope_add_kernels` is compiled once for each, in a namespace of its own; its callers choose
+/// by `best_isa()`. Such a source must include nothing that defines inline functions of external
+/// linkage (no standard containers or algorithms): the linker could keep the copy compiled for the
+/// wider instruction set and call it everywhere.
+enum class Isa { Baseline, Avx2, Avx512 };
+
+/// The widest set that this machine runs. The environment variable EPISCOPE_ISA (baseline, avx2,
+/// avx512) narrows it, for tests and comparisons.
+[[nodiscard]] Isa best_isa();
+
+[[nodiscard]] const char* isa_name(Isa isa);
+
+}  // namespace episcope

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+
+namespace episcope {
+
+/// What a running computation tells about itself.
+struct ProgressState {
+  double fraction = 0;  ///< Of the whole job, in [0, 1], never falling.
+  std::string step;     ///< The stage, e.g. "vertical EPIs".
+};
+
+/// The thread between a computation and whoever waits for it: the computation reports how far it is
+/// and learns whether it should stop; the waiting side also says how many threads may be used.
+/// Cheap to copy; copies speak for the same job. All members may be called from any thread.
+class Progress {
+ public:
+  using Listener = std::function<void(const ProgressState&)>;
+
+  /// Nobody listens and nothing stops. `threads` 0 = as many as the machine has.
+  explicit Progress(int threads = 0);
+  /// `listener` is called from the computing threads, one call at a time; it must not block.
+  Progress(std::stop_token stop, Listener listener, int threads = 0);
+
+  /// Tells that `fraction` in [0, 1] of this part is done. Throttled to 1/1000 of the job.
+  void report(double fraction) const;
+  /// Names the stage that begins now.
+  void step(const std::string& text) const;
+  /// Throws Cancelled if a stop was requested.
+  void check() const;
+  [[nodiscard]] bool stop_requested() const;
+  [[nodiscard]] int threads() const;
+
+  /// A progress for the part [begin, end] of this one.
+  [[nodiscard]] Progress part(double begin, double end) const;
+
+ private:
+  struct Shared;
+  std::shared_ptr<Shared> shared_;
+  double begin_ = 0;
+  double end_ = 1;
+};
+
+}  // namespace episcope

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/error.h"
+#include "engine/core/parameter.h"
+
+#include <functional>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// The one description of a parameter struct `P`: keys, labels, help, units, domains; defaults are
+/// those of a value-initialised `P`. The form in the window, the options of the command line, JSON
+/// and validation all come from it. A parameter's range stands here and nowhere else.
+template <class P>
+class Schema {
+ public:
+  struct Text {
+    const char* label;
+    const char* help;
+    const char* unit = "";
+  };
+  struct Domain {
+    double min;
+    double max;
+    bool logarithmic = false;
+  };
+
+  Schema& real(const char* key, double P::*member, Text text, Domain domain) {
+    return add(key, member, text, domain);
+  }
+  Schema& integer(const char* key, int P::*member, Text text, Domain domain) {
+    return add(key, member, text, domain);
+  }
+  Schema& flag(const char* key, bool P::*member, Text text) {
+    return add(key, member, text, {0, 1});
+  }
+  Schema& choice(const char* key, std::string P::*member, Text text,
+                 std::vector<std::string> choices) {
+    add(key, member, text, {0, 0});
+    descriptions_.back().choices = std::move(choices);
+    return *this;
+  }
+  Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
+    return add(key, member, text, domain);
+  }
+
+  [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const {
+    return descriptions_;
+  }
+
+  /// Defaults, overridden by `values`. Throws InvalidInput for an unknown key (naming the nearest),
+  /// a wrong type or a value outside its domain.
+  [[nodiscard]] P parse(const ParameterSet& values) const {
+    P parameters{};
+    for (const auto& [key, value] : values) {
+      const std::size_t index = index_of(key);
+      check_parameter(descriptions_[index], value);
+      write_[index](parameters, value);
+    }
+    return parameters;
+  }
+
+  /// Every parameter with its value, in the order of the schema.
+  [[nodiscard]] ParameterSet values(const P& parameters) const {
+    ParameterSet set;
+    for (std::size_t i = 0; i < descriptions_.size(); ++i) {
+      set.emplace_back(descriptions_[i].key, read_[i](parameters));
+    }
+    return set;
+  }
+
+ private:
+  template <class T>
+  Schema& add(const char* key, T P::*member, Text text, Domain domain) {
+    descriptions_.push_back({key, text.label, text.help, text.unit, P{}.*member, domain.min,
+                             domain.max, domain.logarithmic, {}});
+    read_.push_back([member](const P& p) { return ParameterValue(p.*member); });
+    write_.push_back([member](P& p, const ParameterValue& v) { p.*member = std::get<T>(v); });
+    return *this;
+  }
+
+  [[nodiscard]] std::size_t index_of(const std::string& key) const {
+    std::vector<std::string> keys;
+    for (std::size_t i = 0; i < descriptions_.size(); ++i) {
+      if (descriptions_[i].key == key) return i;
+      keys.push_back(descriptions_[i].key);
+    }
+    const std::string nearest = nearest_name(key, keys);
+    throw InvalidInput("there is no parameter '" + key + "'" +
+                       (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  }
+
+  std::vector<ParameterDescription> descriptions_;
+  std::vector<std::function<ParameterValue(const P&)>> read_;
+  std::vector<std::function<void(P&, const ParameterValue&)>> write_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/registry.h"
+
+#include "engine/core/error.h"
+#include "engine/disparity/epi_l.h"
+
+namespace episcope {
+
+std::vector<Estimator> registered_estimators() {
+  return {
+      epi_l_estimator(),
+  };
+}
+
+Estimator find_estimator(const std::string& id) {
+  std::vector<std::string> ids;
+  for (auto& estimator : registered_estimators()) {
+    if (estimator.info.id == id) return estimator;
+    ids.push_back(estimator.info.id);
+  }
+  const std::string nearest = nearest_name(id, ids);
+  throw Unavailable("there is no method '" + id + "'" +
+                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+}
+
+}  // namespace episcope

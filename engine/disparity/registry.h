@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/estimator.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Every estimator of this build, in the order of lists.
+[[nodiscard]] std::vector<Estimator> registered_estimators();
+
+/// Throws Unavailable for an unknown id, naming the nearest.
+[[nodiscard]] Estimator find_estimator(const std::string& id);
+
+}  // namespace episcope

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/image.h"
+#include "engine/core/light_field.h"
+#include "engine/render/color_map.h"
+
+#include <cstdint>
+
+namespace episcope::render {
+
+/// What an overlay or an exported picture shows. Each quantity has its own colour map and range
+/// (formats.md §7), which belong to the quantity and not to the image.
+enum class Quantity { View, Disparity, Truth, Confidence, SignedError, AbsoluteError, BadPixels, Labels };
+
+struct Shading {
+  ColorMap map;
+  Interval range;
+};
+
+/// Colour map and range of a quantity; disparities span `disparity_range`.
+[[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);
+
+/// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own colour. `valid` may be
+/// empty.
+[[nodiscard]] Image<std::uint8_t> shade(ImageView<const float> map,
+                                        ImageView<const std::uint8_t> valid,
+                                        const Shading& shading);
+
+/// RGBA8 picture of a view.
+[[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view);
+
+/// RGBA8 picture of label ids: 0 transparent, ids coloured by a fixed, well-separated palette.
+[[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
+
+/// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view.
+[[nodiscard]] Image<std::uint8_t> shade_samples(ImageView<const float> samples);
+
+/// Range of the valid values between two quantiles, for "automatic range". {0, 1} if none is valid.
+[[nodiscard]] Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid,
+                                    double low = 0.01, double high = 0.99);
+
+/// The mean of all views sheared so that disparity `focus_px` is in focus, seen from `view`:
+/// synthetic aperture refocusing [Ng06]. `[y][x][c]` in [0, 1].
+[[nodiscard]] Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px);
+
+}  // namespace episcope::render

@@ -1,0 +1,24 @@
+# Every find_package of the project. The headless build never looks for Qt or VTK.
+find_package(Threads REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs)
+find_package(Eigen3 REQUIRED NO_MODULE)
+find_package(nlohmann_json REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(spdlog REQUIRED)
+
+if(EPISCOPE_GUI)
+  find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)
+  # Always with components: without them VTK wants Qt 5.
+  find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel CommonTransforms FiltersCore
+               InteractionStyle InteractionWidgets RenderingAnnotation RenderingCore RenderingFreeType
+               RenderingOpenGL2)
+endif()
+if(EPISCOPE_TESTS)
+  if(EPISCOPE_GUI)
+    find_package(Qt6 REQUIRED COMPONENTS Test)
+  endif()
+endif()
+if(EPISCOPE_BENCH)
+  find_package(benchmark REQUIRED)
+endif()
