@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <QWidget>
+
+#include <vector>
+
+class QLabel;
+class QGridLayout;
+
+namespace episcope {
+
+/// One fact: a short key, a value of any length, and how it was found out.
+struct InfoRow {
+  QString key;
+  QString value;
+  QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
+};
+
+/// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; a title
+/// too long for the panel is elided, with the whole of it as tool tip.
+class InfoPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit InfoPanel(QWidget* parent = nullptr);
+
+  void setInfo(const QString& title, const std::vector<InfoRow>& rows, const QStringList& warnings);
+
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void rebuild();
+  void elideTitle();
+
+  QString full_title_;
+  std::vector<InfoRow> rows_;
+  QStringList warnings_;
+  QLabel* title_;
+  QWidget* body_ = nullptr;
+};
+
+}  // namespace episcope

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QElapsedTimer>
+#include <QString>
+#include <QWidget>
+
+#include <map>
+
+class QLabel;
+class QProgressBar;
+class QToolButton;
+class QVBoxLayout;
+
+namespace episcope {
+
+/// Time left of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty while
+/// nothing can be said.
+[[nodiscard]] QString time_left_text(double fraction, double seconds);
+
+/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button. Shows a
+/// quiet line when there are none.
+class JobPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit JobPanel(QWidget* parent = nullptr);
+
+  /// Adds a job, waiting until its first progress.
+  void addJob(quint64 id, const QString& title);
+  /// Ignored for an unknown id. The clock of a job starts with its first progress.
+  void setProgress(quint64 id, double fraction, const QString& stage);
+  /// Cancelling: the row says so until it is removed.
+  void setCancelling(quint64 id);
+  void removeJob(quint64 id);
+
+  [[nodiscard]] int jobCount() const { return static_cast<int>(rows_.size()); }
+
+ signals:
+  void cancelRequested(quint64 id);
+
+ private:
+  struct Row {
+    QWidget* widget;
+    QLabel* stage;
+    QProgressBar* bar;
+    QToolButton* cancel;
+    QElapsedTimer clock;
+  };
+
+  QVBoxLayout* layout_;
+  QLabel* idle_;
+  std::map<quint64, Row> rows_;
+};
+
+}  // namespace episcope

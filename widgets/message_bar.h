@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QTimer>
+#include <QWidget>
+
+#include <functional>
+
+class QLabel;
+class QPushButton;
+class QToolButton;
+
+namespace episcope {
+
+enum class Severity { Info, Success, Warning, Error };
+
+/// One message that blocks nothing: severity, text, a close button and at most one action. Info and
+/// success go away by themselves; warnings and errors stay until closed. Hidden when empty.
+class MessageBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  struct Action {
+    QString text;
+    std::function<void()> run;
+  };
+
+  explicit MessageBar(QWidget* parent = nullptr);
+
+  void showMessage(Severity severity, const QString& text);
+  void showMessage(Severity severity, const QString& text, Action action);
+
+  [[nodiscard]] QString text() const;
+  [[nodiscard]] Severity severity() const { return severity_; }
+
+ public slots:
+  void dismiss();
+
+ signals:
+  void dismissed();
+
+ protected:
+  void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
+ private:
+  [[nodiscard]] QColor accent() const;
+  void updateIcon();
+
+  Severity severity_ = Severity::Info;
+  Action action_;
+  QLabel* icon_;
+  QLabel* text_;
+  QPushButton* button_;
+  QToolButton* close_;
+  QTimer timer_;
+};
+
+}  // namespace episcope

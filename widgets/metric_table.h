@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QStringList>
+#include <QVariant>
+#include <QWidget>
+
+#include <vector>
+
+class QLabel;
+class QTableWidget;
+class QToolButton;
+
+namespace episcope {
+
+struct MetricColumn {
+  QString key;    ///< Of the CSV header, e.g. "mse_100".
+  QString label;  ///< Of the table header.
+  QString help;   ///< Tool tip.
+  int decimals = 3;
+};
+
+struct MetricRow {
+  quint64 id = 0;
+  /// One a column: a double, a string, or an invalid QVariant where the metric is absent.
+  std::vector<QVariant> values;
+};
+
+/// Metrics of all results, sortable by any column (numbers as numbers, absent ones last), copied or
+/// saved as CSV or LaTeX in the order shown.
+class MetricTable : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit MetricTable(QWidget* parent = nullptr);
+
+  void setTable(const std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows);
+  /// Says why the table is empty, e.g. that there is no ground truth.
+  void setEmptyText(const QString& text);
+  /// Marks the row of the result on screen.
+  void setCurrent(quint64 id);
+
+  /// RFC 4180, full precision, decimal point, keys as header.
+  [[nodiscard]] QString toCsv() const;
+  /// A `tabular` with the decimals shown.
+  [[nodiscard]] QString toLatex() const;
+
+ public slots:
+  void copyCsv();
+  void copyLatex();
+
+ signals:
+  void rowClicked(quint64 id);
+  /// "csv" or "tex" with the text to be written by the host.
+  void saveRequested(const QString& suffix, const QString& text);
+
+ private:
+  void fillRow(int row, const MetricRow& values);
+
+  std::vector<MetricColumn> columns_;
+  QTableWidget* table_;
+  QLabel* empty_;
+  QToolButton* copy_csv_;
+  QToolButton* copy_latex_;
+  QToolButton* save_;
+};
+
+}  // namespace episcope

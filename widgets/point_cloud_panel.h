@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "widgets/point_cloud.h"
+#include "widgets/point_cloud_view.h"
+
+#include <QWidget>
+
+class QComboBox;
+class QLabel;
+class QSlider;
+
+namespace episcope {
+
+enum class CloudColoring { Image, Disparity, Error };
+
+/// The 3D tab: the point cloud view, or the reason why there is none, with its controls.
+class PointCloudPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit PointCloudPanel(QWidget* parent = nullptr);
+
+  /// An empty cloud shows `hint` instead.
+  void setCloud(const PointCloud& cloud, const QString& hint = {});
+  void setColoring(CloudColoring coloring);
+  /// Whether errors can be chosen as colours: there is truth.
+  void setErrorAvailable(bool available);
+
+  [[nodiscard]] CloudColoring coloring() const;
+  /// Whether a 3D view exists; if not, making clouds is wasted work.
+  [[nodiscard]] bool isAvailable() const { return view_ != nullptr; }
+
+ signals:
+  /// The host should give a cloud of these colours.
+  void coloringSelected(episcope::CloudColoring coloring);
+
+ private:
+  QComboBox* coloring_;
+  QSlider* stretch_;
+  QLabel* count_;
+  PointCloudView* view_ = nullptr;
+};
+
+}  // namespace episcope

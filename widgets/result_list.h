@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QTreeWidget;
+class QToolButton;
+class QLabel;
+
+namespace episcope {
+
+/// One result as the list shows it.
+struct ResultRow {
+  quint64 id = 0;
+  QString method;
+  QString parameters;  ///< Summary; the whole of it is the tool tip.
+  double seconds = 0;  ///< 0 = unknown.
+  std::optional<double> mse_100;
+  QString detail;  ///< Further tool tip: source, notes.
+};
+
+/// Results of this light field, newest last, with the shown one marked. Choosing a row is an intent
+/// to show it; remove, export and the rest are in buttons and in the context menu.
+class ResultList : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ResultList(QWidget* parent = nullptr);
+
+  void setResults(const std::vector<ResultRow>& results);
+  /// Marks the row whose picture is on screen; none = no mark.
+  void setShown(std::optional<quint64> id);
+
+  [[nodiscard]] std::optional<quint64> selectedId() const;
+
+ signals:
+  void selected(quint64 id);
+  void removeRequested(quint64 id);
+  void exportRequested(quint64 id);
+  void copyCommandRequested(quint64 id);
+  /// Bring its parameters back into the form.
+  void reuseRequested(quint64 id);
+
+ private:
+  void showMenu(const QPoint& position);
+  void updateButtons();
+
+  QTreeWidget* tree_;
+  QLabel* hint_;
+  QToolButton* export_;
+  QToolButton* remove_;
+  QToolButton* reuse_;
+  std::optional<quint64> shown_;
+};
+
+}  // namespace episcope

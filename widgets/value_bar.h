@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+
+#include <QColor>
+#include <QString>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QLabel;
+
+namespace episcope {
+
+/// Value of one estimate at the cursor.
+struct EstimateReading {
+  QString name;
+  std::optional<double> disparity_px;  ///< None = invalid there.
+};
+
+/// All that is known about one pixel.
+struct PixelReading {
+  PixelIndex pixel;
+  QString samples;  ///< As stored, e.g. "120 88 40"; colour of the swatch beside it:
+  QColor color;
+  bool has_truth = false;          ///< The scene has truth for this view;
+  std::optional<double> truth_px;  ///< none = invalid at this pixel.
+  std::vector<EstimateReading> estimates;
+};
+
+/// The line at the bottom: pixel, colour, truth, every estimate with its error (truth − estimate);
+/// at the right end a short state ("1 job · ready").
+class ValueBar : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ValueBar(QWidget* parent = nullptr);
+
+  /// None = the cursor is not on a pixel.
+  void setReading(const std::optional<PixelReading>& reading);
+  void setStatus(const QString& status);
+
+  /// The line as plain text, e.g. "x 301 y 417 · rgb 120 88 40 · truth 0.312 · EPI_S 0.318
+  /// (−0.006)".
+  [[nodiscard]] QString text() const;
+
+ protected:
+  void changeEvent(QEvent* event) override;
+
+ private:
+  void rebuild();
+
+  std::optional<PixelReading> reading_;
+  QLabel* swatch_;
+  QLabel* values_;
+  QLabel* status_;
+};
+
+}  // namespace episcope

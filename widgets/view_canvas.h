@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+#include "widgets/canvas_transform.h"
+
+#include <QImage>
+#include <QStringList>
+#include <QWidget>
+
+#include <functional>
+#include <optional>
+
+namespace episcope {
+
+/// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
+/// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
+///
+/// wheel, + and − zoom at the cursor; K fits; Ctrl+0 shows 100 %; middle drag or Space+drag pans;
+/// click moves the cross-hair; Shift+click focuses; drag is parallax while browsing; double click
+/// asks for the centre view. Arrow keys are left to the host.
+class ViewCanvas : public QWidget {
+  Q_OBJECT
+
+ public:
+  enum class State { Empty, Loading, Failed, Picture };
+  /// Lines printed inside pixel (y, x) when it is drawn large.
+  using PixelText = std::function<QStringList(int y, int x)>;
+
+  explicit ViewCanvas(QWidget* parent = nullptr);
+
+  /// Shows `picture`; one of another size than the last is fitted. A null picture shows the empty
+  /// state. Use `to_qimage` to hand over an Image without a copy.
+  void setPicture(const QImage& picture);
+  /// Drawn over the picture, stretched to its size; null = none.
+  void setOverlay(const QImage& overlay);
+  void setOverlayOpacity(double opacity);
+  void setCrossHair(std::optional<PixelIndex> pixel);
+  void setPixelText(PixelText text);
+  /// What is shown, e.g. "view (4, 4)", drawn in the upper left corner; empty = none.
+  void setCaption(const QString& caption);
+  /// Whether a left drag is parallax (default). Off: it pans.
+  void setParallaxEnabled(bool enabled);
+
+  /// No picture: a hint what to do.
+  void showEmpty(const QString& hint);
+  /// No picture yet: what is loading and how far it is, in [0, 1]; negative = unknown.
+  void showLoading(const QString& name, double fraction);
+  /// No picture: a sentence why.
+  void showError(const QString& sentence);
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] const QImage& picture() const { return picture_; }
+  [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
+  [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
+  [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
+  [[nodiscard]] bool isFitted() const { return fitted_; }
+  /// The pixel under a widget position; none outside the picture.
+  [[nodiscard]] std::optional<PixelIndex> pixelAt(QPointF position) const;
+  /// Middle of a pixel in widget coordinates.
+  [[nodiscard]] QPointF positionOf(PixelIndex pixel) const;
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+
+ public slots:
+  /// Follows a linked viewport; does not emit `transformChanged` for an equal value.
+  void setCanvasTransform(const episcope::CanvasTransform& transform);
+  void zoomIn();
+  void zoomOut();
+  /// The whole picture; kept fitted while the widget is resized, until the user zooms or pans.
+  void zoomToFit();
+  /// 100 %: one image pixel on one pixel of the screen.
+  void zoomToActualSize();
+  /// Pans as little as is needed to bring a pixel into sight.
+  void ensureVisible(episcope::PixelIndex pixel);
+
+ signals:
+  void transformChanged(const episcope::CanvasTransform& transform);
+  /// The user clicked a pixel.
+  void crossHairRequested(episcope::PixelIndex pixel);
+  void focusRequested(episcope::PixelIndex pixel);
+  void centerRequested();
+  /// Pixel under the mouse, or none.
+  void cursorMoved(std::optional<episcope::PixelIndex> pixel);
+  /// A left drag in browse mode: begin, way since the beginning, end. `views` is (du, dv), not
+  /// rounded; what is nearer than the zero plane follows the hand.
+  void parallaxStarted();
+  void parallaxDragged(QPointF views);
+  void parallaxFinished();
+  /// Space pressed and released without a drag: play or pause.
+  void playToggled();
+  /// Alt+wheel: steps of the focus plane, positive = nearer.
+  void focusStepped(double steps);
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+
+ private:
+  enum class Gesture { None, Press, Pan, Parallax };
+
+  void changeTransform(const CanvasTransform& transform, bool fitted);
+  void zoomAt(QPointF anchor, double factor);
+  void beginDrag(QPointF position);
+  void updateCursorShape();
+  void showMessage(State state, const QString& text);
+
+  State state_ = State::Empty;
+  QString message_;
+  double loading_fraction_ = -1;
+  QString caption_;
+  QImage picture_;
+  QImage overlay_;
+  double overlay_opacity_ = 0.7;
+  std::optional<PixelIndex> cross_hair_;
+  PixelText pixel_text_;
+  CanvasTransform transform_;
+  bool fitted_ = true;
+  bool parallax_enabled_ = true;
+
+  Gesture gesture_ = Gesture::None;
+  Qt::KeyboardModifiers press_modifiers_;
+  QPointF press_position_;
+  QPointF last_position_;
+  std::optional<PixelIndex> hovered_;
+  bool space_held_ = false;
+  bool space_used_ = false;
+};
+
+}  // namespace episcope
