@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
+#include "engine/core/ground_truth.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/render/color_map.h"
@@ -12,15 +13,30 @@ namespace episcope::render {
 
 /// What an overlay or an exported picture shows. Each quantity has its own colour map and range
 /// (formats.md §7), which belong to the quantity and not to the image.
-enum class Quantity { View, Disparity, Truth, Confidence, SignedError, AbsoluteError, BadPixels, Labels };
+enum class Quantity {
+  View,
+  Disparity,
+  Truth,
+  Confidence,
+  SignedError,
+  AbsoluteError,
+  BadPixels,
+  Labels
+};
 
 struct Shading {
   ColorMap map;
   Interval range;
 };
 
-/// Colour map and range of a quantity; disparities span `disparity_range`.
+/// Colour map and range of a quantity; disparities span `disparity_range`. The map of bad pixels is
+/// for values of 0.2 (good) and 1 (bad), as `bad_pixel_map` gives them.
 [[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);
+
+/// The range that disparities of a scene are shown in, whatever the method: that of the truth's
+/// centre view, else 0.9·[disp_min, disp_max] that the files promise, else `otherwise`.
+[[nodiscard]] Interval disparity_display_range(const LightFieldInfo& info, const GroundTruth& truth,
+                                               Interval otherwise);
 
 /// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own colour. `valid` may be
 /// empty.
@@ -31,7 +47,10 @@ struct Shading {
 /// RGBA8 picture of a view.
 [[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view);
 
-/// RGBA8 picture of label ids: 0 transparent, ids coloured by a fixed, well-separated palette.
+/// Colour of a label id: a fixed palette of well separated colours for 1 … 20, further ones by hue.
+[[nodiscard]] Rgb label_color(std::int32_t id);
+
+/// RGBA8 picture of label ids: 0 and negative ids transparent, the others in their `label_color`.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
 
 /// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view.
@@ -42,7 +61,9 @@ struct Shading {
                                     double low = 0.01, double high = 0.99);
 
 /// The mean of all views sheared so that disparity `focus_px` is in focus, seen from `view`:
-/// synthetic aperture refocusing [Ng06]. `[y][x][c]` in [0, 1].
+/// synthetic aperture refocusing [Ng06]. `[y][x][c]` in [0, 1]. Samples between pixels are
+/// interpolated linearly, with 8-bit light fields to 1/256 px; those outside repeat the border.
+/// Throws InvalidInput if the view lies outside the grid.
 [[nodiscard]] Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px);
 
 }  // namespace episcope::render

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/evaluation/metrics.h"
+
+namespace episcope {
+
+/// Pictures of an evaluation, from the very errors that its numbers were computed from. All are
+/// meant to be shown with the mask `evaluation.judged`.
+
+/// |truth − estimate| in px.
+[[nodiscard]] Image<float> absolute_error_map(const Evaluation& evaluation);
+
+/// 1.0 where |error| is strictly above `threshold_px` or the estimate is missing, else 0.2: the
+/// places of bad and good in the colour map of bad pixels (formats.md §7).
+[[nodiscard]] Image<float> bad_pixel_map(const Evaluation& evaluation, double threshold_px);
+
+}  // namespace episcope

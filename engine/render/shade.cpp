@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/render/shade.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace episcope::render {
+namespace {
+
+constexpr int kRgba = 4;
+constexpr std::uint8_t kOpaque = 255;
+
+void put(std::uint8_t* pixel, const Rgb& color) {
+  std::copy(color.begin(), color.end(), pixel);
+  pixel[3] = kOpaque;
+}
+
+std::uint8_t byte_of(std::uint8_t sample) {
+  return sample;
+}
+std::uint8_t byte_of(std::uint16_t sample) {
+  return static_cast<std::uint8_t>((sample + 128U) / 257U);  // nearest: 65535 = 255 · 257
+}
+std::uint8_t byte_of(float sample) {
+  const float bounded = sample > 0 ? std::min(sample, 1.0F) : 0.0F;  // NaN becomes 0
+  return static_cast<std::uint8_t>(std::lround(bounded * 255));
+}
+
+template <class T>
+Image<std::uint8_t> opaque_picture(ImageView<const T> samples) {
+  Image<std::uint8_t> picture(samples.height, samples.width, kRgba);
+  for (int y = 0; y < samples.height; ++y) {
+    const T* source = samples.row(y);
+    std::uint8_t* target = picture.row(y);
+    for (int x = 0; x < samples.width; ++x, source += samples.channels, target += kRgba) {
+      const bool is_color = samples.channels >= 3;
+      put(target, {byte_of(source[0]), byte_of(source[is_color ? 1 : 0]),
+                   byte_of(source[is_color ? 2 : 0])});
+    }
+  }
+  return picture;
+}
+
+std::vector<float> valid_values(ImageView<const float> map, ImageView<const std::uint8_t> valid) {
+  std::vector<float> values;
+  values.reserve(map.size());
+  const DisparityView pixels{map, valid};
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (pixels.is_valid(y, x)) values.push_back(map.at(y, x));
+    }
+  }
+  return values;
+}
+
+float quantile(std::vector<float>& values, double share) {
+  const double last = static_cast<double>(values.size() - 1);
+  const auto place = values.begin() + std::lround(std::clamp(share, 0.0, 1.0) * last);
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Fully saturated colour wheel, dimmed: `hue` in [0, 1).
+Rgb hue_color(double hue, double brightness) {
+  Rgb color{};
+  for (int c = 0; c < 3; ++c) {
+    const double place = std::fmod(hue * 6 + 6 - 2 * c, 6.0);
+    const double level = std::clamp(std::abs(place - 3) - 1, 0.0, 1.0);
+    color[c] = static_cast<std::uint8_t>(std::lround(255 * brightness * (0.15 + 0.85 * level)));
+  }
+  return color;
+}
+
+}  // namespace
+
+Shading default_shading(Quantity quantity, Interval disparity_range) {
+  switch (quantity) {
+    case Quantity::Disparity:
+    case Quantity::Truth:
+      return {color_map("viridis"), disparity_range};
+    case Quantity::Confidence:
+      return {color_map("magma"), {0, 1}};
+    case Quantity::SignedError:
+      return {color_map("seismic"), {-0.2, 0.2}};
+    case Quantity::AbsoluteError:
+      return {color_map("ylorrd"), {0, 0.1}};
+    case Quantity::BadPixels:
+      return {color_map("rdylgn_r"), {0, 1}};
+    case Quantity::View:
+    case Quantity::Labels:
+      break;
+  }
+  return {color_map("grey"), {0, 1}};
+}
+
+Interval disparity_display_range(const LightFieldInfo& info, const GroundTruth& truth,
+                                 Interval otherwise) {
+  if (truth.has_disparity()) {
+    const auto& stack = truth.field.disparity;
+    const ViewIndex middle = stack.grid().center();
+    const auto view = truth.field.view({middle.v + stack.first().v, middle.u + stack.first().u});
+    const Interval range = robust_range(view.disparity, view.valid, 0, 1);
+    if (range.length() > 0) return range;
+  }
+  constexpr double shown_share = 0.9;
+  if (info.disparity_range) {
+    return {shown_share * info.disparity_range->min, shown_share * info.disparity_range->max};
+  }
+  return otherwise;
+}
+
+Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
+                          const Shading& shading) {
+  Image<std::uint8_t> picture(map.height, map.width, kRgba);
+  const DisparityView pixels{map, valid};
+  for (int y = 0; y < map.height; ++y) {
+    std::uint8_t* target = picture.row(y);
+    for (int x = 0; x < map.width; ++x, target += kRgba) {
+      put(target, pixels.is_valid(y, x)
+                      ? shading.map.color(map.at(y, x), shading.range.min, shading.range.max)
+                      : shading.map.invalid);
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view) {
+  return std::visit([view](const auto& stack) { return opaque_picture(stack.view(view)); },
+                    light_field.samples());
+}
+
+Rgb label_color(std::int32_t id) {
+  constexpr Rgb palette[] = {{230, 25, 75},  {60, 180, 75},   {0, 130, 200},  {255, 225, 25},
+                             {245, 130, 48}, {145, 30, 180},  {70, 240, 240}, {240, 50, 230},
+                             {210, 245, 60}, {250, 190, 212}, {0, 128, 128},  {220, 190, 255},
+                             {170, 110, 40}, {255, 250, 200}, {128, 0, 0},    {170, 255, 195},
+                             {128, 128, 0},  {255, 215, 180}, {0, 0, 128},    {128, 128, 128}};
+  constexpr std::int32_t fixed = std::size(palette);
+  if (id <= 0) return {};
+  if (id <= fixed) return palette[id - 1];
+  constexpr double golden_share = 0.6180339887498949;  // spreads hues evenly, however many
+  return hue_color(std::fmod(id * golden_share, 1.0), id % 2 == 0 ? 1.0 : 0.65);
+}
+
+Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels) {
+  Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
+  for (int y = 0; y < labels.height; ++y) {
+    for (int x = 0; x < labels.width; ++x) {
+      const std::int32_t id = labels.at(y, x);
+      if (id > 0) put(&picture.at(y, x), label_color(id));
+    }
+  }
+  return picture;
+}
+
+Image<std::uint8_t> shade_samples(ImageView<const float> samples) {
+  return opaque_picture(samples);
+}
+
+Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,
+                      double high) {
+  std::vector<float> values = valid_values(map, valid);
+  if (values.empty()) return {0, 1};
+  const float min = quantile(values, low);
+  return {min, quantile(values, high)};
+}
+
+}  // namespace episcope::render
