@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/disparity/estimator.h"
+
+#include <string>
+
+namespace episcope {
+
+/// The `episcope-cli estimate` line that repeats an estimate of the light field that `input` opens.
+/// Parameters at their defaults are left out; of a method this build does not know, all are named.
+[[nodiscard]] std::string command_line_for(const Estimate& estimate, const std::string& input);
+
+/// The same for a run that was not started yet.
+[[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
+                                           ViewSelection views, const std::string& input);
+
+/// A word as a POSIX shell reads it back: quoted where it must be.
+[[nodiscard]] std::string shell_quoted(const std::string& word);
+
+}  // namespace episcope

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/load_scene.h"
+
+#include "app/session/scene_cache.h"
+#include "engine/scenes/builtin.h"
+
+#include <cstdlib>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kDemo = "demo";
+
+// The same light field under another name: samples are copied, because the scene shares them.
+LightFieldPtr renamed(const LightField& light_field, const std::string& name,
+                      const std::string& source) {
+  LightFieldInfo info = light_field.info();
+  info.name = name;
+  info.source = source;
+  auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
+                            light_field.samples());
+  return std::make_shared<const LightField>(std::move(samples), std::move(info));
+}
+
+void show_center_view(const std::string& id, const scenes::RenderOptions& options,
+                      const io::OpenOptions& open, const Progress& progress) {
+  if (!open.on_center_view) return;
+  scenes::RenderOptions center_only = options;
+  center_only.grid = {1, 1};
+  const Scene scene = scenes::render_builtin(id, center_only, progress);
+  const LightField& light_field = *scene.light_field;
+  if (light_field.sample_type() != SampleType::UInt8) return;
+  const ImageView<const std::uint8_t> view = light_field.view<std::uint8_t>({0, 0});
+  Image<std::uint8_t> rgb(view.height, view.width, view.channels);
+  std::copy_n(view.data, view.size(), rgb.data());
+  LightFieldInfo info = light_field.info();
+  info.name = id;
+  open.on_center_view(rgb, info, options.grid);
+}
+
+Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
+  const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
+  const scenes::RenderOptions render;
+  const SceneCache cache(options.cache_folder);
+  progress.step("reading the built-in scene");
+  std::optional<Scene> scene = cache.read(id, render, progress.part(0, 0.9));
+  const bool is_cached = scene.has_value();
+  if (!is_cached) {
+    progress.step("rendering the built-in scene");
+    show_center_view(id, render, options.open, progress.part(0, 0.02));
+    scene = scenes::render_builtin(id, render, progress.part(0.02, 1));
+  }
+  if (scene->light_field->info().source != source) {
+    scene->light_field = renamed(*scene->light_field, id, source);
+  }
+  scene->convention.format = is_cached ? "built-in scene, kept on disk" : "built-in scene";
+  return std::move(*scene);
+}
+
+}  // namespace
+
+std::filesystem::path default_cache_folder() {
+  const char* cache = std::getenv("XDG_CACHE_HOME");
+  // The specification has relative paths ignored.
+  if (cache && std::filesystem::path(cache).is_absolute()) {
+    return std::filesystem::path(cache) / "episcope";
+  }
+  const char* home = std::getenv("HOME");
+  return home && *home ? std::filesystem::path(home) / ".cache" / "episcope"
+                       : std::filesystem::path();
+}
+
+std::string builtin_scene_id(const std::string& input) {
+  const std::string prefix = std::string(kDemo) + ":";
+  if (input == kDemo || input == prefix) return kDemo;
+  return input.starts_with(prefix) ? input.substr(prefix.size()) : std::string();
+}
+
+Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  if (!id.empty()) return load_builtin(id, options, progress);
+  return io::open_scene(input, options.open, progress);
+}
+
+void store_in_cache(const std::string& input, const Scene& scene,
+                    const std::filesystem::path& cache_folder, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  if (id.empty() || cache_folder.empty()) return;
+  const SceneCache cache(cache_folder);
+  const scenes::RenderOptions render;
+  std::error_code ignored;
+  // A damaged file is replaced: load_scene calls its scene rendered, not kept.
+  const bool is_kept = scene.convention.format != "built-in scene" &&
+                       std::filesystem::exists(cache.place(id, render), ignored);
+  if (!is_kept) cache.write(id, render, scene, progress);
+}
+
+}  // namespace episcope

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/light_field.h"
+#include "engine/disparity/estimator.h"
+
+namespace episcope {
+
+/// What a run of a method needs, copied when it is asked for.
+struct EstimateRequest {
+  std::string method;
+  ParameterSet parameters;
+  ViewSelection views = ViewSelection::All;
+};
+
+struct FinishedEstimate {
+  EstimatePtr estimate;    ///< With the hash of the light field.
+  Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
+};
+
+/// Runs a method of the registry. Throws what the method throws, Unavailable for an unknown one.
+[[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
+                                             const EstimateRequest& request,
+                                             const Progress& progress);
+
+/// Display range of an estimate read from a file.
+[[nodiscard]] Interval display_range(const Estimate& estimate);
+
+}  // namespace episcope

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene_cache.h"
+
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/io/open.h"
+#include "engine/io/write_scene.h"
+
+#include <cstdio>
+#include <random>
+#include <system_error>
+
+namespace episcope {
+namespace {
+
+// Removes a folder when it goes out of scope, whatever happened.
+struct TemporaryFolder {
+  std::filesystem::path path;
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+};
+
+std::string random_suffix() {
+  std::random_device random;
+  char text[20];
+  std::snprintf(text, sizeof text, ".%08x", random());
+  return text;
+}
+
+std::string key_of(const std::string& id, const scenes::RenderOptions& options) {
+  char text[160];
+  std::snprintf(text, sizeof text, "-%s-%dx%d-%dx%dx%d-n%g-s%u-d%g", kVersion, options.grid.v,
+                options.grid.u, options.height, options.width, options.channels,
+                options.noise_sigma, options.seed, options.disparity_scale);
+  return id + text;
+}
+
+}  // namespace
+
+std::filesystem::path SceneCache::place(const std::string& id,
+                                        const scenes::RenderOptions& options) const {
+  return folder_ / key_of(id, options);
+}
+
+std::optional<Scene> SceneCache::read(const std::string& id, const scenes::RenderOptions& options,
+                                      const Progress& progress) const {
+  const std::filesystem::path file = place(id, options) / "lf.h5";
+  std::error_code ignored;
+  if (folder_.empty() || !std::filesystem::exists(file, ignored)) return std::nullopt;
+  try {
+    // The order is ours: checking it would only take time.
+    io::OpenOptions open;
+    open.flip = io::OpenOptions::Flip::None;
+    return io::open_scene(file, open, progress);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+bool SceneCache::write(const std::string& id, const scenes::RenderOptions& options,
+                       const Scene& scene, const Progress& progress) const {
+  if (folder_.empty()) return false;
+  const std::filesystem::path final_place = place(id, options);
+  std::error_code failure;
+  std::filesystem::create_directories(folder_, failure);
+  if (failure) return false;
+  const TemporaryFolder temporary{final_place.string() + random_suffix()};
+  std::filesystem::create_directory(temporary.path, failure);
+  if (failure) return false;
+  try {
+    io::write_archive(temporary.path / "lf.h5", scene, progress);
+  } catch (const Error&) {
+    return false;
+  }
+  std::filesystem::remove_all(final_place, failure);
+  std::filesystem::rename(temporary.path, final_place, failure);
+  return !failure;
+}
+
+}  // namespace episcope

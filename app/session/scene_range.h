@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/scene.h"
+
+namespace episcope {
+
+/// Disparities of a scene for display: those of the truth in the centre view (or the view it
+/// covers), else those that the files promise; {0, 0} if neither is known.
+[[nodiscard]] Interval known_disparity_range(const Scene& scene);
+
+/// Disparities that the valid pixels of one view lie in; {0, 0} if none is valid. Linear in pixels.
+[[nodiscard]] Interval extent(const DisparityView& view);
+
+}  // namespace episcope

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/judge.h"
+#include "app/session/parts.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// An estimate of the session. Ids are never given twice.
+struct EstimateEntry {
+  int id = 0;
+  std::string name;  ///< Unique in the list: "EPI_L", "EPI_L 2".
+  EstimatePtr estimate;
+  Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
+};
+
+/// What is open and what is known about it: scene, estimates, evaluations, and the place that is
+/// looked at. Belongs to one thread. Changes are gathered and told once per turn of that thread's
+/// event loop.
+class Session {
+ public:
+  using Listener = std::function<void(Parts)>;
+
+  /// `post` brings a closure to the owner's thread, to be run after the current turn.
+  explicit Session(JobRunner::Post post);
+
+  /// Listeners live as long as the session.
+  void on_changed(Listener listener) { listeners_.push_back(std::move(listener)); }
+
+  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again.
+  void open(std::shared_ptr<const Scene> scene, std::string input);
+  void close();
+  /// Null if nothing is open.
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+  [[nodiscard]] LightFieldPtr light_field() const;
+  [[nodiscard]] const std::string& input() const { return input_; }
+  /// Grows with every scene: results begun under another number belong to a former light field.
+  [[nodiscard]] std::uint64_t generation() const { return generation_; }
+
+  /// Adds an estimate and shows it. Returns its id, or 0 if `generation` is a former one: the
+  /// estimate is dropped.
+  int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
+  /// Shows the neighbour if the removed one was shown. Unknown ids are ignored.
+  void remove_estimate(int id);
+  [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return estimates_; }
+  [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
+
+  /// Unknown ids are ignored.
+  void show_estimate(int id);
+  /// The shown estimate, else null.
+  [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(shown_); }
+  /// The estimate shown before, to compare with; null if there is no other.
+  [[nodiscard]] const EstimateEntry* compared() const;
+
+  /// The evaluation if it is there; else null, and it is begun in the background if there is truth
+  /// for that view: Part::Evaluations tells when it is there.
+  [[nodiscard]] EvaluationPtr evaluation(const EvaluationKey& key);
+  [[nodiscard]] bool has_truth(ViewIndex view) const;
+
+  /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
+  /// else those of the first estimate. It does not change with the shown estimate.
+  [[nodiscard]] Interval disparity_range() const;
+
+  /// View and cross-hair are clamped to the light field.
+  void set_view(ViewIndex view);
+  void set_cross_hair(PixelIndex pixel);
+  void set_focus(double focus_px);
+  [[nodiscard]] ViewIndex view() const { return view_; }
+  [[nodiscard]] PixelIndex cross_hair() const { return cross_hair_; }
+  [[nodiscard]] double focus_px() const { return focus_px_; }
+
+ private:
+  void changed(Parts parts);
+  void deliver();
+  [[nodiscard]] std::string unique_name(const std::string& method) const;
+
+  JobRunner::Post post_;
+  std::vector<Listener> listeners_;
+  Parts gathered_;
+  std::shared_ptr<const Scene> scene_;
+  std::string input_;
+  std::uint64_t generation_ = 0;
+  Interval known_range_{};  // of truth or files; empty if neither says
+  std::vector<EstimateEntry> estimates_;
+  int last_id_ = 0;
+  int shown_ = 0;
+  int shown_before_ = 0;
+  ViewIndex view_;
+  PixelIndex cross_hair_;
+  double focus_px_ = 0;
+  std::shared_ptr<Session*> alive_;  // posted closures outlive the session harmlessly
+  Judge judge_;
+};
+
+}  // namespace episcope
