@@ -10,7 +10,7 @@
 namespace episcope::scenes {
 
 struct BuiltinSceneInfo {
-  std::string id;       ///< "fronto", "slant", "edge", "bars", "objects", "transparent", "demo", …
+  std::string id;  ///< "fronto", "slant", "edge", "bars", "objects", "transparent", "demo", …
   std::string summary;  ///< One line.
 };
 
@@ -28,9 +28,9 @@ struct RenderOptions {
 /// The built-in scenes S1–S6 of algorithms.md §17 and the demo.
 [[nodiscard]] std::vector<BuiltinSceneInfo> builtin_scenes();
 
-/// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at pixel
-/// centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded noise.
-/// Deterministic: the same options give the same bytes on every machine and thread count.
+/// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
+/// pixel centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded
+/// noise. Deterministic: the same options give the same bytes on every machine and thread count.
 /// Throws Unavailable for an unknown id (naming the nearest), InvalidInput, Cancelled.
 [[nodiscard]] Scene render_builtin(const std::string& id, const RenderOptions& options,
                                    const Progress& progress);

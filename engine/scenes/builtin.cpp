@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/scenes/builtin.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parameter.h"
+#include "engine/scenes/caster.h"
+#include "engine/scenes/recipes.h"
+#include "engine/scenes/scribble.h"
+
+#include <cmath>
+#include <utility>
+
+namespace episcope::scenes {
+namespace {
+
+const Recipe& find_recipe(const std::string& id) {
+  std::vector<std::string> ids;
+  for (const Recipe& recipe : recipes()) {
+    if (recipe.id == id) return recipe;
+    ids.emplace_back(recipe.id);
+  }
+  std::string known;
+  for (const auto& name : ids) known += (known.empty() ? "" : ", ") + name;
+  const std::string nearest = nearest_name(id, ids);
+  throw Unavailable("there is no built-in scene '" + id + "'" +
+                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (there are " +
+                    known + ")");
+}
+
+void require_range(const char* name, double value, double min, double max) {
+  if (value >= min && value <= max) return;
+  const auto text = [](double number) {
+    std::string digits = to_text(number);
+    return digits;
+  };
+  throw InvalidInput(std::string("cannot render a built-in scene with ") + name + " " +
+                     text(value) + ": it must be from " + text(min) + " to " + text(max));
+}
+
+void check(const RenderOptions& options) {
+  require_range("views in v", options.grid.v, 1, 101);
+  require_range("views in u", options.grid.u, 1, 101);
+  require_range("height", options.height, 8, 8192);
+  require_range("width", options.width, 8, 8192);
+  require_range("noise", options.noise_sigma, 0, 255);
+  require_range("disparity scale", options.disparity_scale, 1e-3, 100);
+  if (options.channels != 1 && options.channels != 3) {
+    throw InvalidInput("cannot render a built-in scene with " + std::to_string(options.channels) +
+                       " channels: it must be 1 (grey) or 3 (RGB)");
+  }
+}
+
+}  // namespace
+
+std::span<const Recipe> recipes() {
+  static constexpr Recipe all[] = {
+      {"fronto", "one plane of disparity 0.37 px", fronto_scene, false},
+      {"slant", "a plane slanted from -1 px to 1 px", slant_scene, false},
+      {"edge", "two planes, -0.5 px and 0.8 px, with a straight vertical edge", edge_scene, false},
+      {"bars", "thin bars of 1, 2, 3 and 5 px before a plane", bars_scene, false},
+      {"transparent", "a half-transparent pane before a plane, with two truths", transparent_scene,
+       false},
+  };
+  return all;
+}
+
+std::vector<BuiltinSceneInfo> builtin_scenes() {
+  std::vector<BuiltinSceneInfo> scenes;
+  for (const Recipe& recipe : recipes()) scenes.push_back({recipe.id, recipe.summary});
+  return scenes;
+}
+
+Scene render_builtin(const std::string& id, const RenderOptions& options,
+                     const Progress& progress) {
+  const Recipe& recipe = find_recipe(id);
+  check(options);
+  progress.step("rendering the scene " + id);
+  const Stage stage = make_stage(options.width, options.height);
+  Cast cast = cast_views(stage, recipe.lay_out(stage), options, progress);
+
+  LightFieldInfo info;
+  info.name = id;
+  info.source = id == "demo" ? "demo" : "demo:" + id;
+  info.camera = camera_grid_of(stage, options.disparity_scale);
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));
+  if (recipe.has_scribbles) {
+    const ViewIndex center = options.grid.center();
+    scene.scribbles = {center, scribble(cast.truth.labels.view(center))};
+  }
+  scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
+  scene.convention.format = "built-in scene";
+  scene.convention.order = "house order";
+  scene.convention.order_check = "exact by construction";
+  scene.convention.units = "exact disparity by eq. 1";
+  return scene;
+}
+
+}  // namespace episcope::scenes
