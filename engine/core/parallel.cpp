@@ -14,6 +14,9 @@ namespace episcope {
 namespace {
 
 struct Loop {
+  Loop(int items, const Progress& job, const std::function<std::function<void(int)>()>& maker)
+      : count(items), progress(job), make_worker(maker) {}
+
   const int count;
   const Progress& progress;
   const std::function<std::function<void(int)>()>& make_worker;
@@ -43,7 +46,7 @@ struct Loop {
 void parallel_for_workers(int count, const Progress& progress,
                           const std::function<std::function<void(int)>()>& make_worker) {
   progress.check();
-  Loop loop{count, progress, make_worker};
+  Loop loop(count, progress, make_worker);
   {
     std::vector<std::jthread> threads;
     for (int i = 1; i < std::min(progress.threads(), count); ++i) {
