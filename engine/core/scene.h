@@ -18,6 +18,8 @@ struct ConventionReport {
   std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
   std::string units;        ///< How depth was turned into disparity, and what spoke for it.
   std::vector<std::string> warnings;  ///< A sentence each.
+  bool reversed_u = false;  ///< Whether stored columns of views were reversed, for companions,
+  bool reversed_v = false;  ///< and rows.
 };
 
 /// Scribbles of one view: 0 = unpainted, else a label id.

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/ground_truth.h"
+#include "engine/core/light_field.h"
+#include "engine/core/scene.h"
+#include "engine/io/archive_maps.h"
+#include "engine/io/open.h"
+
+namespace episcope::io {
+
+/// What the depth of an archive file comes to, in the stored order of views.
+struct ArchiveTruth {
+  DisparityField field;
+  DisparityField foreground;
+  DisparityField background;
+  CameraGrid camera;  ///< With units settled.
+};
+
+/// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and
+/// converts to disparity; what it decided goes to `report`. Depth that is zero, negative or NaN is
+/// invalid; of views without any valid depth nothing is kept. Throws IoError, Cancelled.
+[[nodiscard]] ArchiveTruth read_archive_depth(const Hdf5Input& file,
+                                              const LightField::Samples& samples,
+                                              OpenOptions::Units units, ConventionReport& report,
+                                              const Progress& progress);
+
+/// Camera attributes as stored, on the root or on LF.
+[[nodiscard]] CameraGrid read_camera(const Hdf5Input& file);
+
+}  // namespace episcope::io

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/archive_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/io/archive_depth.h"
+#include "engine/io/archive_labels.h"
+#include "engine/io/center_preview.h"
+#include "engine/io/companions.h"
+#include "engine/io/order_check.h"
+#include "engine/io/scene_name.h"
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+constexpr const char* kLightField = "LF";
+
+/// The dataset LF: [v][h][y][x][c] or, grey, [v][h][y][x].
+struct Layout {
+  FieldShape shape;
+  int channels = 1;  ///< That are read; an alpha channel is left out.
+  bool has_channel_axis = true;
+  Hdf5Type type = Hdf5Type::UInt8;
+};
+
+Layout layout_of(const Hdf5Input& file) {
+  const Hdf5Dataset dataset = file.dataset(kLightField);
+  const Hdf5Shape& shape = dataset.shape;
+  if (shape.size() != 4 && shape.size() != 5) {
+    throw IoError(file.path(), "the dataset LF has " + std::to_string(shape.size()) + " axes (" +
+                                   shape_text(shape) +
+                                   "), but v × h × y × x × channels is expected; store it so");
+  }
+  if (dataset.type == Hdf5Type::Other) {
+    throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
+  }
+  const auto is_odd = [](std::size_t length) { return length == 0 || length > 100000; };
+  if (std::any_of(shape.begin(), shape.end(), is_odd)) {
+    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) +
+                                   ", which is no light field; choose another file");
+  }
+  const std::size_t channels = shape.size() == 5 ? shape[4] : 1;
+  if (channels != 1 && channels != 3 && channels != 4) {
+    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) + " and so " +
+                                   std::to_string(channels) +
+                                   " channels, but 1 (grey) or 3 (RGB) are expected; store it so");
+  }
+  const auto length = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
+  return {{{length(0), length(1)}, length(2), length(3)},
+          channels == 1 ? 1 : 3,
+          shape.size() == 5,
+          dataset.type};
+}
+
+template <class T>
+ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
+                        const std::function<void(ImageView<const T>)>& on_center,
+                        const Progress& progress) {
+  const FieldShape& shape = layout.shape;
+  ViewStack<T> stack(shape.grid, shape.height, shape.width, layout.channels);
+  const auto read = [&](ViewIndex view) {
+    Hdf5Block block{
+        {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
+        {1, 1, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)}};
+    if (layout.has_channel_axis) {
+      block.start.push_back(0);
+      block.count.push_back(static_cast<std::size_t>(layout.channels));
+    }
+    file.read(kLightField, block, stack.view(view).data);
+  };
+  const ViewIndex center = shape.grid.center();
+  progress.check();
+  read(center);
+  on_center(stack.view(center));
+  for (int i = 0; i < shape.grid.count(); ++i) {
+    progress.check();
+    const ViewIndex view{i / shape.grid.u, i % shape.grid.u};
+    if (!(view == center)) read(view);
+    progress.report((i + 1.0) / shape.grid.count());
+  }
+  return stack;
+}
+
+/// Samples in their stored type. Wider integers are taken as bytes if the centre view fits.
+LightField::Samples read_samples(const Hdf5Input& file, Layout layout, const OpenOptions& options,
+                                 const LightFieldInfo& info, const Progress& progress) {
+  if (layout.type == Hdf5Type::Integer) {
+    const ViewStack<std::uint16_t> probe = [&] {
+      Layout center = layout;
+      center.shape.grid = {1, 1};
+      return read_views<std::uint16_t>(
+          file, center, [](const auto&) {}, Progress(1));
+    }();
+    const bool fits = std::all_of(probe.data(), probe.data() + probe.size(),
+                                  [](std::uint16_t sample) { return sample <= 255; });
+    layout.type = fits ? Hdf5Type::UInt8 : Hdf5Type::UInt16;
+  }
+  const auto read = [&]<class T>(T) -> LightField::Samples {
+    return read_views<T>(
+        file, layout,
+        [&](ImageView<const T> center) {
+          if (options.on_center_view) {
+            options.on_center_view(preview_rgb(center), info, layout.shape.grid);
+          }
+        },
+        progress);
+  };
+  if (layout.type == Hdf5Type::UInt8) return read(std::uint8_t{});
+  if (layout.type == Hdf5Type::UInt16) return read(std::uint16_t{});
+  return read(float{});
+}
+
+ExpectedOrder expected_order(const Hdf5Input& file) {
+  if (file.text("/", "convention") || file.text(kLightField, "convention")) {
+    return {{}, "the file states its order in the attribute convention"};
+  }
+  const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
+  if (is_raw) return {{true, false}, "raw files of the archive store h reversed"};
+  return {{}, "the file has no attributes of the archive"};
+}
+
+std::vector<OrderEvidence> evidence(const ArchiveTruth& truth, GridShape grid) {
+  std::vector<OrderEvidence> found;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty()) continue;
+    if (field != &truth.field && truth.field.contains(grid.center())) continue;
+    const ViewIndex at = field->contains(grid.center()) ? grid.center() : field->disparity.first();
+    found.push_back({at, field->view(at)});
+  }
+  return found;
+}
+
+std::optional<Interval> stated_range(const Hdf5Input& file) {
+  const auto min = file.number("/", "disp_min");
+  const auto max = file.number("/", "disp_max");
+  if (!min || !max || !(*min < *max)) return std::nullopt;
+  return Interval{*min, *max};
+}
+
+ArchiveLabels read_labels_beside(const Hdf5Input& file, const FieldShape& shape,
+                                 ConventionReport& report, const Progress& progress) {
+  if (file.has("GT_LABELS") || file.has("SCRIBBLES")) {
+    return read_archive_labels(file, shape, report, progress);
+  }
+  const std::filesystem::path beside = file.path().parent_path() / "labels.h5";
+  if (!std::filesystem::exists(beside)) return {};
+  return read_archive_labels(Hdf5Input(beside), shape, report, progress);
+}
+
+}  // namespace
+
+Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
+                   const Progress& progress) {
+  const Hdf5Input file(path);
+  const Layout layout = layout_of(file);
+  const GridShape grid = layout.shape.grid;
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = "archive (" + path.filename().string() + ")";
+  LightFieldInfo info{scene_name(path), path.string(), read_camera(file), stated_range(file)};
+
+  progress.step("reading views");
+  LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
+  progress.step("reading depth");
+  ArchiveTruth depth =
+      read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));
+  progress.step("reading labels");
+  ArchiveLabels labels = read_labels_beside(file, layout.shape, report, progress.part(0.85, 0.95));
+  progress.step("checking the order of views");
+  progress.check();
+  const OrderFinding order =
+      find_order(samples, evidence(depth, grid), expected_order(file), options.flip);
+  report_order(order, report);
+
+  std::visit([&](auto& stack) { reverse_views(stack, grid, order.flip); }, samples);
+  for (DisparityField* field : {&depth.field, &depth.foreground, &depth.background}) {
+    reverse_views(*field, grid, order.flip);
+  }
+  reverse_views(labels.labels, grid, order.flip);
+  scene.scribbles = std::move(labels.scribbles);
+  scene.scribbles.view = flipped(scene.scribbles.view, grid, order.flip);
+  if (scene.scribbles.labels.empty()) scene.scribbles.view = {};
+  report.reversed_u = order.flip.u;
+  report.reversed_v = order.flip.v;
+
+  info.camera = depth.camera;
+  scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
+  scene.truth = std::make_shared<GroundTruth>(GroundTruth{std::move(depth.field),
+                                                          std::move(depth.foreground),
+                                                          std::move(depth.background),
+                                                          std::move(labels.labels),
+                                                          {}});
+  scene.companions = find_companions(path.parent_path());
+  return scene;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/open.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Reads a light field of the 2013 archive (formats.md §2): `file` is its lf.h5; labels.h5 and the
+/// companions are looked for beside it. Throws IoError, Cancelled.
+[[nodiscard]] Scene read_archive(const std::filesystem::path& file, const OpenOptions& options,
+                                 const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/atomic_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/system_error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <string>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags)
+      : id_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (id_ >= 0) ::close(id_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] bool ok() const { return id_ >= 0; }
+  [[nodiscard]] int id() const { return id_; }
+
+ private:
+  int id_;
+};
+
+std::string temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> next{0};
+  std::string name = target.filename().string().substr(0, 200);
+  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" +
+         std::to_string(next++) + ".part";
+}
+
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+fs::path resolve_link(const fs::path& named) {
+  std::error_code error;
+  if (!fs::is_symlink(named, error)) return named;
+  const fs::path target = fs::weakly_canonical(named, error);
+  return error ? named : target;
+}
+
+bool flush_to_disk(const fs::path& path, int flags) {
+  const Descriptor file(path, flags);
+  return file.ok() && ::fsync(file.id()) == 0;
+}
+
+std::string mebibytes(std::uintmax_t bytes) {
+  return std::to_string((bytes + 0xFFFFF) >> 20);
+}
+
+}  // namespace
+
+void require_space(const fs::path& target, const fs::path& folder, std::uintmax_t bytes) {
+  std::error_code error;
+  const auto space = fs::space(folder, error);
+  // Pseudo file systems report no capacity at all; there the write itself has to tell.
+  if (error || space.capacity == 0 || space.available >= bytes) return;
+  throw IoError(target, "the disk is full: " + mebibytes(bytes) + " MiB are needed and " +
+                            mebibytes(space.available) +
+                            " MiB are free; free some space or choose another folder");
+}
+
+AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
+    : named_(target), target_(resolve_link(target)) {
+  std::error_code error;
+  const auto status = fs::status(target_, error);
+  if (target_.filename().empty() || fs::is_directory(status)) {
+    throw IoError(named_, "this is a folder; name a file in it");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw IoError(named_, "this is no ordinary file and is not written over; choose another name");
+  }
+  require_space(named_, folder_of(target_), bytes);
+  temporary_ = folder_of(target_) / temporary_name(target_);
+  errno = 0;
+  const Descriptor file(temporary_, O_CREAT | O_EXCL | O_WRONLY);
+  if (!file.ok()) {
+    temporary_.clear();
+    throw write_error(named_);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  errno = 0;
+  if (!flush_to_disk(temporary_, O_RDONLY) || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
+    throw write_error(named_);
+  }
+  temporary_.clear();
+  // The file is whole by now; a folder that cannot be flushed only risks the name after a crash.
+  flush_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY);
+}
+
+void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {
+  AtomicFile file(target, bytes.size());
+  {
+    const Descriptor out(file.temporary(), O_WRONLY);
+    if (!out.ok()) throw write_error(target);
+    while (!bytes.empty()) {
+      const ssize_t written = ::write(out.id(), bytes.data(), bytes.size());
+      if (written < 0 && errno == EINTR) continue;
+      if (written <= 0) throw write_error(target);
+      bytes = bytes.subspan(static_cast<std::size_t>(written));
+    }
+  }
+  file.commit();
+}
+
+}  // namespace episcope::io

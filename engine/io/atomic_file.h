@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+
+namespace episcope::io {
+
+/// A file that appears under its name only when it is whole: written as a hidden temporary file in
+/// the same folder, flushed to the disk, then renamed over the old one. Whatever happens before
+/// `commit`, the old file stays and the destructor removes the temporary one.
+class AtomicFile {
+ public:
+  /// Creates the temporary file. `bytes`: the expected size, to refuse at once what cannot fit.
+  /// Throws IoError if the folder cannot be written to, lacks the space, or if `target` is there
+  /// and is no ordinary file.
+  explicit AtomicFile(const std::filesystem::path& target, std::uintmax_t bytes = 0);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// As the caller named it.
+  [[nodiscard]] const std::filesystem::path& target() const { return named_; }
+  /// Where to write until `commit`.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  /// The temporary file must be closed. Throws IoError that names the target.
+  void commit();
+
+ private:
+  std::filesystem::path named_;
+  std::filesystem::path target_;     ///< The file itself, where the name is a symbolic link.
+  std::filesystem::path temporary_;  ///< Empty once renamed.
+};
+
+/// Checks that `bytes` more fit on the disk that holds `folder`. Throws IoError naming `target`.
+void require_space(const std::filesystem::path& target, const std::filesystem::path& folder,
+                   std::uintmax_t bytes);
+
+/// Writes a whole file through AtomicFile. Throws IoError.
+void write_atomically(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
+
+}  // namespace episcope::io

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/io/open.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Whether a folder looks like a scene of the 2016 benchmark.
+[[nodiscard]] bool is_benchmark_folder(const std::filesystem::path& folder);
+
+/// Reads a scene of the 4D Light Field Benchmark [HJKG16] (formats.md §4). Throws IoError,
+/// Cancelled.
+[[nodiscard]] Scene read_benchmark(const std::filesystem::path& folder, const OpenOptions& options,
+                                   const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/companions.h"
+
+#include "engine/core/error.h"
+#include "engine/io/hdf5_file.h"
+#include "engine/io/view_order.h"
+
+#include <array>
+
+namespace episcope::io {
+namespace {
+
+struct KnownFile {
+  const char* file;
+  const char* kind;
+  const char* dataset;
+};
+
+constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
+constexpr const char* kProbabilities = "Probabilities";
+
+constexpr std::array kKnownFiles{
+    KnownFile{"edge_weights.h5", "edge weights", kEdgeWeights},
+    KnownFile{"feature_single_view_probabilities.h5", "probabilities (image)", kProbabilities},
+    KnownFile{"feature_depth_probabilities.h5", "probabilities (depth)", kProbabilities},
+    KnownFile{"feature_gt_depth_probabilities.h5", "probabilities (true depth)", kProbabilities}};
+
+Hdf5Shape view_shape(const LightField& field) {
+  return {static_cast<std::size_t>(field.height()), static_cast<std::size_t>(field.width())};
+}
+
+Hdf5Shape stack_shape(const LightField& field) {
+  const Hdf5Shape view = view_shape(field);
+  return {static_cast<std::size_t>(field.grid().v), static_cast<std::size_t>(field.grid().u),
+          view[0], view[1]};
+}
+
+ViewFlip flip_of(const Scene& scene) {
+  return {scene.convention.reversed_u, scene.convention.reversed_v};
+}
+
+}  // namespace
+
+std::vector<Companion> find_companions(const std::filesystem::path& folder) {
+  std::vector<Companion> found;
+  for (const KnownFile& known : kKnownFiles) {
+    const std::filesystem::path path = folder / known.file;
+    if (!has_hdf5_signature(path)) continue;
+    try {
+      const Hdf5Input file(path);
+      if (file.has(known.dataset)) {
+        found.push_back({known.kind, path, shape_text(file.dataset(known.dataset).shape)});
+      }
+    } catch (const IoError&) {
+      // A damaged companion must not keep the light field from opening; it is told when it is read.
+      found.push_back({known.kind, path, "damaged"});
+    }
+  }
+  return found;
+}
+
+ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scene& scene,
+                                   const Progress& progress) {
+  const Hdf5Input file(path);
+  const LightField& field = *scene.light_field;
+  const Hdf5Shape shape = file.dataset(kEdgeWeights).shape;
+  const Hdf5Shape plain = stack_shape(field);
+  Hdf5Shape directed = plain;
+  directed.push_back(2);
+  if (shape != plain && shape != directed) {
+    throw IoError(path, "the dataset EDGE_WEIGHTS has the shape " + shape_text(shape) + ", but " +
+                            shape_text(plain) + " is expected to fit the light field; store it so");
+  }
+  const GridShape grid = field.grid();
+  ViewStack<float> weights(grid, field.height(), field.width(), shape == plain ? 1 : 2);
+  for (int i = 0; i < grid.count(); ++i) {
+    progress.check();
+    const ViewIndex stored{i / grid.u, i % grid.u};
+    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
+    block.start[0] = static_cast<std::size_t>(stored.v);
+    block.start[1] = static_cast<std::size_t>(stored.u);
+    block.count[0] = block.count[1] = 1;
+    file.read(kEdgeWeights, block, weights.view(flipped(stored, grid, flip_of(scene))).data);
+    progress.report((i + 1.0) / grid.count());
+  }
+  return weights;
+}
+
+struct ProbabilityFile::State {
+  State(const std::filesystem::path& path) : file(path) {}
+
+  Hdf5Input file;
+  Hdf5Shape shape;
+  std::size_t label_axis = 0;
+  GridShape grid;
+  ViewFlip flip;
+};
+
+ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene& scene)
+    : state_(std::make_unique<State>(path)) {
+  State& state = *state_;
+  const LightField& field = *scene.light_field;
+  state.grid = field.grid();
+  state.flip = flip_of(scene);
+  state.shape = state.file.dataset(kProbabilities).shape;
+  for (std::size_t axis = state.shape.size(); axis-- > 0;) {
+    Hdf5Shape others = state.shape;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));
+    if (others == view_shape(field) || others == stack_shape(field)) {
+      state.label_axis = axis;
+      return;
+    }
+  }
+  throw IoError(path, "the dataset Probabilities has the shape " + shape_text(state.shape) +
+                          ", but " + shape_text(stack_shape(field)) +
+                          " or one view with one more axis of labels is expected; store it so");
+}
+
+ProbabilityFile::~ProbabilityFile() = default;
+ProbabilityFile::ProbabilityFile(ProbabilityFile&&) noexcept = default;
+ProbabilityFile& ProbabilityFile::operator=(ProbabilityFile&&) noexcept = default;
+
+int ProbabilityFile::label_count() const {
+  return static_cast<int>(state_->shape[state_->label_axis]);
+}
+
+bool ProbabilityFile::contains(ViewIndex view) const {
+  const bool has_all = state_->shape.size() == 5;
+  return has_all ? state_->grid.contains(view) : view == state_->grid.center();
+}
+
+Image<float> ProbabilityFile::view(ViewIndex view) const {
+  const State& state = *state_;
+  Hdf5Block block{Hdf5Shape(state.shape.size(), 0), state.shape};
+  if (state.shape.size() == 5) {
+    const ViewIndex stored = flipped(view, state.grid, state.flip);
+    const std::size_t v_axis = state.label_axis == 0 ? 1 : 0;
+    const std::size_t u_axis = state.label_axis <= 1 ? 2 : 1;
+    block.start[v_axis] = static_cast<std::size_t>(stored.v);
+    block.start[u_axis] = static_cast<std::size_t>(stored.u);
+    block.count[v_axis] = block.count[u_axis] = 1;
+  }
+  std::size_t total = 1;
+  for (const std::size_t count : block.count) total *= count;
+  std::vector<float> stored(total);
+  state.file.read(kProbabilities, block, stored.data());
+
+  // Strides of y, x and label in the block just read.
+  std::vector<std::size_t> strides(block.count.size(), 1);
+  for (std::size_t axis = strides.size() - 1; axis-- > 0;) {
+    strides[axis] = strides[axis + 1] * block.count[axis + 1];
+  }
+  std::vector<std::size_t> pixel_axes;
+  for (std::size_t axis = 0; axis < strides.size(); ++axis) {
+    if (axis != state.label_axis) pixel_axes.push_back(axis);
+  }
+  const std::size_t y_axis = pixel_axes[pixel_axes.size() - 2];
+  const std::size_t x_axis = pixel_axes.back();
+  Image<float> out(static_cast<int>(block.count[y_axis]), static_cast<int>(block.count[x_axis]),
+                   label_count());
+  for (int y = 0; y < out.height(); ++y) {
+    for (int x = 0; x < out.width(); ++x) {
+      for (int label = 0; label < out.channels(); ++label) {
+        out.at(y, x, label) = stored[static_cast<std::size_t>(y) * strides[y_axis] +
+                                     static_cast<std::size_t>(x) * strides[x_axis] +
+                                     static_cast<std::size_t>(label) * strides[state.label_axis]];
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+namespace episcope::io {
+
+/// A `parameters.cfg` (INI) of the 2016 benchmark: values by key. Keys are unique over the
+/// sections, so sections are not told apart; `#` and `;` begin comments.
+class ConfigFile {
+ public:
+  /// Throws IoError.
+  explicit ConfigFile(const std::filesystem::path& path);
+
+  [[nodiscard]] std::optional<std::string> text(const std::string& key) const;
+  /// Throws IoError if the value is there but is no finite number.
+  [[nodiscard]] std::optional<double> number(const std::string& key) const;
+
+ private:
+  std::filesystem::path path_;
+  std::map<std::string, std::string> values_;
+};
+
+}  // namespace episcope::io

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order_check.h"
+
+#include "engine/io/epi_slopes.h"
+#include "engine/io/warp_check.h"
+
+#include <cstdio>
+
+namespace episcope::io {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+/// Mean of the evidence of several maps (the two layers of a transparent scene).
+WarpErrors mean_errors(const LightField::Samples& samples,
+                       const std::vector<OrderEvidence>& truth) {
+  WarpErrors sum;
+  const auto add = [](AxisErrors& to, const AxisErrors& more) {
+    const auto total = static_cast<double>(to.pixels + more.pixels);
+    if (total == 0) return;
+    const double a = static_cast<double>(to.pixels) / total;
+    const double b = static_cast<double>(more.pixels) / total;
+    to = {a * to.forward + b * more.forward, a * to.reversed + b * more.reversed,
+          to.pixels + more.pixels};
+  };
+  for (const OrderEvidence& one : truth) {
+    const WarpErrors errors = warp_errors(samples, one.at, one.disparity);
+    add(sum.u, errors.u);
+    add(sum.v, errors.v);
+  }
+  return sum;
+}
+
+std::string axis_text(const char* name, const AxisErrors& errors, bool is_flipped) {
+  const double taken = is_flipped ? errors.reversed : errors.forward;
+  const double other = is_flipped ? errors.forward : errors.reversed;
+  return std::string(name) + " " + number(taken) + " (other way " + number(other) + ")";
+}
+
+struct Checked {
+  ViewFlip flip;
+  bool is_decided = false;
+  std::string text;
+};
+
+Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                       ViewFlip expected) {
+  const WarpErrors errors = mean_errors(samples, truth);
+  Checked checked{expected, errors.u.is_decided() || errors.v.is_decided(), {}};
+  if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
+  if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
+  if (checked.is_decided) {
+    checked.text = "checked against truth, mean grey error after warping: " +
+                   axis_text("u", errors.u, checked.flip.u) + ", " +
+                   axis_text("v", errors.v, checked.flip.v);
+  }
+  return checked;
+}
+
+Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected) {
+  const SlopeCorrelation slopes = correlate_epi_slopes(samples);
+  Checked checked{expected, slopes.is_decided(), {}};
+  if (!checked.is_decided) return checked;
+  const bool must_differ = slopes.value < 0;
+  if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
+  checked.text = "checked by the slopes of horizontal and vertical EPIs: correlation " +
+                 number(slopes.value) + " as stored at " + std::to_string(slopes.points) +
+                 " points, " +
+                 (must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  return checked;
+}
+
+ViewFlip chosen_flip(OpenOptions::Flip choice) {
+  using Flip = OpenOptions::Flip;
+  return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
+}
+
+}  // namespace
+
+OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                        const ExpectedOrder& expected, OpenOptions::Flip choice) {
+  Checked checked = check_by_truth(samples, truth, expected.flip);
+  if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip);
+
+  OrderFinding finding;
+  finding.flip = checked.flip;
+  finding.check = checked.is_decided
+                      ? checked.text
+                      : "not checked (too little depth or texture); " + expected.reason;
+  if (choice != OpenOptions::Flip::Auto) {
+    finding.flip = chosen_flip(choice);
+    finding.order = flip_text(finding.flip) + ", as chosen by hand";
+    if (checked.is_decided && !(finding.flip == checked.flip)) {
+      finding.check = "the check speaks for \"" + flip_text(checked.flip) + "\": " + checked.text;
+      finding.warnings.push_back("The order of views was chosen by hand (" +
+                                 flip_text(finding.flip) + "), but the check speaks for \"" +
+                                 flip_text(checked.flip) + "\".");
+    }
+    return finding;
+  }
+  finding.order = flip_text(finding.flip);
+  if (!(finding.flip == expected.flip)) {
+    finding.warnings.push_back("The order of views is \"" + finding.order + "\" and not \"" +
+                               flip_text(expected.flip) + "\", which was expected because " +
+                               expected.reason + ".");
+  }
+  return finding;
+}
+
+void report_order(const OrderFinding& finding, ConventionReport& report) {
+  report.order = finding.order;
+  report.order_check = finding.check;
+  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+}
+
+}  // namespace episcope::io

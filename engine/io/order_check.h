@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field.h"
+#include "engine/io/open.h"
+#include "engine/io/view_order.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What a format lets us expect of the order of views before it is checked.
+struct ExpectedOrder {
+  ViewFlip flip;
+  std::string reason;  ///< "raw files of the archive store h reversed", …
+};
+
+/// A disparity map as stored, by which neighbouring views can be warped.
+struct OrderEvidence {
+  ViewIndex at;
+  DisparityView disparity;
+};
+
+struct OrderFinding {
+  ViewFlip flip;
+  std::string order;  ///< As ConventionReport::order,
+  std::string check;  ///< and `order_check`.
+  std::vector<std::string> warnings;
+};
+
+/// Finds which view axes to reverse: by warping with truth where there is some, else by the sign of
+/// the correlation of EPI slopes, else as expected (formats.md §2). A `choice` other than Auto wins
+/// over all, but is checked and contradicted in the warnings. Nothing is reversed yet.
+[[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
+                                      const std::vector<OrderEvidence>& truth,
+                                      const ExpectedOrder& expected, OpenOptions::Flip choice);
+
+/// Writes a finding into the report of a scene.
+void report_order(const OrderFinding& finding, ConventionReport& report);
+
+}  // namespace episcope::io
