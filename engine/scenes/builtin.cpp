@@ -54,10 +54,14 @@ void check(const RenderOptions& options) {
 
 std::span<const Recipe> recipes() {
   static constexpr Recipe all[] = {
+      {"demo", "a still life: vase with flowers, balls, box, cone and can on a table", demo_scene,
+       true},
       {"fronto", "one plane of disparity 0.37 px", fronto_scene, false},
       {"slant", "a plane slanted from -1 px to 1 px", slant_scene, false},
       {"edge", "two planes, -0.5 px and 0.8 px, with a straight vertical edge", edge_scene, false},
       {"bars", "thin bars of 1, 2, 3 and 5 px before a plane", bars_scene, false},
+      {"objects", "a sphere and a box on the ground, with labels and scribbles", objects_scene,
+       true},
       {"transparent", "a half-transparent pane before a plane, with two truths", transparent_scene,
        false},
   };

@@ -31,9 +31,10 @@ struct Texture {
   float gain[3][3] = {};  ///< [octave][channel], added as gain · noise, noise in [−1, 1].
   Pattern pattern = Pattern::Plain;
   double pattern_axis[2][3] = {};  ///< Phase in periods = axis · position.
-  float pattern_sharpness = 1;     ///< Periods per transition; 1 = a wave, larger = harder edges.
-  float pattern_warp = 0;          ///< Periods by which the coarse noise bends the pattern.
-  float gloss = 0;                 ///< Strength of the highlight painted on by the key light.
+  double pattern_step = 1;         ///< Length of the transition between the two colours.
+  float pattern_sharpness = 1;  ///< Half a period in transitions; 1 = a wave, larger = hard edges.
+  float pattern_warp = 0;       ///< Periods by which the coarse noise bends the pattern.
+  float gloss = 0;              ///< Strength of the highlight painted on by the key light.
 };
 
 struct Primitive {

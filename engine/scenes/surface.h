@@ -132,7 +132,11 @@ inline void albedo(const Texture& texture, const SurfacePoints& points, double f
       octaves[o] = octaves[o] * smooth(clamp_unit(spacing_px - 3.5F));
     }
   }
-  const Floats pattern = pattern_value(texture, points.position, octaves[2]);
+  Floats pattern = pattern_value(texture, points.position, octaves[2]);
+  if (texture.fades && texture.pattern != Pattern::Plain) {
+    const Floats step_px = unit * static_cast<float>(texture.pattern_step);
+    pattern = (pattern - 0.5F) * smooth(clamp_unit(step_px - 1.5F)) + 0.5F;
+  }
   for (int c = 0; c < 3; ++c) {
     rgb[c] = Floats(texture.color[0][c]) + pattern * (texture.color[1][c] - texture.color[0][c]);
     for (int o = 0; o < 3; ++o) rgb[c] = rgb[c] + octaves[o] * texture.gain[o][c];
