@@ -51,24 +51,4 @@ class ColorBar : public QWidget {
   QToolButton* own_;
 };
 
-/// The painted ramp of a ColorBar.
-class ColorRamp : public QWidget {
-  Q_OBJECT
-
- public:
-  explicit ColorRamp(QWidget* parent = nullptr);
-
-  void setShading(const render::Shading& shading);
-  void setMarker(double value);
-  [[nodiscard]] const render::Shading& shading() const { return shading_; }
-  [[nodiscard]] QSize sizeHint() const override;
-
- protected:
-  void paintEvent(QPaintEvent* event) override;
-
- private:
-  render::Shading shading_;
-  double marker_;
-};
-
 }  // namespace episcope

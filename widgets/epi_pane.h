@@ -12,8 +12,9 @@
 namespace episcope {
 
 /// Shows an EPI with rows several pixels tall, sharing zoom and pan along the image axis with the
-/// canvas beside it. A horizontal pane lies under the canvas (x to the right, u downwards); a
-/// vertical one stands beside it (y downwards, v to the right).
+/// canvas beside it, aligned with it if both have the same extent along that axis. A horizontal
+/// pane lies under the canvas (x to the right, u downwards); a vertical one stands beside it (y
+/// downwards, v to the right).
 ///
 /// A line of disparity d has the slope −(d − focus) on a picture sheared by `focus`. Dragging draws
 /// a line and measures its disparity; a click asks for the cross-hair; the wheel zooms.
@@ -82,6 +83,7 @@ class EpiPane : public QWidget {
   double focus_px_ = 0;
 
   bool pressed_ = false;
+  bool drawing_ = false;
   bool panning_ = false;
   QPointF press_position_;
   QPointF last_position_;

@@ -7,10 +7,11 @@
 
 #include <vector>
 
-class QLabel;
-class QGridLayout;
+class QScrollArea;
 
 namespace episcope {
+
+class ElidedLabel;
 
 /// One fact: a short key, a value of any length, and how it was found out.
 struct InfoRow {
@@ -19,29 +20,27 @@ struct InfoRow {
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
 };
 
-/// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; a title
-/// too long for the panel is elided, with the whole of it as tool tip.
+/// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; what
+/// cannot wrap is elided, with the whole of it as tool tip.
 class InfoPanel : public QWidget {
   Q_OBJECT
 
  public:
   explicit InfoPanel(QWidget* parent = nullptr);
 
+  /// An empty title says that there is no light field.
   void setInfo(const QString& title, const std::vector<InfoRow>& rows, const QStringList& warnings);
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
 
  private:
   void rebuild();
-  void elideTitle();
 
-  QString full_title_;
   std::vector<InfoRow> rows_;
   QStringList warnings_;
-  QLabel* title_;
-  QWidget* body_ = nullptr;
+  ElidedLabel* title_;
+  QScrollArea* scroll_;
 };
 
 }  // namespace episcope

@@ -14,6 +14,8 @@ class QVBoxLayout;
 
 namespace episcope {
 
+class ElidedLabel;
+
 /// Time left of a job that has done `fraction` in `seconds`, e.g. "about 12 s left"; empty while
 /// nothing can be said.
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
@@ -39,14 +41,19 @@ class JobPanel : public QWidget {
  signals:
   void cancelRequested(quint64 id);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   struct Row {
     QWidget* widget;
-    QLabel* stage;
+    ElidedLabel* stage;
     QProgressBar* bar;
     QToolButton* cancel;
     QElapsedTimer clock;
   };
+
+  void updateColors();
 
   QVBoxLayout* layout_;
   QLabel* idle_;

@@ -64,12 +64,19 @@ class MethodPanel : public QWidget {
   void copyCommandRequested(const episcope::RunRequest& request);
   void methodChanged(const QString& id);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void connectControls();
   void showMethod(int index);
+  void updateReset();
+  void updateColors();
 
   std::vector<MethodDescription> methods_;
   std::map<std::string, ParameterSet> kept_values_;
   int shown_ = -1;
+  QString blocked_;
   QComboBox* method_;
   QLabel* summary_;
   QLabel* reference_;

@@ -56,6 +56,7 @@ class MetricTable : public QWidget {
   void saveRequested(const QString& suffix, const QString& text);
 
  private:
+  void setUpTable();
   void fillRow(int row, const MetricRow& values);
 
   std::vector<MetricColumn> columns_;

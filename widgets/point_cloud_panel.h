@@ -7,8 +7,10 @@
 #include <QWidget>
 
 class QComboBox;
+class QHBoxLayout;
 class QLabel;
 class QSlider;
+class QStackedLayout;
 
 namespace episcope {
 
@@ -36,9 +38,14 @@ class PointCloudPanel : public QWidget {
   void coloringSelected(episcope::CloudColoring coloring);
 
  private:
+  QHBoxLayout* makePresets();
+  QHBoxLayout* makeStretch();
+
   QComboBox* coloring_;
   QSlider* stretch_;
   QLabel* count_;
+  QLabel* hint_;
+  QStackedLayout* stack_;
   PointCloudView* view_ = nullptr;
 };
 

@@ -46,6 +46,7 @@ class ResultList : public QWidget {
   void reuseRequested(quint64 id);
 
  private:
+  void setUpTree();
   void showMenu(const QPoint& position);
   void updateButtons();
 

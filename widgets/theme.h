@@ -27,6 +27,9 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 [[nodiscard]] QColor warning_text(const QPalette& palette);
 [[nodiscard]] QColor success_text(const QPalette& palette);
 
+/// `part` of the way from one colour to the other.
+[[nodiscard]] QColor blend(const QColor& from, const QColor& to, double part);
+
 /// Contrast ratio of two opaque colours, 1 … 21 (WCAG 2.1, relative luminance).
 [[nodiscard]] double contrast_ratio(const QColor& a, const QColor& b);
 

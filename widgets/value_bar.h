@@ -14,6 +14,8 @@ class QLabel;
 
 namespace episcope {
 
+class ElidedLabel;
+
 /// Value of one estimate at the cursor.
 struct EstimateReading {
   QString name;
@@ -30,8 +32,8 @@ struct PixelReading {
   std::vector<EstimateReading> estimates;
 };
 
-/// The line at the bottom: pixel, colour, truth, every estimate with its error (truth − estimate);
-/// at the right end a short state ("1 job · ready").
+/// The line at the bottom: pixel, colour, truth, every estimate with its difference (estimate −
+/// truth); at the right end a short state ("1 job · ready").
 class ValueBar : public QWidget {
   Q_OBJECT
 
@@ -46,15 +48,9 @@ class ValueBar : public QWidget {
   /// (−0.006)".
   [[nodiscard]] QString text() const;
 
- protected:
-  void changeEvent(QEvent* event) override;
-
  private:
-  void rebuild();
-
-  std::optional<PixelReading> reading_;
   QLabel* swatch_;
-  QLabel* values_;
+  ElidedLabel* values_;
   QLabel* status_;
 };
 

@@ -108,13 +108,21 @@ class ViewCanvas : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
+  static constexpr double kZoomStep = 1.25;  ///< Of a wheel notch or a key.
   enum class Gesture { None, Press, Pan, Parallax };
 
   void changeTransform(const CanvasTransform& transform, bool fitted);
   void zoomAt(QPointF anchor, double factor);
-  void beginDrag(QPointF position);
+  void beginDrag();
+  void drag(QPointF position);
   void updateCursorShape();
   void showMessage(State state, const QString& text);
+  void paintPicture(QPainter& painter, const QRect& exposed) const;
+  void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
+  void paintCrossHair(QPainter& painter) const;
+  void paintCaption(QPainter& painter) const;
+  void paintMessage(QPainter& painter) const;
+  void followCursor(std::optional<QPointF> position);
 
   State state_ = State::Empty;
   QString message_;
@@ -133,6 +141,7 @@ class ViewCanvas : public QWidget {
   Qt::KeyboardModifiers press_modifiers_;
   QPointF press_position_;
   QPointF last_position_;
+  std::optional<QPointF> cursor_;
   std::optional<PixelIndex> hovered_;
   bool space_held_ = false;
   bool space_used_ = false;

@@ -19,8 +19,8 @@ namespace episcope {
 class ViewGridCells;
 
 /// The camera grid as v × u thumbnails with the current view marked, and a play button. Any grid
-/// from 1×1 up is usable: cells shrink to plain squares, then the grid scrolls nothing but scales.
-/// Arrows step, Shift+arrows go to the first and last, Home to the centre.
+/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Arrows step,
+/// Shift+arrows go to the first and last, Home to the centre.
 class ViewGrid : public QWidget {
   Q_OBJECT
 
@@ -64,6 +64,7 @@ class ViewGrid : public QWidget {
   QLabel* position_;
   QTimer timer_;
   std::vector<ViewIndex> loop_;
+  std::size_t place_ = 0;  ///< In `loop_`.
 };
 
 }  // namespace episcope

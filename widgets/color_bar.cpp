@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/color_bar.h"
+
+#include "widgets/color_ramp.h"
+#include "widgets/icon.h"
+#include "widgets/theme.h"
+
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+QDoubleSpinBox* make_end(const char* name, const QString& tip, QWidget* parent) {
+  auto* spin = new QDoubleSpinBox(parent);
+  spin->setObjectName(name);
+  spin->setLocale(QLocale::c());
+  spin->setRange(-1e4, 1e4);
+  spin->setDecimals(3);
+  spin->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  spin->setKeyboardTracking(false);
+  spin->setMinimumWidth(46);
+  spin->setMaximumWidth(72);
+  spin->setToolTip(tip);
+  return spin;
+}
+
+QToolButton* make_button(const char* name, const char* icon, const QString& tip, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName(name);
+  button->setIcon(themed_icon(icon));
+  button->setIconSize({14, 14});
+  button->setAutoRaise(true);
+  button->setToolTip(tip);
+  return button;
+}
+
+}  // namespace
+
+ColorBar::ColorBar(QWidget* parent)
+    : QWidget(parent),
+      title_(new QLabel(this)),
+      ramp_(new ColorRamp(this)),
+      min_(make_end("colorBar.min", tr("Lower end of the range"), this)),
+      max_(make_end("colorBar.max", tr("Upper end of the range"), this)),
+      invalid_(new QLabel(this)),
+      lock_(make_button("colorBar.lock", "unlock",
+                        tr("Lock the range: it stays when the result changes"), this)),
+      automatic_(
+          make_button("colorBar.automatic", "auto", tr("Automatic range of this map (A)"), this)),
+      own_(make_button("colorBar.own", "reset", tr("The quantity's own range (R)"), this)) {
+  setObjectName("colorBar");
+  title_->setObjectName("colorBar.title");
+  title_->setTextInteractionFlags(Qt::NoTextInteraction);
+  title_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  invalid_->setObjectName("colorBar.invalid");
+  invalid_->setToolTip(tr("Colour of pixels without a value"));
+  lock_->setCheckable(true);
+
+  auto* head = new QHBoxLayout;
+  head->setSpacing(0);
+  head->addWidget(title_, 1);
+  head->addWidget(lock_);
+  head->addWidget(automatic_);
+  head->addWidget(own_);
+  auto* ends = new QHBoxLayout;
+  ends->setSpacing(theme::kSpacing);
+  ends->addWidget(min_);
+  ends->addStretch(1);
+  ends->addWidget(invalid_);
+  ends->addStretch(1);
+  ends->addWidget(max_);
+  auto* layout = new QGridLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setVerticalSpacing(3);
+  layout->addLayout(head, 0, 0);
+  layout->addWidget(ramp_, 1, 0);
+  layout->addLayout(ends, 2, 0);
+
+  connect(min_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
+  connect(max_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
+  connect(lock_, &QToolButton::toggled, this, [this](bool locked) {
+    setRangeLocked(locked);
+    emit rangeLockToggled(locked);
+  });
+  connect(automatic_, &QToolButton::clicked, this, &ColorBar::automaticRangeRequested);
+  connect(own_, &QToolButton::clicked, this, &ColorBar::ownRangeRequested);
+}
+
+void ColorBar::setShading(const QString& title, const QString& unit,
+                          const render::Shading& shading) {
+  const QSignalBlocker min_blocker(min_);
+  const QSignalBlocker max_blocker(max_);
+  title_->setText(unit.isEmpty() ? title : tr("%1 [%2]").arg(title, unit));
+  title_->setToolTip(title_->text());
+  // Three digits that say something, whatever the range.
+  const double reach = std::max(std::abs(shading.range.min), std::abs(shading.range.max));
+  const int decimals =
+      reach > 0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(reach))), 0, 5) : 2;
+  for (auto* end : {min_, max_}) {
+    end->setDecimals(decimals);
+    end->setSingleStep(std::max(shading.range.length() / 20, std::pow(10.0, -decimals)));
+  }
+  min_->setValue(shading.range.min);
+  max_->setValue(shading.range.max);
+  ramp_->setShading(shading);
+  const auto [red, green, blue] = shading.map.invalid;
+  invalid_->setTextFormat(Qt::RichText);
+  invalid_->setText(QString("<span style='background:%1'>&nbsp;&nbsp;&nbsp;</span>&nbsp;%2")
+                        .arg(QColor(red, green, blue).name(), tr("invalid")));
+}
+
+void ColorBar::setMarker(double value) {
+  ramp_->setMarker(value);
+}
+
+void ColorBar::setRangeLocked(bool locked) {
+  const QSignalBlocker blocker(lock_);
+  lock_->setChecked(locked);
+  lock_->setIcon(themed_icon(locked ? "lock" : "unlock"));
+}
+
+Interval ColorBar::range() const {
+  return ramp_->shading().range;
+}
+bool ColorBar::isRangeLocked() const {
+  return lock_->isChecked();
+}
+
+void ColorBar::editRange() {
+  Interval range{min_->value(), max_->value()};
+  // An end pushed past the other one takes it along.
+  const double least = std::pow(10.0, -min_->decimals());
+  if (range.length() < least) {
+    const bool moved_min = sender() == min_;
+    (moved_min ? range.max : range.min) = moved_min ? range.min + least : range.max - least;
+  }
+  const QSignalBlocker min_blocker(min_);
+  const QSignalBlocker max_blocker(max_);
+  min_->setValue(range.min);
+  max_->setValue(range.max);
+  render::Shading shading = ramp_->shading();
+  shading.range = range;
+  ramp_->setShading(shading);
+  emit rangeEdited(range);
+}
+
+}  // namespace episcope

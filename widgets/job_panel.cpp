@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/job_panel.h"
+
+#include "widgets/elided_label.h"
+#include "widgets/icon.h"
+#include "widgets/theme.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QProgressBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+constexpr int kBarSteps = 1000;
+
+}  // namespace
+
+QString time_left_text(double fraction, double seconds) {
+  constexpr double kLeastFraction = 0.02;  // Before, one would guess wildly.
+  constexpr double kLeastSeconds = 0.5;
+  if (fraction < kLeastFraction || fraction >= 1 || seconds < kLeastSeconds) return {};
+  const double left = seconds * (1 - fraction) / fraction;
+  if (left < 1) return JobPanel::tr("less than 1 s left");
+  if (left < 60) return JobPanel::tr("about %1 s left").arg(std::lround(left));
+  const long minutes = std::lround(left / 60);
+  if (minutes < 60) return JobPanel::tr("about %1 min left").arg(minutes);
+  return JobPanel::tr("about %1 h %2 min left").arg(minutes / 60).arg(minutes % 60);
+}
+
+JobPanel::JobPanel(QWidget* parent)
+    : QWidget(parent),
+      layout_(new QVBoxLayout(this)),
+      idle_(new QLabel(tr("No jobs running"), this)) {
+  setObjectName("jobPanel");
+  idle_->setObjectName("jobPanel.idle");
+  layout_->setContentsMargins(0, 0, 0, 0);
+  layout_->setSpacing(theme::kSpacing);
+  layout_->addWidget(idle_);
+  updateColors();
+}
+
+void JobPanel::addJob(quint64 id, const QString& title) {
+  removeJob(id);
+  const QString name = QString("job.%1").arg(id);
+  Row row;
+  row.widget = new QWidget(this);
+  row.widget->setObjectName(name);
+  auto* title_label = new ElidedLabel(row.widget);
+  title_label->setObjectName(name + ".title");
+  title_label->setFullText(title);
+  row.cancel = new QToolButton(row.widget);
+  row.cancel->setObjectName(name + ".cancel");
+  row.cancel->setIcon(themed_icon("close"));
+  row.cancel->setIconSize({12, 12});
+  row.cancel->setAutoRaise(true);
+  row.cancel->setToolTip(tr("Cancel this job"));
+  row.bar = new QProgressBar(row.widget);
+  row.bar->setObjectName(name + ".bar");
+  row.bar->setRange(0, kBarSteps);
+  row.bar->setTextVisible(false);
+  row.bar->setFixedHeight(6);
+  row.stage = new ElidedLabel(row.widget);
+  row.stage->setObjectName(name + ".stage");
+  row.stage->setFullText(tr("waiting"));
+
+  auto* grid = new QGridLayout(row.widget);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(theme::kSpacing);
+  grid->setVerticalSpacing(2);
+  grid->addWidget(title_label, 0, 0);
+  grid->addWidget(row.cancel, 0, 1, 3, 1, Qt::AlignVCenter);
+  grid->addWidget(row.bar, 1, 0);
+  grid->addWidget(row.stage, 2, 0);
+  layout_->addWidget(row.widget);
+  connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
+  rows_.emplace(id, row);
+  idle_->hide();
+  updateColors();
+}
+
+void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
+  const auto found = rows_.find(id);
+  if (found == rows_.end()) return;
+  Row& row = found->second;
+  if (!row.clock.isValid()) row.clock.start();
+  row.bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
+  if (!row.cancel->isEnabled()) return;  // It says that it is being cancelled.
+  QStringList parts{stage, tr("%1 %").arg(std::lround(100 * fraction)),
+                    time_left_text(fraction, row.clock.elapsed() / 1000.0)};
+  parts.removeAll({});
+  row.stage->setFullText(parts.join(" · "));
+}
+
+void JobPanel::setCancelling(quint64 id) {
+  const auto found = rows_.find(id);
+  if (found == rows_.end()) return;
+  found->second.cancel->setEnabled(false);
+  found->second.stage->setFullText(tr("cancelling"));
+}
+
+void JobPanel::removeJob(quint64 id) {
+  const auto found = rows_.find(id);
+  if (found == rows_.end()) return;
+  found->second.widget->deleteLater();
+  found->second.widget->hide();
+  rows_.erase(found);
+  idle_->setVisible(rows_.empty());
+}
+
+void JobPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateColors();
+}
+
+void JobPanel::updateColors() {
+  QPalette quiet = palette();
+  quiet.setColor(QPalette::WindowText, theme::muted_text(palette()));
+  idle_->setPalette(quiet);
+  for (const auto& [id, row] : rows_) row.stage->setPalette(quiet);
+}
+
+}  // namespace episcope

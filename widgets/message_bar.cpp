@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/message_bar.h"
+
+#include "widgets/icon.h"
+#include "widgets/theme.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QToolButton>
+
+#include <utility>
+
+namespace episcope {
+namespace {
+
+constexpr int kStay = 6000;  // ms that good news stays.
+
+}  // namespace
+
+MessageBar::MessageBar(QWidget* parent)
+    : QWidget(parent),
+      icon_(new QLabel(this)),
+      text_(new QLabel(this)),
+      button_(new QPushButton(this)),
+      close_(new QToolButton(this)) {
+  setObjectName("messageBar");
+  icon_->setObjectName("message.icon");
+  text_->setObjectName("message.text");
+  text_->setTextFormat(Qt::PlainText);
+  text_->setWordWrap(true);
+  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  button_->setObjectName("message.action");
+  close_->setObjectName("message.close");
+  close_->setIcon(themed_icon("close"));
+  close_->setIconSize({12, 12});
+  close_->setAutoRaise(true);
+  close_->setToolTip(tr("Close this message"));
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
+  layout->setSpacing(theme::kSpacing);
+  layout->addWidget(icon_);
+  layout->addWidget(text_, 1);
+  layout->addWidget(button_);
+  layout->addWidget(close_);
+  timer_.setSingleShot(true);
+  timer_.setInterval(kStay);
+  connect(close_, &QToolButton::clicked, this, &MessageBar::dismiss);
+  connect(&timer_, &QTimer::timeout, this, &MessageBar::dismiss);
+  connect(button_, &QPushButton::clicked, this, [this] {
+    const auto run = std::exchange(action_, {}).run;
+    dismiss();
+    if (run) run();
+  });
+  hide();
+}
+
+void MessageBar::showMessage(Severity severity, const QString& text) {
+  showMessage(severity, text, {});
+}
+
+void MessageBar::showMessage(Severity severity, const QString& text, Action action) {
+  severity_ = severity;
+  action_ = std::move(action);
+  text_->setText(text);
+  button_->setText(action_.text);
+  button_->setVisible(!action_.text.isEmpty());
+  updateIcon();
+  const bool goes_away = severity == Severity::Info || severity == Severity::Success;
+  if (goes_away) {
+    timer_.start();
+  } else {
+    timer_.stop();
+  }
+  show();
+  update();
+}
+
+QString MessageBar::text() const {
+  return text_->text();
+}
+
+void MessageBar::dismiss() {
+  timer_.stop();
+  if (isHidden()) return;
+  hide();
+  emit dismissed();
+}
+
+QColor MessageBar::accent() const {
+  switch (severity_) {
+    case Severity::Info:
+      return palette().color(QPalette::Link);
+    case Severity::Success:
+      return theme::success_text(palette());
+    case Severity::Warning:
+      return theme::warning_text(palette());
+    case Severity::Error:
+      return theme::error_text(palette());
+  }
+  return {};
+}
+
+void MessageBar::updateIcon() {
+  const char* names[] = {"info", "success", "warning", "error"};
+  icon_->setPixmap(themed_icon(names[static_cast<int>(severity_)]).pixmap(16, 16));
+}
+
+void MessageBar::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  painter.fillRect(rect(), theme::blend(palette().color(QPalette::Window), accent(), 0.14));
+  painter.fillRect(QRect(0, 0, 4, height()), accent());
+}
+
+void MessageBar::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateIcon();
+}
+
+}  // namespace episcope

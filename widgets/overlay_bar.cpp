@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/overlay_bar.h"
+
+#include "widgets/icon.h"
+#include "widgets/theme.h"
+
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QStandardItemModel>
+#include <QToolButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+
+constexpr Quantity kQuantities[] = {
+    Quantity::View,        Quantity::Disparity,     Quantity::Confidence, Quantity::Truth,
+    Quantity::SignedError, Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
+constexpr double kFocusStep = 0.01;  // px a slider step.
+
+int slider_value(double focus_px) {
+  return static_cast<int>(std::lround(focus_px / kFocusStep));
+}
+
+}  // namespace
+
+QString quantity_label(Quantity quantity) {
+  const auto text = [](const char* source) {
+    return QCoreApplication::translate("episcope::OverlayBar", source);
+  };
+  switch (quantity) {
+    case Quantity::View:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "none"));
+    case Quantity::Disparity:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "disparity"));
+    case Quantity::Truth:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "truth"));
+    case Quantity::Confidence:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "confidence"));
+    case Quantity::SignedError:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "signed error"));
+    case Quantity::AbsoluteError:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "absolute error"));
+    case Quantity::BadPixels:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "bad pixels"));
+    case Quantity::Labels:
+      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "labels"));
+  }
+  return {};
+}
+
+OverlayBar::OverlayBar(QWidget* parent)
+    : QWidget(parent),
+      quantity_(new QComboBox(this)),
+      opacity_(new QSlider(Qt::Horizontal, this)),
+      focus_slider_(new QSlider(Qt::Horizontal, this)),
+      focus_spin_(new QDoubleSpinBox(this)) {
+  setObjectName("overlayBar");
+  quantity_->setObjectName("overlay.quantity");
+  quantity_->setToolTip(tr("What is drawn over the view (M: next)"));
+  for (const auto quantity : kQuantities) {
+    quantity_->addItem(quantity_label(quantity), static_cast<int>(quantity));
+  }
+  opacity_->setObjectName("overlay.opacity");
+  opacity_->setRange(0, 100);
+  opacity_->setFixedWidth(90);
+  opacity_->setToolTip(tr("Opacity of the overlay"));
+  focus_slider_->setObjectName("overlay.focusSlider");
+  focus_slider_->setMinimumWidth(100);
+  focus_slider_->setMaximumWidth(220);
+  focus_slider_->setToolTip(
+      tr("Focus plane: shears EPIs and view so that this disparity stands upright "
+         "(Alt+wheel, Shift+click)"));
+  focus_spin_->setObjectName("overlay.focusSpin");
+  focus_spin_->setLocale(QLocale::c());
+  focus_spin_->setDecimals(2);
+  focus_spin_->setSingleStep(0.05);
+  focus_spin_->setSuffix(tr(" px"));
+  focus_spin_->setKeyboardTracking(false);
+  auto* reset = new QToolButton(this);
+  reset->setObjectName("overlay.focusReset");
+  reset->setIcon(themed_icon("reset"));
+  reset->setAutoRaise(true);
+  reset->setToolTip(tr("Focus plane back to 0 px"));
+
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  layout->addWidget(new QLabel(tr("Overlay"), this));
+  layout->addWidget(quantity_);
+  layout->addWidget(opacity_);
+  layout->addSpacing(2 * theme::kMargin);
+  layout->addWidget(new QLabel(tr("Focus plane"), this));
+  layout->addWidget(focus_slider_, 1);
+  layout->addWidget(focus_spin_);
+  layout->addWidget(reset);
+
+  setOpacity(0.7);
+  setFocusRange({-2, 2});
+  setAvailable({});
+  connect(quantity_, &QComboBox::activated, this, [this] {
+    opacity_->setEnabled(quantity() != Quantity::View);
+    emit quantitySelected(quantity());
+  });
+  connect(opacity_, &QSlider::valueChanged, this, [this] { emit opacityChanged(opacity()); });
+  connect(focus_slider_, &QSlider::valueChanged, this,
+          [this](int value) { changeFocus(value * kFocusStep); });
+  connect(focus_spin_, &QDoubleSpinBox::valueChanged, this, &OverlayBar::changeFocus);
+  connect(reset, &QToolButton::clicked, this, [this] { changeFocus(0); });
+}
+
+void OverlayBar::setAvailable(const std::vector<Quantity>& quantities) {
+  auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
+  for (int i = 0; i < quantity_->count(); ++i) {
+    const auto quantity = static_cast<Quantity>(quantity_->itemData(i).toInt());
+    const bool is_available =
+        quantity == Quantity::View ||
+        std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
+    model->item(i)->setEnabled(is_available);
+  }
+}
+
+void OverlayBar::setQuantity(Quantity quantity) {
+  const QSignalBlocker blocker(quantity_);
+  quantity_->setCurrentIndex(quantity_->findData(static_cast<int>(quantity)));
+  opacity_->setEnabled(quantity != Quantity::View);
+}
+
+void OverlayBar::setOpacity(double opacity) {
+  const QSignalBlocker blocker(opacity_);
+  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
+}
+
+void OverlayBar::setFocusRange(Interval range_px) {
+  const QSignalBlocker slider_blocker(focus_slider_);
+  const QSignalBlocker spin_blocker(focus_spin_);
+  // Zero, the plane of the files, is always within reach.
+  const double min = std::min(0.0, range_px.min);
+  const double max = std::max(0.0, range_px.max);
+  focus_slider_->setRange(slider_value(min), slider_value(max));
+  focus_slider_->setPageStep(10);
+  focus_spin_->setRange(min, max);
+}
+
+void OverlayBar::setFocus(double focus_px) {
+  showFocus(focus_px);
+}
+
+void OverlayBar::showFocus(double focus_px) {
+  const QSignalBlocker slider_blocker(focus_slider_);
+  const QSignalBlocker spin_blocker(focus_spin_);
+  focus_slider_->setValue(slider_value(focus_px));
+  focus_spin_->setValue(focus_px);
+}
+
+void OverlayBar::changeFocus(double focus_px) {
+  showFocus(focus_px);
+  emit focusChanged(focus());
+}
+
+Quantity OverlayBar::quantity() const {
+  return static_cast<Quantity>(quantity_->currentData().toInt());
+}
+
+double OverlayBar::opacity() const {
+  return opacity_->value() / 100.0;
+}
+double OverlayBar::focus() const {
+  return focus_spin_->value();
+}
+
+void OverlayBar::selectNextQuantity() {
+  const auto* model = qobject_cast<QStandardItemModel*>(quantity_->model());
+  int index = quantity_->currentIndex();
+  do {
+    index = (index + 1) % quantity_->count();
+  } while (!model->item(index)->isEnabled());
+  setQuantity(static_cast<Quantity>(quantity_->itemData(index).toInt()));
+  emit quantitySelected(quantity());
+}
+
+void OverlayBar::stepFocus(double steps) {
+  changeFocus(focus() + steps * focus_spin_->singleStep());
+}
+
+}  // namespace episcope

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/result_list.h"
+
+#include "widgets/icon.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenu>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+enum Column { kMark, kMethod, kMse, kSeconds, kParameters, kColumnCount };
+
+quint64 id_of(const QTreeWidgetItem* item) {
+  return item->data(kMark, Qt::UserRole).toULongLong();
+}
+
+QString seconds_text(double seconds) {
+  if (seconds <= 0) return "–";
+  return QString("%1 s").arg(seconds, 0, 'f', seconds < 10 ? 2 : 0);
+}
+
+QToolButton* make_button(const char* name, const char* icon, const QString& text,
+                         const QString& tip, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName(name);
+  button->setIcon(themed_icon(icon));
+  button->setText(text);
+  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  button->setAutoRaise(true);
+  button->setToolTip(tip);
+  return button;
+}
+
+}  // namespace
+
+ResultList::ResultList(QWidget* parent)
+    : QWidget(parent),
+      tree_(new QTreeWidget(this)),
+      hint_(new QLabel(tr("No results yet. Run a method above."), this)),
+      export_(make_button("results.export", "export", tr("Export"),
+                          tr("Save this result as HDF5, PFM or PNG"), this)),
+      remove_(make_button("results.remove", "trash", tr("Remove"),
+                          tr("Remove this result (Delete)"), this)),
+      reuse_(make_button("results.reuse", "reuse", tr("Reuse"),
+                         tr("Bring the parameters of this result back into the form"), this)) {
+  setObjectName("resultList");
+  setUpTree();
+  hint_->setObjectName("results.hint");
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(2);
+  for (auto* button : {export_, reuse_, remove_}) row->addWidget(button);
+  row->addStretch(1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(hint_, 1);
+  layout->addWidget(tree_, 1);
+  layout->addLayout(row);
+
+  const auto connect_button = [this](QToolButton* button, void (ResultList::*intent)(quint64)) {
+    connect(button, &QToolButton::clicked, this, [this, intent] {
+      if (const auto id = selectedId()) emit(this->*intent)(*id);
+    });
+  };
+  connect_button(export_, &ResultList::exportRequested);
+  connect_button(remove_, &ResultList::removeRequested);
+  connect_button(reuse_, &ResultList::reuseRequested);
+  setResults({});
+}
+
+void ResultList::setUpTree() {
+  tree_->setObjectName("results.tree");
+  tree_->setColumnCount(kColumnCount);
+  tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
+  tree_->headerItem()->setToolTip(kMse, tr("Mean squared error ×100 against the truth, px²"));
+  tree_->setRootIsDecorated(false);
+  tree_->setAlternatingRowColors(true);
+  tree_->setUniformRowHeights(true);
+  tree_->setTextElideMode(Qt::ElideRight);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+  tree_->header()->setMinimumSectionSize(22);
+  tree_->header()->setStretchLastSection(true);
+  for (const int column : {kMark, kMethod, kMse, kSeconds}) {
+    tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  }
+  auto* remove = new QAction(tr("Remove"), tree_);
+  remove->setObjectName("results.removeAction");
+  remove->setShortcut(QKeySequence::Delete);
+  remove->setShortcutContext(Qt::WidgetShortcut);
+  tree_->addAction(remove);
+  connect(remove, &QAction::triggered, this, [this] {
+    if (const auto id = selectedId()) emit removeRequested(*id);
+  });
+  connect(tree_, &QTreeWidget::customContextMenuRequested, this, &ResultList::showMenu);
+  connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
+    updateButtons();
+    if (const auto id = selectedId()) emit selected(*id);
+  });
+}
+
+void ResultList::setResults(const std::vector<ResultRow>& results) {
+  const auto kept = selectedId();
+  const QSignalBlocker blocker(tree_);
+  tree_->clear();
+  for (const auto& result : results) {
+    auto* item = new QTreeWidgetItem(tree_);
+    item->setData(kMark, Qt::UserRole, result.id);
+    item->setText(kMethod, result.method);
+    item->setText(kMse, result.mse_100 ? QString::number(*result.mse_100, 'f', 2) : "–");
+    item->setText(kSeconds, seconds_text(result.seconds));
+    item->setText(kParameters, result.parameters);
+    item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);
+    item->setTextAlignment(kSeconds, Qt::AlignRight | Qt::AlignVCenter);
+    QStringList tip{result.method, result.parameters, result.detail};
+    tip.removeAll({});
+    for (int column = 0; column < kColumnCount; ++column) {
+      item->setToolTip(column, tip.join('\n'));
+    }
+    if (kept == result.id) tree_->setCurrentItem(item);
+  }
+  tree_->setVisible(!results.empty());
+  hint_->setVisible(results.empty());
+  setShown(shown_);
+  updateButtons();
+}
+
+void ResultList::setShown(std::optional<quint64> id) {
+  shown_ = id;
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    auto* item = tree_->topLevelItem(i);
+    const bool is_shown = shown_ == id_of(item);
+    item->setIcon(kMark, is_shown ? themed_icon("eye") : QIcon());
+    QFont font = tree_->font();
+    font.setBold(is_shown);
+    item->setFont(kMethod, font);
+  }
+}
+
+std::optional<quint64> ResultList::selectedId() const {
+  const auto items = tree_->selectedItems();
+  if (items.isEmpty()) return std::nullopt;
+  return id_of(items.front());
+}
+
+void ResultList::updateButtons() {
+  for (auto* button : {export_, remove_, reuse_}) button->setEnabled(selectedId().has_value());
+}
+
+void ResultList::showMenu(const QPoint& position) {
+  const auto* item = tree_->itemAt(position);
+  if (!item) return;
+  const quint64 id = id_of(item);
+  auto* menu = new QMenu(this);
+  menu->setObjectName("results.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  const auto add = [&](const char* icon, const QString& text, void (ResultList::*intent)(quint64)) {
+    menu->addAction(themed_icon(icon), text, this, [this, id, intent] { emit(this->*intent)(id); });
+  };
+  add("eye", tr("Show"), &ResultList::selected);
+  add("reuse", tr("Reuse parameters"), &ResultList::reuseRequested);
+  add("copy", tr("Copy as command"), &ResultList::copyCommandRequested);
+  menu->addSeparator();
+  add("export", tr("Export…"), &ResultList::exportRequested);
+  add("trash", tr("Remove"), &ResultList::removeRequested);
+  menu->popup(tree_->viewport()->mapToGlobal(position));
+}
+
+}  // namespace episcope

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/value_bar.h"
+
+#include "widgets/elided_label.h"
+#include "widgets/theme.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPixmap>
+
+namespace episcope {
+namespace {
+
+constexpr int kSwatch = 12;
+const QChar kMinus(0x2212);
+
+QString number(double value, int decimals = 3) {
+  return QString::number(value, 'f', decimals).replace('-', kMinus);
+}
+
+QString signed_number(double value) {
+  const QString text = number(value);
+  return text.startsWith(kMinus) ? text : '+' + text;
+}
+
+QString estimate_text(const EstimateReading& estimate, const PixelReading& reading) {
+  if (!estimate.disparity_px) return ValueBar::tr("%1 invalid").arg(estimate.name);
+  QString text = estimate.name + ' ' + number(*estimate.disparity_px);
+  if (reading.truth_px) {
+    text += QString(" (%1)").arg(signed_number(*estimate.disparity_px - *reading.truth_px));
+  }
+  return text;
+}
+
+QString reading_text(const PixelReading& reading) {
+  QStringList parts{ValueBar::tr("x %1 y %2").arg(reading.pixel.x).arg(reading.pixel.y)};
+  if (!reading.samples.isEmpty()) {
+    const bool is_rgb = reading.samples.contains(' ');
+    parts << (is_rgb ? ValueBar::tr("rgb %1") : ValueBar::tr("grey %1")).arg(reading.samples);
+  }
+  if (reading.has_truth) {
+    parts << (reading.truth_px ? ValueBar::tr("truth %1").arg(number(*reading.truth_px))
+                               : ValueBar::tr("no truth here"));
+  }
+  for (const auto& estimate : reading.estimates) parts << estimate_text(estimate, reading);
+  return parts.join(" · ");
+}
+
+}  // namespace
+
+ValueBar::ValueBar(QWidget* parent)
+    : QWidget(parent),
+      swatch_(new QLabel(this)),
+      values_(new ElidedLabel(this)),
+      status_(new QLabel(this)) {
+  setObjectName("valueBar");
+  swatch_->setObjectName("valueBar.swatch");
+  swatch_->setFixedSize(kSwatch, kSwatch);
+  values_->setObjectName("valueBar.values");
+  status_->setObjectName("valueBar.status");
+  auto* layout = new QHBoxLayout(this);
+  layout->setContentsMargins(theme::kMargin, 2, theme::kMargin, 2);
+  layout->setSpacing(theme::kSpacing);
+  layout->addWidget(swatch_);
+  layout->addWidget(values_, 1);
+  layout->addWidget(status_);
+  setReading(std::nullopt);
+}
+
+void ValueBar::setReading(const std::optional<PixelReading>& reading) {
+  values_->setFullText(reading ? reading_text(*reading)
+                               : tr("Move over the view to read its values"));
+  QPixmap swatch(kSwatch, kSwatch);
+  swatch.fill(reading && reading->color.isValid() ? reading->color : QColor(Qt::transparent));
+  swatch_->setPixmap(swatch);
+  QPalette shown = palette();
+  if (!reading) shown.setColor(QPalette::WindowText, theme::muted_text(palette()));
+  values_->setPalette(shown);
+}
+
+void ValueBar::setStatus(const QString& status) {
+  status_->setText(status);
+}
+
+QString ValueBar::text() const {
+  return values_->fullText();
+}
+
+}  // namespace episcope

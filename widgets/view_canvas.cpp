@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/view_canvas.h"
+
+#include <QResizeEvent>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+
+ViewCanvas::ViewCanvas(QWidget* parent) : QWidget(parent) {
+  setObjectName("viewCanvas");
+  setMouseTracking(true);
+  setFocusPolicy(Qt::StrongFocus);
+  setAttribute(Qt::WA_OpaquePaintEvent);
+  setAccessibleName(tr("View"));
+  message_ = tr("Open a light field to see it here.");
+}
+
+void ViewCanvas::setPicture(const QImage& picture) {
+  if (picture.isNull()) {
+    showEmpty(tr("Open a light field to see it here."));
+    return;
+  }
+  const bool is_new_size = picture.size() != picture_.size();
+  picture_ = picture;
+  state_ = State::Picture;
+  if (is_new_size) {
+    zoomToFit();
+    if (hovered_) emit cursorMoved(hovered_ = std::nullopt);
+  }
+  update();
+}
+
+void ViewCanvas::setOverlay(const QImage& overlay) {
+  overlay_ = overlay;
+  update();
+}
+
+void ViewCanvas::setOverlayOpacity(double opacity) {
+  overlay_opacity_ = std::clamp(opacity, 0.0, 1.0);
+  update();
+}
+
+void ViewCanvas::setCrossHair(std::optional<PixelIndex> pixel) {
+  if (pixel == cross_hair_) return;
+  cross_hair_ = pixel;
+  update();
+}
+
+void ViewCanvas::setPixelText(PixelText text) {
+  pixel_text_ = std::move(text);
+  update();
+}
+
+void ViewCanvas::setCaption(const QString& caption) {
+  caption_ = caption;
+  update();
+}
+
+void ViewCanvas::setParallaxEnabled(bool enabled) {
+  parallax_enabled_ = enabled;
+}
+
+void ViewCanvas::showEmpty(const QString& hint) {
+  showMessage(State::Empty, hint);
+}
+
+void ViewCanvas::showLoading(const QString& name, double fraction) {
+  loading_fraction_ = std::min(fraction, 1.0);
+  showMessage(State::Loading, name);
+}
+
+void ViewCanvas::showError(const QString& sentence) {
+  showMessage(State::Failed, sentence);
+}
+
+void ViewCanvas::showMessage(State state, const QString& text) {
+  state_ = state;
+  message_ = text;
+  picture_ = {};
+  overlay_ = {};
+  cross_hair_ = std::nullopt;
+  gesture_ = Gesture::None;
+  if (hovered_) emit cursorMoved(hovered_ = std::nullopt);
+  update();
+}
+
+std::optional<PixelIndex> ViewCanvas::pixelAt(QPointF position) const {
+  if (picture_.isNull()) return std::nullopt;
+  const QPointF point = transform_.to_image(position, size());
+  const PixelIndex pixel{static_cast<int>(std::floor(point.y())),
+                         static_cast<int>(std::floor(point.x()))};
+  if (!picture_.rect().contains(pixel.x, pixel.y)) return std::nullopt;
+  return pixel;
+}
+
+QPointF ViewCanvas::positionOf(PixelIndex pixel) const {
+  return transform_.to_widget({pixel.x + 0.5, pixel.y + 0.5}, size());
+}
+
+QSize ViewCanvas::sizeHint() const {
+  return {640, 480};
+}
+QSize ViewCanvas::minimumSizeHint() const {
+  return {160, 120};
+}
+
+void ViewCanvas::setCanvasTransform(const CanvasTransform& transform) {
+  if (transform == transform_) return;
+  changeTransform(transform, false);
+}
+
+void ViewCanvas::zoomIn() {
+  zoomAt(cursor_.value_or(QRectF(rect()).center()), kZoomStep);
+}
+
+void ViewCanvas::zoomOut() {
+  zoomAt(cursor_.value_or(QRectF(rect()).center()), 1 / kZoomStep);
+}
+
+void ViewCanvas::zoomToFit() {
+  changeTransform(fit_transform(picture_.size(), size()), true);
+}
+
+void ViewCanvas::zoomToActualSize() {
+  const QPointF anchor = cursor_.value_or(QRectF(rect()).center());
+  zoomAt(anchor, 1 / devicePixelRatioF() / transform_.scale);
+}
+
+void ViewCanvas::ensureVisible(PixelIndex pixel) {
+  if (picture_.isNull()) return;
+  constexpr double kBorder = 16;
+  const QRectF inside = QRectF(rect()).adjusted(kBorder, kBorder, -kBorder, -kBorder);
+  const QPointF position = positionOf(pixel);
+  const QPointF nearest(std::clamp(position.x(), inside.left(), inside.right()),
+                        std::clamp(position.y(), inside.top(), inside.bottom()));
+  if (nearest != position) changeTransform(transform_.panned(nearest - position), false);
+}
+
+void ViewCanvas::zoomAt(QPointF anchor, double factor) {
+  if (picture_.isNull()) return;
+  changeTransform(transform_.zoomed(factor, anchor, size()), false);
+}
+
+void ViewCanvas::changeTransform(const CanvasTransform& transform, bool fitted) {
+  fitted_ = fitted;
+  CanvasTransform bounded = transform;
+  // Some of the picture always stays in sight.
+  bounded.center.setX(std::clamp(bounded.center.x(), 0.0, std::max(1.0, picture_.width() * 1.0)));
+  bounded.center.setY(std::clamp(bounded.center.y(), 0.0, std::max(1.0, picture_.height() * 1.0)));
+  if (bounded == transform_) return;
+  transform_ = bounded;
+  update();
+  emit transformChanged(transform_);
+}
+
+void ViewCanvas::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (fitted_ && !picture_.isNull()) zoomToFit();
+}
+
+}  // namespace episcope

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/view_canvas.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QStyleHints>
+#include <QWheelEvent>
+
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+/// Way of the hand for one view step of parallax, logical pixels.
+constexpr double kParallaxStep = 32;
+constexpr double kWheelNotch = 120;
+
+}  // namespace
+
+bool ViewCanvas::event(QEvent* event) {
+  // Ours before a button or a menu takes them: Space and the zoom keys while we have the focus.
+  if (event->type() == QEvent::ShortcutOverride &&
+      static_cast<QKeyEvent*>(event)->key() == Qt::Key_Space) {
+    event->accept();
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+void ViewCanvas::wheelEvent(QWheelEvent* event) {
+  // With Alt held, some platforms report the vertical wheel as a horizontal one.
+  const QPoint angle = event->angleDelta();
+  const double notches = (angle.y() != 0 ? angle.y() : angle.x()) / kWheelNotch;
+  const auto modifiers = event->modifiers();
+  if (picture_.isNull() || (modifiers & Qt::ControlModifier && modifiers & Qt::ShiftModifier)) {
+    event->ignore();
+    return;
+  }
+  if (modifiers & Qt::AltModifier) {
+    emit focusStepped(notches);
+  } else {
+    zoomAt(event->position(), std::pow(kZoomStep, notches));
+    followCursor(event->position());
+  }
+  event->accept();
+}
+
+void ViewCanvas::mousePressEvent(QMouseEvent* event) {
+  if (picture_.isNull() || gesture_ != Gesture::None) return;
+  press_position_ = last_position_ = event->position();
+  press_modifiers_ = event->modifiers();
+  if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_held_)) {
+    gesture_ = Gesture::Pan;
+    space_used_ = true;
+    updateCursorShape();
+  } else if (event->button() == Qt::LeftButton) {
+    gesture_ = Gesture::Press;
+  } else {
+    event->ignore();
+  }
+}
+
+void ViewCanvas::mouseMoveEvent(QMouseEvent* event) {
+  const QPointF position = event->position();
+  if (gesture_ == Gesture::Press && !(press_modifiers_ & Qt::ShiftModifier) &&
+      (position - press_position_).manhattanLength() >=
+          QGuiApplication::styleHints()->startDragDistance()) {
+    beginDrag();
+  }
+  drag(position);
+  followCursor(position);
+}
+
+void ViewCanvas::beginDrag() {
+  gesture_ = parallax_enabled_ ? Gesture::Parallax : Gesture::Pan;
+  updateCursorShape();
+  if (gesture_ == Gesture::Parallax) emit parallaxStarted();
+}
+
+void ViewCanvas::drag(QPointF position) {
+  if (gesture_ == Gesture::Pan) {
+    changeTransform(transform_.panned(position - last_position_), false);
+  } else if (gesture_ == Gesture::Parallax) {
+    // A point of disparity d > 0 moves by −d per view: the other way than the views.
+    emit parallaxDragged((press_position_ - position) / kParallaxStep);
+  }
+  last_position_ = position;
+}
+
+void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
+  const Gesture ended = gesture_;
+  gesture_ = Gesture::None;
+  updateCursorShape();
+  if (ended == Gesture::Parallax) emit parallaxFinished();
+  if (ended != Gesture::Press) return;
+  if (const auto pixel = pixelAt(press_position_)) {
+    if (press_modifiers_ & Qt::ShiftModifier) {
+      emit focusRequested(*pixel);
+    } else {
+      emit crossHairRequested(*pixel);
+    }
+  }
+}
+
+void ViewCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
+  if (event->button() == Qt::LeftButton && !picture_.isNull() && !space_held_) {
+    emit centerRequested();
+  }
+}
+
+void ViewCanvas::leaveEvent(QEvent*) {
+  followCursor(std::nullopt);
+}
+
+void ViewCanvas::followCursor(std::optional<QPointF> position) {
+  cursor_ = position;
+  const auto pixel = position ? pixelAt(*position) : std::nullopt;
+  if (pixel == hovered_) return;
+  hovered_ = pixel;
+  emit cursorMoved(hovered_);
+}
+
+void ViewCanvas::keyPressEvent(QKeyEvent* event) {
+  const bool control = event->modifiers() & Qt::ControlModifier;
+  if (event->key() == Qt::Key_Space) {
+    if (!event->isAutoRepeat()) {
+      space_held_ = true;
+      space_used_ = false;
+      updateCursorShape();
+    }
+  } else if (event->key() == Qt::Key_Plus || event->key() == Qt::Key_Equal) {
+    zoomIn();
+  } else if (event->key() == Qt::Key_Minus) {
+    zoomOut();
+  } else if (event->key() == Qt::Key_K && !control) {
+    zoomToFit();
+  } else if (event->key() == Qt::Key_0 && control) {
+    zoomToActualSize();
+  } else {
+    QWidget::keyPressEvent(event);
+  }
+}
+
+void ViewCanvas::keyReleaseEvent(QKeyEvent* event) {
+  if (event->key() != Qt::Key_Space) {
+    QWidget::keyReleaseEvent(event);
+    return;
+  }
+  if (event->isAutoRepeat() || !space_held_) return;
+  space_held_ = false;
+  updateCursorShape();
+  if (!space_used_) emit playToggled();
+}
+
+void ViewCanvas::focusOutEvent(QFocusEvent* event) {
+  space_held_ = false;
+  updateCursorShape();
+  QWidget::focusOutEvent(event);
+}
+
+void ViewCanvas::updateCursorShape() {
+  if (gesture_ == Gesture::Pan) {
+    setCursor(Qt::ClosedHandCursor);
+  } else if (gesture_ == Gesture::Parallax) {
+    setCursor(Qt::SizeAllCursor);
+  } else if (space_held_) {
+    setCursor(Qt::OpenHandCursor);
+  } else {
+    setCursor(Qt::CrossCursor);
+  }
+}
+
+}  // namespace episcope
