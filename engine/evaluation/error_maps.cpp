@@ -5,6 +5,15 @@
 
 namespace episcope {
 
+Image<std::uint8_t> shown_mask(const Evaluation& evaluation) {
+  Image<std::uint8_t> mask = evaluation.judged;
+  auto missing = evaluation.missing.begin();
+  for (std::uint8_t& shown : mask) {
+    if (*missing++ != 0) shown = 0;
+  }
+  return mask;
+}
+
 Image<float> absolute_error_map(const Evaluation& evaluation) {
   Image<float> map = evaluation.signed_error;
   for (float& error : map) error = std::abs(error);

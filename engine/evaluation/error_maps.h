@@ -5,8 +5,11 @@
 
 namespace episcope {
 
-/// Pictures of an evaluation, from the very errors that its numbers were computed from. All are
-/// meant to be shown with the mask `evaluation.judged`.
+/// Pictures of an evaluation, from the very errors that its numbers were computed from. Maps
+/// of errors are shown with `shown_mask`, that of bad pixels with `evaluation.judged`.
+
+/// 1 where a picture of the error has something to show: judged and not missing.
+[[nodiscard]] Image<std::uint8_t> shown_mask(const Evaluation& evaluation);
 
 /// |truth − estimate| in px.
 [[nodiscard]] Image<float> absolute_error_map(const Evaluation& evaluation);

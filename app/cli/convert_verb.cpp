@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/usage_error.h"
+#include "app/cli/verbs.h"
+#include "engine/io/image_file.h"
+#include "engine/io/pfm.h"
+#include "engine/io/ply.h"
+#include "engine/io/result_file.h"
+#include "engine/io/write_scene.h"
+#include "engine/render/shade.h"
+
+#include <iostream>
+#include <limits>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string input;
+  std::string output;
+  std::string truth;
+  JobOptions job;
+  ReadOptions read;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("convert",
+                   {"Writes a light field or a result in another format, by the suffix of OUT:\n"
+                    ".h5 (archive form), .pfm, .tiff, .ply (disparity of the centre view: of a\n"
+                    "RESULT, or the truth of an INPUT), or a folder (benchmark form). A RESULT\n"
+                    "becomes the depth of its light field in the archive and benchmark forms.",
+                    "episcope-cli convert demo demo_folder/\n"
+                    "  episcope-cli convert demo.h5 demo.ply"});
+  parser.positional("INPUT", request.input, "A light field or a result");
+  parser.positional("OUT", request.output, "File or folder to write");
+  parser.option("--truth", request.truth, "INPUT",
+                "Light field of a RESULT; by default the one that its file names");
+  declare_job_options(parser, request.job);
+  declare_read_options(parser, request.read);
+  return parser.parse(arguments);
+}
+
+enum class Format { Archive, Pfm, Tiff, Ply, Folder };
+
+Format format_of(const std::string& output) {
+  const std::string suffix = suffix_of(output);
+  std::error_code ignored;
+  if (suffix.empty() || output.ends_with('/') || std::filesystem::is_directory(output, ignored)) {
+    return Format::Folder;
+  }
+  if (suffix == ".h5" || suffix == ".hdf5") return Format::Archive;
+  if (suffix == ".pfm") return Format::Pfm;
+  if (suffix == ".tif" || suffix == ".tiff") return Format::Tiff;
+  if (suffix == ".ply") return Format::Ply;
+  throw unknown_name("format", suffix, {".h5", ".pfm", ".ply", ".tiff", "a folder"});
+}
+
+/// What is converted: disparity, and the light field it belongs to if that is known.
+struct Subject {
+  std::optional<Scene> scene;
+  std::optional<Estimate> estimate;
+
+  [[nodiscard]] const DisparityField& field() const {
+    return estimate ? estimate->field : scene->truth->field;
+  }
+};
+
+Subject load_subject(const Request& request, Format format, const Progress& progress) {
+  Subject subject;
+  if (request.truth.empty() && !names_result(request.input)) {
+    subject.scene = load_input(request.input, request.read, progress);
+    return subject;
+  }
+  std::string input = request.truth;
+  const bool is_native = io::is_result_file(request.input);
+  if (is_native && input.empty()) {
+    input = source_of(io::read_result(request.input, {1, 1}));
+  }
+  const bool needs_scene =
+      format == Format::Archive || format == Format::Folder || format == Format::Ply;
+  if (!input.empty() && needs_scene) subject.scene = load_input(input, request.read, progress);
+  const GridShape grid = subject.scene ? subject.scene->light_field->grid() : GridShape{1, 1};
+  subject.estimate = io::read_result(request.input, grid);
+  if (needs_scene && !subject.scene) {
+    throw IoError(request.input,
+                  "its light field is not known or not where it was; name it with "
+                  "--truth INPUT");
+  }
+  return subject;
+}
+
+/// The centre view of the map, or the only one there is.
+DisparityView map_of(const Subject& subject, const std::string& name) {
+  const DisparityField& field = subject.field();
+  if (field.empty()) throw InvalidInput(name + " has no disparity to convert");
+  const auto& stack = field.disparity;
+  const ViewIndex middle = stack.grid().center();
+  return field.view({stack.first().v + middle.v, stack.first().u + middle.u});
+}
+
+/// Files keep invalid pixels as NaN.
+Image<float> with_nan(const DisparityView& view) {
+  Image<float> map(view.disparity.height, view.disparity.width);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      map.at(y, x) =
+          view.is_valid(y, x) ? view.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
+    }
+  }
+  return map;
+}
+
+void write_point_cloud(const Subject& subject, const DisparityView& map,
+                       const std::filesystem::path& path) {
+  const LightField& light_field = *subject.scene->light_field;
+  const auto rgba = render::shade_view(light_field, light_field.center());
+  Image<std::uint8_t> rgb(rgba.height(), rgba.width(), 3);
+  for (int y = 0; y < rgb.height(); ++y) {
+    for (int x = 0; x < rgb.width(); ++x) {
+      for (int c = 0; c < 3; ++c) rgb.at(y, x, c) = rgba.at(y, x, c);
+    }
+  }
+  io::PointCloud cloud{map, rgb.view(), light_field.info().camera};
+  io::write_ply(path, cloud);
+}
+
+/// The scene to write; the disparity of a result takes the place of the truth.
+Scene scene_to_write(Subject& subject) {
+  Scene scene = std::move(*subject.scene);
+  if (!subject.estimate) return scene;
+  auto truth = std::make_shared<GroundTruth>();
+  truth->field = std::move(subject.estimate->field);
+  if (!scene.truth->labels.empty()) truth->labels = scene.truth->labels.clone();
+  scene.truth = truth;
+  return scene;
+}
+
+void write(Subject& subject, const Request& request, Format format, const Progress& progress) {
+  progress.step("writing " + request.output);
+  switch (format) {
+    case Format::Archive:
+      return io::write_archive(request.output, scene_to_write(subject), progress);
+    case Format::Folder:
+      return io::write_benchmark_folder(request.output, scene_to_write(subject), progress);
+    case Format::Pfm:
+      return io::write_pfm(request.output, with_nan(map_of(subject, request.input)).view());
+    case Format::Tiff:
+      return io::write_tiff(request.output, with_nan(map_of(subject, request.input)).view());
+    case Format::Ply:
+      return write_point_cloud(subject, map_of(subject, request.input), request.output);
+  }
+}
+
+}  // namespace
+
+void run_convert(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  const Format format = format_of(request.output);
+  if (format != Format::Folder) check_output_file(request.output);
+
+  Job job(std::move(stop), request.job);
+  Subject subject = load_subject(request, format, job.progress().part(0, 0.5));
+  if (subject.scene) {
+    for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
+  }
+  job.progress().check();
+  write(subject, request, format, job.progress().part(0.5, 1));
+  job.finish();
+  std::cout << request.output << ": written\n";
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/json.h"
+#include "app/cli/parameter_options.h"
+#include "app/cli/usage_error.h"
+#include "app/cli/verbs.h"
+#include "app/session/load_scene.h"
+#include "engine/disparity/registry.h"
+#include "engine/io/result_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string method;
+  std::string input;
+  std::string output;
+  std::string views;
+  std::string device = "auto";
+  bool is_json = false;
+  JobOptions job;
+  ReadOptions read;
+};
+
+const Estimator* find(const std::vector<Estimator>& estimators, const std::string& id) {
+  const auto found = std::find_if(estimators.begin(), estimators.end(),
+                                  [&](const Estimator& each) { return each.info.id == id; });
+  return found == estimators.end() ? nullptr : &*found;
+}
+
+/// The method must be known before its options can be: the first argument that names one.
+const Estimator* method_among(const VerbArguments& arguments,
+                              const std::vector<Estimator>& estimators) {
+  for (const auto& argument : arguments) {
+    if (const Estimator* estimator = find(estimators, argument)) return estimator;
+  }
+  return nullptr;
+}
+
+/// Without a known method its options cannot be judged: says so first.
+void require_method(const VerbArguments& arguments, const std::vector<Estimator>& estimators) {
+  const auto asks_for_help = [](const std::string& each) {
+    return each == "-h" || each == "--help";
+  };
+  if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) return;
+  const auto name = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& each) { return !each.starts_with("-"); });
+  if (name == arguments.end()) return;
+  std::vector<std::string> ids;
+  for (const auto& estimator : estimators) ids.push_back(estimator.info.id);
+  throw unknown_name("method", *name, ids);
+}
+
+bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& request,
+           ParameterOptions& parameters) {
+  Arguments parser("estimate",
+                   {"Estimates disparity and writes a result file. METHOD is an id as in\n"
+                    "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
+                    "parameters.",
+                    "episcope-cli estimate epi_l demo -o demo.h5 --views center"});
+  parser.positional("METHOD", request.method, "Id of the estimator");
+  parser.positional("INPUT", request.input, "The light field");
+  parser.required_option("-o,--output", request.output, "OUT.h5", "Result file to write");
+  parser.choice("--views", request.views, {"center", "all"},
+                "Views to estimate; by default all, if the method can");
+  parser.choice("--device", request.device, {"auto", "cpu", "cuda"}, "Where to compute");
+  parser.flag("--json", request.is_json, "One JSON object instead of a line");
+  declare_job_options(parser, request.job);
+  declare_read_options(parser, request.read);
+  if (estimator) parameters.declare(parser, *estimator);
+  return parser.parse(arguments);
+}
+
+ViewSelection selected_views(const Request& request, const Estimator& estimator) {
+  if (request.views == "center") return ViewSelection::Center;
+  if (estimator.info.all_views) return ViewSelection::All;
+  if (request.views.empty()) return ViewSelection::Center;
+  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center");
+}
+
+/// What opens the light field again from any folder.
+std::string lasting_source(const std::string& input) {
+  if (!builtin_scene_id(input).empty()) return input;
+  return std::filesystem::weakly_canonical(input).string();
+}
+
+void print_answer(const Request& request, const Estimate& estimate) {
+  const bool is_one_view = estimate.field.disparity.grid().count() == 1;
+  if (!request.is_json) {
+    std::printf("%s: %s of %s in %.2f s, disparity %.3f … %.3f px, %.0f MiB at most\n",
+                request.output.c_str(), estimate.method.c_str(),
+                is_one_view ? "the centre view" : "all views", estimate.seconds, estimate.range.min,
+                estimate.range.max, peak_memory_mib());
+    std::fflush(stdout);
+    return;
+  }
+  Json json;
+  json["method"] = estimate.method;
+  json["views"] = is_one_view ? "center" : "all";
+  json["seconds"] = estimate.seconds;
+  json["peak_mib"] = peak_memory_mib();
+  json["parameters"] = Json::object();
+  for (const auto& [key, value] : estimate.parameters) json["parameters"][key] = value_json(value);
+  json["range"] = interval_json(estimate.range);
+  if (!estimate.notes.empty()) json["notes"] = estimate.notes;
+  json["output"] = request.output;
+  print_json(json);
+}
+
+}  // namespace
+
+void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
+  const std::vector<Estimator> estimators = registered_estimators();
+  const Estimator* estimator = method_among(arguments, estimators);
+  if (!estimator) require_method(arguments, estimators);
+  Request request;
+  ParameterOptions parameters;
+  if (!parse(arguments, estimator, request, parameters)) return;
+  if (!estimator || request.method != estimator->info.id) {
+    // Another argument, like the name of the output, is an id as well.
+    estimator = find(estimators, request.method);
+    if (!estimator) require_method({request.method}, estimators);
+    parameters = {};
+    request = {};
+    if (!parse(arguments, estimator, request, parameters)) return;
+  }
+  const ParameterSet values = parameters.values(*estimator);
+  const ViewSelection views = selected_views(request, *estimator);
+  if (request.device == "cuda") {
+    throw Unavailable("this build computes on the CPU only; use --device cpu or auto");
+  }
+  check_output_file(request.output);
+
+  Job job(std::move(stop), request.job);
+  const Progress& progress = job.progress();
+  const Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  Estimate estimate = estimator->run(*scene.light_field, values, views, progress.part(0.3, 0.9));
+  estimate.source = lasting_source(request.input);
+  estimate.source_hash = scene.light_field->sample_hash();
+  progress.check();
+  progress.step("writing " + request.output);
+  io::write_result(request.output, estimate, progress.part(0.9, 1));
+  for (const auto& note : estimate.notes) job.note(note);
+  job.finish();
+  print_answer(request, estimate);
+}
+
+}  // namespace episcope::cli

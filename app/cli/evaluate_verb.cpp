@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/json.h"
+#include "app/cli/judgement.h"
+#include "app/cli/pictures.h"
+#include "app/cli/table.h"
+#include "app/cli/usage_error.h"
+#include "app/cli/verbs.h"
+#include "engine/io/image_file.h"
+#include "engine/io/result_file.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+#include <set>
+#include <sstream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::vector<std::string> files;
+  std::string truth;
+  std::string protocol = "vmv2013";
+  std::string invalid = "bad";
+  std::string error_map;
+  bool is_json = false;
+  bool is_csv = false;
+  bool is_latex = false;
+  JobOptions job;
+  ReadOptions read;
+};
+
+/// One judged result.
+struct Row {
+  std::string file;
+  std::string method;
+  double seconds = 0;
+  bool has_all_views = false;
+  Metrics metrics;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("evaluate", {"Judges results against the truth of a light field.",
+                                "episcope-cli evaluate demo.h5 --truth demo --protocol "
+                                "benchmark2016 --error-map error.png"});
+  parser.positionals("RESULT", request.files,
+                     "Result files, HDF5 files with one map, PFM, TIFF, submission folders");
+  parser.required_option("--truth", request.truth, "INPUT", "The light field with its truth");
+  parser.choice("--protocol", request.protocol, {"vmv2013", "benchmark2016"},
+                "Metrics of the 2013 paper or of the 2016 benchmark");
+  parser.choice("--invalid", request.invalid, {"bad", "compatible"},
+                "Missing values count as bad, or as the 2016 tool counts them");
+  parser.flag("--json", request.is_json, "One JSON object");
+  parser.flag("--csv", request.is_csv, "A table of comma-separated values");
+  parser.flag("--latex", request.is_latex, "A LaTeX tabular");
+  parser.option("--error-map", request.error_map, "OUT.png",
+                "Picture of truth − estimate; with several results one for each");
+  declare_job_options(parser, request.job);
+  declare_read_options(parser, request.read);
+  if (!parser.parse(arguments)) return false;
+  if (request.is_json + request.is_csv + request.is_latex > 1) {
+    throw UsageError("evaluate: --json, --csv and --latex exclude each other");
+  }
+  return true;
+}
+
+/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat.
+std::vector<std::filesystem::path> error_map_paths(const Request& request) {
+  const std::filesystem::path path = request.error_map;
+  if (request.files.size() == 1) return {path};
+  std::vector<std::filesystem::path> paths;
+  std::set<std::string> taken;
+  for (const auto& file : request.files) {
+    const std::filesystem::path result = std::filesystem::path(file).lexically_normal();
+    const std::string stem =
+        (result.has_filename() ? result.stem() : result.parent_path().stem()).string();
+    std::string name = path.stem().string() + "-" + stem;
+    for (int copy = 2; !taken.insert(name).second; ++copy) {
+      name = path.stem().string() + "-" + stem + "-" + std::to_string(copy);
+    }
+    paths.push_back(path.parent_path() / (name + path.extension().string()));
+  }
+  return paths;
+}
+
+Json results_json(const Request& request, const std::vector<Row>& rows, ViewIndex view) {
+  Json json;
+  json["protocol"] = request.protocol;
+  json["truth"] = request.truth;
+  json["view"] = {view.v, view.u};
+  json["results"] = Json::array();
+  for (const Row& row : rows) {
+    Json result;
+    result["file"] = row.file;
+    result["method"] = row.method;
+    for (const auto& [key, value] : row.metrics) result[key] = value;
+    if (row.seconds > 0) {
+      result["seconds"] = row.seconds;
+      if (request.protocol == "vmv2013") result["runtime_class"] = runtime_class(row.seconds);
+    }
+    result["all_views"] = row.has_all_views;
+    json["results"].push_back(result);
+  }
+  return json;
+}
+
+/// Keys of all rows, in the order of their first appearance.
+std::vector<std::string> metric_keys(const std::vector<Row>& rows) {
+  std::vector<std::string> keys;
+  for (const Row& row : rows) {
+    for (const auto& [key, value] : row.metrics) {
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+    }
+  }
+  return keys;
+}
+
+std::string number_text(double value, int digits) {
+  std::ostringstream text;
+  text << std::fixed << std::setprecision(digits) << value;
+  return text.str();
+}
+
+Table results_table(const Request& request, const std::vector<Row>& rows) {
+  constexpr int exact_digits = 6;
+  const int digits = request.is_csv ? exact_digits : 3;
+  const auto keys = metric_keys(rows);
+  Table table{{"file", "method"}, {}};
+  table.header.insert(table.header.end(), keys.begin(), keys.end());
+  table.header.emplace_back("seconds");
+  for (const Row& row : rows) {
+    std::vector<std::string> cells{row.file, row.method};
+    for (const auto& key : keys) {
+      const auto value = find_metric(row.metrics, key);
+      cells.push_back(value ? number_text(*value, digits) : "");
+    }
+    cells.push_back(row.seconds > 0 ? number_text(row.seconds, digits) : "");
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+/// The table for people stands on its side: a metric a line, a result a column.
+Table turned(const Table& table) {
+  Table result;
+  for (std::size_t column = 0; column < table.header.size(); ++column) {
+    std::vector<std::string> cells{table.header[column]};
+    for (const auto& row : table.rows) cells.push_back(row[column]);
+    if (column == 0) {
+      result.header = std::move(cells);
+    } else {
+      result.rows.push_back(std::move(cells));
+    }
+  }
+  return result;
+}
+
+void print_answer(const Request& request, const std::vector<Row>& rows, ViewIndex view) {
+  if (request.is_json) return print_json(results_json(request, rows, view));
+  const Table table = results_table(request, rows);
+  if (request.is_csv) {
+    std::cout << table_to_csv(table);
+  } else if (request.is_latex) {
+    std::cout << table_to_latex(table);
+  } else {
+    std::cout << request.protocol << " against " << request.truth << ", view " << view_text(view)
+              << "\n\n"
+              << table_to_text(turned(table));
+  }
+}
+
+}  // namespace
+
+void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  const EvaluationOptions options{
+      parse_protocol(request.protocol),
+      request.invalid == "bad" ? InvalidEstimates::Bad : InvalidEstimates::Compatible,
+      {}};
+  const auto maps = error_map_paths(request);
+  if (!request.error_map.empty()) {
+    for (const auto& map : maps) check_output_file(map);
+  }
+
+  std::vector<Row> rows;
+  ViewIndex view;
+  Job job(std::move(stop), request.job);
+  const Scene scene = load_input(request.truth, request.read, job.progress().part(0, 0.8));
+  const LightField& light_field = *scene.light_field;
+  for (std::size_t i = 0; i < request.files.size(); ++i) {
+    const std::string& file = request.files[i];
+    job.progress().check();
+    job.progress().step("judging " + file);
+    const Estimate estimate = io::read_result(file, light_field.grid(), light_field.info().name);
+    note_other_source(estimate, light_field, job);
+    Judgement judgement;
+    try {
+      judgement = judge(estimate, scene, options);
+    } catch (const InvalidInput& error) {
+      throw IoError(file, error.what());
+    }
+    view = judgement.view;
+    rows.push_back({file, estimate.method, estimate.seconds,
+                    estimate.field.disparity.grid() == light_field.grid(),
+                    judgement.evaluation.metrics});
+    if (!request.error_map.empty()) {
+      io::write_png(maps[i], error_picture(judgement.evaluation, {}).view());
+    }
+    job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
+  }
+  job.finish();
+  print_answer(request, rows, view);
+}
+
+}  // namespace episcope::cli

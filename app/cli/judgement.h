@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/scene.h"
+#include "engine/evaluation/metrics.h"
+
+#include <optional>
+#include <string>
+
+namespace episcope::cli {
+
+/// The error of a result in one view. Of a result in two layers against a truth in two layers, keys
+/// begin with "foreground_" and "background_", and the maps are those of the foreground.
+struct Judgement {
+  ViewIndex view;
+  Evaluation evaluation;
+};
+
+/// Judges `view`; if it is empty, the centre view or the one that the truth covers. Region masks
+/// count in the centre view only. Throws InvalidInput if scene or result lacks what is compared.
+[[nodiscard]] Judgement judge(const Estimate& estimate, const Scene& scene,
+                              EvaluationOptions options, std::optional<ViewIndex> view = {});
+
+}  // namespace episcope::cli

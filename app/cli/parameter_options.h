@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/estimator.h"
+
+#include <map>
+#include <string>
+
+namespace episcope::cli {
+
+class Arguments;
+
+/// Options of an estimator, generated from its schema: `--<key> VALUE`.
+class ParameterOptions {
+ public:
+  void declare(Arguments& arguments, const Estimator& estimator);
+  /// Values of the options that were given. Throws UsageError for one outside its domain.
+  [[nodiscard]] ParameterSet values(const Estimator& estimator) const;
+
+ private:
+  std::map<std::string, std::string> texts_;  // by key; empty = not given
+};
+
+/// Whether `min` and `max` of a parameter say something.
+[[nodiscard]] bool has_numeric_domain(const ParameterDescription& parameter);
+
+/// "0.1 … 4 px", "auto or A,B from -8 to 8 px", "a|b|c", "true|false".
+[[nodiscard]] std::string domain_text(const ParameterDescription& parameter);
+
+}  // namespace episcope::cli

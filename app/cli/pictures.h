@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/estimate.h"
+#include "engine/core/scene.h"
+#include "engine/evaluation/metrics.h"
+
+#include <optional>
+#include <string>
+
+namespace episcope::cli {
+
+/// What to show, where it is not the usual: the centre view, the middle row, the quantity's own
+/// range and colour map.
+struct PictureOptions {
+  std::optional<ViewIndex> view;
+  std::optional<int> row;
+  std::optional<int> column;
+  std::optional<Interval> range;
+  std::string color_map;
+  int label = 1;  ///< For probabilities: which label, from 1.
+};
+
+using Picture = Image<std::uint8_t>;
+
+/// RGBA pictures by engine/render, as the window shows them. All throw InvalidInput if the view,
+/// row, column, label or the thing itself does not exist; the message begins with the light field.
+[[nodiscard]] Picture view_picture(const Scene& scene, const PictureOptions& options);
+/// Every row of the EPI is `kEpiRowHeight` pixels high. A vertical EPI stands upright: y downwards,
+/// v to the right.
+[[nodiscard]] Picture epi_picture(const Scene& scene, const PictureOptions& options);
+[[nodiscard]] Picture truth_picture(const Scene& scene, const PictureOptions& options);
+[[nodiscard]] Picture labels_picture(const Scene& scene, const PictureOptions& options);
+[[nodiscard]] Picture probability_picture(const Scene& scene, const PictureOptions& options);
+inline constexpr int kEpiRowHeight = 8;
+
+/// `scene` may be null: the range is then that of the estimate.
+[[nodiscard]] Picture disparity_picture(const Estimate& estimate, const Scene* scene,
+                                        const PictureOptions& options);
+[[nodiscard]] Picture confidence_picture(const Estimate& estimate, const PictureOptions& options);
+/// truth − estimate; pixels that are not judged or missing have the map's own colour.
+[[nodiscard]] Picture error_picture(const Evaluation& evaluation, const PictureOptions& options);
+
+}  // namespace episcope::cli
