@@ -145,7 +145,11 @@ ArchiveLabels read_labels_beside(const Hdf5Input& file, const FieldShape& shape,
   }
   const std::filesystem::path beside = file.path().parent_path() / "labels.h5";
   if (!std::filesystem::exists(beside)) return {};
-  return read_archive_labels(Hdf5Input(beside), shape, report, progress);
+  const Hdf5Input labels(beside);
+  // Where several light fields share a folder, labels that we wrote name theirs.
+  const auto owner = labels.text("/", "light_field");
+  if (owner && *owner != file.path().filename().string()) return {};
+  return read_archive_labels(labels, shape, report, progress);
 }
 
 }  // namespace

@@ -34,8 +34,8 @@ class Descriptor {
 std::string temporary_name(const fs::path& target) {
   static std::atomic<unsigned> next{0};
   std::string name = target.filename().string().substr(0, 200);
-  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" +
-         std::to_string(next++) + ".part";
+  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" + std::to_string(next++) +
+         ".part";
 }
 
 fs::path folder_of(const fs::path& target) {

@@ -6,8 +6,9 @@
 
 namespace episcope::io {
 
-/// Short name of a scene for lists and titles: the folder's name for a folder and for lf.h5, else the
-/// file's name without suffix; a folder of views called "lf" goes by the folder that it lies in.
+/// Short name of a scene for lists and titles: the folder's name for a folder and for lf.h5, else
+/// the file's name without suffix; a folder of views called "lf" goes by the folder that it lies
+/// in.
 [[nodiscard]] inline std::string scene_name(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::path whole = std::filesystem::absolute(path, error).lexically_normal();
