@@ -31,16 +31,20 @@ void set_color(float (&side)[3], const std::array<float, 3>& color) {
 
 void add_room(StillLife& scene) {
   const Place front{0, 0, 0.6};
-  Texture wood = scene.noise_at(front, 21, {0.62F, 0.43F, 0.27F}, 0.20F);
+  Texture wood = scene.noise_at(front, 21, {0.58F, 0.40F, 0.26F}, 0.42F);
   wood.is_solid = false;
-  set_color(wood.color[1], {0.78F, 0.58F, 0.38F});
-  scene.add_pattern(wood, Pattern::Stripes, front, 0.9, {Vector3{0.35, 1, 0}, Vector3{}});
-  wood.pattern_warp = 0.35F;
+  wood.stretch[0] = 3;  // The grain runs from left to right.
+  wood.stretch[1] = 1.5;
+  set_color(wood.color[1], {0.74F, 0.54F, 0.35F});
+  scene.add_pattern(wood, Pattern::Stripes, front, 1.0, {Vector3{0.12, 1, 0}, Vector3{}});
+  wood.pattern_warp = 0.14F;
   scene.table(wood, kTable);
 
   const Place back{0, 1, kWallZ};
-  Texture plaster = scene.noise_at(back, 22, {0.50F, 0.58F, 0.62F}, 0.22F);
+  Texture plaster = scene.noise_at(back, 22, {0.46F, 0.55F, 0.60F}, 0.32F);
   plaster.is_solid = false;
+  plaster.stretch[0] = 1.2;
+  plaster.stretch[1] = 1.4;
   set_color(plaster.color[1], {0.58F, 0.66F, 0.68F});
   scene.add_pattern(plaster, Pattern::Stripes, back, 0.8, {Vector3{1, 0, 0}, Vector3{}});
   scene.wall(kWallZ, plaster, kWall);
@@ -60,8 +64,8 @@ void add_vase(StillLife& scene) {
   const Place foot{-1.75, 0, 3.6};
   Texture ceramic = scene.noise_at(foot, 31, {0.86F, 0.87F, 0.88F}, 0.22F);
   set_color(ceramic.color[1], {0.16F, 0.30F, 0.58F});
-  scene.add_pattern(ceramic, Pattern::Stripes, foot, 0.5, {Vector3{0, 1, 0}, Vector3{}});
-  ceramic.pattern_warp = 0.3F;
+  scene.add_pattern(ceramic, Pattern::Stripes, foot, 0.42, {Vector3{0, 1, 0}, Vector3{}});
+  ceramic.pattern_warp = 0.14F;
   ceramic.gloss = 0.35F;
   const int texture = scene.model().add(ceramic);
   scene.turned(foot, 1.5, {0.42, 0.78, 0.38}, texture, kVase);
@@ -130,11 +134,11 @@ void add_solids(StillLife& scene) {
   set_color(tin.color[1], {0.88F, 0.84F, 0.70F});
   scene.add_pattern(tin, Pattern::Stripes, can, 0.6, {Vector3{0, 1, 0}, Vector3{}});
   tin.gloss = 0.25F;
-  const int tin_texture = scene.model().add(tin);
-  scene.turned(can, 0.95, {0.45, 0.45, 0.45}, tin_texture, kCan);
+  scene.turned(can, 0.95, {0.45, 0.45, 0.45}, scene.model().add(tin), kCan);
   Place lid = can;
   lid.y = 0.95;
-  scene.disc(lid, 0.45, tin_texture, kCan);
+  const Texture tin_lid = scene.noise_at(lid, 54, {0.80F, 0.80F, 0.76F}, 0.30F);
+  scene.disc(lid, 0.45, scene.model().add(tin_lid), kCan);
   scene.occluder({can.x, 0.35, can.z}, 0.45, kCan);
   scene.occluder({can.x, 0.7, can.z}, 0.42, kCan);
 }

@@ -22,6 +22,7 @@ enum class Pattern { Plain, Stripes, Checker, Rings };
 /// and a soft pattern between two colours.
 struct Texture {
   double spacing[3] = {1, 1, 1};  ///< Lattice spacing of each octave, finest first.
+  double stretch[3] = {1, 1, 1};  ///< Factors by which the noise is longer along x, y, z.
   unsigned seed = 0;
   bool is_solid = false;  ///< Noise in x, y, z of the object, else in x, y.
   /// An octave vanishes where its spacing falls below 3.5 px as seen from the centre view, so that

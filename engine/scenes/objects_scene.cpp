@@ -11,6 +11,8 @@ Model objects_scene(const Stage& stage) {
 
   Texture ground = scene.noise_at({0, 0, 0}, 11, {0.56F, 0.50F, 0.42F}, 0.5F);
   ground.is_solid = false;
+  ground.stretch[0] = 1.4;
+  ground.stretch[1] = 1.8;  // It is seen at a slant.
   scene.table(ground, kGround);
 
   const Place ball{-1.1, 1.0, 2.0};

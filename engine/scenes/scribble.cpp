@@ -2,7 +2,9 @@
 #include "engine/scenes/scribble.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <vector>
 
 namespace episcope::scenes {
 namespace {
@@ -14,22 +16,33 @@ struct Run {
   int length = 0;
 };
 
-using RunByLabel = std::map<std::int32_t, Run>;
+using RunsByLabel = std::map<std::int32_t, std::vector<Run>>;
 
-// `at(line, i)` is the label at place `i` of a line.
+// The longest run of every label in each line; `at(line, i)` is the label at place `i` of a line.
 template <class At>
-RunByLabel longest_runs(int lines, int length, const At& at) {
-  RunByLabel longest;
+RunsByLabel longest_runs(int lines, int length, const At& at) {
+  RunsByLabel runs;
   for (int line = 0; line < lines; ++line) {
     for (int begin = 0; begin < length;) {
       int end = begin + 1;
       while (end < length && at(line, end) == at(line, begin)) ++end;
-      Run& best = longest[at(line, begin)];
-      if (end - begin > best.length) best = {line, begin, end - begin};
+      auto& found = runs[at(line, begin)];
+      if (found.empty() || found.back().line != line) found.push_back({line, begin, 0});
+      if (end - begin > found.back().length) found.back() = {line, begin, end - begin};
       begin = end;
     }
   }
-  return longest;
+  return runs;
+}
+
+// The middle one of the long runs: long, and clear of the outline.
+Run middle_run(const std::vector<Run>& runs) {
+  const auto shorter = [](const Run& a, const Run& b) { return a.length < b.length; };
+  const int longest = std::max_element(runs.begin(), runs.end(), shorter)->length;
+  std::vector<Run> is_long;
+  std::copy_if(runs.begin(), runs.end(), std::back_inserter(is_long),
+               [longest](const Run& run) { return run.length >= longest * 3 / 4; });
+  return is_long[is_long.size() / 2];
 }
 
 // Calls `paint(line, i)` for the middle half of the run, `thickness` lines wide.
@@ -57,11 +70,11 @@ Image<std::int32_t> scribble(ImageView<const std::int32_t> labels) {
       longest_runs(labels.width, labels.height, [&](int x, int y) { return labels.at(y, x); });
   for (const auto& entry : rows) {
     const std::int32_t label = entry.first;
-    stroke(entry.second, thickness, [&](int y, int x) { paint(y, x, label); });
+    stroke(middle_run(entry.second), thickness, [&](int y, int x) { paint(y, x, label); });
   }
   for (const auto& entry : columns) {
     const std::int32_t label = entry.first;
-    stroke(entry.second, thickness, [&](int x, int y) { paint(y, x, label); });
+    stroke(middle_run(entry.second), thickness, [&](int x, int y) { paint(y, x, label); });
   }
   return painted;
 }

@@ -80,18 +80,20 @@ inline Floats projected_unit(const SurfacePoints& points, double focal_px) {
 }
 
 inline Floats octave(const Texture& texture, const Floats* p, int index) {
-  // Each octave has its lattice turned against the others (3-4-5 triangles, exact rotations), so
-  // that lattice points, where the noise is flat, do not fall together.
-  static constexpr float kTurn[3][2] = {{1.0F, 0.0F}, {0.8F, 0.6F}, {0.28F, 0.96F}};
+  // Each octave has its lattice turned against the others and against the picture (3-4-5 triangles,
+  // exact rotations), so that lattice points, where the noise is flat, do not fall together.
+  static constexpr float kTurn[3][2] = {{0.8F, 0.6F}, {0.28F, 0.96F}, {0.96F, -0.28F}};
   const float c = kTurn[index][0];
   const float s = kTurn[index][1];
-  const auto scale = static_cast<float>(1 / texture.spacing[index]);
+  Floats q[3];
+  for (int i = 0; i < 3; ++i) {
+    q[i] = p[i] * static_cast<float>(1 / (texture.spacing[index] * texture.stretch[i]));
+  }
   const unsigned seed = texture.seed * 0x27D4EB2FU + static_cast<unsigned>(index) * 0x165667B1U;
-  const Floats x = (p[0] * c - p[1] * s) * scale;
-  const Floats y = (p[0] * s + p[1] * c) * scale;
-  if (!texture.is_solid) return noise(x + 0.37F, y + 0.61F, seed);
-  const Floats z = p[2] * scale;
-  return noise(x + 0.37F, y * c - z * s, y * s + z * c, seed);
+  const Floats x = q[0] * c - q[1] * s + 0.37F;
+  const Floats y = q[0] * s + q[1] * c + 0.61F;
+  if (!texture.is_solid) return noise(x, y, seed);
+  return noise(x, y * c - q[2] * s, y * s + q[2] * c, seed);
 }
 
 /// 0 … 1 … 0 over one period of `phase`, with softened steps.
@@ -101,18 +103,53 @@ inline Floats wave(const Floats& phase, float sharpness) {
   return smooth(clamp_unit((triangle - 0.5F) * sharpness + 0.5F));
 }
 
-inline Floats pattern_value(const Texture& texture, const Floats* p, const Floats& bend) {
-  if (texture.pattern == Pattern::Plain) return Floats(0.0F);
-  const Floats a = dot(texture.pattern_axis[0], p);
-  const Floats warp = bend * texture.pattern_warp;
-  if (texture.pattern == Pattern::Stripes) return wave(a + warp, texture.pattern_sharpness);
-  const Floats b = dot(texture.pattern_axis[1], p);
-  if (texture.pattern == Pattern::Rings) {
-    return wave(root(a * a + b * b) + warp, texture.pattern_sharpness);
+/// Length in pixels of the centre view over which the pattern steps along one of its axes.
+inline Floats step_length_px(const Texture& texture, int axis, const SurfacePoints& points,
+                             double focal_px) {
+  // Image gradient of a·p on a surface of normal n seen along e: a − n (a·e)/(n·e).
+  const double* a = texture.pattern_axis[axis];
+  const auto size = static_cast<float>(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  const Floats ratio = dot(a, points.from_center_view) /
+                       minimum(dot(points.normal, points.from_center_view), Floats(-1e-6F));
+  Floats gradient[3];
+  for (int i = 0; i < 3; ++i) {
+    gradient[i] = Floats(static_cast<float>(a[i])) - points.normal[i] * ratio;
   }
-  const Floats s = wave(a + warp, texture.pattern_sharpness);
-  const Floats t = wave(b + warp, texture.pattern_sharpness);
-  return s + t - 2.0F * s * t;
+  const Floats share = root(dot(gradient, gradient) / size);
+  return Floats(static_cast<float>(texture.pattern_step * focal_px)) /
+         maximum(share * points.depth, Floats(1e-6F));
+}
+
+/// The wave along one axis, fading to its mean where it would not be resolved.
+inline Floats axis_wave(const Texture& texture, int axis, const SurfacePoints& points,
+                        const Floats& warp, double focal_px) {
+  const Floats plain =
+      wave(dot(texture.pattern_axis[axis], points.position) + warp, texture.pattern_sharpness);
+  if (!texture.fades) return plain;
+  const Floats resolved = step_length_px(texture, axis, points, focal_px) - 1.5F;
+  return (plain - 0.5F) * smooth(clamp_unit(resolved)) + 0.5F;
+}
+
+/// Share of the second colour.
+inline Floats pattern_value(const Texture& texture, const SurfacePoints& points, const Floats& bend,
+                            double focal_px) {
+  const Floats warp = bend * texture.pattern_warp;
+  switch (texture.pattern) {
+    case Pattern::Plain:
+      return Floats(0.0F);
+    case Pattern::Stripes:
+      return axis_wave(texture, 0, points, warp, focal_px);
+    case Pattern::Checker: {
+      const Floats s = axis_wave(texture, 0, points, warp, focal_px);
+      const Floats t = axis_wave(texture, 1, points, warp, focal_px);
+      return s + t - 2.0F * s * t;
+    }
+    case Pattern::Rings:
+      break;
+  }
+  const Floats a = dot(texture.pattern_axis[0], points.position);
+  const Floats b = dot(texture.pattern_axis[1], points.position);
+  return wave(root(a * a + b * b) + warp, texture.pattern_sharpness);
 }
 
 /// Colour of every point, without light.
@@ -120,7 +157,12 @@ inline void albedo(const Texture& texture, const SurfacePoints& points, double f
                    Floats* rgb) {
   Floats octaves[3];
   Floats unit(0.0F);
-  if (texture.fades) unit = projected_unit(points, focal_px);
+  if (texture.fades) {
+    const double* stretch = texture.stretch;
+    double least = stretch[0] < stretch[1] ? stretch[0] : stretch[1];
+    if (texture.is_solid && stretch[2] < least) least = stretch[2];
+    unit = projected_unit(points, focal_px) * static_cast<float>(least);
+  }
   for (int o = 0; o < 3; ++o) {
     if (texture.gain[o][0] == 0 && texture.gain[o][1] == 0 && texture.gain[o][2] == 0) {
       octaves[o] = Floats(0.0F);
@@ -132,11 +174,7 @@ inline void albedo(const Texture& texture, const SurfacePoints& points, double f
       octaves[o] = octaves[o] * smooth(clamp_unit(spacing_px - 3.5F));
     }
   }
-  Floats pattern = pattern_value(texture, points.position, octaves[2]);
-  if (texture.fades && texture.pattern != Pattern::Plain) {
-    const Floats step_px = unit * static_cast<float>(texture.pattern_step);
-    pattern = (pattern - 0.5F) * smooth(clamp_unit(step_px - 1.5F)) + 0.5F;
-  }
+  const Floats pattern = pattern_value(texture, points, octaves[2], focal_px);
   for (int c = 0; c < 3; ++c) {
     rgb[c] = Floats(texture.color[0][c]) + pattern * (texture.color[1][c] - texture.color[0][c]);
     for (int o = 0; o < 3; ++o) rgb[c] = rgb[c] + octaves[o] * texture.gain[o][c];
