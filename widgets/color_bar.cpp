@@ -74,8 +74,6 @@ ColorBar::ColorBar(QWidget* parent)
   ends->setSpacing(theme::kSpacing);
   ends->addWidget(min_);
   ends->addStretch(1);
-  ends->addWidget(invalid_);
-  ends->addStretch(1);
   ends->addWidget(max_);
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
@@ -83,6 +81,7 @@ ColorBar::ColorBar(QWidget* parent)
   layout->addLayout(head, 0, 0);
   layout->addWidget(ramp_, 1, 0);
   layout->addLayout(ends, 2, 0);
+  layout->addWidget(invalid_, 3, 0, Qt::AlignLeft);
 
   connect(min_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
   connect(max_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);

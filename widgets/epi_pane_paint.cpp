@@ -6,16 +6,32 @@
 #include <QPaintEvent>
 #include <QPainter>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace episcope {
 namespace {
 
-void draw_slope(QPainter& painter, const QLineF& line, const QColor& color, Qt::PenStyle style) {
-  painter.setPen(QPen(QColor(0, 0, 0, 150), 4, Qt::SolidLine, Qt::FlatCap));
-  painter.drawLine(line);
-  painter.setPen(QPen(color, 2, style, Qt::FlatCap));
-  painter.drawLine(line);
+struct Slope {
+  QLineF line;
+  QColor color;
+  Qt::PenStyle style;
+};
+
+/// Halos first, so that none hides a line: estimate and truth often lie upon each other.
+void draw_slopes(QPainter& painter, const std::vector<Slope>& slopes) {
+  painter.setRenderHint(QPainter::Antialiasing);
+  for (const auto& slope : slopes) {
+    painter.setPen(QPen(QColor(0, 0, 0, 130), 4.5, Qt::SolidLine, Qt::FlatCap));
+    painter.drawLine(slope.line);
+  }
+  for (const auto& slope : slopes) {
+    const double width = slope.style == Qt::SolidLine ? 2.5 : 2;
+    painter.setPen(QPen(slope.color, width, slope.style, Qt::FlatCap));
+    painter.drawLine(slope.line);
+  }
+  painter.setRenderHint(QPainter::Antialiasing, false);
 }
 
 QString disparity_text(double disparity_px) {
@@ -84,19 +100,20 @@ void EpiPane::paintLines(QPainter& painter) const {
     painter.setPen(QPen(faint, 1));
     painter.drawLine(through_view);
   }
-  painter.setRenderHint(QPainter::Antialiasing);
+  std::vector<Slope> slopes;
   if (cross_pixel_ && truth_px_) {
-    draw_slope(painter, slopeLine(*truth_px_), theme::kTruth, Qt::SolidLine);
+    slopes.push_back({slopeLine(*truth_px_), theme::kTruth, Qt::SolidLine});
   }
   if (cross_pixel_ && estimate_px_) {
-    draw_slope(painter, slopeLine(*estimate_px_), theme::kEstimate, Qt::DashLine);
+    slopes.push_back({slopeLine(*estimate_px_), theme::kEstimate, Qt::DashLine});
   }
   if (drawn_) {
-    const QLineF line(positionOf(drawn_->x1(), drawn_->y1()),
-                      positionOf(drawn_->x2(), drawn_->y2()));
-    draw_slope(painter, line, theme::kMeasured, Qt::SolidLine);
+    slopes.push_back(
+        {{positionOf(drawn_->x1(), drawn_->y1()), positionOf(drawn_->x2(), drawn_->y2())},
+         theme::kMeasured,
+         Qt::SolidLine});
   }
-  painter.setRenderHint(QPainter::Antialiasing, false);
+  draw_slopes(painter, slopes);
 }
 
 void EpiPane::paintLabels(QPainter& painter) const {

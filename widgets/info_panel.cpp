@@ -48,6 +48,7 @@ InfoPanel::InfoPanel(QWidget* parent)
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setWidgetResizable(true);
   scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->viewport()->setAutoFillBackground(false);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
@@ -102,6 +103,7 @@ void InfoPanel::rebuild() {
   }
   grid->setRowStretch(line, 1);
   scroll_->setWidget(body);  // Deletes the body before.
+  body->setAutoFillBackground(false);
 }
 
 }  // namespace episcope

@@ -65,6 +65,9 @@ MethodPanel::MethodPanel(QWidget* parent)
   sheet_layout->addWidget(form_);
   sheet_layout->addStretch(1);
   scroll->setWidget(sheet);
+  // The tab shines through.
+  scroll->viewport()->setAutoFillBackground(false);
+  sheet->setAutoFillBackground(false);
 
   auto* buttons = new QGridLayout;
   buttons->setSpacing(theme::kSpacing);

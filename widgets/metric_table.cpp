@@ -147,6 +147,7 @@ void MetricTable::setTable(const std::vector<MetricColumn>& columns,
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto* header = new QTableWidgetItem(columns[i].label);
     header->setToolTip(columns[i].help);
+    header->setTextAlignment((i == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     table_->setHorizontalHeaderItem(static_cast<int>(i), header);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) fillRow(static_cast<int>(i), rows[i]);

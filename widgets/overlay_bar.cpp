@@ -103,6 +103,12 @@ OverlayBar::OverlayBar(QWidget* parent)
   layout->addWidget(focus_slider_, 1);
   layout->addWidget(focus_spin_);
   layout->addWidget(reset);
+  layout->addStretch();
+  for (auto* label : findChildren<QLabel*>()) {
+    label->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+  }
+  quantity_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+  focus_spin_->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
 
   setOpacity(0.7);
   setFocusRange({-2, 2});

@@ -12,6 +12,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkInteractorStyleTrackballCamera.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkOpenGLState.h>
 #include <vtkPointData.h>
@@ -31,6 +32,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace episcope {
 
@@ -88,6 +91,7 @@ class PointCloudView::Scene {
   }
 
   void paint() {
+    if (wanted_look_) applyLook();
     auto* state = window_->GetState();
     state->Reset();
     state->Push();
@@ -109,7 +113,8 @@ class PointCloudView::Scene {
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(points_->GetNumberOfPoints());
   }
-  void look(double azimuth, double elevation);
+  /// Takes effect with the next frame, when the size of the window is known.
+  void look(double azimuth, double elevation) { wanted_look_ = {azimuth, elevation}; }
   void handle(const QMouseEvent& event, unsigned long vtk_event);
   void handle(const QWheelEvent& event);
 
@@ -140,8 +145,11 @@ class PointCloudView::Scene {
   void tellCurrent(void* data) { *static_cast<bool*>(data) = isCurrent(); }
   void tellSupported(void* data) { *static_cast<int*>(data) = 1; }
   void askForFrame(void*) { view_.update(); }
+  void applyLook();
+  void fillWindow();
 
   PointCloudView& view_;
+  std::optional<std::pair<double, double>> wanted_look_;  ///< Azimuth, elevation in degrees.
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkGenericRenderWindowInteractor> interactor_;
@@ -178,7 +186,8 @@ void PointCloudView::Scene::setCloud(const PointCloud& cloud) {
   renderer_->ResetCameraClippingRange();
 }
 
-void PointCloudView::Scene::look(double azimuth, double elevation) {
+void PointCloudView::Scene::applyLook() {
+  const auto [azimuth, elevation] = *std::exchange(wanted_look_, std::nullopt);
   auto* camera = renderer_->GetActiveCamera();
   camera->SetViewAngle(30);
   camera->SetFocalPoint(0, 0, 0);
@@ -188,8 +197,27 @@ void PointCloudView::Scene::look(double azimuth, double elevation) {
   camera->Elevation(elevation);
   camera->OrthogonalizeViewUp();
   renderer_->ResetCamera();
-  camera->Zoom(1.35);
+  fillWindow();
   renderer_->ResetCameraClippingRange();
+}
+
+// VTK leaves room for a sphere around the cloud: narrow the view until its box fills the window.
+void PointCloudView::Scene::fillWindow() {
+  constexpr double kFilled = 0.94;
+  const double* box = actor_->GetBounds();
+  double reach = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    double x = box[corner & 1];
+    double y = box[2 + (corner >> 1 & 1)];
+    double z = box[4 + (corner >> 2 & 1)];
+    renderer_->WorldToView(x, y, z);
+    reach = std::max({reach, std::abs(x), std::abs(y)});
+  }
+  if (!(reach > 0) || !std::isfinite(reach)) return;
+  auto* camera = renderer_->GetActiveCamera();
+  const double half = vtkMath::RadiansFromDegrees(camera->GetViewAngle() / 2);
+  const double narrowed = std::atan(std::tan(half) * reach / kFilled);
+  camera->SetViewAngle(2 * vtkMath::DegreesFromRadians(narrowed));
 }
 
 void PointCloudView::Scene::handle(const QMouseEvent& event, unsigned long vtk_event) {

@@ -83,10 +83,14 @@ void ResultList::setUpTree() {
   tree_->setColumnCount(kColumnCount);
   tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
   tree_->headerItem()->setToolTip(kMse, tr("Mean squared error ×100 against the truth, px²"));
+  for (const int column : {kMse, kSeconds}) {
+    tree_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  }
   tree_->setRootIsDecorated(false);
   tree_->setAlternatingRowColors(true);
   tree_->setUniformRowHeights(true);
   tree_->setTextElideMode(Qt::ElideRight);
+  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setMinimumSectionSize(22);
   tree_->header()->setStretchLastSection(true);

@@ -45,8 +45,9 @@ bool is_dark(const QPalette& palette) {
 }
 
 double contrast_ratio(const QColor& a, const QColor& b) {
-  const auto [dark, light] = std::minmax(luminance(a), luminance(b));
-  return (light + 0.05) / (dark + 0.05);
+  const double first = luminance(a);
+  const double second = luminance(b);
+  return (std::max(first, second) + 0.05) / (std::min(first, second) + 0.05);
 }
 
 QColor blend(const QColor& from, const QColor& to, double part) {
@@ -58,9 +59,14 @@ QColor blend(const QColor& from, const QColor& to, double part) {
 QColor muted_text(const QPalette& palette) {
   const QColor window = palette.color(QPalette::Window);
   const QColor text = palette.color(QPalette::WindowText);
+  // Tabs and group boxes are drawn in shades of the button colour.
+  const QColor pane = palette.color(QPalette::Button).lighter(is_dark(palette) ? 128 : 104);
+  constexpr double kLegible = 4.6;
   for (double part = 0.6; part < 1; part += 0.05) {
     const QColor color = blend(window, text, part);
-    if (contrast_ratio(window, color) >= 4.7) return color;
+    if (contrast_ratio(window, color) >= kLegible && contrast_ratio(pane, color) >= kLegible) {
+      return color;
+    }
   }
   return text;
 }

@@ -20,7 +20,7 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 
 /// Whether the palette is a dark one.
 [[nodiscard]] bool is_dark(const QPalette& palette);
-/// Text of lesser weight, still legible: contrast ≥ 4.5 against the window.
+/// Text of lesser weight, still legible: contrast ≥ 4.5 against window and tabs.
 [[nodiscard]] QColor muted_text(const QPalette& palette);
 /// Text colours of meanings, legible on the palette's window.
 [[nodiscard]] QColor error_text(const QPalette& palette);

@@ -21,7 +21,7 @@ bool is_light(QRgb pixel) {
 }
 
 void draw_haloed_line(QPainter& painter, const QLineF& line, const QColor& color) {
-  painter.setPen(QPen(QColor(0, 0, 0, 130), 3));
+  painter.setPen(QPen(QColor(0, 0, 0, 80), 3));
   painter.drawLine(line);
   painter.setPen(QPen(color, 1));
   painter.drawLine(line);
@@ -34,8 +34,8 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
   painter.fillRect(event->rect(), theme::kCanvas);
   if (state_ == State::Picture) {
     paintPicture(painter, event->rect());
-    if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
     paintCrossHair(painter);
+    if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
     paintCaption(painter);
   } else {
     paintMessage(painter);
@@ -73,7 +73,6 @@ void ViewCanvas::paintPixelTexts(QPainter& painter, const QRect& exposed) const 
   const QRectF seen(transform_.to_image(QRectF(exposed).topLeft(), size()),
                     transform_.to_image(QRectF(exposed).bottomRight(), size()));
   const QRect pixels = seen.toAlignedRect() & picture_.rect();
-  // What is on screen decides between dark and light letters.
   QFont font = painter.font();
   font.setPixelSize(static_cast<int>(std::clamp(transform_.scale / 4.6, 8.0, 13.0)));
   painter.setFont(font);
@@ -81,7 +80,8 @@ void ViewCanvas::paintPixelTexts(QPainter& painter, const QRect& exposed) const 
     for (int x = pixels.left(); x <= pixels.right(); ++x) {
       const QStringList lines = pixel_text_(y, x);
       if (lines.isEmpty()) continue;
-      QColor shown = theme::blend(theme::kCanvas, QColor(picture_.pixel(x, y)), 1);
+      // What is on screen decides between dark and light letters.
+      QColor shown = picture_.pixelColor(x, y);
       if (overlay_.size() == picture_.size()) {
         const QColor above = overlay_.pixelColor(x, y);
         shown = theme::blend(shown, above, overlay_opacity_ * above.alphaF());
