@@ -122,10 +122,11 @@ bool select(hid_t space, const Hdf5Block& block) {
                                               count.data(), nullptr) >= 0;
 }
 
+/// Of the rank of the block: HDF5 walks through selections of different ranks element by element.
 hid_t memory_space(const Hdf5Block& block) {
-  hsize_t elements = 1;
-  for (const std::size_t count : block.count) elements *= count;
-  return H5Screate_simple(1, &elements, nullptr);
+  const std::vector<hsize_t> count(block.count.begin(), block.count.end());
+  return count.empty() ? H5Screate(H5S_SCALAR)
+                       : H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr);
 }
 
 struct Listing {
