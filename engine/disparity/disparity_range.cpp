@@ -5,7 +5,8 @@
 #include "engine/disparity/structure_tensor.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
+#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -24,40 +25,57 @@ constexpr int kLines = 48;
 
 using Histogram = std::vector<double>;
 
-void add_line(const StructureTensor& tensor, int row, int lanes, int step, double limit,
-              Histogram& histogram) {
-  const float* disparity = tensor.disparity(row);
-  const float* coherence = tensor.coherence(row);
-  for (int i = 0; i < lanes; i += step) {
+void add_run(const float* disparity, const float* coherence, int count, double limit,
+             Histogram& histogram) {
+  for (int i = 0; i < count; ++i) {
     if (coherence[i] < kCoherent) continue;
     const int cell = static_cast<int>((disparity[i] + limit) / kCell);
     histogram[std::clamp<int>(cell, 0, static_cast<int>(histogram.size()) - 1)] += 1;
   }
 }
 
+// Tensors of one EPI alone: neighbours would cost as much again.
+TensorScales coarse_scales() {
+  TensorScales scales;
+  scales.across = 0;
+  return scales;
+}
+
 std::vector<Histogram> collect(const LightField& lf, StructureTensor::Direction direction,
                                double limit, const Progress& progress) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
-  const int extent = horizontal ? lf.height() : lf.width();
-  const int step = std::max(1, extent / kLines);
-  const int count = (extent + step - 1) / step;
+  const ViewIndex center = lf.center();
   const TensorSearch search = cover_range({-limit, limit}, 2);
   const Histogram empty(static_cast<std::size_t>(2 * limit / kCell) + 1, 0.0);
+  const StructureTensor sizes(lf, direction, coarse_scales(), search);
+  const int extent = horizontal ? lf.height() : lf.width();
+  const int thickness = horizontal ? 1 : sizes.max_width();
+  const int step = std::max(thickness, extent * thickness / (kLines * (horizontal ? 1 : 2)));
+  const int count = (extent + step - 1) / step;
   std::vector<Histogram> histograms(count, empty);
-  const ViewIndex center = lf.center();
   parallel_for_workers(count, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(lf, direction, TensorScales{}, search);
+    auto tensor = std::make_shared<StructureTensor>(lf, direction, coarse_scales(), search);
     return [&, tensor](int i) {
-      const int at = std::min(i * step, extent - 1);
-      const int row = horizontal ? center.u : center.v;
-      const EpiStretch stretch{horizontal ? center.v : center.u, at, row, row + 1};
-      const int length = horizontal ? lf.width() : lf.height();
-      constexpr int kBand = 128;
-      for (int begin = 0; begin < length; begin += horizontal ? length : kBand) {
-        const int end = horizontal ? length : std::min(length, begin + kBand);
-        tensor->estimate(stretch, begin, end);
-        const int lanes = horizontal ? 1 : StructureTensor::kColumns;
-        add_line(*tensor, row, (end - begin) * lanes, lanes, limit, histograms[i]);
+      const auto add = [&](int, PixelIndex, int run, const float* disparity,
+                           const float* coherence) {
+        add_run(disparity, coherence, run, limit, histograms[i]);
+      };
+      TensorTask task;
+      task.camera_line = horizontal ? center.v : center.u;
+      task.first_view = horizontal ? center.u : center.v;
+      task.last_view = task.first_view + 1;
+      if (horizontal) {
+        task.begin = {i * step, 0};
+        task.height = 1;
+        task.width = lf.width();
+        tensor->estimate(task, add);
+        return;
+      }
+      task.width = std::min(thickness, lf.width() - i * step);
+      for (int y = 0; y < lf.height(); y += tensor->max_height()) {
+        task.begin = {y, i * step};
+        task.height = std::min(tensor->max_height(), lf.height() - y);
+        tensor->estimate(task, add);
       }
     };
   });

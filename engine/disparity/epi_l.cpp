@@ -11,8 +11,6 @@
 namespace episcope {
 namespace {
 
-// Rows of a vertical band: its planes stay in the L2 cache.
-constexpr int kBandRows = 128;
 // Directions that agree within this many px are averaged.
 constexpr float kAgreement = 0.3F;
 
@@ -54,56 +52,65 @@ struct Fusion {
   }
 };
 
+// Rows of a task of horizontal EPIs: long against the neighbours it shares with the next task.
+constexpr int kBandRows = 32;
+
+StructureTensor::Sink store_into(const Maps& maps, int v) {
+  return [&maps, v](int u, PixelIndex begin, int count, const float* disparity,
+                    const float* coherence) {
+    std::copy_n(disparity, count, maps.disparity.view({v, u}).row(begin.y) + begin.x);
+    std::copy_n(coherence, count, maps.confidence.view({v, u}).row(begin.y) + begin.x);
+  };
+}
+
+StructureTensor::Sink merge_into(const Maps& maps, const Fusion& fusion, int u) {
+  return [&maps, fusion, u](int v, PixelIndex begin, int count, const float* disparity,
+                            const float* coherence) {
+    fusion.merge(disparity, coherence, count, maps.disparity.view({v, u}).row(begin.y) + begin.x,
+                 maps.confidence.view({v, u}).row(begin.y) + begin.x);
+  };
+}
+
 void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                     const Progress& progress) {
-  const int height = maps.light_field.height();
-  const int width = maps.light_field.width();
+  const LightField& lf = maps.light_field;
+  const int bands = (lf.height() + kBandRows - 1) / kBandRows;
   const ViewIndex first = maps.first();
-  parallel_for_workers(maps.grid().v * height, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(
-        maps.light_field, StructureTensor::Direction::Horizontal, scales, search);
+  parallel_for_workers(maps.grid().v * bands, progress, [&]() -> std::function<void(int)> {
+    auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Horizontal,
+                                                    scales, search);
     return [&, tensor](int i) {
-      const int v = first.v + i / height;
-      const int y = i % height;
-      tensor->estimate({v, y, first.u, first.u + maps.grid().u}, 0, width);
-      for (int u = first.u; u < first.u + maps.grid().u; ++u) {
-        std::copy_n(tensor->disparity(u), width, maps.disparity.view({v, u}).row(y));
-        std::copy_n(tensor->coherence(u), width, maps.confidence.view({v, u}).row(y));
-      }
+      const int v = first.v + i / bands;
+      const int y = i % bands * kBandRows;
+      const TensorTask task{v,        {y, 0},  std::min(kBandRows, lf.height() - y),
+                            lf.width(), first.u, first.u + maps.grid().u};
+      tensor->estimate(task, store_into(maps, v));
     };
   });
 }
 
-void merge_vertical(const Maps& maps, const StructureTensor& tensor, const Fusion& fusion,
-                    ViewIndex view, PixelIndex begin, int rows) {
-  constexpr int kColumns = StructureTensor::kColumns;
-  const int columns = std::min(kColumns, maps.light_field.width() - begin.x);
-  for (int i = 0; i < rows; ++i) {
-    fusion.merge(tensor.disparity(view.v) + static_cast<std::ptrdiff_t>(i) * kColumns,
-                 tensor.coherence(view.v) + static_cast<std::ptrdiff_t>(i) * kColumns, columns,
-                 maps.disparity.view(view).row(begin.y + i) + begin.x,
-                 maps.confidence.view(view).row(begin.y + i) + begin.x);
-  }
-}
-
 void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                   const Fusion& fusion, const Progress& progress) {
-  constexpr int kColumns = StructureTensor::kColumns;
-  const int height = maps.light_field.height();
-  const int blocks = (maps.light_field.width() + kColumns - 1) / kColumns;
+  const LightField& lf = maps.light_field;
+  const StructureTensor sizes(lf, StructureTensor::Direction::Vertical, scales, search);
+  const int width = sizes.max_width();
+  const int height = sizes.max_height();
+  const int blocks = (lf.width() + width - 1) / width;
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().u * blocks, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(
-        maps.light_field, StructureTensor::Direction::Vertical, scales, search);
+    auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical,
+                                                    scales, search);
     return [&, tensor](int i) {
       const int u = first.u + i / blocks;
-      const int x = i % blocks * kColumns;
-      for (int y = 0; y < height; y += kBandRows) {
-        const int rows = std::min(kBandRows, height - y);
-        tensor->estimate({u, x, first.v, first.v + maps.grid().v}, y, y + rows);
-        for (int v = first.v; v < first.v + maps.grid().v; ++v) {
-          merge_vertical(maps, *tensor, fusion, {v, u}, {y, x}, rows);
-        }
+      const int x = i % blocks * width;
+      for (int y = 0; y < lf.height(); y += height) {
+        const TensorTask task{u,
+                              {y, x},
+                              std::min(height, lf.height() - y),
+                              std::min(width, lf.width() - x),
+                              first.v,
+                              first.v + maps.grid().v};
+        tensor->estimate(task, merge_into(maps, fusion, u));
       }
     };
   });
@@ -121,17 +128,27 @@ Schema<EpiLParameters> epi_l_schema() {
             {"Inner scale", "Gaussian smoothing of the samples before derivatives are taken", "px"},
             {0, 2})
       .real("outer_scale", &P::outer_scale,
-            {"Outer scale", "Gaussian window over which orientation is averaged", "px"}, {0, 2})
+            {"Outer scale", "Gaussian window over which orientation is averaged, along the EPI",
+             "px"},
+            {0, 2})
+      .real("view_scale", &P::view_scale,
+            {"View scale", "The same window along the views", "views"}, {0, 3})
+      .real("cross_scale", &P::cross_scale,
+            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2})
       .real("shear_step", &P::shear_step,
             {"Shear step",
              "Distance of the shears that bring every disparity near to upright before its "
              "orientation is measured; rounded to half pixels",
              "px"},
             {0.5, 2})
-      .real("noise", &P::noise,
-            {"Sample noise", "Standard deviation of the noise; weaker texture loses confidence",
+      .real("contrast", &P::contrast,
+            {"Contrast limit",
+             "Gradients above it count less, so that silhouettes do not drown the texture beside "
+             "them; large values switch this off",
              "1/255"},
-            {0, 50})
+            {0.1, 255, true})
+      .real("noise", &P::noise,
+            {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
       .real("fusion_power", &P::fusion_power,
             {"Fusion power",
              "Horizontal and vertical estimates are averaged with weights coherence^p"},
@@ -155,7 +172,8 @@ Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters,
   estimate.field.disparity = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   estimate.confidence = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   const Maps maps{lf, estimate.field.disparity, estimate.confidence};
-  const TensorScales scales{parameters.inner_scale, parameters.outer_scale, parameters.noise};
+  const TensorScales scales{parameters.inner_scale, parameters.outer_scale, parameters.view_scale,
+                            parameters.cross_scale, parameters.contrast,    parameters.noise};
   const TensorSearch search = cover_range(
       estimate.range, std::max(1, static_cast<int>(std::lround(2 * parameters.shear_step))));
   if (lf.grid().u > 1) {

@@ -7,10 +7,13 @@ namespace episcope {
 
 /// Parameters of EPI_L.
 struct EpiLParameters {
-  double inner_scale = 0.8;
-  double outer_scale = 0.8;
+  double inner_scale = 0.5;
+  double outer_scale = 1.0;
+  double view_scale = 1.5;
+  double cross_scale = 1.0;
   double shear_step = 0.5;
-  double noise = 2;
+  double contrast = 2;
+  double noise = 0.15;
   double fusion_power = 8;
   IntervalOrAuto range;
 };

@@ -31,7 +31,8 @@ const TensorKernel& tensor_kernel() {
 #endif
 }
 
-int gaussian_radius(double sigma) { return sigma > 0 ? 2 * static_cast<int>(std::ceil(sigma)) : 0; }
+// Cut at 2σ, where the Gaussian has fallen to 13 %.
+int gaussian_radius(double sigma) { return static_cast<int>(std::ceil(2 * sigma)); }
 
 double gaussian(double sigma, int offset) {
   return sigma > 0 ? std::exp(-0.5 * offset * offset / (sigma * sigma)) : (offset == 0 ? 1 : 0);
@@ -113,13 +114,18 @@ std::vector<RowTaps> banded(const Matrix& matrix, int radius) {
   return taps;
 }
 
+// Energy of a contrast given in 1/255, over all channels.
+float sample_energy(double contrast, int channels) {
+  return static_cast<float>(channels * contrast * contrast / (255.0 * 255.0));
+}
+
 struct RowFilters {
   std::vector<RowTaps> smooth, derivative, integrate;
 };
 
 RowFilters make_row_filters(int rows, const TensorScales& scales) {
   const int inner = gaussian_radius(scales.inner);
-  const int outer = gaussian_radius(scales.outer);
+  const int outer = gaussian_radius(scales.views);
   const Matrix before = smoothing_matrix(
       rows, inner, [&](int i) { return gaussian(scales.inner, i); });
   const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
@@ -127,7 +133,7 @@ RowFilters make_row_filters(int rows, const TensorScales& scales) {
   filters.smooth = banded(product(scharr, before), inner + 1);
   filters.derivative = banded(product(derivative_matrix(rows), before), inner + 1);
   filters.integrate = banded(
-      smoothing_matrix(rows, outer, [&](int i) { return gaussian(scales.outer, i); }), outer);
+      smoothing_matrix(rows, outer, [&](int i) { return gaussian(scales.views, i); }), outer);
   return filters;
 }
 
@@ -153,33 +159,39 @@ struct StructureTensor::State {
   const TensorKernel& kernel = tensor_kernel();
   RowFilters row_filters;
   TensorFilters filters;
+  Taps across;
   TensorBlock block;
-  int payload_pixels = 0;  // capacity
-  int margin_pixels = 0;
+  int columns = 0;         // Lanes of a pixel row of a vertical block, with the neighbours across.
+  int payload_pixels = 0;  // Along the EPI, at most.
   bool with_half = false;
   std::vector<float> memory;
-  std::vector<std::uint8_t> line_u8;
   std::vector<float> line_float;
+  std::vector<float*> slots;  // Best tensors: of neighbouring lines (horizontal) or of the block.
+  float* result[2] = {};
 
   State(const LightField& lf, Direction dir, const TensorScales& scales, TensorSearch wanted);
+  [[nodiscard]] bool horizontal() const { return direction == Direction::Horizontal; }
+  void size_block();
   void allocate();
-  void gather(const EpiStretch& stretch, int begin, int count);
-  void gather_horizontal(const EpiStretch& stretch, int begin, int count);
-  void gather_vertical(const EpiStretch& stretch, int begin, int count);
+  void use_slot(float* slot);
+  void run_shears(const TensorTask& task, int count);
+  void gather_horizontal(const TensorTask& task, int y);
+  void gather_vertical(const TensorTask& task);
   void gather_pixels(ViewIndex view, int y, int x0, int x1, float* const* out);
+  void estimate_horizontal(const TensorTask& task, const Sink& sink);
+  void estimate_vertical(const TensorTask& task, const Sink& sink);
+  TensorAverage make_average(int length) const;
 };
 
 StructureTensor::State::State(const LightField& lf, Direction dir, const TensorScales& scales,
                               TensorSearch wanted)
     : light_field(lf), direction(dir), search(std::move(wanted)) {
-  const bool horizontal = direction == Direction::Horizontal;
-  block.rows = horizontal ? lf.grid().u : lf.grid().v;
+  block.rows = horizontal() ? lf.grid().u : lf.grid().v;
   if (block.rows < 2 || block.rows > kMaxRows) {
     throw InvalidInput("the structure tensor needs 2 to 32 views along an EPI, but the grid has " +
                        std::to_string(block.rows));
   }
   block.channels = lf.channels();
-  block.stride = horizontal ? 1 : kColumns;
   row_filters = make_row_filters(block.rows, scales);
   filters.smooth = gaussian_taps(scales.inner);
   filters.integrate = gaussian_taps(scales.outer);
@@ -187,29 +199,51 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
   filters.row_smooth = row_filters.smooth.data();
   filters.row_derivative = row_filters.derivative.data();
   filters.row_integrate = row_filters.integrate.data();
-  const double noise = scales.noise / 255;
-  filters.noise_energy = static_cast<float>(block.channels * noise * noise);
+  filters.contrast_energy = sample_energy(scales.contrast, block.channels);
+  filters.noise_energy = sample_energy(scales.noise, block.channels);
+  across = gaussian_taps(scales.across);
+  size_block();
+  allocate();
+}
+
+void StructureTensor::State::size_block() {
+  // Rows of a vertical block: its planes stay in the L2 cache.
+  constexpr int kBand = 96;
+  constexpr int kPayloadColumns = 28;
+  columns = kPayloadColumns + 2 * across.radius;
+  block.stride = horizontal() ? 1 : columns;
+  payload_pixels = horizontal() ? light_field.width() : std::min(light_field.height(), kBand);
   int largest = 0;
   for (const int shear : search.half_step_shears) {
     largest = std::max(largest, std::abs(shear));
     with_half = with_half || (shear & 1) != 0;
   }
-  // Seen from the outermost wanted row to the outermost row of the other end.
-  const int shear_reach = largest * (block.rows - 1) / 2 + 2;
-  margin_pixels = 2 * shear_reach + filters.smooth.radius + filters.integrate.radius + 8;
-  allocate();
+  // A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
+  // along the views moves by the shear.
+  int steps = 0;
+  for (int r = 0; r < block.rows; ++r) {
+    steps = std::max({steps, row_filters.integrate[r].count, row_filters.smooth[r].count});
+  }
+  const int reach = (2 * steps * largest + 1) / 2 + filters.integrate.radius + 3;
+  block.margin = (reach + filters.smooth.radius + 4) * block.stride;
+  block.tensor_margin =
+      (largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack;
 }
 
 void StructureTensor::State::allocate() {
-  constexpr int kMaxBandPixels = 128;
-  payload_pixels = direction == Direction::Horizontal
-                       ? light_field.width()
-                       : std::min(light_field.height(), kMaxBandPixels);
-  block.margin = (margin_pixels * block.stride + 15) / 16 * 16;
-  block.pitch = (2 * block.margin + payload_pixels * block.stride + kSlack + 15) / 16 * 16;
-  const std::size_t plane = static_cast<std::size_t>(block.rows) * block.pitch;
-  const std::size_t image = plane * block.channels;
-  memory.assign(image * (with_half ? 5 : 3) + 2 * block.pitch + 5 * plane + 2 * kSlack, 0.0F);
+  const auto rounded = [](int lanes) { return (lanes + 15) / 16 * 16; };
+  const int payload = payload_pixels * block.stride;
+  block.pitch = rounded(2 * block.margin + payload + kSlack);
+  block.tensor_pitch = rounded(2 * block.tensor_margin + payload + kSlack);
+  block.best_pitch = rounded(payload + kSlack);
+  const auto rows = static_cast<std::size_t>(block.rows);
+  const std::size_t image = rows * block.pitch * block.channels;
+  const std::size_t tensor = rows * block.tensor_pitch;
+  const std::size_t best = 4 * rows * block.best_pitch;
+  const std::size_t slot_count = horizontal() ? 2 * across.radius + 1 : 1;
+  memory.assign(image * (with_half ? 5 : 3) + 2 * block.pitch + 3 * tensor + slot_count * best +
+                    2 * block.best_pitch + 2 * kSlack,
+                0.0F);
   float* next = memory.data() + kSlack;
   const auto take = [&next](std::size_t count) { return std::exchange(next, next + count); };
   block.samples = take(image);
@@ -218,9 +252,15 @@ void StructureTensor::State::allocate() {
     block.across[half] = take(image);
   }
   block.line = take(2 * static_cast<std::size_t>(block.pitch));
-  for (float*& tensor : block.tensor) tensor = take(plane);
-  block.disparity = take(plane);
-  block.coherence = take(plane);
+  for (float*& plane : block.tensor) plane = take(tensor);
+  for (std::size_t i = 0; i < slot_count; ++i) slots.push_back(take(best));
+  for (float*& line : result) line = take(block.best_pitch);
+}
+
+void StructureTensor::State::use_slot(float* slot) {
+  const std::size_t plane = static_cast<std::size_t>(block.rows) * block.best_pitch;
+  for (int j = 0; j < 4; ++j) block.best[j] = slot + j * plane;
+  std::fill_n(slot, 4 * plane, 0.0F);
 }
 
 void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1,
@@ -239,18 +279,17 @@ void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1
   }
 }
 
-void StructureTensor::State::gather_horizontal(const EpiStretch& stretch, int begin, int count) {
-  const int width = light_field.width();
-  const int x0 = std::max(0, begin - block.margin);
-  const int x1 = std::min(width, begin + count + block.margin);
+void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
+  const int x0 = std::max(0, task.begin.x - block.margin);
+  const int x1 = std::min(light_field.width(), task.begin.x + task.width + block.margin);
   for (int u = 0; u < block.rows; ++u) {
     std::array<float*, 3> rows{};
     std::array<float*, 3> inside{};
     for (int c = 0; c < block.channels; ++c) {
       rows[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + u) * block.pitch;
-      inside[c] = rows[c] + block.margin + x0 - begin;
+      inside[c] = rows[c] + block.margin + x0 - task.begin.x;
     }
-    gather_pixels({stretch.line, u}, stretch.first, x0, x1, inside.data());
+    gather_pixels({task.camera_line, u}, y, x0, x1, inside.data());
     for (int c = 0; c < block.channels; ++c) {
       std::fill(rows[c], inside[c], inside[c][0]);
       std::fill(inside[c] + (x1 - x0), rows[c] + block.pitch, inside[c][x1 - x0 - 1]);
@@ -258,32 +297,97 @@ void StructureTensor::State::gather_horizontal(const EpiStretch& stretch, int be
   }
 }
 
-void StructureTensor::State::gather_vertical(const EpiStretch& stretch, int begin, int count) {
-  const int x0 = stretch.first;
-  const int x1 = std::min(light_field.width(), x0 + kColumns);
-  const int last = light_field.height() - 1;
-  const int margin = block.margin / kColumns;
+void StructureTensor::State::gather_vertical(const TensorTask& task) {
+  const int left = task.begin.x - across.radius;
+  const int x0 = std::max(0, left);
+  const int x1 = std::min(light_field.width(), left + columns);
+  const int margin = block.margin / columns;
   for (int v = 0; v < block.rows; ++v) {
-    for (int i = -margin; i < count + margin; ++i) {
-      const int y = std::clamp(begin + i, 0, last);
+    for (int i = -margin; i < task.height + margin; ++i) {
+      const int y = std::clamp(task.begin.y + i, 0, light_field.height() - 1);
       std::array<float*, 3> lanes{};
+      std::array<float*, 3> inside{};
       for (int c = 0; c < block.channels; ++c) {
         lanes[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + v) * block.pitch +
-                   static_cast<std::ptrdiff_t>(margin + i) * kColumns;
+                   static_cast<std::ptrdiff_t>(margin + i) * columns;
+        inside[c] = lanes[c] + (x0 - left);
       }
-      gather_pixels({v, stretch.line}, y, x0, x1, lanes.data());
+      gather_pixels({v, task.camera_line}, y, x0, x1, inside.data());
       for (int c = 0; c < block.channels; ++c) {
-        std::fill(lanes[c] + (x1 - x0), lanes[c] + kColumns, lanes[c][x1 - x0 - 1]);
+        std::fill(lanes[c], inside[c], inside[c][0]);
+        std::fill(inside[c] + (x1 - x0), lanes[c] + columns, inside[c][x1 - x0 - 1]);
       }
     }
   }
 }
 
-void StructureTensor::State::gather(const EpiStretch& stretch, int begin, int count) {
-  if (direction == Direction::Horizontal) {
-    gather_horizontal(stretch, begin, count);
-  } else {
-    gather_vertical(stretch, begin, count);
+void StructureTensor::State::run_shears(const TensorTask& task, int count) {
+  block.first_row = task.first_view;
+  block.last_row = task.last_view;
+  block.length = count * block.stride;
+  kernel.differentiate(block, filters, with_half);
+  for (const int half_steps : search.half_step_shears) {
+    const Shear shear{half_steps, block.rows / 2, static_cast<float>(search.limit),
+                      static_cast<float>(search.range.min), static_cast<float>(search.range.max)};
+    kernel.accumulate(block, filters, shear);
+    kernel.select(block, filters, shear);
+  }
+}
+
+TensorAverage StructureTensor::State::make_average(int length) const {
+  TensorAverage average;
+  average.count = 2 * across.radius + 1;
+  std::copy_n(across.values, average.count, average.weights);
+  average.length = length;
+  average.noise_energy = filters.noise_energy;
+  average.min = static_cast<float>(search.range.min);
+  average.max = static_cast<float>(search.range.max);
+  average.disparity = result[0];
+  average.coherence = result[1];
+  return average;
+}
+
+void StructureTensor::State::estimate_horizontal(const TensorTask& task, const Sink& sink) {
+  const int last = light_field.height() - 1;
+  const int end = task.begin.y + task.height;
+  const auto slot_of = [this](int y) { return slots[y % slots.size()]; };
+  const std::size_t plane = static_cast<std::size_t>(block.rows) * block.best_pitch;
+  TensorAverage average = make_average(task.width);
+  int next = std::max(0, task.begin.y - across.radius);
+  for (int y = task.begin.y; y < end; ++y) {
+    for (; next <= std::min(last, y + across.radius); ++next) {
+      use_slot(slot_of(next));
+      gather_horizontal(task, next);
+      run_shears(task, task.width);
+    }
+    for (int u = task.first_view; u < task.last_view; ++u) {
+      for (int i = 0; i < average.count; ++i) {
+        const float* slot = slot_of(std::clamp(y + i - across.radius, 0, last));
+        for (int j = 0; j < 3; ++j) {
+          average.tensor[i][j] = slot + j * plane + static_cast<std::size_t>(u) * block.best_pitch;
+        }
+      }
+      kernel.resolve(average);
+      sink(u, {y, task.begin.x}, task.width, result[0], result[1]);
+    }
+  }
+}
+
+void StructureTensor::State::estimate_vertical(const TensorTask& task, const Sink& sink) {
+  use_slot(slots[0]);
+  gather_vertical(task);
+  run_shears(task, task.height);
+  TensorAverage average = make_average(task.width);
+  for (int v = task.first_view; v < task.last_view; ++v) {
+    for (int y = 0; y < task.height; ++y) {
+      const std::size_t row = static_cast<std::size_t>(v) * block.best_pitch +
+                              static_cast<std::size_t>(y) * columns;
+      for (int i = 0; i < average.count; ++i) {
+        for (int j = 0; j < 3; ++j) average.tensor[i][j] = block.best[j] + row + i;
+      }
+      kernel.resolve(average);
+      sink(v, {task.begin.y + y, task.begin.x}, task.width, result[0], result[1]);
+    }
   }
 }
 
@@ -293,35 +397,20 @@ StructureTensor::StructureTensor(const LightField& light_field, Direction direct
 StructureTensor::~StructureTensor() = default;
 StructureTensor::StructureTensor(StructureTensor&&) noexcept = default;
 
-void StructureTensor::estimate(const EpiStretch& stretch, int begin, int end) {
-  State& state = *state_;
-  TensorBlock& block = state.block;
-  const int count = end - begin;
-  block.first_row = stretch.first_row;
-  block.last_row = stretch.last_row;
-  block.length = count * block.stride;
-  state.gather(stretch, begin, count);
-  state.kernel.differentiate(block, state.filters, state.with_half);
-  for (int r = block.first_row; r < block.last_row; ++r) {
-    const std::size_t row = static_cast<std::size_t>(r) * block.pitch;
-    std::fill_n(block.coherence + row, block.length, 0.0F);
-    std::fill_n(block.disparity + row, block.length, 0.0F);
-  }
-  for (const int half_steps : state.search.half_step_shears) {
-    const Shear shear{half_steps, block.rows / 2, static_cast<float>(state.search.limit),
-                      static_cast<float>(state.search.range.min),
-                      static_cast<float>(state.search.range.max)};
-    state.kernel.accumulate(block, state.filters, shear);
-    state.kernel.orient(block, state.filters, shear);
-  }
+int StructureTensor::max_height() const {
+  return state_->horizontal() ? state_->light_field.height() : state_->payload_pixels;
 }
 
-const float* StructureTensor::disparity(int row) const {
-  return state_->block.disparity + static_cast<std::size_t>(row) * state_->block.pitch;
+int StructureTensor::max_width() const {
+  return state_->horizontal() ? state_->payload_pixels : state_->columns - 2 * state_->across.radius;
 }
 
-const float* StructureTensor::coherence(int row) const {
-  return state_->block.coherence + static_cast<std::size_t>(row) * state_->block.pitch;
+void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {
+  if (state_->horizontal()) {
+    state_->estimate_horizontal(task, sink);
+  } else {
+    state_->estimate_vertical(task, sink);
+  }
 }
 
 }  // namespace episcope

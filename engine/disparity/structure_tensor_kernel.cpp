@@ -16,7 +16,7 @@ constexpr int kChunk = 128;
 inline Vec load(const float* from) { return *reinterpret_cast<const LooseVec*>(from); }
 inline void store(float* to, Vec value) { *reinterpret_cast<LooseVec*>(to) = value; }
 inline Vec splat(float value) { return value - Vec{}; }
-inline Vec select(IntVec mask, Vec yes, Vec no) { return mask ? yes : no; }
+inline Vec choose(IntVec mask, Vec yes, Vec no) { return mask ? yes : no; }
 inline Vec square_root(Vec value) {
   Vec root;
   for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
@@ -93,7 +93,7 @@ void differentiate(const TensorBlock& block, const TensorFilters& filters, bool 
   const int stride = block.stride;
   // What each stage needs of the stage before it.
   const int smooth_begin = filters.smooth.radius * stride;
-  const int smooth_end = block.pitch - smooth_begin - kLanes;
+  const int smooth_end = 2 * block.margin + block.length - smooth_begin;
   float* smooth = block.line;
   float* half = block.line + block.pitch;
   for (int plane = 0; plane < block.channels * block.rows; ++plane) {
@@ -108,18 +108,19 @@ void differentiate(const TensorBlock& block, const TensorFilters& filters, bool 
   }
 }
 
-// Where a sheared row begins: the plane (whole or half pixel) and the lane offset.
+int floor_half(int half_steps) { return half_steps >> 1; }
+
+// Where a row is read, so that lane 0 of the sheared coordinates falls on it: the plane (whole or
+// half pixel) and the lane. Disparity k stands upright if row r is read at x − k·(r − center).
 struct RowSource {
   int half = 0;
   long offset = 0;
 };
 
 RowSource source_of(const TensorBlock& block, const Shear& shear, int row) {
-  // Disparity k stands upright if row r is read at x − k·(r − center).
   const int half_steps = -shear.half_steps * (row - shear.center_row);
-  const int whole = half_steps >> 1;  // floor
-  return {half_steps & 1,
-          static_cast<long>(row) * block.pitch + static_cast<long>(whole) * block.stride};
+  return {half_steps & 1, static_cast<long>(row) * block.pitch + block.margin +
+                              static_cast<long>(floor_half(half_steps)) * block.stride};
 }
 
 struct Products {
@@ -150,55 +151,89 @@ struct RowPointers {
 
 template <int kCount, int kChannels>
 void products_chunk(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
-                    int begin, int end, float* __restrict const* out) {
+                    float contrast, int begin, int end, float* __restrict const* out) {
   for (int n = begin; n < end; n += kLanes) {
     Products sum{};
     for (int c = 0; c < kChannels; ++c) {
       add_products<kCount>(rows.along[c], rows.across[c], smooth.values, derivative.values, n, sum);
     }
-    store(out[0] + (n - begin), sum.xx);
-    store(out[1] + (n - begin), sum.xs);
-    store(out[2] + (n - begin), sum.ss);
+    // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
+    const Vec weight = contrast / (sum.xx + sum.ss + contrast);
+    store(out[0] + n, weight * sum.xx);
+    store(out[1] + n, weight * sum.xs);
+    store(out[2] + n, weight * sum.ss);
   }
 }
 
 template <int kChannels>
-void products_row(int count, const RowPointers& rows, const RowTaps& smooth,
-                  const RowTaps& derivative, int begin, int end, float* const* out) {
-  switch (count) {
-    case 2: return products_chunk<2, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 3: return products_chunk<3, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 4: return products_chunk<4, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 5: return products_chunk<5, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 6: return products_chunk<6, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 7: return products_chunk<7, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 8: return products_chunk<8, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 9: return products_chunk<9, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 10: return products_chunk<10, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 11: return products_chunk<11, kChannels>(rows, smooth, derivative, begin, end, out);
-    case 12: return products_chunk<12, kChannels>(rows, smooth, derivative, begin, end, out);
-    default: return products_chunk<13, kChannels>(rows, smooth, derivative, begin, end, out);
+void products_row(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
+                  float contrast, int begin, int end, float* const* out) {
+  switch (smooth.count) {
+    case 2: return products_chunk<2, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 3: return products_chunk<3, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 4: return products_chunk<4, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 5: return products_chunk<5, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 6: return products_chunk<6, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 7: return products_chunk<7, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 8: return products_chunk<8, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 9: return products_chunk<9, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 10: return products_chunk<10, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 11: return products_chunk<11, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 12: return products_chunk<12, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    default: return products_chunk<13, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
   }
 }
 
 // The widest grid axis whose products of a chunk are kept on the stack.
 constexpr int kMaxRows = 32;
 
-void fill_pointers(const TensorBlock& block, const Shear& shear, const RowTaps& taps,
+void fill_pointers(const TensorBlock& block, const Shear& shear, const RowTaps& taps, int chunk,
                    RowPointers& rows) {
   const long plane = static_cast<long>(block.rows) * block.pitch;
   for (int i = 0; i < taps.count; ++i) {
     const RowSource source = source_of(block, shear, taps.first + i);
     for (int c = 0; c < block.channels; ++c) {
-      rows.along[c][i] = block.along[source.half] + c * plane + source.offset;
-      rows.across[c][i] = block.across[source.half] + c * plane + source.offset;
+      rows.along[c][i] = block.along[source.half] + c * plane + source.offset + chunk;
+      rows.across[c][i] = block.across[source.half] + c * plane + source.offset + chunk;
     }
   }
 }
 
-void integrate_rows(const float (*products)[kChunk], const RowTaps& taps, int count,
+// Lanes of the sheared coordinates, [begin, end).
+struct Window {
+  int begin = 0;
+  int end = 0;
+};
+
+// Where the tensor of a row is needed for its payload.
+Window target_window(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
+                     int row) {
+  const int start = floor_half(shear.half_steps * (row - shear.center_row));
+  return {(start - filters.integrate.radius) * block.stride,
+          (start + filters.integrate.radius + 1) * block.stride + block.length};
+}
+
+// Where the products of a row are needed by the wanted rows that integrate over it.
+Window source_window(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
+                     int row) {
+  Window window{0, 0};
+  for (int r = block.first_row; r < block.last_row; ++r) {
+    const RowTaps& taps = filters.row_integrate[r];
+    if (row < taps.first || row >= taps.first + taps.count) continue;
+    const Window target = target_window(block, filters, shear, r);
+    if (window.begin == window.end) {
+      window = target;
+    } else {
+      if (target.begin < window.begin) window.begin = target.begin;
+      if (target.end > window.end) window.end = target.end;
+    }
+  }
+  return window;
+}
+
+void integrate_rows(const float (*products)[kChunk + kLanes], const RowTaps& taps, Window window,
                     float* __restrict out) {
-  for (int n = 0; n < count; n += kLanes) {
+  for (int n = window.begin; n < window.end; n += kLanes) {
     Vec sum = taps.values[0] * load(products[taps.first] + n);
     for (int i = 1; i < taps.count; ++i) {
       sum += taps.values[i] * load(products[taps.first + i] + n);
@@ -207,44 +242,51 @@ void integrate_rows(const float (*products)[kChunk], const RowTaps& taps, int co
   }
 }
 
-// Lanes whose tensor is needed: the payload seen through every shear offset and the integration.
-int reach_of(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
-  const int below = shear.center_row - block.first_row;
-  const int above = block.last_row - 1 - shear.center_row;
-  const int rows = below > above ? below : above;
-  const int steps = shear.half_steps < 0 ? -shear.half_steps : shear.half_steps;
-  return ((rows > 0 ? rows : 0) * steps / 2 + 1 + filters.integrate.radius + 1) * block.stride;
+// The part of a window inside a chunk, relative to the chunk's first lane.
+Window clip(Window window, int chunk) {
+  const int begin = window.begin - chunk;
+  const int end = window.end - chunk;
+  return {begin < 0 ? 0 : begin, end > kChunk ? kChunk : end};
+}
+
+struct ChunkProducts {
+  // Vectors may begin anywhere and reach beyond the chunk.
+  alignas(64) float values[3][kMaxRows][kChunk + kLanes];
+};
+
+void fill_products(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
+                   int row, int chunk, Window window, ChunkProducts& products) {
+  RowPointers rows;
+  const RowTaps& smooth = filters.row_smooth[row];
+  fill_pointers(block, shear, smooth, chunk, rows);
+  float* const out[3] = {products.values[0][row], products.values[1][row],
+                         products.values[2][row]};
+  const auto run = block.channels == 1 ? products_row<1> : products_row<3>;
+  run(rows, smooth, filters.row_derivative[row], filters.contrast_energy, window.begin, window.end,
+      out);
 }
 
 void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
-  alignas(64) float products[3][kMaxRows][kChunk];
-  const int reach = reach_of(block, filters, shear);
-  const int begin = block.margin - reach;
-  const int end = block.margin + block.length + reach;
-  int first = block.rows;
-  int last = 0;
-  for (int r = block.first_row; r < block.last_row; ++r) {
-    const RowTaps& taps = filters.row_integrate[r];
-    if (taps.first < first) first = taps.first;
-    if (taps.first + taps.count > last) last = taps.first + taps.count;
+  ChunkProducts products;
+  Window sources[kMaxRows];
+  Window whole{0, 0};
+  for (int r = 0; r < block.rows; ++r) {
+    sources[r] = source_window(block, filters, shear, r);
+    if (sources[r].begin < whole.begin) whole.begin = sources[r].begin;
+    if (sources[r].end > whole.end) whole.end = sources[r].end;
   }
-  for (int chunk = begin; chunk < end; chunk += kChunk) {
-    const int stop = chunk + kChunk < end ? chunk + kChunk : end;
-    for (int r = first; r < last; ++r) {
-      RowPointers rows;
-      const RowTaps& smooth = filters.row_smooth[r];
-      fill_pointers(block, shear, smooth, rows);
-      float* const out[3] = {products[0][r], products[1][r], products[2][r]};
-      if (block.channels == 1) {
-        products_row<1>(smooth.count, rows, smooth, filters.row_derivative[r], chunk, stop, out);
-      } else {
-        products_row<3>(smooth.count, rows, smooth, filters.row_derivative[r], chunk, stop, out);
+  for (int chunk = whole.begin; chunk < whole.end; chunk += kChunk) {
+    for (int r = 0; r < block.rows; ++r) {
+      const Window window = clip(sources[r], chunk);
+      if (window.begin < window.end) {
+        fill_products(block, filters, shear, r, chunk, window, products);
       }
     }
     for (int r = block.first_row; r < block.last_row; ++r) {
+      const Window window = clip(target_window(block, filters, shear, r), chunk);
+      const long row = static_cast<long>(r) * block.tensor_pitch + block.tensor_margin + chunk;
       for (int j = 0; j < 3; ++j) {
-        integrate_rows(products[j], filters.row_integrate[r], stop - chunk,
-                       block.tensor[j] + static_cast<long>(r) * block.pitch + chunk);
+        integrate_rows(products.values[j], filters.row_integrate[r], window, block.tensor[j] + row);
       }
     }
   }
@@ -257,11 +299,12 @@ inline Vec integrate_at(const float* in, int stride, const float* taps) {
   return sum;
 }
 
+// Slope and coherence of a tensor (Bigün and Granlund 1987) in the angle-free form, for upright
+// structure: d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² + 4Jxs²)).
 struct Orientation {
   Vec disparity, coherence;
 };
 
-// Slope and coherence of a tensor (algorithms of Bigün and Granlund 1987): the angle-free form.
 inline Orientation orientation(Vec xx, Vec xs, Vec ss, Vec noise_energy) {
   const Vec difference = xx - ss;
   const Vec trace = xx + ss;
@@ -270,68 +313,96 @@ inline Orientation orientation(Vec xx, Vec xs, Vec ss, Vec noise_energy) {
   const Vec steep = difference + root;
   // Jxs = 0 and Jxx ≤ Jss: a line along x has no finite disparity.
   const IntVec has_slope = steep > 1e-6F * trace + tiny;
-  const Vec slope = -2.0F * xs / select(has_slope, steep, splat(1));
+  const Vec slope = -2.0F * xs / choose(has_slope, steep, splat(1));
   const Vec coherence = root / (trace + noise_energy + tiny);
-  return {select(has_slope, slope, splat(1e6F)), select(has_slope, coherence, splat(0))};
+  return {choose(has_slope, slope, splat(1e6F)), choose(has_slope, coherence, splat(0))};
 }
 
 template <int kCount>
-void orient_row(const float* const* tensor, int stride, const float* taps, float noise_energy,
-                const Shear& shear, int length, float* __restrict disparity,
-                float* __restrict coherence) {
+void select_row(const float* const* tensor, int stride, const float* taps, float noise_energy,
+                const Shear& shear, int length, float* __restrict const* best) {
   const Vec upright = splat(0.5F * static_cast<float>(shear.half_steps));
   for (int n = 0; n < length; n += kLanes) {
-    const Orientation local = orientation(integrate_at<kCount>(tensor[0] + n, stride, taps),
-                                          integrate_at<kCount>(tensor[1] + n, stride, taps),
-                                          integrate_at<kCount>(tensor[2] + n, stride, taps),
-                                          splat(noise_energy));
+    const Vec xx = integrate_at<kCount>(tensor[0] + n, stride, taps);
+    const Vec xs = integrate_at<kCount>(tensor[1] + n, stride, taps);
+    const Vec ss = integrate_at<kCount>(tensor[2] + n, stride, taps);
+    const Orientation local = orientation(xx, xs, ss, splat(noise_energy));
     const Vec value = local.disparity + upright;
     const IntVec inside = (local.disparity <= shear.limit) & (local.disparity >= -shear.limit) &
                           (value >= shear.min) & (value <= shear.max);
-    const Vec best = load(coherence + n);
-    const Vec candidate = select(inside, local.coherence, splat(0));
-    const IntVec better = candidate > best;
-    store(coherence + n, select(better, candidate, best));
-    store(disparity + n, select(better, value, load(disparity + n)));
+    const Vec so_far = load(best[3] + n);
+    const IntVec better = inside & (local.coherence > so_far);
+    // Back to unsheared coordinates: ∂s = ∂s' − k ∂x.
+    const Vec unsheared_xs = xs - upright * xx;
+    const Vec unsheared_ss = ss - upright * (xs + unsheared_xs);
+    store(best[0] + n, choose(better, xx, load(best[0] + n)));
+    store(best[1] + n, choose(better, unsheared_xs, load(best[1] + n)));
+    store(best[2] + n, choose(better, unsheared_ss, load(best[2] + n)));
+    store(best[3] + n, choose(better, local.coherence, so_far));
   }
 }
 
-void orient(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
+void select(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
   for (int r = block.first_row; r < block.last_row; ++r) {
-    // The payload pixel x of row r stands at x + k·(r − center) of the sheared block.
+    // The payload pixel x of row r stands at x + k·(r − center) of the sheared coordinates.
     const int half_steps = shear.half_steps * (r - shear.center_row);
     const bool half = (half_steps & 1) != 0;
     const Taps& taps = half ? filters.integrate_half : filters.integrate;
-    const int first = (half_steps >> 1) - filters.integrate.radius;
-    const long row = static_cast<long>(r) * block.pitch;
-    const long from = row + block.margin + static_cast<long>(first) * block.stride;
+    const long from = static_cast<long>(r) * block.tensor_pitch + block.tensor_margin +
+                      static_cast<long>(floor_half(half_steps) - filters.integrate.radius) *
+                          block.stride;
+    const long to = static_cast<long>(r) * block.best_pitch;
     const float* const tensor[3] = {block.tensor[0] + from, block.tensor[1] + from,
                                     block.tensor[2] + from};
+    float* const best[4] = {block.best[0] + to, block.best[1] + to, block.best[2] + to,
+                            block.best[3] + to};
     const auto run = [&](auto kernel) {
-      kernel(tensor, block.stride, taps.values, filters.noise_energy, shear, block.length,
-             block.disparity + row, block.coherence + row);
+      kernel(tensor, block.stride, taps.values, filters.noise_energy, shear, block.length, best);
     };
     switch (2 * filters.integrate.radius + (half ? 2 : 1)) {
-      case 1: run(orient_row<1>); break;
-      case 2: run(orient_row<2>); break;
-      case 3: run(orient_row<3>); break;
-      case 4: run(orient_row<4>); break;
-      case 5: run(orient_row<5>); break;
-      case 6: run(orient_row<6>); break;
-      case 7: run(orient_row<7>); break;
-      case 8: run(orient_row<8>); break;
-      case 9: run(orient_row<9>); break;
-      case 10: run(orient_row<10>); break;
-      case 11: run(orient_row<11>); break;
-      case 12: run(orient_row<12>); break;
-      default: run(orient_row<13>); break;
+      case 1: run(select_row<1>); break;
+      case 2: run(select_row<2>); break;
+      case 3: run(select_row<3>); break;
+      case 4: run(select_row<4>); break;
+      case 5: run(select_row<5>); break;
+      case 6: run(select_row<6>); break;
+      case 7: run(select_row<7>); break;
+      case 8: run(select_row<8>); break;
+      case 9: run(select_row<9>); break;
+      case 10: run(select_row<10>); break;
+      case 11: run(select_row<11>); break;
+      case 12: run(select_row<12>); break;
+      default: run(select_row<13>); break;
     }
+  }
+}
+
+// Least squares of ∂s + d ∂x = 0 over the averaged tensor; coherence in the frame sheared by d.
+void resolve(const TensorAverage& average) {
+  for (int n = 0; n < average.length; n += kLanes) {
+    Vec sum[3];
+    for (int j = 0; j < 3; ++j) {
+      sum[j] = average.weights[0] * load(average.tensor[0][j] + n);
+      for (int i = 1; i < average.count; ++i) {
+        sum[j] += average.weights[i] * load(average.tensor[i][j] + n);
+      }
+    }
+    const Vec xx = sum[0] + 1e-20F;
+    const Vec disparity = -sum[1] / xx;
+    Vec residual = sum[2] + disparity * sum[1];
+    residual = choose(residual > 0.0F, residual, splat(0));
+    Vec coherence = (xx - residual) / (xx + residual + average.noise_energy);
+    const IntVec inside = (disparity >= average.min) & (disparity <= average.max);
+    coherence = choose(inside & (coherence > 0.0F), coherence, splat(0));
+    const Vec above = choose(disparity < average.min, splat(average.min), disparity);
+    store(average.disparity + n, choose(above > average.max, splat(average.max), above));
+    store(average.coherence + n, coherence);
   }
 }
 
 }  // namespace
 
 extern const TensorKernel kTensorKernel;
-const TensorKernel kTensorKernel{deinterleave, differentiate, accumulate, orient};
+const TensorKernel kTensorKernel{deinterleave, differentiate, accumulate, select, resolve};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

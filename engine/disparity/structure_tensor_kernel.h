@@ -27,38 +27,53 @@ struct RowTaps {
 struct TensorBlock {
   int rows = 0;
   int channels = 0;
-  int pitch = 0;   ///< Lanes from row to row of a plane.
   int stride = 1;
-  int margin = 0;  ///< Lanes before the payload; samples there repeat the border or are real.
-  int length = 0;  ///< Lanes of payload.
-  int first_row = 0, last_row = 0;  ///< Rows [first, last) whose result is wanted.
+  int pitch = 0;         ///< Lanes from row to row of a plane of samples or derivatives.
+  int margin = 0;        ///< Lanes before the payload there; samples repeat the border or are real.
+  int tensor_pitch = 0;  ///< The same of the planes in sheared coordinates.
+  int tensor_margin = 0;
+  int length = 0;                    ///< Lanes of payload.
+  int first_row = 0, last_row = 0;   ///< Rows [first, last) whose result is wanted.
 
-  float* samples = nullptr;   ///< [c][row][lane], overwritten by the pre-smoothed samples.
-  float* line = nullptr;      ///< Two rows of scratch.
-  float* along[2] = {};       ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
-  float* across[2] = {};      ///< [c][row][lane] smoothed along x; [1] likewise. Unused if no half shear.
-  float* tensor[3] = {};      ///< [row][lane] integrated Jxx, Jxs, Jss.
-  float* disparity = nullptr;  ///< [row][length] result.
-  float* coherence = nullptr;  ///< [row][length] result.
+  float* samples = nullptr;  ///< [c][row][lane].
+  float* line = nullptr;     ///< Two rows of scratch.
+  float* along[2] = {};      ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
+  float* across[2] = {};     ///< [c][row][lane] smoothed along x; [1] likewise.
+  float* tensor[3] = {};     ///< [row][lane] Jxx, Jxs, Jss of one shear, integrated along the views.
+  float* best[4] = {};       ///< [row][length] of the best shear: Jxx, Jxs, Jss unsheared, coherence.
+  int best_pitch = 0;
 };
 
 /// Filters of the tensor, made by `structure_tensor.cpp`.
 struct TensorFilters {
-  Taps smooth;          ///< Pre-smoothing along x.
-  Taps integrate;       ///< Integration along x,
-  Taps integrate_half;  ///< and the same, evaluated half a pixel to the left (even number of taps, see .cpp).
-  const RowTaps* row_smooth = nullptr;      ///< [rows] pre-smoothing and Scharr across, along the views.
+  Taps smooth;               ///< Pre-smoothing along x.
+  Taps integrate;            ///< Integration along x,
+  Taps integrate_half;       ///< and the same half a pixel further: one tap more.
+  const RowTaps* row_smooth = nullptr;      ///< [rows] pre-smoothing and Scharr across, along views.
   const RowTaps* row_derivative = nullptr;  ///< [rows] derivative along s = −u.
   const RowTaps* row_integrate = nullptr;   ///< [rows] integration along the views.
-  float noise_energy = 0;  ///< Tensor trace at which confidence is halved.
+  float contrast_energy = 0;  ///< Gradient energy at which its weight in the tensor is halved.
+  float noise_energy = 0;     ///< Tensor trace at which coherence is halved.
 };
 
 /// One shear: rows are read so that disparity `half_steps`/2 stands upright about `center_row`.
 struct Shear {
   int half_steps = 0;
   int center_row = 0;
-  float limit = 0;          ///< Largest |d − shear| accepted.
-  float min = 0, max = 0;   ///< Disparity range: values beyond are clamped and get coherence 0.
+  float limit = 0;         ///< Largest |d − shear| accepted.
+  float min = 0, max = 0;  ///< Disparities beyond are not accepted.
+};
+
+/// Tensors of neighbouring EPIs to be averaged, and where the result goes.
+struct TensorAverage {
+  int count = 0;
+  const float* tensor[kMaxTaps][3] = {};  ///< Jxx, Jxs, Jss, unsheared, `length` lanes each.
+  float weights[kMaxTaps] = {};
+  int length = 0;
+  float noise_energy = 0;
+  float min = 0, max = 0;
+  float* disparity = nullptr;
+  float* coherence = nullptr;
 };
 
 /// Samples of any storage type to float planes: out[c][i] = scale·in[i·channels + c].
@@ -71,8 +86,10 @@ struct TensorKernel {
   void (*differentiate)(const TensorBlock&, const TensorFilters&, bool with_half);
   /// Fills `tensor` for one shear, all channels summed.
   void (*accumulate)(const TensorBlock&, const TensorFilters&, const Shear&);
-  /// Reads orientation off `tensor` and keeps the most coherent estimate so far.
-  void (*orient)(const TensorBlock&, const TensorFilters&, const Shear&);
+  /// Integrates `tensor` along x and keeps in `best` the tensor of the most coherent shear so far.
+  void (*select)(const TensorBlock&, const TensorFilters&, const Shear&);
+  /// Averages tensors and reads disparity and coherence off the mean.
+  void (*resolve)(const TensorAverage&);
 };
 
 namespace baseline {
