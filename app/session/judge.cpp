@@ -51,8 +51,7 @@ EvaluationPtr Judge::find_or_begin(const EvaluationKey& key, const EstimatePtr& 
 
 void Judge::finish(const EvaluationKey& key, Outcome<EvaluationPtr> outcome) {
   const auto found = find(key);
-  if (found == entries_.end() || !outcome.value) return;
-  found->evaluation = std::move(*outcome.value);
+  if (found != entries_.end() && outcome.value) found->evaluation = std::move(*outcome.value);
   on_evaluated_();
 }
 

@@ -26,7 +26,8 @@ using EvaluationPtr = std::shared_ptr<const Evaluation>;
 /// the owner's thread only.
 class Judge {
  public:
-  /// `on_evaluated` is called on the owner's thread when an evaluation that was missing is there.
+  /// `on_evaluated` is called on the owner's thread when an evaluation that was begun is there
+  /// or failed.
   Judge(const JobRunner::Post& post, std::function<void()> on_evaluated);
 
   /// The evaluation if it is there; else null, and it is begun unless it is under way, failed

@@ -5,6 +5,8 @@
 #include "engine/core/light_field.h"
 #include "engine/disparity/estimator.h"
 
+#include <string>
+
 namespace episcope {
 
 /// What a run of a method needs, copied when it is asked for.
@@ -23,6 +25,10 @@ struct FinishedEstimate {
 [[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
                                              const EstimateRequest& request,
                                              const Progress& progress);
+
+/// Throws InvalidInput, naming `file`, if an estimate that was read from there has not the size and
+/// views of the light field.
+void check_fits(const Estimate& estimate, const LightField& light_field, const std::string& file);
 
 /// Display range of an estimate read from a file.
 [[nodiscard]] Interval display_range(const Estimate& estimate);

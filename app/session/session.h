@@ -61,6 +61,8 @@ class Session {
   /// The evaluation if it is there; else null, and it is begun in the background if there is truth
   /// for that view: Part::Evaluations tells when it is there.
   [[nodiscard]] EvaluationPtr evaluation(const EvaluationKey& key);
+  /// Whether evaluations are under way.
+  [[nodiscard]] bool is_evaluating() const { return judge_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
   /// Disparities that pictures of this scene span: of the truth, else those that the files promise,

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/jobs.h"
+#include "app/gui/overlay_controller.h"
+#include "app/gui/panels.h"
+#include "app/session/session.h"
+
+#include <QObject>
+
+#include <functional>
+
+namespace episcope {
+
+/// Writes results and pictures in the background: result file, map, point cloud, picture on screen.
+class ExportController : public QObject {
+  Q_OBJECT
+
+ public:
+  ExportController(Session& session, Jobs& jobs, const OverlayController& overlay,
+                   const Panels& panels, QObject* parent);
+
+  /// Asks for a file; its suffix says the form: .h5 result, .pfm map and .ply cloud of this view.
+  void exportResultDialog(int estimate);
+  /// The shown result.
+  void exportShownDialog();
+  void savePictureDialog();
+
+  /// Writes without asking. The suffix of `path` says the form.
+  void exportResult(int estimate, const QString& path);
+  /// The view with its overlay as shown, one image pixel a pixel.
+  void savePicture(const QString& path);
+
+ signals:
+  void hint(const QString& sentence);
+  void written(const QString& path);
+
+ private:
+  void ask(const QString& title, const QString& name, const QString& filter,
+           const std::function<void(const QString&)>& write);
+  void startWriting(const QString& path, std::function<void(const Progress&)> write);
+
+  Session& session_;
+  Jobs& jobs_;
+  const OverlayController& overlay_;
+  Panels panels_;
+};
+
+}  // namespace episcope

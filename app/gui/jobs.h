@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/thread_priority.h"
+#include "engine/core/job_runner.h"
+
+#include <QObject>
+#include <QString>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace episcope {
+
+/// Jobs of one lane run one after the other, those of different lanes side by side.
+enum class Lane { Load, Estimate, Export };
+
+/// Every background job that a user sees: starts, progress, cancel, end and failures of all lanes
+/// with ids of their own.
+class Jobs : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Jobs(QObject* parent = nullptr);
+  ~Jobs() override;
+
+  /// Runs `work(progress) -> T` in the background. `done(value)` is called on success; `ended` in
+  /// every case after it. Failures are told by `failed`, once for all jobs.
+  template <class T>
+  quint64 start(Lane lane, const QString& title, std::function<T(const Progress&)> work,
+                std::function<void(T)> done, std::function<void()> ended = nullptr) {
+    const quint64 id = add(title, lane);
+    attach(id,
+           runner(lane).start<T>(
+               [work = std::move(work)](const Progress& progress) {
+                 lower_thread_priority();
+                 return work(progress);
+               },
+               [this, id, done = std::move(done), ended = std::move(ended)](Outcome<T> outcome) {
+                 if (outcome.value) done(std::move(*outcome.value));
+                 finish(id, outcome.failure);
+                 if (ended) ended();
+               },
+               [this, id](const ProgressState& state) { report(id, state); }));
+    return id;
+  }
+
+  /// Ignored for an unknown id.
+  void cancel(quint64 id);
+  void cancelLane(Lane lane);
+  /// The job begun last, or 0.
+  [[nodiscard]] quint64 newest() const;
+  [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
+  [[nodiscard]] int count(Lane lane) const;
+
+ signals:
+  void added(quint64 id, const QString& title);
+  void progressed(quint64 id, double fraction, const QString& stage);
+  void cancelling(quint64 id);
+  void removed(quint64 id);
+  /// A sentence for the user.
+  void failed(const QString& sentence);
+
+ private:
+  struct Job {
+    Lane lane;
+    JobId runner_id = 0;
+    QString title;
+  };
+  [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
+  quint64 add(const QString& title, Lane lane);
+  void attach(quint64 id, JobId runner_id);
+  void report(quint64 id, const ProgressState& state);
+  void finish(quint64 id, const std::exception_ptr& failure);
+
+  std::map<quint64, Job> jobs_;
+  quint64 last_id_ = 0;
+  std::array<std::unique_ptr<JobRunner>, 3> runners_;
+};
+
+/// What went wrong, as a sentence for the user.
+[[nodiscard]] QString failure_sentence(const std::exception_ptr& failure);
+
+/// A quick background computation of which only the newest matters: a new start drops the former.
+class LatestJob {
+ public:
+  /// `context` must outlive this.
+  explicit LatestJob(QObject* context);
+
+  /// `done(value)` is called unless the job was dropped, cancelled or failed.
+  template <class T>
+  void start(std::function<T(const Progress&)> work, std::function<void(T)> done) {
+    drop();
+    runner_.start<T>(
+        [work = std::move(work)](const Progress& progress) {
+          lower_thread_priority();
+          return work(progress);
+        },
+        [this, number = number_, done = std::move(done)](Outcome<T> outcome) {
+          if (number == number_ && outcome.value) done(std::move(*outcome.value));
+        });
+  }
+  void drop() {
+    ++number_;
+    runner_.cancel_all();
+  }
+
+ private:
+  std::uint64_t number_ = 0;
+  JobRunner runner_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/main_window.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/actions.h"
+#include "app/gui/browse_controller.h"
+#include "app/gui/cloud_controller.h"
+#include "app/gui/command_palette.h"
+#include "app/gui/estimate_controller.h"
+#include "app/gui/export_controller.h"
+#include "app/gui/jobs.h"
+#include "app/gui/metric_controller.h"
+#include "app/gui/open_controller.h"
+#include "app/gui/overlay_controller.h"
+#include "app/gui/queued_post.h"
+#include "app/gui/scene_info.h"
+#include "app/gui/shortcut_window.h"
+#include "app/gui/value_controller.h"
+#include "app/session/load_scene.h"
+#include "app/session/session.h"
+#include "engine/core/version.h"
+#include "widgets/info_panel.h"
+#include "widgets/job_panel.h"
+#include "widgets/message_bar.h"
+#include "widgets/overlay_bar.h"
+#include "widgets/value_bar.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QActionGroup>
+#include <QCloseEvent>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QSettings>
+#include <QToolBar>
+#include <QToolButton>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kFirstMethod = "epi_l";
+constexpr QSize kFirstSize(1280, 800);
+
+}  // namespace
+
+MainWindow::MainWindow(QWidget* parent)
+    : QMainWindow(parent), session_(std::make_unique<Session>(queued_post(this))) {
+  setWindowTitle("Episcope");
+  setAcceptDrops(true);
+  auto* body = new QWidget(this);
+  panels_ = make_panels(body);
+  setCentralWidget(body);
+  jobs_ = new Jobs(this);
+  browse_ = new BrowseController(*session_, panels_, this);
+  overlay_ = new OverlayController(*session_, panels_, this);
+  values_ = new ValueController(*session_, *overlay_, panels_, this);
+  estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
+  metrics_ = new MetricController(*session_, *jobs_, panels_, this);
+  opener_ = new OpenController(*session_, *jobs_, *browse_, panels_, this);
+  exporter_ = new ExportController(*session_, *jobs_, *overlay_, panels_, this);
+  cloud_ = new CloudController(*session_, *overlay_, panels_, this);
+  actions_ = new ActionTable(this, panels_.viewer);
+  add_actions(*actions_, *this);
+  palette_ = new CommandPalette(*actions_, this);
+  buildBars();
+  connectJobs();
+  connectControllers();
+  installEventFilter(opener_);
+  panels_.canvas->installEventFilter(this);
+  panels_.canvas->showEmpty(tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
+  session_->on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene)) showInfo();
+    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) updateActions();
+  });
+  showInfo();
+  showStatus();
+  updateActions();
+  restoreLayout();
+}
+
+// Controllers and their workers end before the session that they speak of.
+MainWindow::~MainWindow() {
+  for (QObject* each : std::initializer_list<QObject*>{
+           cloud_, exporter_, opener_, metrics_, estimate_, values_, overlay_, browse_, jobs_}) {
+    delete each;
+  }
+}
+
+void MainWindow::open(const QString& input) {
+  const bool is_builtin = !builtin_scene_id(input.toStdString()).empty();
+  opener_->open(input, [this, is_builtin] {
+    if (is_builtin) estimate_->run({kFirstMethod, {}, ViewSelection::All});
+  });
+}
+
+void MainWindow::buildBars() {
+  actions_->fillMenus(*menuBar());
+  recent_menu_ = new QMenu(tr("Open recent"), this);
+  menuBar()
+      ->findChild<QMenu*>("menu." + tr("File"))
+      ->insertMenu(actions_->find("file.demo"), recent_menu_);
+  fillRecentMenu();
+
+  QToolBar* bar = panels_.tool_bar;
+  bar->setContextMenuPolicy(Qt::PreventContextMenu);
+  bar->addAction(actions_->find("file.open"));
+  bar->addAction(actions_->find("file.export"));
+  bar->addSeparator();
+  auto* overlays = new QActionGroup(this);
+  for (const auto& [id, quantity] : overlay_actions()) {
+    overlays->addAction(actions_->find(id));
+    bar->addAction(actions_->find(id));
+  }
+  bar->addSeparator();
+  bar->addWidget(panels_.overlay_bar);
+  bar->addAction(actions_->find("help.keys"));
+  for (auto* button : bar->findChildren<QToolButton*>()) button->setFocusPolicy(Qt::NoFocus);
+  addToolBar(bar);
+}
+
+void MainWindow::connectJobs() {
+  connect(jobs_, &Jobs::added, panels_.jobs, &JobPanel::addJob);
+  connect(jobs_, &Jobs::progressed, panels_.jobs, &JobPanel::setProgress);
+  connect(jobs_, &Jobs::cancelling, panels_.jobs, &JobPanel::setCancelling);
+  connect(jobs_, &Jobs::removed, panels_.jobs, &JobPanel::removeJob);
+  connect(panels_.jobs, &JobPanel::cancelRequested, jobs_, &Jobs::cancel);
+  connect(jobs_, &Jobs::added, this, &MainWindow::showStatus);
+  connect(jobs_, &Jobs::removed, this, &MainWindow::showStatus);
+  connect(jobs_, &Jobs::failed, this, [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Error, sentence);
+  });
+}
+
+void MainWindow::connectControllers() {
+  const auto hint = [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Info, sentence);
+  };
+  connect(browse_, &BrowseController::hint, this, hint);
+  connect(estimate_, &EstimateController::hint, this, hint);
+  connect(exporter_, &ExportController::hint, this, hint);
+  connect(exporter_, &ExportController::written, this, [this](const QString& path) {
+    panels_.messages->showMessage(Severity::Success, tr("Written: %1").arg(path));
+  });
+  connect(estimate_, &EstimateController::exportRequested, exporter_,
+          &ExportController::exportResultDialog);
+  connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);
+  connect(opener_, &OpenController::previewing, overlay_, &OverlayController::setSuspended);
+  connect(opener_, &OpenController::recentInputsChanged, this, &MainWindow::fillRecentMenu);
+  connect(opener_, &OpenController::titleChanged, this, [this](const QString& title) {
+    setWindowTitle(title.isEmpty() ? QString("Episcope") : tr("%1 — Episcope").arg(title));
+  });
+}
+
+void MainWindow::fillRecentMenu() {
+  recent_menu_->clear();
+  for (const QString& input : opener_->recentInputs()) {
+    recent_menu_->addAction(input, this, [this, input] { open(input); });
+  }
+  recent_menu_->setEnabled(!recent_menu_->isEmpty());
+  if (recent_menu_->isEmpty()) return;
+  recent_menu_->addSeparator();
+  recent_menu_->addAction(tr("Forget all"), opener_, &OpenController::forgetRecentInputs);
+}
+
+void MainWindow::updateActions() {
+  const bool has_scene = session_->scene() != nullptr;
+  const bool has_result = session_->shown() != nullptr;
+  for (const auto& [id, quantity] : overlay_actions()) {
+    QAction* action = actions_->find(id);
+    action->setEnabled(overlay_->isAvailable(quantity));
+    if (overlay_->quantity() == quantity) action->setChecked(true);
+  }
+  actions_->find("compare.difference")->setChecked(overlay_->showsDifference());
+  for (const char* id : {"compare.difference", "compare.swap"}) {
+    actions_->find(id)->setEnabled(session_->compared() != nullptr);
+  }
+  for (const char* id : {"file.export", "estimate.remove", "estimate.next", "estimate.previous"}) {
+    actions_->find(id)->setEnabled(has_result);
+  }
+  for (const char* id : {"file.save_picture", "file.close", "file.open_result", "estimate.run",
+                         "estimate.copy_command"}) {
+    actions_->find(id)->setEnabled(has_scene);
+  }
+}
+
+void MainWindow::showInfo() {
+  if (!session_->scene()) {
+    panels_.info->setInfo(tr("Nothing is open"), {}, {});
+    return;
+  }
+  const SceneInfo info = describe(*session_->scene(), session_->disparity_range());
+  panels_.info->setInfo(info.title, info.rows, info.warnings);
+}
+
+void MainWindow::showStatus() {
+  const int count = jobs_->count();
+  panels_.values->setStatus(count == 0   ? tr("ready")
+                            : count == 1 ? tr("1 job running")
+                                         : tr("%1 jobs running").arg(count));
+}
+
+void MainWindow::showShortcuts() {
+  if (!shortcuts_) shortcuts_ = new ShortcutWindow(*actions_, this);
+  shortcuts_->show();
+  shortcuts_->raise();
+}
+
+void MainWindow::showPalette() {
+  palette_->popUp();
+}
+
+void MainWindow::showAbout() {
+  auto* box = new QMessageBox(
+      QMessageBox::NoIcon, tr("About Episcope"),
+      tr("<b>Episcope %1</b><p>Views, EPIs, disparity and labels of 4D light fields.</p>"
+         "<p>BSD 3-Clause licence.</p>")
+          .arg(kVersion),
+      QMessageBox::Close, this);
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  box->open();
+}
+
+void MainWindow::escape() {
+  if (browse_->endWhatIsInHand()) return;
+  if (const quint64 job = jobs_->newest()) {
+    jobs_->cancel(job);
+  } else {
+    panels_.messages->dismiss();
+  }
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+  const bool is_key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
+  if (watched == panels_.canvas && is_key) {
+    const auto* key = static_cast<QKeyEvent*>(event);
+    if (key->key() == Qt::Key_Tab && key->modifiers() == Qt::NoModifier) {
+      if (!key->isAutoRepeat()) overlay_->setFlipped(event->type() == QEvent::KeyPress);
+      return true;
+    }
+  }
+  if (watched == panels_.canvas && event->type() == QEvent::FocusOut) overlay_->setFlipped(false);
+  return QMainWindow::eventFilter(watched, event);
+}
+
+void MainWindow::restoreLayout() {
+  const QByteArray geometry = QSettings().value("geometry").toByteArray();
+  if (geometry.isEmpty() || !restoreGeometry(geometry)) resize(kFirstSize);
+  panels_.canvas->setFocus();
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  QSettings().setValue("geometry", saveGeometry());
+  event->accept();
+}
+
+}  // namespace episcope

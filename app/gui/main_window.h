@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/panels.h"
+
+#include <QMainWindow>
+
+#include <memory>
+
+class QMenu;
+
+namespace episcope {
+
+class ActionTable;
+class BrowseController;
+class CloudController;
+class CommandPalette;
+class EstimateController;
+class ExportController;
+class Jobs;
+class MetricController;
+class OpenController;
+class OverlayController;
+class Session;
+class ShortcutWindow;
+class ValueController;
+
+/// Joins the session, the panels and the controllers; does nothing itself.
+class MainWindow : public QMainWindow {
+  Q_OBJECT
+
+ public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// Opens a path or a built-in scene; a built-in one gets an estimate at once, so that there is
+  /// something to see.
+  void open(const QString& input);
+
+  [[nodiscard]] Session& session() { return *session_; }
+  [[nodiscard]] Jobs& jobs() { return *jobs_; }
+  [[nodiscard]] const Panels& panels() const { return panels_; }
+  [[nodiscard]] ActionTable& actions() { return *actions_; }
+  [[nodiscard]] BrowseController& browse() { return *browse_; }
+  [[nodiscard]] OverlayController& overlay() { return *overlay_; }
+  [[nodiscard]] EstimateController& estimate() { return *estimate_; }
+  [[nodiscard]] ExportController& exporter() { return *exporter_; }
+  [[nodiscard]] OpenController& opener() { return *opener_; }
+
+  void showShortcuts();
+  void showPalette();
+  void showAbout();
+  /// Ends what is in hand, else cancels the job begun last.
+  void escape();
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
+
+ private:
+  void connectJobs();
+  void connectControllers();
+  void buildBars();
+  void fillRecentMenu();
+  void updateActions();
+  void showInfo();
+  void showStatus();
+  void restoreLayout();
+
+  Panels panels_;
+  std::unique_ptr<Session> session_;
+  Jobs* jobs_;
+  BrowseController* browse_;
+  OverlayController* overlay_;
+  ValueController* values_;
+  EstimateController* estimate_;
+  MetricController* metrics_;
+  OpenController* opener_;
+  ExportController* exporter_;
+  CloudController* cloud_;
+  ActionTable* actions_;
+  CommandPalette* palette_;
+  ShortcutWindow* shortcuts_ = nullptr;
+  QMenu* recent_menu_ = nullptr;
+};
+
+}  // namespace episcope

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/browse_controller.h"
+#include "app/gui/jobs.h"
+#include "app/gui/panels.h"
+#include "app/session/session.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <filesystem>
+#include <functional>
+
+namespace episcope {
+
+/// Opens light fields and results in the background: dialogs, dropped files, recent files.
+class OpenController : public QObject {
+  Q_OBJECT
+
+ public:
+  OpenController(Session& session, Jobs& jobs, BrowseController& browse, const Panels& panels,
+                 QObject* parent);
+
+  /// Opens a path, `demo` or `demo:<scene>`. The centre view is shown as soon as it is read. What
+  /// was open stays if this fails or is cancelled. `opened` is called after success.
+  void open(const QString& input, std::function<void()> opened = nullptr);
+  /// Adds a result file, or a map from elsewhere, to the results of the open light field.
+  void openResult(const QString& path);
+  void openFileDialog();
+  void openFolderDialog();
+  void openResultDialog();
+  void closeScene();
+
+  /// Opened before, newest first.
+  [[nodiscard]] QStringList recentInputs() const;
+  void forgetRecentInputs();
+  /// Where built-in scenes are kept; for tests.
+  void setCacheFolder(std::filesystem::path folder) { cache_folder_ = std::move(folder); }
+
+ signals:
+  void recentInputsChanged();
+  void titleChanged(const QString& title);
+  void previewing(bool is_previewing);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void beginLoading(const QString& name);
+  void showLoading(quint64 job, double fraction);
+  void finishOpening(const QString& input, std::shared_ptr<const Scene> scene);
+  void endLoading(quint64 load);
+  void keepBuiltin(const QString& input);
+  void remember(const QString& input);
+
+  Session& session_;
+  Jobs& jobs_;
+  BrowseController& browse_;
+  Panels panels_;
+  std::filesystem::path cache_folder_;
+  quint64 load_ = 0;  // number of the newest load
+  quint64 loading_job_ = 0;
+  QString loading_name_;
+  QString last_failure_;
+};
+
+}  // namespace episcope

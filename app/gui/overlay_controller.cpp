@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/overlay_controller.h"
+
+#include "widgets/color_bar.h"
+#include "widgets/overlay_bar.h"
+#include "widgets/picture.h"
+#include "widgets/view_canvas.h"
+
+#include <limits>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+
+constexpr Quantity kQuantities[] = {
+    Quantity::Disparity,     Quantity::Confidence, Quantity::Truth, Quantity::SignedError,
+    Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
+
+bool is_in_px(Quantity quantity) {
+  return quantity == Quantity::Disparity || quantity == Quantity::Truth ||
+         quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError;
+}
+
+// The range belongs to the quantity: disparity and truth share one, a difference has its own.
+int range_key(const OverlayChoice& choice) {
+  if (choice.subtracted != 0) return -1;
+  return static_cast<int>(choice.quantity == Quantity::Truth ? Quantity::Disparity
+                                                             : choice.quantity);
+}
+
+}  // namespace
+
+OverlayController::OverlayController(Session& session, const Panels& panels, QObject* parent)
+    : QObject(parent), session_(session), panels_(panels) {
+  connect(panels_.overlay_bar, &OverlayBar::quantitySelected, this,
+          &OverlayController::setQuantity);
+  connect(panels_.overlay_bar, &OverlayBar::opacityChanged, panels_.canvas,
+          &ViewCanvas::setOverlayOpacity);
+  connect(panels_.color_bar, &ColorBar::rangeEdited, this,
+          [this](Interval range) { setRange(range); });
+  connect(panels_.color_bar, &ColorBar::automaticRangeRequested, this,
+          &OverlayController::useAutomaticRange);
+  connect(panels_.color_bar, &ColorBar::ownRangeRequested, this, &OverlayController::useOwnRange);
+  connect(panels_.canvas, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
+    const auto value = pixel ? valueAt(*pixel) : std::nullopt;
+    panels_.color_bar->setMarker(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+  });
+  panels_.canvas->setOverlayOpacity(panels_.overlay_bar->opacity());
+  session_.on_changed([this](Parts parts) { update(parts); });
+  showAvailable();
+  draw();
+}
+
+void OverlayController::update(Parts parts) {
+  if (parts.has(Part::Scene)) {
+    is_suspended_ = is_flipped_ = shows_difference_ = false;
+    known_estimates_ = 0;
+    if (!panels_.color_bar->isRangeLocked()) edited_ranges_.clear();
+  }
+  if (parts.has_any(Part::Scene | Part::Estimates)) {
+    // Who ran a method wants to see what it found.
+    const std::size_t count = session_.estimates().size();
+    if (count > std::exchange(known_estimates_, count) && quantity_ == Quantity::View) {
+      quantity_ = Quantity::Disparity;
+    }
+  }
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
+    if (!isAvailable(quantity_)) quantity_ = Quantity::View;
+    if (!session_.compared()) shows_difference_ = false;
+    showAvailable();
+  }
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations)) {
+    draw();
+  }
+}
+
+bool OverlayController::isAvailable(Quantity quantity) const {
+  const auto& scene = session_.scene();
+  if (!scene) return quantity == Quantity::View;
+  const EstimateEntry* shown = session_.shown();
+  switch (quantity) {
+    case Quantity::View:
+      return true;
+    case Quantity::Disparity:
+      return shown != nullptr;
+    case Quantity::Confidence:
+      return shown && !shown->estimate->confidence.empty();
+    case Quantity::Truth:
+      return scene->truth->has_disparity();
+    case Quantity::Labels:
+      return !scene->truth->labels.empty();
+    default:
+      return shown && scene->truth->has_disparity();
+  }
+}
+
+void OverlayController::showAvailable() {
+  std::vector<Quantity> available;
+  for (const Quantity quantity : kQuantities) {
+    if (isAvailable(quantity)) available.push_back(quantity);
+  }
+  panels_.overlay_bar->setAvailable(available);
+  panels_.overlay_bar->setQuantity(quantity_);
+  emit choiceChanged();
+}
+
+void OverlayController::setQuantity(Quantity quantity) {
+  if (!isAvailable(quantity)) return;
+  quantity_ = quantity;
+  shows_difference_ = false;
+  panels_.overlay_bar->setQuantity(quantity);
+  draw();
+  emit choiceChanged();
+}
+
+void OverlayController::selectNextQuantity() {
+  panels_.overlay_bar->selectNextQuantity();
+}
+
+void OverlayController::setDifference(bool shows_difference) {
+  shows_difference_ = shows_difference && session_.compared();
+  draw();
+  emit choiceChanged();
+}
+
+void OverlayController::setFlipped(bool is_flipped) {
+  if (std::exchange(is_flipped_, is_flipped) != is_flipped) draw();
+}
+
+void OverlayController::setSuspended(bool is_suspended) {
+  is_suspended_ = is_suspended;
+  if (!is_suspended) draw();
+}
+
+OverlayChoice OverlayController::choice() const {
+  const EstimateEntry* shown = session_.shown();
+  const EstimateEntry* compared = session_.compared();
+  const int shown_id = shown ? shown->id : 0;
+  if (shows_difference_ && !is_flipped_ && compared) {
+    return {Quantity::Disparity, shown_id, compared->id};
+  }
+  if (!is_flipped_) return {quantity_, shown_id, 0};
+  if (compared) return {quantity_, compared->id, 0};
+  const bool shows_truth = quantity_ == Quantity::Disparity && isAvailable(Quantity::Truth);
+  return {shows_truth ? Quantity::Truth : Quantity::View, shown_id, 0};
+}
+
+render::Shading OverlayController::shadingOf(const OverlayChoice& choice) const {
+  const bool is_difference = choice.subtracted != 0;
+  render::Shading shading = render::default_shading(
+      is_difference ? Quantity::SignedError : choice.quantity, session_.disparity_range());
+  if (const auto edited = edited_ranges_.find(range_key(choice)); edited != edited_ranges_.end()) {
+    shading.range = edited->second;
+  }
+  return shading;
+}
+
+render::Shading OverlayController::shadingOf(Quantity quantity) const {
+  return shadingOf(OverlayChoice{quantity, 0, 0});
+}
+
+void OverlayController::draw() {
+  if (is_suspended_) return;
+  const OverlayChoice drawn = choice();
+  if (!session_.scene()) {
+    map_ = nullptr;
+    picture_ = {};
+  } else if (drawn.quantity == Quantity::Labels) {
+    map_ = nullptr;
+    const auto& labels = session_.scene()->truth->labels;
+    picture_ = labels.contains(session_.view())
+                   ? to_qimage(render::shade_labels(labels.view(session_.view())))
+                   : QImage();
+  } else {
+    drawMap(drawn);
+  }
+  panels_.canvas->setOverlay(picture_);
+  const bool has_scale =
+      session_.scene() && drawn.quantity != Quantity::View && drawn.quantity != Quantity::Labels;
+  panels_.color_bar->setVisible(has_scale);
+  if (has_scale) {
+    panels_.color_bar->setShading(
+        drawn.subtracted != 0 ? tr("difference") : quantity_label(drawn.quantity),
+        is_in_px(drawn.quantity) ? tr("px") : QString(), shadingOf(drawn));
+  }
+  if (session_.scene()) showCaption(drawn);
+}
+
+void OverlayController::drawMap(const OverlayChoice& choice) {
+  auto map = overlay_map(session_, choice, session_.view());
+  // While the errors of a view are computed, what was drawn stays: a few milliseconds.
+  if (!map && choice.quantity != Quantity::View && session_.is_evaluating()) return;
+  map_ = std::move(map);
+  picture_ = map_ ? to_qimage(shade_overlay(*map_, shadingOf(choice))) : QImage();
+}
+
+void OverlayController::showCaption(const OverlayChoice& choice) const {
+  const ViewIndex view = session_.view();
+  QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
+  const EstimateEntry* entry = session_.find_estimate(choice.estimate);
+  const EstimateEntry* other = session_.find_estimate(choice.subtracted);
+  const auto name = [](const EstimateEntry* each) { return QString::fromStdString(each->name); };
+  if (entry && other) {
+    caption += tr(" · %1 − %2").arg(name(entry), name(other));
+  } else if (choice.quantity == Quantity::Truth || choice.quantity == Quantity::Labels) {
+    caption += tr(" · %1").arg(quantity_label(choice.quantity));
+  } else if (choice.quantity != Quantity::View && entry) {
+    caption += tr(" · %1 of %2").arg(quantity_label(choice.quantity), name(entry));
+  }
+  if (choice.quantity != Quantity::View && picture_.isNull() && !session_.is_evaluating()) {
+    caption += tr(" · not known for this view");
+  }
+  panels_.canvas->setCaption(caption);
+}
+
+void OverlayController::setRange(std::optional<Interval> range) {
+  const int key = range_key(choice());
+  if (range) {
+    edited_ranges_[key] = *range;
+  } else {
+    edited_ranges_.erase(key);
+  }
+  draw();
+}
+
+void OverlayController::useAutomaticRange() {
+  if (!map_) return;
+  const Interval range = render::robust_range(map_->map, map_->valid);
+  if (range.length() > 0) setRange(range);
+}
+
+void OverlayController::useOwnRange() {
+  setRange(std::nullopt);
+}
+
+std::optional<double> OverlayController::valueAt(PixelIndex pixel) const {
+  if (!map_ || pixel.y >= map_->map.height || pixel.x >= map_->map.width) return std::nullopt;
+  if (!map_->inside.empty() && map_->inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
+  if (!DisparityView{map_->map, map_->valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
+  return map_->map.at(pixel.y, pixel.x);
+}
+
+}  // namespace episcope

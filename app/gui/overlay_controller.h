@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/overlay_map.h"
+#include "app/gui/panels.h"
+#include "app/session/session.h"
+
+#include <QImage>
+#include <QObject>
+
+#include <map>
+#include <optional>
+
+namespace episcope {
+
+/// Draws a quantity over the view: which one, how opaque, in which range; flips to the other result
+/// while asked to.
+class OverlayController : public QObject {
+  Q_OBJECT
+
+ public:
+  OverlayController(Session& session, const Panels& panels, QObject* parent);
+
+  void setQuantity(render::Quantity quantity);
+  void selectNextQuantity();
+  [[nodiscard]] render::Quantity quantity() const { return quantity_; }
+  /// Whether a quantity can be shown now.
+  [[nodiscard]] bool isAvailable(render::Quantity quantity) const;
+
+  /// Shows shown − compared instead of the quantity.
+  void setDifference(bool shows_difference);
+  [[nodiscard]] bool showsDifference() const { return shows_difference_; }
+  /// Shows the other result (or the truth, or no overlay) instead of the shown one.
+  void setFlipped(bool is_flipped);
+
+  void useAutomaticRange();
+  void useOwnRange();
+
+  /// While suspended, something else than the session is on the canvas.
+  void setSuspended(bool is_suspended);
+
+  /// Value of the overlay at a pixel of the current view.
+  [[nodiscard]] std::optional<double> valueAt(PixelIndex pixel) const;
+  /// Colours of a quantity as they are drawn now.
+  [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
+  /// The picture over the view; null if there is none.
+  [[nodiscard]] const QImage& picture() const { return picture_; }
+
+ signals:
+  /// Quantity, difference, or what is available changed.
+  void choiceChanged();
+
+ private:
+  void update(Parts parts);
+  [[nodiscard]] OverlayChoice choice() const;
+  [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
+  void showAvailable();
+  void draw();
+  void drawMap(const OverlayChoice& choice);
+  void showCaption(const OverlayChoice& choice) const;
+  void setRange(std::optional<Interval> range);
+
+  Session& session_;
+  Panels panels_;
+  render::Quantity quantity_ = render::Quantity::View;
+  bool shows_difference_ = false;
+  bool is_flipped_ = false;
+  bool is_suspended_ = false;
+  std::size_t known_estimates_ = 0;
+  std::map<int, Interval> edited_ranges_;  // by range_key
+  std::shared_ptr<const OverlayMap> map_;
+  QImage picture_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/panels.h"
+
+#include "widgets/color_bar.h"
+#include "widgets/epi_pane.h"
+#include "widgets/info_panel.h"
+#include "widgets/job_panel.h"
+#include "widgets/message_bar.h"
+#include "widgets/method_panel.h"
+#include "widgets/metric_table.h"
+#include "widgets/overlay_bar.h"
+#include "widgets/result_list.h"
+#include "widgets/theme.h"
+#include "widgets/value_bar.h"
+#include "widgets/view_canvas.h"
+#include "widgets/view_grid.h"
+
+#include <QCoreApplication>
+#include <QFrame>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QSplitter>
+#include <QTabWidget>
+#include <QToolBar>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+constexpr int kLeftWidth = 220;
+constexpr int kRightWidth = 330;
+constexpr int kCenterWidth = 730;
+
+QString text(const char* source) {
+  return QCoreApplication::translate("episcope::MainWindow", source);
+}
+
+QWidget* in_scroll_area(QWidget* widget, QWidget* parent) {
+  auto* area = new QScrollArea(parent);
+  area->setWidgetResizable(true);
+  area->setFrameShape(QFrame::NoFrame);
+  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  area->setWidget(widget);
+  return area;
+}
+
+// The view with the vertical EPI beside it, the horizontal one under it, and the legend between.
+QWidget* make_stage(Panels& panels, QWidget* parent) {
+  auto* stage = new QWidget(parent);
+  panels.canvas = new ViewCanvas(stage);
+  panels.horizontal_epi = new EpiPane(Qt::Horizontal, stage);
+  panels.vertical_epi = new EpiPane(Qt::Vertical, stage);
+  panels.color_bar = new ColorBar(stage);
+  panels.canvas->setObjectName("canvas");
+  panels.horizontal_epi->setObjectName("horizontal_epi");
+  panels.vertical_epi->setObjectName("vertical_epi");
+  panels.color_bar->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+
+  auto* legend = new QWidget(stage);
+  auto* legend_layout = new QVBoxLayout(legend);
+  legend_layout->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, 0);
+  legend_layout->addStretch(1);
+  legend_layout->addWidget(panels.color_bar);
+  legend_layout->addStretch(1);
+
+  auto* layout = new QGridLayout(stage);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(panels.canvas, 0, 0);
+  layout->addWidget(panels.vertical_epi, 0, 1);
+  layout->addWidget(panels.horizontal_epi, 1, 0);
+  layout->addWidget(legend, 1, 1);
+  layout->setColumnStretch(0, 1);
+  layout->setRowStretch(0, 1);
+  return stage;
+}
+
+QWidget* make_left(Panels& panels, QWidget* parent) {
+  auto* left = new QSplitter(Qt::Vertical, parent);
+  panels.view_grid = new ViewGrid(left);
+  panels.view_grid->setContentsMargins(theme::kSpacing, theme::kSpacing, theme::kSpacing, 0);
+  panels.info = new InfoPanel;
+  panels.info->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
+  left->addWidget(panels.view_grid);
+  left->addWidget(in_scroll_area(panels.info, left));
+  left->setStretchFactor(0, 0);
+  left->setStretchFactor(1, 1);
+  left->setChildrenCollapsible(false);
+  return left;
+}
+
+QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
+  auto* tab = new QSplitter(Qt::Vertical, parent);
+  panels.method = new MethodPanel;
+  panels.results = new ResultList(tab);
+  tab->addWidget(in_scroll_area(panels.method, tab));
+  tab->addWidget(panels.results);
+  tab->setStretchFactor(0, 3);
+  tab->setStretchFactor(1, 2);
+  tab->setChildrenCollapsible(false);
+  return tab;
+}
+
+QWidget* make_right(Panels& panels, QWidget* parent) {
+  auto* right = new QWidget(parent);
+  panels.tabs = new QTabWidget(right);
+  panels.tabs->setObjectName("tabs");
+  panels.tabs->setDocumentMode(true);
+  panels.tabs->addTab(make_estimate_tab(panels, panels.tabs), text("Estimate"));
+  panels.metrics = new MetricTable(panels.tabs);
+  panels.tabs->addTab(panels.metrics, text("Compare"));
+  panels.cloud_tab = new QWidget(panels.tabs);
+  panels.tabs->addTab(panels.cloud_tab, text("3D"));
+  panels.jobs = new JobPanel(right);
+  auto* layout = new QVBoxLayout(right);
+  layout->setContentsMargins(0, 0, theme::kSpacing, 0);
+  layout->addWidget(panels.tabs, 1);
+  layout->addWidget(panels.jobs);
+  return right;
+}
+
+}  // namespace
+
+Panels make_panels(QWidget* window) {
+  Panels panels;
+  panels.tool_bar = new QToolBar(text("Main tool bar"), window);
+  panels.tool_bar->setObjectName("tool_bar");
+  panels.tool_bar->setMovable(false);
+  panels.overlay_bar = new OverlayBar(window);
+
+  panels.viewer = new QWidget(window);
+  panels.viewer->setObjectName("viewer");
+  auto* browser = new QSplitter(Qt::Horizontal, panels.viewer);
+  browser->addWidget(make_left(panels, browser));
+  browser->addWidget(make_stage(panels, browser));
+  browser->setStretchFactor(0, 0);
+  browser->setStretchFactor(1, 1);
+  browser->setSizes({kLeftWidth, kCenterWidth});
+  auto* viewer_layout = new QVBoxLayout(panels.viewer);
+  viewer_layout->setContentsMargins(0, 0, 0, 0);
+  viewer_layout->addWidget(browser);
+
+  auto* split = new QSplitter(Qt::Horizontal, window);
+  split->addWidget(panels.viewer);
+  split->addWidget(make_right(panels, split));
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 0);
+  split->setSizes({kLeftWidth + kCenterWidth, kRightWidth});
+  split->setChildrenCollapsible(false);
+
+  panels.messages = new MessageBar(window);
+  panels.values = new ValueBar(window);
+  auto* layout = new QVBoxLayout(window);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(2);
+  layout->addWidget(split, 1);
+  layout->addWidget(panels.messages);
+  layout->addWidget(panels.values);
+  return panels;
+}
+
+}  // namespace episcope

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+class QTabWidget;
+class QToolBar;
+class QWidget;
+
+namespace episcope {
+
+class ColorBar;
+class EpiPane;
+class InfoPanel;
+class JobPanel;
+class MessageBar;
+class MethodPanel;
+class MetricTable;
+class OverlayBar;
+class ResultList;
+class ValueBar;
+class ViewCanvas;
+class ViewGrid;
+
+/// The widgets of the main window, owned by their Qt parents. Controllers are given these.
+struct Panels {
+  QToolBar* tool_bar = nullptr;
+  OverlayBar* overlay_bar = nullptr;
+  QWidget* viewer = nullptr;  ///< Holds canvas, EPIs, legend and view grid.
+  ViewCanvas* canvas = nullptr;
+  EpiPane* horizontal_epi = nullptr;
+  EpiPane* vertical_epi = nullptr;
+  ColorBar* color_bar = nullptr;
+  ViewGrid* view_grid = nullptr;
+  InfoPanel* info = nullptr;
+  QTabWidget* tabs = nullptr;
+  MethodPanel* method = nullptr;
+  ResultList* results = nullptr;
+  MetricTable* metrics = nullptr;
+  QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
+  JobPanel* jobs = nullptr;
+  MessageBar* messages = nullptr;
+  ValueBar* values = nullptr;
+};
+
+/// Makes all panels and arranges them inside `window`.
+[[nodiscard]] Panels make_panels(QWidget* window);
+
+}  // namespace episcope

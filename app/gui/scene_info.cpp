@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/scene_info.h"
+
+#include <QCoreApplication>
+
+namespace episcope {
+namespace {
+
+QString text(const char* source) {
+  return QCoreApplication::translate("episcope::InfoPanel", source);
+}
+
+QString sample_text(const LightField& light_field) {
+  const QString color = light_field.channels() == 3 ? text("RGB") : text("grey");
+  switch (light_field.sample_type()) {
+    case SampleType::UInt8:
+      return color + text(", 8 bit");
+    case SampleType::UInt16:
+      return color + text(", 16 bit");
+    case SampleType::Float32:
+      return color + text(", float");
+  }
+  return color;
+}
+
+QString coverage(const ViewStack<float>& maps, GridShape grid) {
+  return maps.grid() == grid ? text("all views")
+                             : text("%1 of %2 views").arg(maps.grid().count()).arg(grid.count());
+}
+
+QString truth_text(const GroundTruth& truth, GridShape grid) {
+  QStringList parts;
+  if (truth.has_disparity()) {
+    parts << text("disparity (%1)").arg(coverage(truth.field.disparity, grid));
+  }
+  if (truth.has_layers()) parts << text("two layers");
+  if (!truth.labels.empty()) parts << text("labels");
+  if (!truth.regions.empty()) {
+    parts << text("%1 region masks").arg(static_cast<int>(truth.regions.size()));
+  }
+  return parts.isEmpty() ? text("none") : parts.join(", ");
+}
+
+QString camera_text(const CameraGrid& camera) {
+  if (!camera.is_known()) return text("unknown: disparity only, no depth");
+  QString line = text("B·f %1, shift %2 px")
+                     .arg(camera.baseline * camera.focal_length, 0, 'g', 4)
+                     .arg(camera.shift, 0, 'g', 4);
+  if (camera.cam_distance) line += text(", Z₀ %1").arg(*camera.cam_distance, 0, 'g', 4);
+  return line;
+}
+
+}  // namespace
+
+SceneInfo describe(const Scene& scene, Interval disparity_range) {
+  const LightField& light_field = *scene.light_field;
+  const GridShape grid = light_field.grid();
+  const ConventionReport& convention = scene.convention;
+  const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
+  SceneInfo info;
+  info.title = utf8(light_field.info().name);
+  info.rows.push_back({text("Views"), text("%1×%2").arg(grid.v).arg(grid.u), {}});
+  info.rows.push_back({text("Size"),
+                       text("%1×%2 px, %3 MB")
+                           .arg(light_field.width())
+                           .arg(light_field.height())
+                           .arg(light_field.byte_size() / 1'000'000),
+                       {}});
+  info.rows.push_back({text("Samples"), sample_text(light_field), {}});
+  if (disparity_range.length() > 0) {
+    info.rows.push_back(
+        {text("Disparity"),
+         text("%1 … %2 px").arg(disparity_range.min, 0, 'f', 2).arg(disparity_range.max, 0, 'f', 2),
+         {}});
+  }
+  info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
+  info.rows.push_back({text("Order"), utf8(convention.order), utf8(convention.order_check)});
+  info.rows.push_back(
+      {text("Camera"), camera_text(light_field.info().camera), utf8(convention.units)});
+  info.rows.push_back({text("Format"), utf8(convention.format), {}});
+  for (const Companion& companion : scene.companions) {
+    info.rows.push_back({utf8(companion.kind), utf8(companion.shape), {}});
+  }
+  info.rows.push_back({text("Source"), utf8(light_field.info().source), {}});
+  for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
+  return info;
+}
+
+}  // namespace episcope

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/scene.h"
+#include "widgets/info_panel.h"
+
+#include <QString>
+#include <QStringList>
+
+#include <vector>
+
+namespace episcope {
+
+/// What the info panel tells about a scene.
+struct SceneInfo {
+  QString title;
+  std::vector<InfoRow> rows;
+  QStringList warnings;
+};
+
+[[nodiscard]] SceneInfo describe(const Scene& scene, Interval disparity_range);
+
+}  // namespace episcope

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/value_controller.h"
+
+#include "app/gui/disparity_at.h"
+#include "widgets/value_bar.h"
+#include "widgets/view_canvas.h"
+
+#include <algorithm>
+#include <type_traits>
+#include <variant>
+
+namespace episcope {
+namespace {
+
+struct Samples {
+  QStringList texts;  // one a channel, as stored
+  QColor color;
+};
+
+Samples samples_at(const LightField& light_field, ViewIndex view, PixelIndex pixel) {
+  Samples samples;
+  std::visit(
+      [&](const auto& stack) {
+        const auto image = stack.view(view);
+        for (int c = 0; c < image.channels; ++c) {
+          const auto value = image.at(pixel.y, pixel.x, c);
+          samples.texts << (std::is_floating_point_v<decltype(value + 0)>
+                                ? QString::number(static_cast<double>(value), 'f', 3)
+                                : QString::number(static_cast<double>(value), 'f', 0));
+        }
+      },
+      light_field.samples());
+  float normalized[3] = {};
+  light_field.read_row(view, pixel.y, pixel.x, pixel.x + 1, normalized);
+  if (light_field.channels() == 1) normalized[1] = normalized[2] = normalized[0];
+  const auto bounded = [](float value) { return std::clamp(value, 0.0F, 1.0F); };
+  samples.color =
+      QColor::fromRgbF(bounded(normalized[0]), bounded(normalized[1]), bounded(normalized[2]));
+  return samples;
+}
+
+}  // namespace
+
+ValueController::ValueController(Session& session, const OverlayController& overlay,
+                                 const Panels& panels, QObject* parent)
+    : QObject(parent), session_(session), overlay_(overlay), panels_(panels) {
+  connect(panels_.canvas, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
+    cursor_ = pixel;
+    show();
+  });
+  panels_.canvas->setPixelText([this](int y, int x) { return pixelText({y, x}); });
+  session_.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene)) cursor_.reset();
+    show();
+  });
+}
+
+void ValueController::show() {
+  const LightFieldPtr light_field = session_.light_field();
+  const PixelIndex pixel = cursor_.value_or(session_.cross_hair());
+  if (!light_field || pixel.y >= light_field->height() || pixel.x >= light_field->width()) {
+    panels_.values->setReading(std::nullopt);
+    return;
+  }
+  const ViewIndex view = session_.view();
+  const Samples samples = samples_at(*light_field, view, pixel);
+  PixelReading reading;
+  reading.pixel = pixel;
+  reading.samples = samples.texts.join(' ');
+  reading.color = samples.color;
+  const DisparityField& truth = session_.scene()->truth->field;
+  reading.has_truth = truth.contains(view);
+  reading.truth_px = disparity_at(truth, view, pixel);
+  for (const EstimateEntry& entry : session_.estimates()) {
+    if (!entry.estimate->contains(view)) continue;
+    reading.estimates.push_back(
+        {QString::fromStdString(entry.name), disparity_at(entry.estimate->field, view, pixel)});
+  }
+  panels_.values->setReading(reading);
+}
+
+QStringList ValueController::pixelText(PixelIndex pixel) const {
+  const LightFieldPtr light_field = session_.light_field();
+  if (!light_field || pixel.y >= light_field->height() || pixel.x >= light_field->width()) {
+    return {};
+  }
+  if (!overlay_.picture().isNull()) {
+    const auto value = overlay_.valueAt(pixel);
+    if (value) return {QString::number(*value, 'f', 3)};
+  }
+  return samples_at(*light_field, session_.view(), pixel).texts;
+}
+
+}  // namespace episcope

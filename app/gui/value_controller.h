@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/overlay_controller.h"
+#include "app/gui/panels.h"
+#include "app/session/session.h"
+
+#include <QObject>
+#include <QStringList>
+
+#include <optional>
+
+namespace episcope {
+
+/// Reads out what is known of the pixel under the cursor (of the cross-hair while the cursor is
+/// elsewhere), and prints values into large pixels.
+class ValueController : public QObject {
+  Q_OBJECT
+
+ public:
+  ValueController(Session& session, const OverlayController& overlay, const Panels& panels,
+                  QObject* parent);
+
+ private:
+  void show();
+  [[nodiscard]] QStringList pixelText(PixelIndex pixel) const;
+
+  Session& session_;
+  const OverlayController& overlay_;
+  Panels panels_;
+  std::optional<PixelIndex> cursor_;
+};
+
+}  // namespace episcope
