@@ -2,87 +2,215 @@
 #include "engine/solvers/tv_l2.h"
 
 #include "engine/core/error.h"
+#include "engine/solvers/tv_l2_grid.h"
+#include "engine/solvers/tv_l2_kernel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-namespace episcope {
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
 
-struct TvL2Solver::State {
-  int height = 0, width = 0;
-  std::vector<float> f, c, g, u, extrapolated, px, py;
+namespace episcope {
+namespace {
+
+constexpr float kLeastWeight = 1e-4F;
+constexpr int kCoarsestSize = 4;
+constexpr int kCoarseIterations = 20;
+constexpr int kPenaltyEvery = 10;
+constexpr float kCoarseEdge = 0.75F;
+constexpr float kRelaxation = 1.7F;
+// In units of the spread of f.
+constexpr float kPenaltyScale = 3.5F;
+constexpr float kPenaltyKnee = 0.07F;
+constexpr float kPenaltySpread = 3.0F;
+
+const TvL2Kernel& kernel_for([[maybe_unused]] Isa isa) {
+#ifndef EPISCOPE_BASELINE_ONLY
+  if (isa == Isa::Avx512) return avx512::kTvL2Kernel;
+  if (isa == Isa::Avx2) return avx2::kTvL2Kernel;
+#endif
+  return baseline::kTvL2Kernel;
+}
+
+// Duals decay to denormals in flat areas, which would slow every operation on them down.
+class FlushDenormals {
+ public:
+#if defined(__x86_64__)
+  FlushDenormals() : before_(_mm_getcsr()) {
+    _mm_setcsr(before_ | _MM_FLUSH_ZERO_ON | 0x0040);  // 0x0040: denormals are zeros
+  }
+  ~FlushDenormals() {
+    _mm_setcsr(before_);
+  }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned before_;
+#endif
 };
 
-TvL2Solver::TvL2Solver(int height, int width, Isa) : state_(std::make_unique<State>()) {
+template <class T>
+void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
+  if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
+    throw InvalidInput(std::string("TV-L2 needs ") + what + " as one channel of " +
+                       std::to_string(width) + " by " + std::to_string(height) + ", not " +
+                       std::to_string(image.channels) + " of " + std::to_string(image.width) +
+                       " by " + std::to_string(image.height));
+  }
+}
+
+}  // namespace
+
+struct TvL2Solver::State {
+  const TvL2Kernel& kernel;
+  std::vector<TvL2Grid> grids;
+  std::vector<float> rows;
+  float offset = 0;  // weighted mean of f, taken off for the sake of float32
+  TvL2Penalty penalty;
+  float relaxation = kRelaxation;
+  float coarse_edge = kCoarseEdge;
+
+  State(int height, int width, Isa isa);
+  void load(const TvL2Problem& problem);
+  void centre();
+  void renew_penalty(std::size_t stage, bool first);
+  void correct(std::size_t stage);
+  void iterate(std::size_t stage, int iteration, const Progress& progress);
+};
+
+TvL2Solver::State::State(int height, int width, Isa isa) : kernel(kernel_for(isa)) {
+  grids.emplace_back(height, width);
+  while (std::max(height, width) > kCoarsestSize || grids.size() < 2) {
+    height = (height + 1) / 2;
+    width = (width + 1) / 2;
+    grids.emplace_back(height, width);
+  }
+  rows.resize(static_cast<std::size_t>(kTvL2ScratchRows) * grids[0].level.pitch);
+}
+
+void TvL2Solver::State::load(const TvL2Problem& problem) {
+  const TvL2Level& level = grids[0].level;
+  const float inverse_lambda = static_cast<float>(1 / problem.lambda);
+  for (int y = 0; y < level.height; ++y) {
+    const long at = y * level.pitch;
+    const float* const f = problem.f.row(y);
+    const float* const w = problem.w.empty() ? nullptr : problem.w.row(y);
+    const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
+    for (int x = 0; x < level.width; ++x) {
+      const bool known = std::isfinite(f[x]);
+      const float weight = !known ? kLeastWeight : w != nullptr ? w[x] : 1.0F;
+      level.f[at + x] = known ? f[x] : 0.0F;
+      level.c[at + x] = std::max(weight, kLeastWeight) * inverse_lambda;
+      level.g[at + x] = g != nullptr ? std::max(g[x], kLeastWeight) : 1.0F;
+    }
+  }
+  centre();
+  for (std::size_t k = 1; k < grids.size(); ++k)
+    coarsen_problem(grids[k - 1].level, grids[k].level);
+}
+
+void TvL2Solver::State::centre() {
+  const TvL2Level& level = grids[0].level;
+  double weight = 0, sum = 0, squares = 0;
+  for (int y = 0; y < level.height; ++y) {
+    double row_weight = 0, row_sum = 0, row_squares = 0;
+    for (int x = 0; x < level.width; ++x) {
+      const double c = level.c[y * level.pitch + x], f = level.f[y * level.pitch + x];
+      row_weight += c;
+      row_sum += c * f;
+      row_squares += c * f * f;
+    }
+    weight += row_weight;
+    sum += row_sum;
+    squares += row_squares;
+  }
+  offset = static_cast<float>(sum / weight);
+  const double variance = squares / weight - (sum / weight) * (sum / weight);
+  const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) level.f[y * level.pitch + x] -= offset;
+  }
+  penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
+}
+
+void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
+  TvL2Level& level = grids[stage].level;
+  penalty.first = first;
+  kernel.penalise(level, penalty);
+  level.data_scale = 1;
+  invert_diagonal(level);
+  for (std::size_t k = stage + 1; k < grids.size(); ++k) {
+    // A multigrid cell weighs as much as its pixels together; coarsen_problem halves that.
+    grids[k].level.data_scale = 2 * grids[k - 1].level.data_scale;
+    coarsen_penalty(grids[k - 1].level, grids[k].level, coarse_edge);
+    invert_diagonal(grids[k].level);
+  }
+}
+
+void TvL2Solver::State::correct(std::size_t stage) {
+  const std::size_t last = grids.size() - 1;
+  for (std::size_t k = stage + 1; k < last; ++k) {
+    kernel.descend(grids[k].level, grids[k + 1].level, rows.data());
+  }
+  kernel.solve(grids[last].level);
+  for (std::size_t k = last; --k > stage;) kernel.ascend(grids[k].level, grids[k + 1].level);
+}
+
+void TvL2Solver::State::iterate(std::size_t stage, int iteration, const Progress& progress) {
+  progress.check();
+  if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
+  if (iteration > 0) correct(stage);
+  kernel.iterate(grids[stage].level, grids[stage + 1].level,
+                 {relaxation, iteration == 0, rows.data()});
+}
+
+TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
   if (height < 1 || width < 1) {
     throw InvalidInput("TV-L2 needs an image of at least one pixel, not " + std::to_string(width) +
                        " by " + std::to_string(height));
   }
-  state_->height = height;
-  state_->width = width;
+  state_ = std::make_unique<State>(height, width, isa);
 }
 TvL2Solver::~TvL2Solver() = default;
 TvL2Solver::TvL2Solver(TvL2Solver&&) noexcept = default;
 
 TvL2Result TvL2Solver::solve(const TvL2Problem& problem, const TvL2Options& options,
                              const Progress& progress, ImageView<float> u) {
-  State& s = *state_;
-  const int height = s.height, width = s.width, count = height * width;
-  s.f.resize(count);
-  s.c.resize(count);
-  s.g.assign(count, 1.0F);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      const int i = y * width + x;
-      const float f = problem.f.at(y, x);
-      const bool known = std::isfinite(f);
-      const float w = problem.w.empty() ? 1.0F : problem.w.at(y, x);
-      s.f[i] = known ? f : 0.0F;
-      s.c[i] = (known ? std::max(w, 1e-4F) : 1e-4F) / static_cast<float>(problem.lambda);
-      if (!problem.g.empty()) s.g[i] = problem.g.at(y, x);
-    }
+  State& state = *state_;
+  const TvL2Level& finest = state.grids[0].level;
+  check_shape(problem.f, finest.height, finest.width, "f");
+  check_shape(u, finest.height, finest.width, "u");
+  if (!problem.w.empty()) check_shape(problem.w, finest.height, finest.width, "w");
+  if (!problem.g.empty()) check_shape(problem.g, finest.height, finest.width, "g");
+  if (!(problem.lambda > 0)) throw InvalidInput("TV-L2 needs a positive lambda");
+  const FlushDenormals flush;
+  state.load(problem);
+  const std::size_t last = state.grids.size() - 2;
+  start_from_data(state.grids[last].level);
+  for (std::size_t stage = last; stage > 0; --stage) {
+    for (int i = 0; i < kCoarseIterations; ++i) state.iterate(stage, i, progress);
+    prolong(state.grids[stage].level, state.grids[stage - 1].level);
   }
-  s.u = s.extrapolated = s.f;
-  s.px.assign(count, 0.0F);
-  s.py.assign(count, 0.0F);
-  const float tau = 0.3F, sigma = 0.4F;
   TvL2Result result;
   while (result.iterations < options.max_iterations && !result.converged) {
-    progress.check();
-    ++result.iterations;
-    for (int y = 0, i = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x, ++i) {
-        const float dx = x + 1 < width ? s.extrapolated[i + 1] - s.extrapolated[i] : 0.0F;
-        const float dy = y + 1 < height ? s.extrapolated[i + width] - s.extrapolated[i] : 0.0F;
-        const float a = s.px[i] + sigma * dx, b = s.py[i] + sigma * dy;
-        const float scale = std::min(1.0F, s.g[i] / std::sqrt(a * a + b * b + 1e-30F));
-        s.px[i] = a * scale;
-        s.py[i] = b * scale;
-        const float div = s.px[i] - (x ? s.px[i - 1] : 0) + s.py[i] - (y ? s.py[i - width] : 0);
-        const float next = (s.u[i] + tau * (div + s.c[i] * s.f[i])) / (1 + tau * s.c[i]);
-        s.extrapolated[i] = 2 * next - s.u[i];
-        s.u[i] = next;
-      }
-    }
-    if (result.iterations % options.check_every != 0) continue;
-    double primal = 0, dual = 0;
-    for (int y = 0, i = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x, ++i) {
-        const double dx = x + 1 < width ? s.u[i + 1] - s.u[i] : 0.0F;
-        const double dy = y + 1 < height ? s.u[i + width] - s.u[i] : 0.0F;
-        const double div = s.px[i] - (x ? s.px[i - 1] : 0) + s.py[i] - (y ? s.py[i - width] : 0);
-        const double off = s.u[i] - s.f[i];
-        primal += s.g[i] * std::sqrt(dx * dx + dy * dy) + 0.5 * s.c[i] * off * off;
-        dual -= s.f[i] * div + 0.5 * div * div / s.c[i];
-      }
-    }
-    result.energy = primal;
-    result.gap = primal - dual;
-    result.converged = result.gap <= options.gap * primal;
+    state.iterate(0, result.iterations++, progress);
+    const bool last_one = result.iterations == options.max_iterations;
+    if (!last_one && result.iterations % std::max(1, options.check_every) != 0) continue;
+    const TvL2Sums sums = state.kernel.measure(finest, state.rows.data());
+    result.energy = sums.energy;
+    result.gap = sums.energy - sums.dual;
+    result.converged = result.gap <= options.gap * sums.energy;
   }
-  for (int y = 0; y < height; ++y) std::copy_n(&s.u[static_cast<std::size_t>(y) * width], width, u.row(y));
+  for (int y = 0; y < finest.height; ++y) {
+    for (int x = 0; x < finest.width; ++x) {
+      u.row(y)[x] = finest.u[y * finest.pitch + x] + state.offset;
+    }
+  }
   return result;
 }
 

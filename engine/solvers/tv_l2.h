@@ -10,9 +10,11 @@
 namespace episcope {
 
 /// Denoising of one image `[y][x]` by weighted total variation:
-/// P(u) = Σ g |∇u|₂ + 1/(2λ) Σ w (u − f)², forward differences, none across the last row and column.
+/// P(u) = Σ g |∇u|₂ + 1/(2λ) Σ w (u − f)², forward differences, none across the last row and
+/// column.
 struct TvL2Problem {
-  ImageView<const float> f;  ///< Observation. Not finite = unknown: taken as 0 with the least weight.
+  ImageView<const float>
+      f;  ///< Observation. Not finite = unknown: taken as 0 with the least weight.
   ImageView<const float> w;  ///< Weight of the observation, in [1e-4, 1]; smaller ones are raised.
                              ///< Empty = 1.
   ImageView<const float> g;  ///< Weight of the variation, in (0, 1]. Empty = 1.
@@ -20,20 +22,20 @@ struct TvL2Problem {
 };
 
 struct TvL2Options {
-  int max_iterations = 300;
+  int max_iterations = 30;
   double gap = 1e-4;     ///< Stop once the duality gap is at most this share of the energy.
-  int check_every = 20;  ///< Iterations between two looks at the gap.
+  int check_every = 10;  ///< Iterations between two looks at the gap.
 };
 
 struct TvL2Result {
   int iterations = 0;  ///< At full resolution.
   double energy = 0;   ///< P(u)
-  double gap = 0;      ///< P(u) − D(p) ≥ 0 up to rounding. ½/λ Σ w (u − u*)² ≤ gap bounds the error.
+  double gap = 0;  ///< P(u) − D(p) ≥ 0 up to rounding. ½/λ Σ w (u − u*)² ≤ gap bounds the error.
   bool converged = false;
 };
 
-/// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: one object
-/// for each thread. The result depends on neither the thread nor earlier calls.
+/// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: one
+/// object for each thread. The result depends on neither the thread nor earlier calls.
 class TvL2Solver {
  public:
   /// Throws InvalidInput unless both are positive. `isa` other than `best_isa()` is for tests.
@@ -42,8 +44,8 @@ class TvL2Solver {
   TvL2Solver(TvL2Solver&&) noexcept;
 
   /// Writes the minimiser to `u`, whose content before the call is not used; `u` may be `f`.
-  /// Throws InvalidInput on a wrong shape or λ ≤ 0, Cancelled on a stop request (asked for every few
-  /// milliseconds).
+  /// Throws InvalidInput on a wrong shape or λ ≤ 0, Cancelled on a stop request (asked for every
+  /// few milliseconds).
   TvL2Result solve(const TvL2Problem& problem, const TvL2Options& options, const Progress& progress,
                    ImageView<float> u);
 
