@@ -72,16 +72,17 @@ Subject load_subject(const Request& request, Format format, const Progress& prog
     subject.scene = load_input(request.input, request.read, progress);
     return subject;
   }
-  std::string input = request.truth;
-  const bool is_native = io::is_result_file(request.input);
-  if (is_native && input.empty()) {
-    input = source_of(io::read_result(request.input, {1, 1}));
-  }
   const bool needs_scene =
       format == Format::Archive || format == Format::Folder || format == Format::Ply;
-  if (!input.empty() && needs_scene) subject.scene = load_input(input, request.read, progress);
-  const GridShape grid = subject.scene ? subject.scene->light_field->grid() : GridShape{1, 1};
-  subject.estimate = io::read_result(request.input, grid);
+  if (request.truth.empty()) {
+    subject.estimate = read_result_alone(request.input);
+    const std::string source = source_of(*subject.estimate);
+    if (needs_scene && !source.empty()) subject.scene = load_input(source, request.read, progress);
+  } else {
+    subject.scene = load_input(request.truth, request.read, progress);
+    subject.estimate = io::read_result(request.input, subject.scene->light_field->grid(),
+                                       subject.scene->light_field->info().name);
+  }
   if (needs_scene && !subject.scene) {
     throw IoError(request.input,
                   "its light field is not known or not where it was; name it with "

@@ -88,6 +88,12 @@ bool names_result(const std::string& argument) {
   return suffix == ".pfm" || suffix == ".tif" || suffix == ".tiff" || io::is_result_file(argument);
 }
 
+Estimate read_result_alone(const std::filesystem::path& path) {
+  // Larger than any: a result file says itself where in the grid its views are.
+  constexpr GridShape any_grid{1 << 14, 1 << 14};
+  return io::read_result(path, io::is_result_file(path) ? any_grid : GridShape{1, 1});
+}
+
 std::string source_of(const Estimate& estimate) {
   std::error_code ignored;
   const bool is_there = !builtin_scene_id(estimate.source).empty() ||

@@ -29,6 +29,10 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 /// Whether an argument names a result: a result file, a PFM, a TIFF.
 [[nodiscard]] bool names_result(const std::string& argument);
 
+/// Reads a result without its light field: a result file knows the places of its views; a map from
+/// elsewhere becomes view 0,0. Throws IoError.
+[[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path);
+
 /// The INPUT that a result was estimated from, as its file says; empty if there is none or it is
 /// not where it was.
 [[nodiscard]] std::string source_of(const Estimate& estimate);

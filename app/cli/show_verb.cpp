@@ -108,14 +108,13 @@ std::optional<Scene> scene_of(const Request& request, const Estimate& estimate,
 }
 
 Picture result_picture(const Request& request, Job& job) {
-  // A map without a place in a grid belongs to the centre view of the light field, if one is named.
   std::optional<Scene> scene;
   if (!request.truth.empty()) {
     scene = load_input(request.truth, request.read, job.progress().part(0, 0.9));
   }
-  const GridShape grid = scene ? scene->light_field->grid() : GridShape{1, 1};
-  const Estimate estimate =
-      io::read_result(request.subject, grid, scene ? scene->light_field->info().name : "");
+  const Estimate estimate = scene ? io::read_result(request.subject, scene->light_field->grid(),
+                                                    scene->light_field->info().name)
+                                  : read_result_alone(request.subject);
   if (request.what == "confidence") return confidence_picture(estimate, request.picture);
   const bool has_own_range = request.what == "disparity" && request.picture.range;
   if (!scene && !has_own_range) scene = scene_of(request, estimate, job.progress().part(0, 0.9));

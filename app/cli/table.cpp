@@ -74,7 +74,8 @@ std::string table_to_csv(const Table& table) {
 }
 
 std::string table_to_latex(const Table& table) {
-  const std::string columns = "l" + std::string(table.header.size() - 1, 'r');
+  std::string columns(table.header.size(), 'r');
+  columns.front() = 'l';
   std::string text = "\\begin{tabular}{" + columns + "}\n\\toprule\n" +
                      joined(table.header, " & ", latex_cell) + " \\\\\n\\midrule\n";
   for (const auto& row : table.rows) text += joined(row, " & ", latex_cell) + " \\\\\n";
