@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/scenes/builtin.h"
+
+#include <QTest>
+
+using namespace episcope;
+
+// The samples of every scene are recorded, so that a change of the pictures is noticed, and so that
+// every machine, instruction set and compiler must give the same bytes.
+class BuiltinHashTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void samples_areTheRecordedOnes_data() {
+    QTest::addColumn<QString>("id");
+    QTest::addColumn<double>("noise");
+    QTest::addColumn<quint64>("hash");
+    QTest::newRow("demo") << "demo" << 0.0 << quint64{0xc2f0139d961afe03ULL};
+    QTest::newRow("fronto") << "fronto" << 0.0 << quint64{0x3e697c8464057207ULL};
+    QTest::newRow("slant") << "slant" << 0.0 << quint64{0x6add95ca1657f8a2ULL};
+    QTest::newRow("edge") << "edge" << 0.0 << quint64{0x437c69eb274528dbULL};
+    QTest::newRow("bars") << "bars" << 0.0 << quint64{0x25f1beb119f509c1ULL};
+    QTest::newRow("objects") << "objects" << 0.0 << quint64{0x743bee42456449f5ULL};
+    QTest::newRow("transparent") << "transparent" << 0.0 << quint64{0xe4efdec229f4aad7ULL};
+    QTest::newRow("fronto, noise") << "fronto" << 5.0 << quint64{0x1198548849601a94ULL};
+  }
+  void samples_areTheRecordedOnes() {
+    QFETCH(QString, id);
+    QFETCH(double, noise);
+    QFETCH(quint64, hash);
+    scenes::RenderOptions options;
+    options.grid = {3, 3};
+    options.height = 120;
+    options.width = 160;
+    options.noise_sigma = noise;
+
+    const Scene scene = scenes::render_builtin(id.toStdString(), options, Progress());
+
+    const quint64 actual = scene.light_field->sample_hash();
+    QVERIFY2(actual == hash, qPrintable("now 0x" + QString::number(actual, 16)));
+  }
+};
+
+QTEST_APPLESS_MAIN(BuiltinHashTest)
+#include "builtin_hash_test.moc"
