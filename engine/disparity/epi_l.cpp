@@ -11,45 +11,12 @@
 namespace episcope {
 namespace {
 
-// Directions that agree within this many px are averaged.
-constexpr float kAgreement = 0.3F;
-
 struct Maps {
   const LightField& light_field;
   ViewStack<float>& disparity;
   ViewStack<float>& confidence;
   [[nodiscard]] GridShape grid() const { return disparity.grid(); }
   [[nodiscard]] ViewIndex first() const { return disparity.first(); }
-};
-
-struct Fusion {
-  float power;
-
-  // eq. r^p: raises to a power of two by squaring where it can.
-  [[nodiscard]] float weight(float coherence) const {
-    if (power == 8) {
-      const float second = coherence * coherence;
-      const float fourth = second * second;
-      return fourth * fourth;
-    }
-    return std::pow(coherence, power);
-  }
-
-  void merge(const float* disparity, const float* coherence, int count, float* to_disparity,
-             float* to_coherence) const {
-    for (int i = 0; i < count; ++i) {
-      const float here = coherence[i];
-      const float there = to_coherence[i];
-      const float difference = disparity[i] - to_disparity[i];
-      if (here > 0 && there > 0 && std::fabs(difference) < kAgreement) {
-        const float share = weight(here) / (weight(here) + weight(there) + 1e-30F);
-        to_disparity[i] += share * difference;
-      } else if (here > there) {
-        to_disparity[i] = disparity[i];
-      }
-      to_coherence[i] = std::max(here, there);
-    }
-  }
 };
 
 // Rows of a task of horizontal EPIs: long against the neighbours it shares with the next task.
@@ -63,11 +30,12 @@ StructureTensor::Sink store_into(const Maps& maps, int v) {
   };
 }
 
-StructureTensor::Sink merge_into(const Maps& maps, const Fusion& fusion, int u) {
-  return [&maps, fusion, u](int v, PixelIndex begin, int count, const float* disparity,
+StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
+  return [&maps, power, u](int v, PixelIndex begin, int count, const float* disparity,
                             const float* coherence) {
-    fusion.merge(disparity, coherence, count, maps.disparity.view({v, u}).row(begin.y) + begin.x,
-                 maps.confidence.view({v, u}).row(begin.y) + begin.x);
+    merge_orientations(disparity, coherence, count, power,
+                       maps.disparity.view({v, u}).row(begin.y) + begin.x,
+                       maps.confidence.view({v, u}).row(begin.y) + begin.x);
   };
 }
 
@@ -90,7 +58,7 @@ void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSe
 }
 
 void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
-                  const Fusion& fusion, const Progress& progress) {
+                  int power, const Progress& progress) {
   const LightField& lf = maps.light_field;
   const StructureTensor sizes(lf, StructureTensor::Direction::Vertical, scales, search);
   const int width = sizes.max_width();
@@ -110,7 +78,7 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
                               std::min(width, lf.width() - x),
                               first.v,
                               first.v + maps.grid().v};
-        tensor->estimate(task, merge_into(maps, fusion, u));
+        tensor->estimate(task, merge_into(maps, power, u));
       }
     };
   });
@@ -149,7 +117,7 @@ Schema<EpiLParameters> epi_l_schema() {
             {0.1, 255, true})
       .real("noise", &P::noise,
             {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
-      .real("fusion_power", &P::fusion_power,
+      .integer("fusion_power", &P::fusion_power,
             {"Fusion power",
              "Horizontal and vertical estimates are averaged with weights coherence^p"},
             {0, 32})
@@ -185,7 +153,7 @@ Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters,
   }
   if (lf.grid().v > 1) {
     progress.step("vertical EPIs");
-    run_vertical(maps, scales, search, {static_cast<float>(parameters.fusion_power)},
+    run_vertical(maps, scales, search, parameters.fusion_power,
                  progress.part(0.5, 1));
   }
   return estimate;

@@ -413,4 +413,9 @@ void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {
   }
 }
 
+void merge_orientations(const float* disparity, const float* coherence, int count, int power,
+                        float* to_disparity, float* to_coherence) {
+  tensor_kernel().merge(disparity, coherence, count, power, to_disparity, to_coherence);
+}
+
 }  // namespace episcope

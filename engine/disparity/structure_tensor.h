@@ -83,4 +83,10 @@ class StructureTensor {
   std::unique_ptr<State> state_;
 };
 
+/// Merges `count` estimates of one direction into those of the other: where both agree within
+/// 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence becomes the
+/// larger of the two. Source: winner-takes-all as in [WG12], weights measured to be better.
+void merge_orientations(const float* disparity, const float* coherence, int count, int power,
+                        float* to_disparity, float* to_coherence);
+
 }  // namespace episcope

@@ -23,20 +23,43 @@ inline Vec square_root(Vec value) {
   return root;
 }
 
-void deinterleave(const std::uint8_t* __restrict in, int count, int channels, float* const* out) {
-  constexpr float scale = 1.0F / 255;
+typedef std::uint8_t Bytes __attribute__((vector_size(16)));
+typedef float SixteenFloats __attribute__((vector_size(64)));
+typedef float LooseSixteenFloats __attribute__((vector_size(64), aligned(4), may_alias));
+
+constexpr float kSampleScale = 1.0F / 255;
+
+// Sixteen samples of one channel out of 48 interleaved bytes.
+template <int kChannel>
+inline void store_channel(Bytes first, Bytes second, Bytes third, float* out) {
+  Bytes low{};
+  Bytes both{};
+  // Where sample i stands among 48 bytes: gathered from the first two vectors, then from the third.
+  for (int i = 0; i < 16; ++i) {
+    const int at = 3 * i + kChannel;
+    low[i] = static_cast<std::uint8_t>(at < 32 ? at : 0);
+    both[i] = static_cast<std::uint8_t>(at < 32 ? i : at - 16);
+  }
+  const Bytes gathered = __builtin_shuffle(__builtin_shuffle(first, second, low), third, both);
+  *reinterpret_cast<LooseSixteenFloats*>(out) =
+      kSampleScale * __builtin_convertvector(gathered, SixteenFloats);
+}
+
+void deinterleave(const std::uint8_t* in, int count, int channels, float* const* out) {
   if (channels == 1) {
-    float* __restrict grey = out[0];
-    for (int i = 0; i < count; ++i) grey[i] = scale * static_cast<float>(in[i]);
+    for (int i = 0; i < count; ++i) out[0][i] = kSampleScale * static_cast<float>(in[i]);
     return;
   }
-  float* __restrict red = out[0];
-  float* __restrict green = out[1];
-  float* __restrict blue = out[2];
-  for (int i = 0; i < count; ++i) {
-    red[i] = scale * static_cast<float>(in[3 * i]);
-    green[i] = scale * static_cast<float>(in[3 * i + 1]);
-    blue[i] = scale * static_cast<float>(in[3 * i + 2]);
+  int i = 0;
+  for (; i + 16 <= count; i += 16) {
+    Bytes bytes[3];
+    __builtin_memcpy(bytes, in + 3 * static_cast<long>(i), sizeof bytes);
+    store_channel<0>(bytes[0], bytes[1], bytes[2], out[0] + i);
+    store_channel<1>(bytes[0], bytes[1], bytes[2], out[1] + i);
+    store_channel<2>(bytes[0], bytes[1], bytes[2], out[2] + i);
+  }
+  for (; i < count; ++i) {
+    for (int c = 0; c < 3; ++c) out[c][i] = kSampleScale * static_cast<float>(in[3 * i + c]);
   }
 }
 
@@ -400,9 +423,59 @@ void resolve(const TensorAverage& average) {
   }
 }
 
+inline Vec absolute(Vec value) { return choose(value < 0.0F, -value, value); }
+
+inline Vec raised(Vec base, int power) {
+  Vec result = splat(1);
+  for (; power > 0; power >>= 1) {
+    if ((power & 1) != 0) result *= base;
+    base *= base;
+  }
+  return result;
+}
+
+// Directions that agree within this many px are averaged.
+constexpr float kAgreement = 0.3F;
+
+inline void merge_at(const float* disparity, const float* coherence, int power,
+                     float* to_disparity, float* to_coherence) {
+  const Vec here = load(coherence);
+  const Vec there = load(to_coherence);
+  const Vec value = load(disparity);
+  const Vec other = load(to_disparity);
+  const IntVec agree = (absolute(value - other) < kAgreement) & (here > 0.0F) & (there > 0.0F);
+  const Vec weight = raised(here, power);
+  const Vec share = weight / (weight + raised(there, power) + 1e-30F);
+  const Vec winner = choose(here > there, value, other);
+  store(to_disparity, choose(agree, other + share * (value - other), winner));
+  store(to_coherence, choose(here > there, here, there));
+}
+
+void merge(const float* disparity, const float* coherence, int count, int power,
+           float* to_disparity, float* to_coherence) {
+  int n = 0;
+  for (; n + kLanes <= count; n += kLanes) {
+    merge_at(disparity + n, coherence + n, power, to_disparity + n, to_coherence + n);
+  }
+  if (n == count) return;
+  // The rest through a padded copy: what lies behind belongs to others.
+  float rest[4][kLanes] = {};
+  for (int i = n; i < count; ++i) {
+    rest[0][i - n] = disparity[i];
+    rest[1][i - n] = coherence[i];
+    rest[2][i - n] = to_disparity[i];
+    rest[3][i - n] = to_coherence[i];
+  }
+  merge_at(rest[0], rest[1], power, rest[2], rest[3]);
+  for (int i = n; i < count; ++i) {
+    to_disparity[i] = rest[2][i - n];
+    to_coherence[i] = rest[3][i - n];
+  }
+}
+
 }  // namespace
 
 extern const TensorKernel kTensorKernel;
-const TensorKernel kTensorKernel{deinterleave, differentiate, accumulate, select, resolve};
+const TensorKernel kTensorKernel{deinterleave, differentiate, accumulate, select, resolve, merge};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

@@ -90,6 +90,9 @@ struct TensorKernel {
   void (*select)(const TensorBlock&, const TensorFilters&, const Shear&);
   /// Averages tensors and reads disparity and coherence off the mean.
   void (*resolve)(const TensorAverage&);
+  /// Merges `count` estimates of one direction into those of the other: see merge_orientations.
+  void (*merge)(const float* disparity, const float* coherence, int count, int power,
+                float* to_disparity, float* to_coherence);
 };
 
 namespace baseline {
