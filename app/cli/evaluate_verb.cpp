@@ -195,13 +195,13 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
     job.progress().check();
     job.progress().step("judging " + file);
     const Estimate estimate = io::read_result(file, light_field.grid(), light_field.info().name);
-    note_other_source(estimate, light_field, job);
     Judgement judgement;
     try {
       judgement = judge(estimate, scene, options);
     } catch (const InvalidInput& error) {
       throw IoError(file, error.what());
     }
+    note_other_source(estimate, light_field, job);
     view = judgement.view;
     rows.push_back({file, estimate.method, estimate.seconds,
                     estimate.field.disparity.grid() == light_field.grid(),

@@ -118,12 +118,12 @@ Picture result_picture(const Request& request, Job& job) {
   if (request.what == "confidence") return confidence_picture(estimate, request.picture);
   const bool has_own_range = request.what == "disparity" && request.picture.range;
   if (!scene && !has_own_range) scene = scene_of(request, estimate, job.progress().part(0, 0.9));
-  if (scene) note_other_source(estimate, *scene->light_field, job);
   if (request.what == "disparity") {
     return disparity_picture(estimate, scene ? &*scene : nullptr, request.picture);
   }
   if (request.what != "error") return scene_picture(request, *scene);
   const Judgement judgement = judge(estimate, *scene, {}, request.picture.view);
+  note_other_source(estimate, *scene->light_field, job);
   return error_picture(judgement.evaluation, request.picture);
 }
 

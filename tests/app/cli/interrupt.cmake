@@ -1,0 +1,21 @@
+# Ctrl+C: exit code 130, and nothing half-written is left.
+include("${CMAKE_CURRENT_LIST_DIR}/cli_support.cmake")
+find_program(timeout timeout REQUIRED)
+
+# interrupted(seconds arguments…): sends SIGINT after that time.
+function(interrupted seconds)
+  file(MAKE_DIRECTORY "${WORK}/out")
+  execute_process(COMMAND "${timeout}" -s INT --preserve-status ${seconds} "${CLI}" ${ARGN}
+                  WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE exit_code OUTPUT_VARIABLE out
+                  ERROR_VARIABLE err TIMEOUT 60)
+  if(NOT exit_code EQUAL 130 OR NOT err STREQUAL "episcope-cli: cancelled\n" OR NOT out STREQUAL "")
+    fail_case("interrupted after ${seconds} s: episcope-cli ${ARGN}\n  exit code ${exit_code}\n"
+              "  out: ${out}\n  err: ${err}")
+  endif()
+  expect_files(out)
+endfunction()
+
+# Scenes that take far longer than the time until the signal.
+interrupted(0.7 synthesize demo -o out/lf.h5 --views 17x17 --size 1024x1024)
+interrupted(0.7 estimate epi_l demo -o out/x.h5 --threads 1)
+interrupted(0.7 info demo:objects --threads 1)
