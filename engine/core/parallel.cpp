@@ -23,8 +23,8 @@ struct Loop {
   std::atomic<int> next{0};
   std::atomic<int> finished{0};
   std::atomic<bool> failed{false};
-  std::exception_ptr failure;
-  std::mutex failure_mutex;
+  std::exception_ptr failure{};
+  std::mutex failure_mutex{};
 
   void run_items() {
     try {
