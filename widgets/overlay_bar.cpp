@@ -60,6 +60,7 @@ QString quantity_label(Quantity quantity) {
 
 OverlayBar::OverlayBar(QWidget* parent)
     : QWidget(parent),
+      title_(new QLabel(tr("Overlay"), this)),
       quantity_(new QComboBox(this)),
       opacity_(new QSlider(Qt::Horizontal, this)),
       focus_slider_(new QSlider(Qt::Horizontal, this)),
@@ -95,7 +96,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(theme::kSpacing);
-  layout->addWidget(new QLabel(tr("Overlay"), this));
+  layout->addWidget(title_);
   layout->addWidget(quantity_);
   layout->addWidget(opacity_);
   layout->addSpacing(2 * theme::kMargin);
@@ -133,6 +134,11 @@ void OverlayBar::setAvailable(const std::vector<Quantity>& quantities) {
         std::find(quantities.begin(), quantities.end(), quantity) != quantities.end();
     model->item(i)->setEnabled(is_available);
   }
+}
+
+void OverlayBar::setSelectorVisible(bool visible) {
+  quantity_->setVisible(visible);
+  title_->setText(visible ? tr("Overlay") : tr("Opacity"));
 }
 
 void OverlayBar::setQuantity(Quantity quantity) {

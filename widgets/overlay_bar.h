@@ -10,6 +10,7 @@
 
 class QComboBox;
 class QDoubleSpinBox;
+class QLabel;
 class QSlider;
 
 namespace episcope {
@@ -27,6 +28,8 @@ class OverlayBar : public QWidget {
 
   /// Quantities that can be shown now; others are listed greyed out. "None" always can.
   void setAvailable(const std::vector<render::Quantity>& quantities);
+  /// Off: the host has another way to choose the quantity.
+  void setSelectorVisible(bool visible);
   /// Quantity::View = no overlay.
   void setQuantity(render::Quantity quantity);
   void setOpacity(double opacity);
@@ -53,6 +56,7 @@ class OverlayBar : public QWidget {
   void showFocus(double focus_px);
   void changeFocus(double focus_px);
 
+  QLabel* title_;
   QComboBox* quantity_;
   QSlider* opacity_;
   QSlider* focus_slider_;

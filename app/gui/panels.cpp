@@ -28,9 +28,12 @@
 namespace episcope {
 namespace {
 
-constexpr int kLeftWidth = 220;
-constexpr int kRightWidth = 330;
-constexpr int kCenterWidth = 730;
+constexpr int kLeftWidth = 205;
+constexpr int kRightWidth = 355;
+constexpr int kCenterWidth = 720;
+constexpr int kEpiWidth = 145;  // of the vertical EPI and the legend under it
+constexpr int kMethodHeight = 440;
+constexpr int kResultsHeight = 260;
 
 QString text(const char* source) {
   return QCoreApplication::translate("episcope::MainWindow", source);
@@ -71,6 +74,7 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   layout->addWidget(panels.vertical_epi, 0, 1);
   layout->addWidget(panels.horizontal_epi, 1, 0);
   layout->addWidget(legend, 1, 1);
+  layout->setColumnMinimumWidth(1, kEpiWidth);
   layout->setColumnStretch(0, 1);
   layout->setRowStretch(0, 1);
   return stage;
@@ -96,8 +100,7 @@ QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
   panels.results = new ResultList(tab);
   tab->addWidget(in_scroll_area(panels.method, tab));
   tab->addWidget(panels.results);
-  tab->setStretchFactor(0, 3);
-  tab->setStretchFactor(1, 2);
+  tab->setSizes({kMethodHeight, kResultsHeight});
   tab->setChildrenCollapsible(false);
   return tab;
 }
@@ -128,6 +131,7 @@ Panels make_panels(QWidget* window) {
   panels.tool_bar->setObjectName("tool_bar");
   panels.tool_bar->setMovable(false);
   panels.overlay_bar = new OverlayBar(window);
+  panels.overlay_bar->setSelectorVisible(false);  // the tool bar has a button for each
 
   panels.viewer = new QWidget(window);
   panels.viewer->setObjectName("viewer");

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/session.h"
+
+#include "tests/app/session/tiny_scene.h"
+
+#include <QTest>
+
+#include <deque>
+#include <mutex>
+
+using namespace episcope;
+
+namespace {
+
+// Stands for an event loop: closures wait until the test runs them.
+class Loop {
+ public:
+  JobRunner::Post post() {
+    return [this](std::function<void()> closure) {
+      const std::scoped_lock lock(mutex_);
+      waiting_.push_back(std::move(closure));
+    };
+  }
+  void turn() {
+    std::deque<std::function<void()>> now;
+    {
+      const std::scoped_lock lock(mutex_);
+      now.swap(waiting_);
+    }
+    for (auto& closure : now) closure();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::deque<std::function<void()>> waiting_;
+};
+
+struct Fixture {
+  Loop loop;
+  Session session{loop.post()};
+  std::vector<Parts> told;
+
+  Fixture() {
+    session.on_changed([this](Parts parts) { told.push_back(parts); });
+  }
+  void open() {
+    session.open(tiny_scene(), "demo:edge");
+    loop.turn();
+    told.clear();
+  }
+};
+
+}  // namespace
+
+class SessionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void changes_areGatheredAndToldOnce();
+  void setters_thatChangeNothing_tellNothing();
+  void place_isClampedToTheLightField();
+  void estimate_ofFormerLightField_isDropped();
+  void estimates_haveUniqueNamesAndIds();
+  void removal_showsTheNeighbour();
+  void evaluation_isComputedOnceInTheBackground();
+  void evaluation_ofRemovedEstimate_isForgotten();
+  void evaluation_withoutTruth_isNotBegun();
+  void disparityRange_doesNotFollowTheShownEstimate();
+};
+
+void SessionTest::changes_areGatheredAndToldOnce() {
+  Fixture f;
+  f.open();
+
+  f.session.set_view({0, 1});
+  f.session.set_view({0, 2});
+  f.session.set_cross_hair({3, 4});
+  QVERIFY(f.told.empty());
+  f.loop.turn();
+
+  QCOMPARE(f.told.size(), 1U);
+  QVERIFY(f.told[0] == (Part::View | Part::CrossHair));
+}
+
+void SessionTest::setters_thatChangeNothing_tellNothing() {
+  Fixture f;
+  f.open();
+
+  f.session.set_view(f.session.view());
+  f.session.set_cross_hair(f.session.cross_hair());
+  f.session.set_focus(f.session.focus_px());
+  f.session.show_estimate(7);
+  f.session.remove_estimate(7);
+  f.loop.turn();
+
+  QVERIFY(f.told.empty());
+}
+
+void SessionTest::place_isClampedToTheLightField() {
+  Fixture f;
+  f.open();
+
+  f.session.set_view({-1, 99});
+  f.session.set_cross_hair({99, -5});
+
+  QVERIFY(f.session.view() == (ViewIndex{0, 2}));
+  QVERIFY(f.session.cross_hair() == (PixelIndex{63, 0}));
+}
+
+void SessionTest::estimate_ofFormerLightField_isDropped() {
+  Fixture f;
+  f.open();
+  const EstimatePtr late = shifted_truth(*f.session.scene(), 0);
+  const std::uint64_t former = f.session.generation();
+  f.session.open(tiny_scene("slant"), "demo:slant");
+
+  const int id = f.session.add_estimate(late, {}, former);
+
+  QCOMPARE(id, 0);
+  QVERIFY(f.session.estimates().empty());
+  QVERIFY(f.session.add_estimate(late, {}, f.session.generation()) != 0);
+}
+
+void SessionTest::estimates_haveUniqueNamesAndIds() {
+  Fixture f;
+  f.open();
+  const EstimatePtr estimate = shifted_truth(*f.session.scene(), 0);
+
+  const int first = f.session.add_estimate(estimate, {}, f.session.generation());
+  f.session.remove_estimate(first);
+  const int second = f.session.add_estimate(estimate, {}, f.session.generation());
+  const int third = f.session.add_estimate(estimate, {}, f.session.generation());
+
+  QVERIFY(first != second && second != third);
+  QCOMPARE(f.session.find_estimate(second)->name, std::string("EPI_L"));
+  QCOMPARE(f.session.find_estimate(third)->name, std::string("EPI_L 2"));
+}
+
+void SessionTest::removal_showsTheNeighbour() {
+  Fixture f;
+  f.open();
+  const EstimatePtr estimate = shifted_truth(*f.session.scene(), 0);
+  const int first = f.session.add_estimate(estimate, {}, f.session.generation());
+  const int second = f.session.add_estimate(estimate, {}, f.session.generation());
+  QCOMPARE(f.session.shown()->id, second);
+  QCOMPARE(f.session.compared()->id, first);
+
+  f.session.remove_estimate(second);
+  QCOMPARE(f.session.shown()->id, first);
+  QVERIFY(f.session.compared() == nullptr);
+  f.session.remove_estimate(first);
+
+  QVERIFY(f.session.shown() == nullptr);
+}
+
+void SessionTest::evaluation_isComputedOnceInTheBackground() {
+  Fixture f;
+  f.open();
+  const int id =
+      f.session.add_estimate(shifted_truth(*f.session.scene(), 0.5F), {}, f.session.generation());
+  const EvaluationKey key{id, {1, 1}, Protocol::Vmv2013};
+  f.loop.turn();
+  f.told.clear();
+
+  QVERIFY(!f.session.evaluation(key));
+  QVERIFY(!f.session.evaluation(key));
+  QTRY_VERIFY((f.loop.turn(), f.session.evaluation(key) != nullptr));
+  f.loop.turn();
+
+  // 100 · 0.5²
+  const auto mse = find_metric(f.session.evaluation(key)->metrics, "mse_100");
+  QVERIFY(mse.has_value());
+  QVERIFY(std::abs(*mse - 25) < 1e-3);
+  QVERIFY(f.session.evaluation(key) == f.session.evaluation(key));
+  QCOMPARE(f.told.size(), 1U);
+  QVERIFY(f.told[0] == Parts(Part::Evaluations));
+}
+
+void SessionTest::evaluation_ofRemovedEstimate_isForgotten() {
+  Fixture f;
+  f.open();
+  const int id =
+      f.session.add_estimate(shifted_truth(*f.session.scene(), 0.5F), {}, f.session.generation());
+  const EvaluationKey key{id, {1, 1}, Protocol::Vmv2013};
+  QVERIFY(!f.session.evaluation(key));
+
+  f.session.remove_estimate(id);
+  QTRY_VERIFY((f.loop.turn(), !f.session.is_evaluating()));
+  f.loop.turn();
+
+  QVERIFY(!f.session.evaluation(key));
+  QVERIFY(!f.session.is_evaluating());
+}
+
+void SessionTest::evaluation_withoutTruth_isNotBegun() {
+  Fixture f;
+  auto scene = std::make_shared<Scene>(*tiny_scene());
+  const EstimatePtr estimate = shifted_truth(*scene, 0);
+  scene->truth = std::make_shared<const GroundTruth>();
+  f.session.open(scene, "x");
+  const int id = f.session.add_estimate(estimate, {}, f.session.generation());
+
+  QVERIFY(!f.session.has_truth({1, 1}));
+  QVERIFY(!f.session.evaluation({id, {1, 1}, Protocol::Vmv2013}));
+  QVERIFY(!f.session.is_evaluating());
+}
+
+void SessionTest::disparityRange_doesNotFollowTheShownEstimate() {
+  Fixture f;
+  auto scene = std::make_shared<Scene>(*tiny_scene());
+  const EstimatePtr estimate = shifted_truth(*scene, 0);
+  scene->truth = std::make_shared<const GroundTruth>();
+  f.session.open(scene, "x");
+
+  f.session.add_estimate(estimate, {-2, 3}, f.session.generation());
+  f.session.add_estimate(estimate, {-9, 9}, f.session.generation());
+
+  QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
+}
+
+QTEST_GUILESS_MAIN(SessionTest)
+#include "session_test.moc"
