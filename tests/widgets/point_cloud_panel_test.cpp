@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/point_cloud_panel.h"
+
+#include <QComboBox>
+#include <QLabel>
+#include <QSignalSpy>
+#include <QTest>
+
+using namespace episcope;
+
+class PointCloudPanelTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void offscreen_aLabelSaysWhyThereIsNoView() {
+    PointCloudPanel panel;
+    panel.resize(300, 300);
+    panel.show();
+    PointCloud cloud;
+    cloud.positions.push_back({0, 0, 0});
+    cloud.colors.push_back({1, 2, 3});
+
+    panel.setCloud(cloud);
+
+    QVERIFY(!panel.isAvailable());
+    const auto* label = panel.findChild<QLabel*>("pointCloudUnavailable");
+    QVERIFY(label && label->isVisible());
+    QVERIFY(!label->text().isEmpty());
+  }
+
+  void coloring_isAnIntent() {
+    PointCloudPanel panel;
+    QSignalSpy selected(&panel, &PointCloudPanel::coloringSelected);
+    auto* combo = panel.findChild<QComboBox*>("cloud.coloring");
+
+    QTest::keyClick(combo, Qt::Key_Down);
+    QTest::keyClick(combo, Qt::Key_Down);  // No truth: errors cannot be chosen.
+    QCOMPARE(selected.size(), 1);
+    QCOMPARE(panel.coloring(), CloudColoring::Disparity);
+    panel.setErrorAvailable(true);
+    QTest::keyClick(combo, Qt::Key_Down);
+    QCOMPARE(panel.coloring(), CloudColoring::Error);
+  }
+};
+
+QTEST_MAIN(PointCloudPanelTest)
+#include "point_cloud_panel_test.moc"

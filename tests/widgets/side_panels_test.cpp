@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/elided_label.h"
+#include "widgets/info_panel.h"
+#include "widgets/job_panel.h"
+#include "widgets/message_bar.h"
+#include "widgets/result_list.h"
+#include "widgets/value_bar.h"
+
+#include <QAction>
+#include <QLabel>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolButton>
+#include <QTreeWidget>
+
+using namespace episcope;
+
+class SidePanelsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void messageBar_showsActsAndCloses() {
+    MessageBar bar;
+    QVERIFY(bar.isHidden());
+    bool ran = false;
+
+    bar.showMessage(Severity::Error, "lf.h5 is truncated.", {"Open another", [&] { ran = true; }});
+    QVERIFY(!bar.isHidden());
+    QCOMPARE(bar.text(), QString("lf.h5 is truncated."));
+    auto* action = bar.findChild<QPushButton*>("message.action");
+    QCOMPARE(action->text(), QString("Open another"));
+    action->click();
+    QVERIFY(ran);
+    QVERIFY(bar.isHidden());
+
+    QSignalSpy dismissed(&bar, &MessageBar::dismissed);
+    bar.showMessage(Severity::Info, "Saved.");
+    QVERIFY(action->isHidden());
+    bar.findChild<QToolButton*>("message.close")->click();
+    QVERIFY(bar.isHidden());
+    QCOMPARE(dismissed.size(), 1);
+  }
+
+  void messageBar_anActionMayShowTheNextMessage() {
+    MessageBar bar;
+
+    bar.showMessage(Severity::Warning, "first",
+                    {"Retry", [&] { bar.showMessage(Severity::Error, "second"); }});
+    bar.findChild<QPushButton*>("message.action")->click();
+
+    QVERIFY(!bar.isHidden());
+    QCOMPARE(bar.text(), QString("second"));
+  }
+
+  void jobs_showStageAndAskToCancel() {
+    JobPanel panel;
+    QSignalSpy cancel(&panel, &JobPanel::cancelRequested);
+    panel.addJob(7, "EPI_L");
+    panel.addJob(8, "EPI_S");
+
+    panel.setProgress(7, 0.41, "vertical EPIs");
+
+    auto* stage = panel.findChild<ElidedLabel*>("job.7.stage");
+    QVERIFY(stage->fullText().startsWith("vertical EPIs · 41 %"));
+    QCOMPARE(panel.findChild<QProgressBar*>("job.7.bar")->value(), 410);
+    QCOMPARE(panel.findChild<ElidedLabel*>("job.8.stage")->fullText(), QString("waiting"));
+    panel.findChild<QToolButton*>("job.7.cancel")->click();
+    QCOMPARE(cancel.size(), 1);
+    QCOMPARE(cancel[0][0].toULongLong(), quint64(7));
+    panel.setCancelling(7);
+    panel.setProgress(7, 0.5, "vertical EPIs");
+    QCOMPARE(stage->fullText(), QString("cancelling"));
+    panel.removeJob(7);
+    panel.removeJob(8);
+    QCOMPARE(panel.jobCount(), 0);
+    QVERIFY(!panel.findChild<QLabel*>("jobPanel.idle")->isHidden());
+  }
+
+  void timeLeft_isTold_data() {
+    QTest::addColumn<double>("fraction");
+    QTest::addColumn<double>("seconds");
+    QTest::addColumn<QString>("text");
+    QTest::newRow("too early") << 0.001 << 10.0 << "";
+    QTest::newRow("seconds") << 0.25 << 4.0 << "about 12 s left";
+    QTest::newRow("minutes") << 0.1 << 60.0 << "about 9 min left";
+    QTest::newRow("hours") << 0.1 << 3600.0 << "about 9 h 0 min left";
+    QTest::newRow("nearly") << 0.9 << 2.0 << "less than 1 s left";
+    QTest::newRow("done") << 1.0 << 2.0 << "";
+  }
+
+  void timeLeft_isTold() {
+    QFETCH(double, fraction);
+    QFETCH(double, seconds);
+    QFETCH(QString, text);
+
+    QCOMPARE(time_left_text(fraction, seconds), text);
+  }
+
+  void results_areSelectedAndActedOn() {
+    ResultList list;
+    list.resize(320, 200);
+    list.setResults({{1, "EPI_L", "inner 0.8", 1.23, 0.78, ""}, {2, "EPI_S", "", 2.1, {}, ""}});
+    list.show();
+    auto* tree = list.findChild<QTreeWidget*>("results.tree");
+    QSignalSpy selected(&list, &ResultList::selected);
+    QSignalSpy removed(&list, &ResultList::removeRequested);
+    QSignalSpy exported(&list, &ResultList::exportRequested);
+    auto* remove = list.findChild<QToolButton*>("results.remove");
+    QVERIFY(!remove->isEnabled());
+
+    const QRect row = tree->visualItemRect(tree->topLevelItem(1));
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, {60, row.center().y()});
+    QCOMPARE(selected.size(), 1);
+    QCOMPARE(selected[0][0].toULongLong(), quint64(2));
+    remove->click();
+    list.findChild<QToolButton*>("results.export")->click();
+
+    QCOMPARE(removed[0][0].toULongLong(), quint64(2));
+    QCOMPARE(exported[0][0].toULongLong(), quint64(2));
+    QCOMPARE(tree->topLevelItem(0)->text(2), QString("0.78"));
+    QCOMPARE(tree->topLevelItem(1)->text(2), QString("–"));
+  }
+
+  void results_keepSelectionAndMarkOverARefresh() {
+    ResultList list;
+    const std::vector<ResultRow> rows{{1, "EPI_L", "", 1, {}, ""}, {2, "EPI_S", "", 2, {}, ""}};
+    list.setResults(rows);
+    auto* tree = list.findChild<QTreeWidget*>("results.tree");
+    tree->setCurrentItem(tree->topLevelItem(1));
+    list.setShown(1);
+    QSignalSpy selected(&list, &ResultList::selected);
+
+    list.setResults(rows);
+
+    QVERIFY(list.selectedId() == 2);
+    QVERIFY(!tree->topLevelItem(0)->icon(0).isNull());
+    QVERIFY(tree->topLevelItem(1)->icon(0).isNull());
+    QCOMPARE(selected.size(), 0);
+  }
+
+  void resultMenu_offersEveryAction() {
+    ResultList list;
+    list.resize(320, 200);
+    list.setResults({{5, "EPI_L", "", 1, {}, ""}});
+    list.show();
+    auto* tree = list.findChild<QTreeWidget*>("results.tree");
+    QSignalSpy copy(&list, &ResultList::copyCommandRequested);
+    QSignalSpy reuse(&list, &ResultList::reuseRequested);
+
+    emit tree->customContextMenuRequested(tree->visualItemRect(tree->topLevelItem(0)).center());
+
+    auto* menu = list.findChild<QMenu*>("results.menu");
+    QVERIFY(menu);
+    for (auto* action : menu->actions()) action->trigger();
+    QCOMPARE(copy.size(), 1);
+    QCOMPARE(copy[0][0].toULongLong(), quint64(5));
+    QCOMPARE(reuse.size(), 1);
+    menu->close();
+  }
+
+  void values_areWrittenInOneLine() {
+    ValueBar bar;
+
+    bar.setReading(PixelReading{{417, 301},
+                                "120 88 40",
+                                QColor(120, 88, 40),
+                                true,
+                                0.312,
+                                {{"EPI_S", 0.318}, {"EPI_L", 0.3}, {"ST", std::nullopt}}});
+
+    QCOMPARE(bar.text(),
+             QString::fromUtf8("x 301 y 417 · rgb 120 88 40 · truth 0.312 · EPI_S 0.318 "
+                               "(+0.006) · EPI_L 0.300 (−0.012) · ST invalid"));
+    const auto* swatch = bar.findChild<QLabel*>("valueBar.swatch");
+    QCOMPARE(swatch->pixmap().toImage().pixelColor(5, 5), QColor(120, 88, 40));
+  }
+
+  void values_withoutTruthHaveNoError() {
+    ValueBar bar;
+
+    bar.setReading(PixelReading{{1, 2}, "77", Qt::gray, false, {}, {{"EPI_S", -0.5}}});
+
+    QCOMPARE(bar.text(), QString::fromUtf8("x 2 y 1 · grey 77 · EPI_S −0.500"));
+  }
+
+  void info_wrapsSentencesAndElidesPaths() {
+    InfoPanel panel;
+    panel.resize(180, 300);
+    const QString path = "/a/very/long/path/to/a/light/field/in/some/folder/lf.h5";
+    panel.setInfo("scene", {{"source", path, ""}, {"units", "depth in mm, from the cfg file", ""}},
+                  {"The order could not be checked."});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    auto* source = panel.findChild<QLabel*>("info.source");
+    QVERIFY(source->text() != path);
+    QCOMPARE(source->toolTip(), path);
+    auto* units = panel.findChild<QLabel*>("info.units");
+    QTRY_VERIFY(units->height() > 1.5 * units->fontMetrics().height());
+    QVERIFY(units->width() <= panel.width());
+    QCOMPARE(panel.findChild<QLabel*>("info.warning")->text(),
+             QString("The order could not be checked."));
+  }
+
+  void elidedLabel_showsAllWhenThereIsRoom() {
+    ElidedLabel label;
+    label.setFullText("a name of some length");
+    label.resize(label.sizeHint());
+    label.show();
+    QCOMPARE(label.text(), QString("a name of some length"));
+    QVERIFY(label.toolTip().isEmpty());
+
+    label.resize(40, 20);
+
+    QVERIFY(label.text() != label.fullText());
+    QCOMPARE(label.toolTip(), label.fullText());
+  }
+};
+
+QTEST_MAIN(SidePanelsTest)
+#include "side_panels_test.moc"

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/theme.h"
+#include "tests/widgets/pictures.h"
+#include "widgets/color_bar.h"
+#include "widgets/epi_pane.h"
+#include "widgets/icon.h"
+#include "widgets/info_panel.h"
+#include "widgets/job_panel.h"
+#include "widgets/message_bar.h"
+#include "widgets/method_panel.h"
+#include "widgets/metric_table.h"
+#include "widgets/overlay_bar.h"
+#include "widgets/point_cloud_panel.h"
+#include "widgets/result_list.h"
+#include "widgets/value_bar.h"
+#include "widgets/view_canvas.h"
+#include "widgets/view_grid.h"
+
+#include <QAbstractButton>
+#include <QAbstractSlider>
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QComboBox>
+#include <QDir>
+#include <QHeaderView>
+#include <QLabel>
+#include <QTest>
+
+#include <functional>
+#include <memory>
+
+using namespace episcope;
+
+namespace {
+
+/// WCAG 2.1 AA for text.
+constexpr double kLegible = 4.5;
+
+MethodDescription method() {
+  ParameterDescription number{"inner", "Inner", "", "", 0.8, 0, 2, false, {}};
+  ParameterDescription range{"range", "Range", "", "", IntervalOrAuto{}, -2, 2, false, {}};
+  return {"m", "M", "", "", true, {number, range}};
+}
+
+QWidget* make_method_panel() {
+  auto* panel = new MethodPanel;
+  panel->setMethods({method()});
+  return panel;
+}
+
+QWidget* make_job_panel() {
+  auto* panel = new JobPanel;
+  panel->addJob(1, "job");
+  return panel;
+}
+
+}  // namespace
+
+class ThemeTest : public QObject {
+  Q_OBJECT
+
+  void addPalettes() {
+    QTest::addColumn<QPalette>("palette");
+    QTest::newRow("light") << theme::light_palette();
+    QTest::newRow("dark") << theme::dark_palette();
+  }
+
+ private slots:
+  void contrast_knowsItsEnds() {
+    QCOMPARE(theme::contrast_ratio(Qt::black, Qt::white), 21.0);
+    QCOMPARE(theme::contrast_ratio(Qt::white, Qt::black), 21.0);
+    QCOMPARE(theme::contrast_ratio(Qt::red, Qt::red), 1.0);
+  }
+
+  void drawnText_isLegible_data() { addPalettes(); }
+  void drawnText_isLegible() {
+    QFETCH(QPalette, palette);
+    const QColor window = palette.color(QPalette::Window);
+
+    for (const auto& color : {palette.color(QPalette::WindowText), theme::muted_text(palette),
+                              theme::error_text(palette), theme::warning_text(palette),
+                              theme::success_text(palette), palette.color(QPalette::Link)}) {
+      QVERIFY2(theme::contrast_ratio(window, color) >= kLegible, qPrintable(color.name()));
+    }
+    QVERIFY(theme::contrast_ratio(palette.color(QPalette::Base), palette.color(QPalette::Text)) >=
+            kLegible);
+    QVERIFY(theme::contrast_ratio(palette.color(QPalette::Highlight),
+                                  palette.color(QPalette::HighlightedText)) >= 4);
+  }
+
+  void canvasText_isLegible() {
+    for (const auto& color : {theme::kCanvasText, theme::kCanvasMuted, theme::kEstimate,
+                              theme::kTruth, theme::kMeasured, theme::kCrossHair}) {
+      QVERIFY2(theme::contrast_ratio(theme::kCanvas, color) >= kLegible, qPrintable(color.name()));
+    }
+  }
+
+  void icons_areDrawnInTheTextColour_data() { addPalettes(); }
+  void icons_areDrawnInTheTextColour() {
+    QFETCH(QPalette, palette);
+    QApplication::setPalette(palette);
+    QVERIFY(!themed_icon("open").isNull());  // Registers the resources.
+    const auto files = QDir(":/episcope/icons").entryList({"*.svg"});
+    QVERIFY(files.size() > 15);
+
+    for (const auto& file : files) {
+      const QImage image = themed_icon(file.chopped(4)).pixmap(32, 32).toImage();
+      int drawn = 0;
+      for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+          const QColor color = image.pixelColor(x, y);
+          if (color.alpha() < 255) continue;
+          ++drawn;
+          QCOMPARE(color.rgb(), palette.color(QPalette::ButtonText).rgb());
+        }
+      }
+      QVERIFY2(drawn > 10, qPrintable(file));
+    }
+    QVERIFY(themed_icon("no such icon").isNull());
+  }
+
+  void everyControl_hasAnObjectName_data() {
+    using Maker = std::function<QWidget*()>;
+    QTest::addColumn<Maker>("make");
+    QTest::newRow("ColorBar") << Maker([] { return new ColorBar; });
+    QTest::newRow("EpiPane") << Maker([] { return new EpiPane(Qt::Horizontal); });
+    QTest::newRow("InfoPanel") << Maker([] { return new InfoPanel; });
+    QTest::newRow("JobPanel") << Maker(make_job_panel);
+    QTest::newRow("MessageBar") << Maker([] { return new MessageBar; });
+    QTest::newRow("MethodPanel") << Maker(make_method_panel);
+    QTest::newRow("MetricTable") << Maker([] { return new MetricTable; });
+    QTest::newRow("OverlayBar") << Maker([] { return new OverlayBar; });
+    QTest::newRow("PointCloudPanel") << Maker([] { return new PointCloudPanel; });
+    QTest::newRow("ResultList") << Maker([] { return new ResultList; });
+    QTest::newRow("ValueBar") << Maker([] { return new ValueBar; });
+    QTest::newRow("ViewCanvas") << Maker([] { return new ViewCanvas; });
+    QTest::newRow("ViewGrid") << Maker([] { return new ViewGrid; });
+  }
+
+  void everyControl_hasAnObjectName() {
+    QFETCH(std::function<QWidget*()>, make);
+
+    const std::unique_ptr<QWidget> widget(make());
+
+    QVERIFY(!widget->objectName().isEmpty());
+    for (const auto* child : widget->findChildren<QWidget*>()) {
+      const bool is_control = qobject_cast<const QAbstractButton*>(child) ||
+                              qobject_cast<const QComboBox*>(child) ||
+                              qobject_cast<const QAbstractSpinBox*>(child) ||
+                              qobject_cast<const QAbstractSlider*>(child);
+      // Parts that Qt makes inside of its own controls have no name of ours.
+      const bool is_inner = child->parentWidget()->inherits("QAbstractScrollArea") ||
+                            child->parentWidget()->inherits("QTableView") ||
+                            child->objectName().startsWith("qt_") ||
+                            child->parentWidget()->objectName().startsWith("qt_");
+      if (is_control && !is_inner) {
+        QVERIFY2(!child->objectName().isEmpty(), child->metaObject()->className());
+      }
+    }
+  }
+
+  void canvas_doesNotFollowTheDesktop_data() { addPalettes(); }
+  void canvas_doesNotFollowTheDesktop() {
+    QFETCH(QPalette, palette);
+    QApplication::setPalette(palette);
+    ViewCanvas canvas;
+    canvas.resize(200, 150);
+
+    QCOMPARE(canvas.grab().toImage().pixelColor(3, 3), QColor(theme::kCanvas));
+  }
+
+  void messageBar_isTintedByTheTheme_data() { addPalettes(); }
+  void messageBar_isTintedByTheTheme() {
+    QFETCH(QPalette, palette);
+    QApplication::setPalette(palette);
+    MessageBar bar;
+    bar.resize(400, 32);
+    bar.showMessage(Severity::Error, "lf.h5 is truncated.");
+
+    const QColor background = bar.grab().toImage().pixelColor(8, 3);
+
+    QVERIFY(background != palette.color(QPalette::Window));
+    QVERIFY(theme::contrast_ratio(background, palette.color(QPalette::WindowText)) >= kLegible);
+  }
+};
+
+QTEST_MAIN(ThemeTest)
+#include "theme_test.moc"
