@@ -1,0 +1,467 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/image_file.h"
+#include "engine/io/open.h"
+#include "engine/io/pfm.h"
+#include "engine/io/ply.h"
+#include "engine/io/result_file.h"
+#include "engine/io/write_scene.h"
+#include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/synthetic_scene.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <sys/resource.h>
+#include <csignal>
+#include <fstream>
+#include <functional>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// While it lives, no file can grow beyond `bytes`: for a writer the same as a disk that fills up.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit{bytes, before_.rlim_max};
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  FullDisk(const FullDisk&) = delete;
+  FullDisk& operator=(const FullDisk&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = SIG_DFL;
+};
+
+using Write = std::function<void(const fs::path&)>;
+
+struct Writer {
+  const char* name;
+  Write write;
+};
+
+Estimate estimate_of(const Scene& scene) {
+  Estimate estimate;
+  estimate.field.disparity = scene.truth->field.disparity.clone();
+  estimate.method = "test";
+  return estimate;
+}
+
+/// Every writer of the folder, each with enough to write that a small disk cannot hold it.
+std::vector<Writer> all_writers() {
+  const auto scene = std::make_shared<Scene>(plane_scene());
+  const auto map = std::make_shared<Image<float>>(200, 200);
+  const auto picture = std::make_shared<Image<std::uint8_t>>(300, 300, 3);
+  unsigned noise = 1;
+  for (std::uint8_t& sample : *picture) {
+    noise = noise * 1664525U + 1013904223U;
+    sample = static_cast<std::uint8_t>(noise >> 24);
+  }
+  const auto write_cloud = [=](const fs::path& path) {
+    const Image<std::uint8_t> grey(200, 200);
+    io::write_ply(path, {{map->view(), {}}, grey.view(), {}, true});
+  };
+  return {{"PFM", [=](const fs::path& path) { io::write_pfm(path, map->view()); }},
+          {"TIFF", [=](const fs::path& path) { io::write_tiff(path, map->view()); }},
+          {"PNG", [=](const fs::path& path) { io::write_png(path, picture->view()); }},
+          {"PLY", write_cloud},
+          {"result",
+           [=](const fs::path& path) { io::write_result(path, estimate_of(*scene), Progress(1)); }},
+          {"archive", [=](const fs::path& path) { io::write_archive(path, *scene, Progress(1)); }},
+          {"benchmark folder",
+           [=](const fs::path& path) { io::write_benchmark_folder(path, *scene, Progress(1)); }}};
+}
+
+/// Builds something broken in an empty folder and returns what to open.
+using Break = std::function<fs::path(const fs::path& folder)>;
+
+fs::path archive_with(const fs::path& folder, const RawArchive& form) {
+  write_raw_archive(folder / "lf.h5", plane_scene(), form);
+  return folder / "lf.h5";
+}
+
+fs::path cut_archive(const fs::path& folder, std::uintmax_t bytes) {
+  const fs::path path = archive_with(folder, {});
+  fs::resize_file(path, bytes);
+  return path;
+}
+
+fs::path archive_of(const fs::path& folder,
+                    const std::vector<std::pair<std::string, io::Hdf5Shape>>& datasets) {
+  io::AtomicFile target(folder / "lf.h5");
+  io::Hdf5Output file(target);
+  for (const auto& [name, shape] : datasets) {
+    std::size_t count = 1;
+    for (const std::size_t length : shape) count *= length;
+    add_bytes(file, name, shape, std::vector<std::uint8_t>(count, 7));
+  }
+  file.close();
+  target.commit();
+  return folder / "lf.h5";
+}
+
+fs::path image_grid(const fs::path& folder) {
+  for (int i = 0; i < 9; ++i) {
+    const Image<std::uint8_t> view(8, 9, 3, static_cast<std::uint8_t>(i));
+    io::write_png(folder / (std::to_string(i / 3) + "_" + std::to_string(i % 3) + ".png"),
+                  view.view());
+  }
+  return folder;
+}
+
+fs::path benchmark(const fs::path& folder) {
+  PlaneOptions options;
+  options.grid = {3, 3};
+  io::write_benchmark_folder(folder / "scene", plane_scene(options), Progress(1));
+  return folder / "scene";
+}
+
+struct Broken {
+  const char* name;
+  Break make;
+  const char* expected;
+};
+
+std::vector<Broken> broken_inputs() {
+  return {
+      {"no such path", [](const fs::path& f) { return f / "none"; }, "no such file"},
+      {"empty folder", [](const fs::path& f) { return f; }, "the folder is empty"},
+      {"folder of something else",
+       [](const fs::path& f) {
+         std::ofstream(f / "note.txt") << "x";
+         return f;
+       },
+       "no light field in this folder"},
+      {"text named .h5",
+       [](const fs::path& f) {
+         std::ofstream(f / "lf.h5") << "this is no HDF5";
+         return f / "lf.h5";
+       },
+       "not an HDF5 file"},
+      {"text named .h5 in its folder",
+       [](const fs::path& f) {
+         std::ofstream(f / "lf.h5") << "this is no HDF5";
+         return f;
+       },
+       "not an HDF5 file"},
+      {"empty file named .h5",
+       [](const fs::path& f) {
+         std::ofstream give(f / "lf.h5");
+         return f / "lf.h5";
+       },
+       "not an HDF5 file"},
+      {"another kind of file",
+       [](const fs::path& f) {
+         std::ofstream(f / "scene.xyz") << "x";
+         return f / "scene.xyz";
+       },
+       "no light field"},
+      {"HDF5 cut in its header", [](const fs::path& f) { return cut_archive(f, 90); },
+       "cut short or damaged"},
+      {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
+       "cut short or damaged"},
+      {"no dataset LF",
+       [](const fs::path& f) {
+         return archive_of(f, {{"IMAGES", {2, 2}}});
+       },
+       "no dataset LF in this file, which holds IMAGES"},
+      {"HDF5 without datasets", [](const fs::path& f) { return archive_of(f, {}); },
+       "no dataset at all"},
+      {"LF of rank 3",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {3, 8, 9}}});
+       },
+       "3 axes (3×8×9)"},
+      {"LF of 2 channels",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {3, 3, 8, 9, 2}}});
+       },
+       "2 channels"},
+      {"LF without views",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {0, 3, 8, 9, 3}}});
+       },
+       "no light field"},
+      {"GT_DEPTH of rank 3",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {3, 8, 9}}});
+       },
+       "GT_DEPTH has 3 axes"},
+      {"GT_DEPTH of another size",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {9, 8}}});
+       },
+       "GT_DEPTH has the shape 9×8, but 3×3×8×9 or 8×9"},
+      {"GT_LABELS of another size",
+       [](const fs::path& f) {
+         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_LABELS", {3, 3, 8, 8}}});
+       },
+       "GT_LABELS has the shape 3×3×8×8"},
+      {"result instead of a light field",
+       [](const fs::path& f) {
+         io::write_result(f / "r.h5", estimate_of(plane_scene()), Progress(1));
+         return f / "r.h5";
+       },
+       "disparity result and no light field"},
+      {"grid with a view of another size",
+       [](const fs::path& f) {
+         image_grid(f);
+         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 8, 3).view());
+         return f;
+       },
+       "8×8 px, RGB, 8 bit, but the centre view has 9×8 px"},
+      {"grid with a grey view",
+       [](const fs::path& f) {
+         image_grid(f);
+         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 9).view());
+         return f;
+       },
+       "all views must be alike"},
+      {"grid with a missing view",
+       [](const fs::path& f) {
+         image_grid(f);
+         fs::remove(f / "1_2.png");
+         return f;
+       },
+       "row 1, column 2 is missing (pattern {row}_{col}.png matches 8 of 8 images"},
+      {"grid with a damaged view",
+       [](const fs::path& f) {
+         image_grid(f);
+         std::ofstream(f / "0_2.png") << "no picture";
+         return f;
+       },
+       "0_2.png: the image cannot be decoded"},
+      {"flat count that is no square",
+       [](const fs::path& f) {
+         for (const int i : {0, 1, 2, 3, 4, 6, 7, 8}) {
+           io::write_png(f / ("v" + std::to_string(i) + ".png"), Image<std::uint8_t>(2, 2).view());
+         }
+         return f;
+       },
+       "the number 5 is missing"},
+      {"one picture",
+       [](const fs::path& f) {
+         io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
+         return f;
+       },
+       "form no grid of views"},
+      {"benchmark with a missing view",
+       [](const fs::path& f) {
+         const fs::path scene = benchmark(f);
+         fs::remove(scene / "input_Cam004.png");
+         return scene;
+       },
+       "input_Cam004.png: this view is missing: 8 of 9"},
+      {"benchmark without cfg and with a missing view",
+       [](const fs::path& f) {
+         const fs::path scene = benchmark(f);
+         fs::remove(scene / "parameters.cfg");
+         fs::remove(scene / "input_Cam004.png");
+         return scene;
+       },
+       "form no square grid"},
+      {"benchmark with a broken cfg",
+       [](const fs::path& f) {
+         const fs::path scene = benchmark(f);
+         std::ofstream(scene / "parameters.cfg") << "num_cams_x = many\n";
+         return scene;
+       },
+       "num_cams_x is 'many'"},
+      {"benchmark with truth of another size",
+       [](const fs::path& f) {
+         const fs::path scene = benchmark(f);
+         io::write_pfm(scene / "gt_disp_lowres_Cam002.pfm", Image<float>(3, 3).view());
+         return scene;
+       },
+       "this map has 3×3 px, but the views have 80×64 px"},
+      {"benchmark with cut truth",
+       [](const fs::path& f) {
+         const fs::path scene = benchmark(f);
+         fs::resize_file(scene / "gt_disp_lowres_Cam002.pfm", 5000);
+         return scene;
+       },
+       "cut short"},
+  };
+}
+
+}  // namespace
+
+class BadInputTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  fs::path folder() const { return folder_->path().toStdString(); }
+
+  /// One sentence: the path, what is wrong, what to do; no line breaks.
+  static void verify_sentence(const IoError& error, const std::string& expected) {
+    const std::string text = error.what();
+    QVERIFY2(text.starts_with(error.path().string() + ": "), text.c_str());
+    QVERIFY2(text.find(expected) != std::string::npos, text.c_str());
+    QVERIFY2(text.find('\n') == std::string::npos, text.c_str());
+    QVERIFY2(text.find(';') != std::string::npos, text.c_str());  // what is wrong; what to do
+    QVERIFY2(text.back() != '.' && text.size() < 400, text.c_str());
+  }
+  std::size_t files_in(const fs::path& place) const {
+    return static_cast<std::size_t>(
+        std::distance(fs::directory_iterator(place), fs::directory_iterator()));
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void brokenInput_isRefusedInOneSentence_data() {
+    QTest::addColumn<std::size_t>("index");
+    const auto inputs = broken_inputs();
+    for (std::size_t i = 0; i < inputs.size(); ++i) QTest::newRow(inputs[i].name) << i;
+  }
+  void brokenInput_isRefusedInOneSentence() {
+    QFETCH(std::size_t, index);
+    const Broken broken = broken_inputs()[index];
+    const fs::path path = broken.make(folder());
+
+    try {
+      (void)io::open_scene(path, {}, Progress(2));
+      QFAIL("the input was accepted");
+    } catch (const IoError& error) {
+      verify_sentence(error, broken.expected);
+    }
+  }
+
+  void depthWithoutAnySurface_isTold_data() {
+    QTest::addColumn<float>("depth");
+    QTest::newRow("NaN") << std::numeric_limits<float>::quiet_NaN();
+    QTest::newRow("zero") << 0.0F;
+  }
+  void depthWithoutAnySurface_isTold() {
+    QFETCH(float, depth);
+    RawArchive form;
+    form.depth = [depth](ViewIndex, int, int, float) { return depth; };
+    const fs::path path = archive_with(folder(), form);
+
+    const Scene scene = io::open_scene(path, {}, Progress(1));
+
+    QVERIFY(!scene.truth->has_disparity());
+    QVERIFY(QString::fromStdString(describe(scene.convention))
+                .contains("GT_DEPTH holds no depth at 100 %"));
+  }
+
+  void pathsWithUmlautsAndSpaces_work_data() {
+    QTest::addColumn<std::size_t>("index");
+    const auto writers = all_writers();
+    for (std::size_t i = 0; i < writers.size(); ++i) QTest::newRow(writers[i].name) << i;
+  }
+  void pathsWithUmlautsAndSpaces_work() {
+    QFETCH(std::size_t, index);
+    const fs::path place = folder() / "Größe und Übung ☂";
+    fs::create_directory(place);
+
+    all_writers()[index].write(place / "ein Maß.h5");
+
+    QVERIFY(fs::exists(place / "ein Maß.h5"));
+  }
+
+  void inputUnderAnUmlautPath_opens() {
+    const fs::path place = folder() / "Größe und Übung ☂";
+    fs::create_directories(place / "views");
+    io::write_archive(place / "lf.h5", plane_scene(), Progress(1));
+    image_grid(place / "views");
+
+    QCOMPARE(io::open_scene(place, {}, Progress(1)).light_field->info().name,
+             std::string("Größe und Übung ☂"));
+    QCOMPARE(io::open_scene(place / "views", {}, Progress(1)).light_field->grid(),
+             (GridShape{3, 3}));
+  }
+
+  void unwritablePlace_isRefusedInOneSentence_data() {
+    QTest::addColumn<std::size_t>("index");
+    QTest::addColumn<QString>("place");
+    const auto writers = all_writers();
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+      // Tests may run as root, for whom permissions do not count: places nobody can write to.
+      for (const char* place : {"file/out", "missing/out", "/proc/out"}) {
+        QTest::addRow("%s to %s", writers[i].name, place) << i << QString(place);
+      }
+    }
+  }
+  void unwritablePlace_isRefusedInOneSentence() {
+    QFETCH(std::size_t, index);
+    QFETCH(QString, place);
+    std::ofstream(folder() / "file") << "a file";
+
+    try {
+      all_writers()[index].write(folder() / place.toStdString());
+      QFAIL("it was written");
+    } catch (const IoError& error) {
+      verify_sentence(error, "choose another");
+    }
+    QCOMPARE(files_in(folder()), std::size_t{1});
+  }
+
+  void fullDisk_leavesTheOldFileAndNothingElse_data() {
+    QTest::addColumn<std::size_t>("index");
+    QTest::addColumn<int>("bytes");
+    const auto writers = all_writers();
+    for (std::size_t i = 0; i < writers.size(); ++i) {
+      for (const int bytes : {0, 2000, 5000}) {
+        QTest::addRow("%s at %d bytes", writers[i].name, bytes) << i << bytes;
+      }
+    }
+  }
+  void fullDisk_leavesTheOldFileAndNothingElse() {
+    QFETCH(std::size_t, index);
+    QFETCH(int, bytes);
+    const Writer writer = all_writers()[index];
+    const bool is_folder = std::string(writer.name) == "benchmark folder";
+    if (!is_folder) std::ofstream(folder() / "out") << "old";
+
+    try {
+      const FullDisk full(static_cast<rlim_t>(bytes));
+      writer.write(folder() / "out");
+      QFAIL("it was written");
+    } catch (const IoError& error) {
+      verify_sentence(error, "choose another folder");
+    }
+
+    QCOMPARE(files_in(folder()), std::size_t{is_folder ? 0U : 1U});
+    if (!is_folder) QCOMPARE(fs::file_size(folder() / "out"), std::uintmax_t{3});
+    // The libraries beneath must have got over it.
+    writer.write(folder() / "again");
+    QVERIFY(fs::exists(folder() / "again"));
+  }
+
+  void deviceFiles_areNeverReplaced() {
+    try {
+      io::write_pfm("/dev/full", Image<float>(2, 2).view());
+      QFAIL("it was written");
+    } catch (const IoError& error) {
+      verify_sentence(error, "no ordinary file");
+    }
+    QVERIFY(fs::is_character_file("/dev/full"));
+  }
+
+  void linkToAFile_staysALink() {
+    std::ofstream(folder() / "real.pfm") << "old";
+    fs::create_symlink("real.pfm", folder() / "link.pfm");
+
+    io::write_pfm(folder() / "link.pfm", Image<float>(2, 2).view());
+
+    QVERIFY(fs::is_symlink(folder() / "link.pfm"));
+    QCOMPARE(io::read_pfm(folder() / "real.pfm").width(), 2);
+  }
+};
+
+QTEST_APPLESS_MAIN(BadInputTest)
+#include "bad_input_test.moc"
