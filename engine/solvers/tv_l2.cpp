@@ -18,7 +18,6 @@ namespace episcope {
 namespace {
 
 constexpr float kLeastWeight = 1e-4F;
-constexpr int kCoarsestSize = 4;
 constexpr int kCoarseIterations = 20;
 constexpr int kPenaltyEvery = 10;
 constexpr float kCoarseEdge = 0.75F;
@@ -85,7 +84,8 @@ struct TvL2Solver::State {
 
 TvL2Solver::State::State(int height, int width, Isa isa) : kernel(kernel_for(isa)) {
   grids.emplace_back(height, width);
-  while (std::max(height, width) > kCoarsestSize || grids.size() < 2) {
+  // Down to a single pixel, whose equation is the mean of all: no smoother would ever find that.
+  while (std::max(height, width) > 1 || grids.size() < 2) {
     height = (height + 1) / 2;
     width = (width + 1) / 2;
     grids.emplace_back(height, width);
