@@ -89,6 +89,13 @@ std::string lasting_source(const std::string& input) {
   return std::filesystem::weakly_canonical(input).string();
 }
 
+/// The light field alone: truth and labels of all views would double the memory that is held.
+LightFieldPtr load_light_field(const Request& request, Job& job) {
+  const Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.3));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  return scene.light_field;
+}
+
 void print_answer(const Request& request, const Estimate& estimate) {
   const bool is_one_view = estimate.field.disparity.grid().count() == 1;
   if (!request.is_json) {
@@ -138,11 +145,10 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();
-  const Scene scene = load_input(request.input, request.read, progress.part(0, 0.3));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
-  Estimate estimate = estimator->run(*scene.light_field, values, views, progress.part(0.3, 0.9));
+  const LightFieldPtr light_field = load_light_field(request, job);
+  Estimate estimate = estimator->run(*light_field, values, views, progress.part(0.3, 0.9));
   estimate.source = lasting_source(request.input);
-  estimate.source_hash = scene.light_field->sample_hash();
+  estimate.source_hash = light_field->sample_hash();
   progress.check();
   progress.step("writing " + request.output);
   io::write_result(request.output, estimate, progress.part(0.9, 1));

@@ -2,6 +2,7 @@
 #include "app/cli/pictures.h"
 
 #include "app/cli/input.h"
+#include "app/session/scene_range.h"
 #include "engine/core/epi.h"
 #include "engine/core/error.h"
 #include "engine/evaluation/error_maps.h"
@@ -36,6 +37,12 @@ render::Shading shading(Quantity quantity, Interval disparity_range,
   if (!options.color_map.empty()) shading.map = render::color_map(options.color_map);
   if (options.range) shading.range = *options.range;
   return shading;
+}
+
+/// As the window: the range of the scene, whatever the method, else that of the map.
+Interval shown_range(const Scene* scene, Interval of_map) {
+  const Interval known = scene ? known_disparity_range(*scene) : Interval{};
+  return known.length() > 0 ? known : of_map;
 }
 
 /// The view to show of a result: the one asked for, else the middle of those there are.
@@ -105,8 +112,7 @@ Picture truth_picture(const Scene& scene, const PictureOptions& options) {
   const DisparityField& field = truth.has_disparity() ? truth.field : truth.foreground;
   if (!field.contains(view)) throw lacks(scene, "true disparity in view " + view_text(view));
   const DisparityView map = field.view(view);
-  const Interval range = render::disparity_display_range(
-      scene.light_field->info(), truth, render::robust_range(map.disparity, map.valid, 0, 1));
+  const Interval range = shown_range(&scene, render::robust_range(map.disparity, map.valid));
   return render::shade(map.disparity, map.valid, shading(Quantity::Truth, range, options));
 }
 
@@ -143,11 +149,7 @@ Picture probability_picture(const Scene& scene, const PictureOptions& options) {
 Picture disparity_picture(const Estimate& estimate, const Scene* scene,
                           const PictureOptions& options) {
   const DisparityView map = estimate.field.view(shown_view(estimate.field.disparity, options));
-  Interval range =
-      estimate.range.length() > 0 ? estimate.range : render::robust_range(map.disparity, map.valid);
-  if (scene) {
-    range = render::disparity_display_range(scene->light_field->info(), *scene->truth, range);
-  }
+  const Interval range = shown_range(scene, render::robust_range(map.disparity, map.valid));
   return render::shade(map.disparity, map.valid, shading(Quantity::Disparity, range, options));
 }
 

@@ -94,22 +94,6 @@ Shading default_shading(Quantity quantity, Interval disparity_range) {
   return {color_map("grey"), {0, 1}};
 }
 
-Interval disparity_display_range(const LightFieldInfo& info, const GroundTruth& truth,
-                                 Interval otherwise) {
-  if (truth.has_disparity()) {
-    const auto& stack = truth.field.disparity;
-    const ViewIndex middle = stack.grid().center();
-    const auto view = truth.field.view({middle.v + stack.first().v, middle.u + stack.first().u});
-    const Interval range = robust_range(view.disparity, view.valid, 0, 1);
-    if (range.length() > 0) return range;
-  }
-  constexpr double shown_share = 0.9;
-  if (info.disparity_range) {
-    return {shown_share * info.disparity_range->min, shown_share * info.disparity_range->max};
-  }
-  return otherwise;
-}
-
 Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,
                           const Shading& shading) {
   Image<std::uint8_t> picture(map.height, map.width, kRgba);

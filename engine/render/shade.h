@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/disparity_field.h"
-#include "engine/core/ground_truth.h"
 #include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/render/color_map.h"
@@ -32,11 +31,6 @@ struct Shading {
 /// Colour map and range of a quantity; disparities span `disparity_range`. The map of bad pixels is
 /// for values of 0.2 (good) and 1 (bad), as `bad_pixel_map` gives them.
 [[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);
-
-/// The range that disparities of a scene are shown in, whatever the method: that of the truth's
-/// centre view, else 0.9·[disp_min, disp_max] that the files promise, else `otherwise`.
-[[nodiscard]] Interval disparity_display_range(const LightFieldInfo& info, const GroundTruth& truth,
-                                               Interval otherwise);
 
 /// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own colour. `valid` may be
 /// empty.

@@ -100,18 +100,6 @@ class ShadeTest : public QObject {
     QVERIFY(bad_pixel[0] > bad_pixel[1]);
   }
 
-  void displayRange_prefersTruthThenPromise() {
-    LightFieldInfo info;
-    GroundTruth truth;
-    QCOMPARE(disparity_display_range(info, truth, {-3, 3}), (Interval{-3, 3}));
-    info.disparity_range = Interval{-1, 2};
-    QCOMPARE(disparity_display_range(info, truth, {-3, 3}), (Interval{-0.9, 1.8}));
-    truth.field.disparity = ViewStack<float>({1, 1}, 1, 2, 1, {4, 4});
-    truth.field.disparity.data()[0] = -0.5F;
-    truth.field.disparity.data()[1] = 0.25F;
-    QCOMPARE(disparity_display_range(info, truth, {-3, 3}), (Interval{-0.5, 0.25}));
-  }
-
   void shadeView_keepsEverySampleType() {
     const auto bytes = shade_view(plane<std::uint8_t>(0, 255), {1, 3});
     const auto words = shade_view(plane<std::uint16_t>(0, 65535), {1, 3});
