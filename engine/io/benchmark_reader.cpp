@@ -113,7 +113,7 @@ void require_size(const fs::path& path, const Image<T>& map, Size size) {
   throw IoError(path, "this map has " + std::to_string(map.width()) + "×" +
                           std::to_string(map.height()) + " px, but the views have " +
                           std::to_string(size.width) + "×" + std::to_string(size.height) +
-                          "; remove or replace it");
+                          " px; remove or replace it");
 }
 
 /// Copies a map into a view of the field; values that are not finite become invalid.

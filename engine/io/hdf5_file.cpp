@@ -319,9 +319,9 @@ Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-  errno = 0;
+  use_logging_write_driver(access, log_);
   file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
-  if (file_ < 0) throw write_error(path_);
+  require(file_ >= 0);
 }
 
 Hdf5Output::~Hdf5Output() {
@@ -334,7 +334,7 @@ void Hdf5Output::add_group(const std::string& name) {
   const Session session;
   const Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                      H5Gclose);
-  if (!group.ok()) throw write_error(path_);
+  require(group.ok());
 }
 
 template <class T>
@@ -349,7 +349,7 @@ void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const hid_t id = H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation,
                                 H5P_DEFAULT);
-    if (id < 0) throw write_error(path_);
+    require(id >= 0);
     datasets_[name] = id;
   }
   set_text(name, "axes", axes);
@@ -362,10 +362,8 @@ void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T*
   const hid_t id = datasets_.at(name);
   const Handle space(H5Dget_space(id), H5Sclose);
   const Handle memory(memory_space(block), H5Sclose);
-  errno = 0;
-  if (!select(space, block) || H5Dwrite(id, native_type<T>(), memory, space, H5P_DEFAULT, in) < 0) {
-    throw write_error(path_);
-  }
+  require(select(space, block) &&
+          H5Dwrite(id, native_type<T>(), memory, space, H5P_DEFAULT, in) >= 0);
 }
 
 template void Hdf5Output::add_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
@@ -416,18 +414,22 @@ void Hdf5Output::set_attribute(const std::string& object, const std::string& nam
   const Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
                                            H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
-  if (!attribute.ok() || H5Awrite(attribute, type, value) < 0) throw write_error(path_);
+  require(attribute.ok() && H5Awrite(attribute, type, value) >= 0);
 }
 
 void Hdf5Output::close() {
   const Session session;
-  errno = 0;
-  bool failed = false;
-  for (const auto& [name, id] : datasets_) failed |= H5Dclose(id) < 0;
+  bool is_done = true;
+  for (const auto& [name, id] : datasets_) is_done &= H5Dclose(id) >= 0;
   datasets_.clear();
-  failed |= H5Fflush(file_, H5F_SCOPE_LOCAL) < 0;
-  failed |= H5Fclose(std::exchange(file_, -1)) < 0;
-  if (failed) throw write_error(path_);
+  is_done &= H5Fclose(std::exchange(file_, -1)) >= 0;
+  require(is_done);
+}
+
+void Hdf5Output::require(bool is_done) const {
+  if (is_done && log_.first_error == 0) return;
+  errno = log_.first_error;
+  throw write_error(path_);
 }
 
 }  // namespace episcope::io

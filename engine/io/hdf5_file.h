@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/io/atomic_file.h"
+#include "engine/io/hdf5_write_driver.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -12,8 +13,9 @@
 
 namespace episcope::io {
 
-/// The only door to HDF5. Every call holds one lock for the whole process, since the library as
-/// packaged is not thread-safe; the library's own error printing is off.
+/// The only door to HDF5 (with the write driver beneath it). Every call holds one lock for the
+/// whole process, since the library as packaged is not thread-safe; the library's own error
+/// printing is off.
 
 using Hdf5Shape = std::vector<std::size_t>;
 
@@ -107,9 +109,13 @@ class Hdf5Output {
   void set_attribute(const std::string& object, const std::string& name, std::int64_t type,
                      const Hdf5Shape& shape, const void* value);
 
+  /// Throws if a call of the library failed or a write did not reach the disk.
+  void require(bool is_done) const;
+
   std::filesystem::path path_;
   std::int64_t file_ = -1;
   std::map<std::string, std::int64_t> datasets_;
+  Hdf5WriteLog log_;
 };
 
 }  // namespace episcope::io

@@ -246,7 +246,7 @@ std::vector<Broken> broken_inputs() {
       {"flat count that is no square",
        [](const fs::path& f) {
          for (const int i : {0, 1, 2, 3, 4, 6, 7, 8}) {
-           io::write_png(f / ("v" + std::to_string(i) + ".png"), Image<std::uint8_t>(2, 2).view());
+           io::write_png(f / (std::to_string(i) + ".png"), Image<std::uint8_t>(2, 2).view());
          }
          return f;
        },
