@@ -40,7 +40,8 @@ function(episcope_check_headers name)
     add_library(${name}_headers OBJECT ${units})
     set_target_properties(${name}_headers PROPERTIES AUTOMOC OFF)
     target_link_libraries(${name}_headers PRIVATE ${name})
-    target_compile_options(${name}_headers PRIVATE -O0 -fsyntax-only)
+    # Not -fsyntax-only: without object files they would be compiled anew in every build.
+    target_compile_options(${name}_headers PRIVATE -O0 -g0)
   endif()
 endfunction()
 

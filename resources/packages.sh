@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# The Debian packages that Episcope needs, in one place. Sourced by run.sh and test.sh.
+
+ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-dev libeigen3-dev libcli11-dev
+  nlohmann-json3-dev libspdlog-dev"
+WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
+WAYLAND_PACKAGES="qt6-wayland"
+TEST_PACKAGES="ccache libbenchmark-dev xvfb xauth"
+
+# install_missing PACKAGE…: installs those that are not installed yet; asks nothing and touches
+# nothing if all are.
+install_missing() {
+  missing=""
+  for package in "$@"; do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [ "$status" = installed ] || missing="$missing $package"
+  done
+  [ -n "$missing" ] || return 0
+  as_root=""
+  if [ "$(id -u)" -ne 0 ]; then
+    if ! command -v sudo >/dev/null; then
+      echo "These packages are missing, and there is no sudo to install them. As root, run:" >&2
+      echo "  apt-get install --no-install-recommends$missing" >&2
+      return 1
+    fi
+    as_root="sudo"
+  fi
+  echo "Installing:$missing"
+  # The lists of a fresh container are empty, those of an old one name packages that are gone.
+  $as_root apt-get update -qq
+  # shellcheck disable=SC2086 # One word a package.
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
+    $missing >/dev/null
+}

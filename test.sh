@@ -1,0 +1,56 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# ./test.sh [--sanitize]: builds everything and runs every test. With --sanitize also under
+# AddressSanitizer, UndefinedBehaviorSanitizer and ThreadSanitizer.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+cd "$here"
+# shellcheck source=resources/packages.sh
+. resources/packages.sh
+
+failed=""
+
+# run_preset PRESET [CACHE ENTRY…]: configures, builds, tests.
+run_preset() {
+  preset=$1
+  shift
+  echo
+  echo "== $preset =="
+  cmake --preset "$preset" "$@" >/dev/null || return 1
+  cmake --build --preset "$preset" || return 1
+  ctest --preset "$preset" --parallel 2 --no-tests=error || return 1
+}
+
+# check_preset PRESET [CACHE ENTRY…]: notes a failure and goes on.
+check_preset() {
+  if ! run_preset "$@"; then
+    failed="$failed $1"
+  fi
+}
+
+case "${1:-}" in
+  "" | --sanitize) ;;
+  *)
+    echo "usage: ./test.sh [--sanitize]" >&2
+    exit 2
+    ;;
+esac
+
+started=$(date +%s)
+# shellcheck disable=SC2086 # One word a package.
+install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES
+# run.sh leaves the tests out of a build that it configures.
+check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON
+check_preset headless -DEPISCOPE_TESTS=ON
+if [ "${1:-}" = --sanitize ]; then
+  check_preset dev
+  check_preset tsan
+fi
+minutes=$((($(date +%s) - started + 59) / 60))
+
+echo
+if [ -n "$failed" ]; then
+  echo "test.sh: FAILED in$failed ($minutes min)"
+  exit 1
+fi
+echo "test.sh: everything passed ($minutes min)"
