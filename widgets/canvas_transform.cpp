@@ -2,6 +2,7 @@
 #include "widgets/canvas_transform.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope {
 
@@ -23,6 +24,10 @@ CanvasTransform CanvasTransform::zoomed(double factor, QPointF anchor, QSizeF wi
 
 CanvasTransform CanvasTransform::panned(QPointF delta) const {
   return {scale, center - delta / scale};
+}
+
+double wheel_zoom(double angle) {
+  return std::pow(kCanvasZoomStep, angle / 120);
 }
 
 CanvasTransform fit_transform(QSizeF image, QSizeF widget, double margin) {

@@ -26,6 +26,11 @@ struct CanvasTransform {
 inline constexpr double kMinCanvasScale = 1.0 / 64;
 inline constexpr double kMaxCanvasScale = 128;
 
+/// Zoom factor of a key, and of a notch of the wheel.
+inline constexpr double kCanvasZoomStep = 1.25;
+/// `angle` as in QWheelEvent::angleDelta: 120 a notch.
+[[nodiscard]] double wheel_zoom(double angle);
+
 /// The whole image in the middle of the widget, with a margin of `margin` logical pixels.
 [[nodiscard]] CanvasTransform fit_transform(QSizeF image, QSizeF widget, double margin = 4);
 

@@ -4,6 +4,7 @@
 #include "widgets/color_ramp.h"
 #include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QDoubleSpinBox>
 #include <QGridLayout>
@@ -32,16 +33,6 @@ QDoubleSpinBox* make_end(const char* name, const QString& tip, QWidget* parent) 
   return spin;
 }
 
-QToolButton* make_button(const char* name, const char* icon, const QString& tip, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName(name);
-  button->setIcon(themed_icon(icon));
-  button->setIconSize({14, 14});
-  button->setAutoRaise(true);
-  button->setToolTip(tip);
-  return button;
-}
-
 }  // namespace
 
 ColorBar::ColorBar(QWidget* parent)
@@ -51,11 +42,12 @@ ColorBar::ColorBar(QWidget* parent)
       min_(make_end("colorBar.min", tr("Lower end of the range"), this)),
       max_(make_end("colorBar.max", tr("Upper end of the range"), this)),
       invalid_(new QLabel(this)),
-      lock_(make_button("colorBar.lock", "unlock",
-                        tr("Lock the range: it stays when the result changes"), this)),
-      automatic_(
-          make_button("colorBar.automatic", "auto", tr("Automatic range of this map (A)"), this)),
-      own_(make_button("colorBar.own", "reset", tr("The quantity's own range (R)"), this)) {
+      lock_(make_tool_button(
+          {"colorBar.lock", "unlock", tr("Lock the range: it stays when the result changes")},
+          this)),
+      automatic_(make_tool_button(
+          {"colorBar.automatic", "auto", tr("Automatic range of this map (A)")}, this)),
+      own_(make_tool_button({"colorBar.own", "reset", tr("The quantity's own range (R)")}, this)) {
   setObjectName("colorBar");
   title_->setObjectName("colorBar.title");
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
@@ -64,12 +56,12 @@ ColorBar::ColorBar(QWidget* parent)
   invalid_->setToolTip(tr("Colour of pixels without a value"));
   lock_->setCheckable(true);
 
-  auto* head = new QHBoxLayout;
-  head->setSpacing(0);
-  head->addWidget(title_, 1);
-  head->addWidget(lock_);
-  head->addWidget(automatic_);
-  head->addWidget(own_);
+  auto* foot = new QHBoxLayout;
+  foot->setSpacing(0);
+  foot->addWidget(invalid_, 1);
+  foot->addWidget(lock_);
+  foot->addWidget(automatic_);
+  foot->addWidget(own_);
   auto* ends = new QHBoxLayout;
   ends->setSpacing(theme::kSpacing);
   ends->addWidget(min_);
@@ -78,10 +70,10 @@ ColorBar::ColorBar(QWidget* parent)
   auto* layout = new QGridLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setVerticalSpacing(3);
-  layout->addLayout(head, 0, 0);
+  layout->addWidget(title_, 0, 0);
   layout->addWidget(ramp_, 1, 0);
   layout->addLayout(ends, 2, 0);
-  layout->addWidget(invalid_, 3, 0, Qt::AlignLeft);
+  layout->addLayout(foot, 3, 0);
 
   connect(min_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
   connect(max_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);

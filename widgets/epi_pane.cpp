@@ -15,7 +15,6 @@ namespace {
 /// Logical pixels for a row, when there are as many as in a 9×9 light field.
 constexpr int kRowHint = 10;
 constexpr int kRowsHint = 9;
-constexpr double kWheelNotch = 120;
 
 }  // namespace
 
@@ -111,7 +110,7 @@ void EpiPane::wheelEvent(QWheelEvent* event) {
   } else {
     anchor.setX(width() / 2.0);
   }
-  const double factor = std::pow(1.25, event->angleDelta().y() / kWheelNotch);
+  const double factor = wheel_zoom(event->angleDelta().y());
   emit transformChanged(transform_.zoomed(factor, anchor, size()));
   event->accept();
 }

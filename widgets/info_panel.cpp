@@ -14,12 +14,6 @@
 namespace episcope {
 namespace {
 
-void set_text_color(QWidget* widget, const QColor& color) {
-  QPalette palette = widget->palette();
-  palette.setColor(QPalette::WindowText, color);
-  widget->setPalette(palette);
-}
-
 /// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
 QLabel* make_value(const QString& text, QWidget* parent) {
   if (!text.contains(' ')) {
@@ -81,14 +75,14 @@ void InfoPanel::rebuild() {
   for (const auto& row : rows_) {
     auto* key = new QLabel(row.key, body);
     key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    set_text_color(key, theme::muted_text(palette()));
+    key->setPalette(theme::text_palette(theme::muted_text(palette())));
     auto* value = make_value(row.value, body);
     value->setObjectName("info." + row.key);
     grid->addWidget(key, line, 0);
     grid->addWidget(value, line++, 1);
     if (row.check.isEmpty()) continue;
     auto* check = make_value(row.check, body);
-    set_text_color(check, theme::muted_text(palette()));
+    check->setPalette(theme::text_palette(theme::muted_text(palette())));
     grid->addWidget(check, line++, 1);
   }
   for (const auto& warning : warnings_) {
@@ -97,7 +91,7 @@ void InfoPanel::rebuild() {
     icon->setAlignment(Qt::AlignRight | Qt::AlignTop);
     auto* text = make_value(warning, body);
     text->setObjectName("info.warning");
-    set_text_color(text, theme::warning_text(palette()));
+    text->setPalette(theme::text_palette(theme::warning_text(palette())));
     grid->addWidget(icon, line, 0);
     grid->addWidget(text, line++, 1);
   }

@@ -2,8 +2,8 @@
 #include "widgets/job_panel.h"
 
 #include "widgets/elided_label.h"
-#include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QEvent>
 #include <QGridLayout>
@@ -54,12 +54,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   auto* title_label = new ElidedLabel(row.widget);
   title_label->setObjectName(name + ".title");
   title_label->setFullText(title);
-  row.cancel = new QToolButton(row.widget);
-  row.cancel->setObjectName(name + ".cancel");
-  row.cancel->setIcon(themed_icon("close"));
-  row.cancel->setIconSize({12, 12});
-  row.cancel->setAutoRaise(true);
-  row.cancel->setToolTip(tr("Cancel this job"));
+  row.cancel = make_tool_button({name + ".cancel", "close", tr("Cancel this job")}, row.widget);
   row.bar = new QProgressBar(row.widget);
   row.bar->setObjectName(name + ".bar");
   row.bar->setRange(0, kBarSteps);
@@ -119,8 +114,7 @@ void JobPanel::changeEvent(QEvent* event) {
 }
 
 void JobPanel::updateColors() {
-  QPalette quiet = palette();
-  quiet.setColor(QPalette::WindowText, theme::muted_text(palette()));
+  const QPalette quiet = theme::text_palette(theme::muted_text(palette()));
   idle_->setPalette(quiet);
   for (const auto& [id, row] : rows_) row.stage->setPalette(quiet);
 }

@@ -3,6 +3,7 @@
 
 #include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QEvent>
 #include <QHBoxLayout>
@@ -25,7 +26,7 @@ MessageBar::MessageBar(QWidget* parent)
       icon_(new QLabel(this)),
       text_(new QLabel(this)),
       button_(new QPushButton(this)),
-      close_(new QToolButton(this)) {
+      close_(make_tool_button({"message.close", "close", tr("Close this message")}, this)) {
   setObjectName("messageBar");
   icon_->setObjectName("message.icon");
   text_->setObjectName("message.text");
@@ -33,11 +34,6 @@ MessageBar::MessageBar(QWidget* parent)
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   button_->setObjectName("message.action");
-  close_->setObjectName("message.close");
-  close_->setIcon(themed_icon("close"));
-  close_->setIconSize({12, 12});
-  close_->setAutoRaise(true);
-  close_->setToolTip(tr("Close this message"));
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
   layout->setSpacing(theme::kSpacing);

@@ -176,9 +176,7 @@ void MethodPanel::changeEvent(QEvent* event) {
 }
 
 void MethodPanel::updateColors() {
-  QPalette quiet = palette();
-  quiet.setColor(QPalette::WindowText, theme::muted_text(palette()));
-  reference_->setPalette(quiet);
+  reference_->setPalette(theme::text_palette(theme::muted_text(palette())));
 }
 
 }  // namespace episcope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/metric_table.h"
 
-#include "widgets/icon.h"
+#include "widgets/tool_button.h"
 
 #include <QClipboard>
 #include <QGuiApplication>
@@ -67,18 +67,6 @@ QString full_text(const QVariant& value) {
   return QString::number(value.toDouble(), 'g', QLocale::FloatingPointShortest);
 }
 
-QToolButton* make_button(const char* name, const char* icon, const QString& text,
-                         const QString& tip, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName(name);
-  button->setIcon(themed_icon(icon));
-  button->setText(text);
-  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  button->setAutoRaise(true);
-  button->setToolTip(tip);
-  return button;
-}
-
 }  // namespace
 
 MetricTable::MetricTable(QWidget* parent)
@@ -86,9 +74,11 @@ MetricTable::MetricTable(QWidget* parent)
       table_(new QTableWidget(this)),
       empty_(
           new QLabel(tr("Metrics appear here once there is a result and a ground truth."), this)),
-      copy_csv_(make_button("metrics.copyCsv", "copy", tr("CSV"), tr("Copy as CSV"), this)),
-      copy_latex_(make_button("metrics.copyLatex", "copy", tr("LaTeX"), tr("Copy as LaTeX"), this)),
-      save_(make_button("metrics.save", "export", tr("Save"), tr("Save as CSV or LaTeX"), this)) {
+      copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV"), tr("CSV")}, this)),
+      copy_latex_(
+          make_tool_button({"metrics.copyLatex", "copy", tr("Copy as LaTeX"), tr("LaTeX")}, this)),
+      save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save")},
+                             this)) {
   setObjectName("metricTable");
   empty_->setObjectName("metrics.empty");
   empty_->setAlignment(Qt::AlignCenter);

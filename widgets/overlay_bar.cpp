@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/overlay_bar.h"
 
-#include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QComboBox>
-#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -34,26 +33,23 @@ int slider_value(double focus_px) {
 }  // namespace
 
 QString quantity_label(Quantity quantity) {
-  const auto text = [](const char* source) {
-    return QCoreApplication::translate("episcope::OverlayBar", source);
-  };
   switch (quantity) {
     case Quantity::View:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "none"));
+      return OverlayBar::tr("none");
     case Quantity::Disparity:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "disparity"));
+      return OverlayBar::tr("disparity");
     case Quantity::Truth:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "truth"));
+      return OverlayBar::tr("truth");
     case Quantity::Confidence:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "confidence"));
+      return OverlayBar::tr("confidence");
     case Quantity::SignedError:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "signed error"));
+      return OverlayBar::tr("signed error");
     case Quantity::AbsoluteError:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "absolute error"));
+      return OverlayBar::tr("absolute error");
     case Quantity::BadPixels:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "bad pixels"));
+      return OverlayBar::tr("bad pixels");
     case Quantity::Labels:
-      return text(QT_TRANSLATE_NOOP("episcope::OverlayBar", "labels"));
+      return OverlayBar::tr("labels");
   }
   return {};
 }
@@ -87,11 +83,8 @@ OverlayBar::OverlayBar(QWidget* parent)
   focus_spin_->setSingleStep(0.05);
   focus_spin_->setSuffix(tr(" px"));
   focus_spin_->setKeyboardTracking(false);
-  auto* reset = new QToolButton(this);
-  reset->setObjectName("overlay.focusReset");
-  reset->setIcon(themed_icon("reset"));
-  reset->setAutoRaise(true);
-  reset->setToolTip(tr("Focus plane back to 0 px"));
+  auto* reset =
+      make_tool_button({"overlay.focusReset", "reset", tr("Focus plane back to 0 px")}, this);
 
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);

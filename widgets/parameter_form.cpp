@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/parameter_form.h"
 
-#include "widgets/icon.h"
 #include "widgets/parameter_editor.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QGridLayout>
 #include <QLabel>
@@ -61,17 +61,14 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   const QString key = QString::fromStdString(description.key);
   auto* label = new QLabel(QString::fromStdString(description.label), this);
   auto* editor = make_parameter_editor(description, this);
-  auto* reset = new QToolButton(this);
+  const QString fallback = with_unit(to_text(description.default_value), description.unit);
+  auto* reset =
+      make_tool_button({key + ".reset", "reset", tr("Back to the default %1").arg(fallback)}, this);
   label->setObjectName(key + ".label");
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
   editor->setToolTip(tool_tip(description));
-  reset->setObjectName(key + ".reset");
-  reset->setIcon(themed_icon("reset"));
   reset->setIconSize({12, 12});
-  reset->setAutoRaise(true);
-  reset->setToolTip(tr("Back to the default %1")
-                        .arg(with_unit(to_text(description.default_value), description.unit)));
   QSizePolicy keeps_place = reset->sizePolicy();
   keeps_place.setRetainSizeWhenHidden(true);
   reset->setSizePolicy(keeps_place);

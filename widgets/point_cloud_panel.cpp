@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/point_cloud_panel.h"
 
-#include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -94,11 +94,7 @@ QHBoxLayout* PointCloudPanel::makePresets() {
 }
 
 QHBoxLayout* PointCloudPanel::makeStretch() {
-  auto* reset = new QToolButton(this);
-  reset->setObjectName("cloud.stretchReset");
-  reset->setIcon(themed_icon("reset"));
-  reset->setAutoRaise(true);
-  reset->setToolTip(tr("No stretch"));
+  auto* reset = make_tool_button({"cloud.stretchReset", "reset", tr("No stretch")}, this);
   connect(reset, &QToolButton::clicked, this, [this] { stretch_->setValue(0); });
   stretch_->setEnabled(view_ != nullptr);
   reset->setEnabled(view_ != nullptr);

@@ -2,6 +2,7 @@
 #include "widgets/result_list.h"
 
 #include "widgets/icon.h"
+#include "widgets/tool_button.h"
 
 #include <QAction>
 #include <QHBoxLayout>
@@ -27,30 +28,21 @@ QString seconds_text(double seconds) {
   return QString("%1 s").arg(seconds, 0, 'f', seconds < 10 ? 2 : 0);
 }
 
-QToolButton* make_button(const char* name, const char* icon, const QString& text,
-                         const QString& tip, QWidget* parent) {
-  auto* button = new QToolButton(parent);
-  button->setObjectName(name);
-  button->setIcon(themed_icon(icon));
-  button->setText(text);
-  button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  button->setAutoRaise(true);
-  button->setToolTip(tip);
-  return button;
-}
-
 }  // namespace
 
 ResultList::ResultList(QWidget* parent)
     : QWidget(parent),
       tree_(new QTreeWidget(this)),
       hint_(new QLabel(tr("No results yet. Run a method above."), this)),
-      export_(make_button("results.export", "export", tr("Export"),
-                          tr("Save this result as HDF5, PFM or PNG"), this)),
-      remove_(make_button("results.remove", "trash", tr("Remove"),
-                          tr("Remove this result (Delete)"), this)),
-      reuse_(make_button("results.reuse", "reuse", tr("Reuse"),
-                         tr("Bring the parameters of this result back into the form"), this)) {
+      export_(make_tool_button(
+          {"results.export", "export", tr("Save this result as HDF5, PFM or PNG"), tr("Export")},
+          this)),
+      remove_(make_tool_button(
+          {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),
+      reuse_(make_tool_button(
+          {"results.reuse", "reuse", tr("Bring the parameters of this result back into the form"),
+           tr("Reuse")},
+          this)) {
   setObjectName("resultList");
   setUpTree();
   hint_->setObjectName("results.hint");

@@ -56,6 +56,12 @@ QColor blend(const QColor& from, const QColor& to, double part) {
                           mix(from.blueF(), to.blueF()));
 }
 
+QPalette text_palette(const QColor& color) {
+  QPalette palette;
+  palette.setColor(QPalette::WindowText, color);
+  return palette;
+}
+
 QColor muted_text(const QPalette& palette) {
   const QColor window = palette.color(QPalette::Window);
   const QColor text = palette.color(QPalette::WindowText);

@@ -30,6 +30,9 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 /// `part` of the way from one colour to the other.
 [[nodiscard]] QColor blend(const QColor& from, const QColor& to, double part);
 
+/// A palette that sets nothing but the colour of labels, so that all else is still inherited.
+[[nodiscard]] QPalette text_palette(const QColor& color);
+
 /// Contrast ratio of two opaque colours, 1 … 21 (WCAG 2.1, relative luminance).
 [[nodiscard]] double contrast_ratio(const QColor& a, const QColor& b);
 

@@ -4,6 +4,7 @@
 #include "widgets/elided_label.h"
 #include "widgets/theme.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPixmap>
@@ -73,9 +74,18 @@ void ValueBar::setReading(const std::optional<PixelReading>& reading) {
   QPixmap swatch(kSwatch, kSwatch);
   swatch.fill(reading && reading->color.isValid() ? reading->color : QColor(Qt::transparent));
   swatch_->setPixmap(swatch);
-  QPalette shown = palette();
-  if (!reading) shown.setColor(QPalette::WindowText, theme::muted_text(palette()));
-  values_->setPalette(shown);
+  has_reading_ = reading.has_value();
+  updateColors();
+}
+
+void ValueBar::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateColors();
+}
+
+void ValueBar::updateColors() {
+  values_->setPalette(has_reading_ ? QPalette()
+                                   : theme::text_palette(theme::muted_text(palette())));
 }
 
 void ValueBar::setStatus(const QString& status) {

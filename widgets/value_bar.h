@@ -48,7 +48,13 @@ class ValueBar : public QWidget {
   /// (−0.006)".
   [[nodiscard]] QString text() const;
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
+  void updateColors();
+
+  bool has_reading_ = false;
   QLabel* swatch_;
   ElidedLabel* values_;
   QLabel* status_;

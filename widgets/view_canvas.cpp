@@ -112,11 +112,11 @@ void ViewCanvas::setCanvasTransform(const CanvasTransform& transform) {
 }
 
 void ViewCanvas::zoomIn() {
-  zoomAt(cursor_.value_or(QRectF(rect()).center()), kZoomStep);
+  zoomAt(cursor_.value_or(QRectF(rect()).center()), kCanvasZoomStep);
 }
 
 void ViewCanvas::zoomOut() {
-  zoomAt(cursor_.value_or(QRectF(rect()).center()), 1 / kZoomStep);
+  zoomAt(cursor_.value_or(QRectF(rect()).center()), 1 / kCanvasZoomStep);
 }
 
 void ViewCanvas::zoomToFit() {

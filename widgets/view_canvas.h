@@ -108,7 +108,6 @@ class ViewCanvas : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  static constexpr double kZoomStep = 1.25;  ///< Of a wheel notch or a key.
   enum class Gesture { None, Press, Pan, Parallax };
 
   void changeTransform(const CanvasTransform& transform, bool fitted);

@@ -7,8 +7,6 @@
 #include <QStyleHints>
 #include <QWheelEvent>
 
-#include <cmath>
-
 namespace episcope {
 namespace {
 
@@ -19,7 +17,7 @@ constexpr double kWheelNotch = 120;
 }  // namespace
 
 bool ViewCanvas::event(QEvent* event) {
-  // Ours before a button or a menu takes them: Space and the zoom keys while we have the focus.
+  // Held, Space pans: no shortcut may take it while we have the focus.
   if (event->type() == QEvent::ShortcutOverride &&
       static_cast<QKeyEvent*>(event)->key() == Qt::Key_Space) {
     event->accept();
@@ -31,16 +29,16 @@ bool ViewCanvas::event(QEvent* event) {
 void ViewCanvas::wheelEvent(QWheelEvent* event) {
   // With Alt held, some platforms report the vertical wheel as a horizontal one.
   const QPoint angle = event->angleDelta();
-  const double notches = (angle.y() != 0 ? angle.y() : angle.x()) / kWheelNotch;
+  const double turned = angle.y() != 0 ? angle.y() : angle.x();
   const auto modifiers = event->modifiers();
   if (picture_.isNull() || (modifiers & Qt::ControlModifier && modifiers & Qt::ShiftModifier)) {
     event->ignore();
     return;
   }
   if (modifiers & Qt::AltModifier) {
-    emit focusStepped(notches);
+    emit focusStepped(turned / kWheelNotch);
   } else {
-    zoomAt(event->position(), std::pow(kZoomStep, notches));
+    zoomAt(event->position(), wheel_zoom(turned));
     followCursor(event->position());
   }
   event->accept();

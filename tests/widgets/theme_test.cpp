@@ -25,6 +25,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QTest>
+#include <QVBoxLayout>
 
 #include <functional>
 #include <memory>
@@ -167,6 +168,33 @@ class ThemeTest : public QObject {
     canvas.resize(200, 150);
 
     QCOMPARE(canvas.grab().toImage().pixelColor(3, 3), QColor(theme::kCanvas));
+  }
+
+  void changedTheme_leavesNoTextBehind() {
+    QApplication::setPalette(theme::light_palette());
+    QWidget window;
+    auto* layout = new QVBoxLayout(&window);
+    auto* values = new ValueBar;
+    auto* method = make_method_panel();
+    auto* info = new InfoPanel;
+    info->setInfo("scene", {{"key", "value", "checked"}}, {"A warning."});
+    auto* jobs = make_job_panel();
+    for (auto* widget :
+         {static_cast<QWidget*>(values), method, static_cast<QWidget*>(info), jobs}) {
+      layout->addWidget(widget);
+    }
+    window.show();
+
+    QApplication::setPalette(theme::dark_palette());
+    QTest::qWait(0);
+
+    const QColor background = theme::dark_palette().color(QPalette::Window);
+    for (const auto* label : window.findChildren<QLabel*>()) {
+      const QColor color = label->palette().color(QPalette::WindowText);
+      QVERIFY2(theme::contrast_ratio(background, color) >= kLegible,
+               qPrintable(label->objectName() + ": " + label->text()));
+    }
+    QApplication::setPalette(theme::light_palette());
   }
 
   void messageBar_isTintedByTheTheme_data() { addPalettes(); }

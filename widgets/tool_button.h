@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QString>
+
+class QToolButton;
+class QWidget;
+
+namespace episcope {
+
+struct ToolButtonText {
+  QString name;      ///< Object name.
+  const char* icon;  ///< Of `themed_icon`.
+  QString tip;
+  QString text = {};  ///< Beside the icon; empty = icon alone.
+};
+
+/// A flat tool button, the same everywhere.
+[[nodiscard]] QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent);
+
+}  // namespace episcope
