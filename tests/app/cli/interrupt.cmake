@@ -5,12 +5,13 @@ find_program(timeout timeout REQUIRED)
 # interrupted(seconds arguments…): sends SIGINT after that time.
 function(interrupted seconds)
   file(MAKE_DIRECTORY "${WORK}/out")
-  execute_process(COMMAND "${timeout}" -s INT --preserve-status ${seconds} "${CLI}" ${ARGN}
+  # --foreground: else the signal would come twice, by way of the process group.
+  execute_process(COMMAND "${timeout}" --foreground -s INT --preserve-status ${seconds} "${CLI}"
+                          ${ARGN}
                   WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE exit_code OUTPUT_VARIABLE out
                   ERROR_VARIABLE err TIMEOUT 60)
   if(NOT exit_code EQUAL 130 OR NOT err STREQUAL "episcope-cli: cancelled\n" OR NOT out STREQUAL "")
-    fail_case("interrupted after ${seconds} s: episcope-cli ${ARGN}\n  exit code ${exit_code}\n"
-              "  out: ${out}\n  err: ${err}")
+    fail_case("interrupted after ${seconds} s: episcope-cli ${ARGN}\n  exit code ${exit_code}\n  out: ${out}\n  err: ${err}")
   endif()
   expect_files(out)
 endfunction()
