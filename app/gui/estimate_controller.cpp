@@ -30,12 +30,14 @@ EstimateRequest request_of(const RunRequest& request) {
   return {request.method, request.values, views_of(request.all_views)};
 }
 
-QString parameter_text(const ParameterSet& parameters) {
+// What sets this run apart from others: parameters that are not at their defaults.
+QString parameter_text(const Estimate& estimate) {
   QStringList texts;
-  for (const auto& [key, value] : parameters) {
+  for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
     texts << QString::fromStdString(key + " " + to_text(value));
   }
-  return texts.join(", ");
+  if (!texts.isEmpty()) return texts.join(", ");
+  return estimate.parameters.empty() ? QString() : EstimateController::tr("defaults");
 }
 
 QString detail_text(const Estimate& estimate) {
@@ -47,6 +49,9 @@ QString detail_text(const Estimate& estimate) {
     lines << EstimateController::tr("Searched %1 … %2 px")
                  .arg(estimate.range.min, 0, 'f', 2)
                  .arg(estimate.range.max, 0, 'f', 2);
+  }
+  for (const auto& [key, value] : estimate.parameters) {
+    lines << QString::fromStdString(key + " " + to_text(value));
   }
   for (const std::string& note : estimate.notes) lines << QString::fromStdString(note);
   return lines.join('\n');
@@ -146,7 +151,7 @@ void EstimateController::listResults() {
     ResultRow row;
     row.id = static_cast<quint64>(entry.id);
     row.method = QString::fromStdString(entry.name);
-    row.parameters = parameter_text(estimate.parameters);
+    row.parameters = parameter_text(estimate);
     row.seconds = estimate.seconds;
     row.detail = detail_text(estimate);
     const EvaluationKey key{entry.id, judged_view(session_), Protocol::Vmv2013};

@@ -16,10 +16,7 @@
 #include "widgets/view_grid.h"
 
 #include <QCoreApplication>
-#include <QFrame>
 #include <QGridLayout>
-#include <QLabel>
-#include <QScrollArea>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QToolBar>
@@ -39,15 +36,6 @@ QString text(const char* source) {
   return QCoreApplication::translate("episcope::MainWindow", source);
 }
 
-QWidget* in_scroll_area(QWidget* widget, QWidget* parent) {
-  auto* area = new QScrollArea(parent);
-  area->setWidgetResizable(true);
-  area->setFrameShape(QFrame::NoFrame);
-  area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  area->setWidget(widget);
-  return area;
-}
-
 // The view with the vertical EPI beside it, the horizontal one under it, and the legend between.
 QWidget* make_stage(Panels& panels, QWidget* parent) {
   auto* stage = new QWidget(parent);
@@ -55,9 +43,6 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   panels.horizontal_epi = new EpiPane(Qt::Horizontal, stage);
   panels.vertical_epi = new EpiPane(Qt::Vertical, stage);
   panels.color_bar = new ColorBar(stage);
-  panels.canvas->setObjectName("canvas");
-  panels.horizontal_epi->setObjectName("horizontal_epi");
-  panels.vertical_epi->setObjectName("vertical_epi");
   panels.color_bar->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
 
   auto* legend = new QWidget(stage);
@@ -75,8 +60,10 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   layout->addWidget(panels.horizontal_epi, 1, 0);
   layout->addWidget(legend, 1, 1);
   layout->setColumnMinimumWidth(1, kEpiWidth);
-  layout->setColumnStretch(0, 1);
-  layout->setRowStretch(0, 1);
+  layout->setColumnStretch(0, 12);
+  layout->setColumnStretch(1, 1);
+  layout->setRowStretch(0, 12);
+  layout->setRowStretch(1, 1);
   return stage;
 }
 
@@ -84,10 +71,10 @@ QWidget* make_left(Panels& panels, QWidget* parent) {
   auto* left = new QSplitter(Qt::Vertical, parent);
   panels.view_grid = new ViewGrid(left);
   panels.view_grid->setContentsMargins(theme::kSpacing, theme::kSpacing, theme::kSpacing, 0);
-  panels.info = new InfoPanel;
+  panels.info = new InfoPanel(left);
   panels.info->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
   left->addWidget(panels.view_grid);
-  left->addWidget(in_scroll_area(panels.info, left));
+  left->addWidget(panels.info);
   left->setStretchFactor(0, 0);
   left->setStretchFactor(1, 1);
   left->setChildrenCollapsible(false);
@@ -96,9 +83,9 @@ QWidget* make_left(Panels& panels, QWidget* parent) {
 
 QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
   auto* tab = new QSplitter(Qt::Vertical, parent);
-  panels.method = new MethodPanel;
+  panels.method = new MethodPanel(tab);
   panels.results = new ResultList(tab);
-  tab->addWidget(in_scroll_area(panels.method, tab));
+  tab->addWidget(panels.method);
   tab->addWidget(panels.results);
   tab->setSizes({kMethodHeight, kResultsHeight});
   tab->setChildrenCollapsible(false);
@@ -138,8 +125,8 @@ Panels make_panels(QWidget* window) {
   auto* browser = new QSplitter(Qt::Horizontal, panels.viewer);
   browser->addWidget(make_left(panels, browser));
   browser->addWidget(make_stage(panels, browser));
-  browser->setStretchFactor(0, 0);
-  browser->setStretchFactor(1, 1);
+  browser->setStretchFactor(0, 1);
+  browser->setStretchFactor(1, 8);
   browser->setSizes({kLeftWidth, kCenterWidth});
   auto* viewer_layout = new QVBoxLayout(panels.viewer);
   viewer_layout->setContentsMargins(0, 0, 0, 0);
@@ -148,8 +135,8 @@ Panels make_panels(QWidget* window) {
   auto* split = new QSplitter(Qt::Horizontal, window);
   split->addWidget(panels.viewer);
   split->addWidget(make_right(panels, split));
-  split->setStretchFactor(0, 1);
-  split->setStretchFactor(1, 0);
+  split->setStretchFactor(0, 9);
+  split->setStretchFactor(1, 1);
   split->setSizes({kLeftWidth + kCenterWidth, kRightWidth});
   split->setChildrenCollapsible(false);
 

@@ -9,14 +9,9 @@
 namespace episcope {
 namespace {
 
-const Estimator* find(const std::vector<Estimator>& estimators, const std::string& id) {
-  const auto found = std::find_if(estimators.begin(), estimators.end(),
-                                  [&](const Estimator& each) { return each.info.id == id; });
-  return found == estimators.end() ? nullptr : &*found;
-}
-
-bool is_default(const Estimator& estimator, const std::string& key, const ParameterValue& value) {
-  return std::any_of(estimator.parameters.begin(), estimator.parameters.end(),
+bool is_default(const std::vector<ParameterDescription>& descriptions, const std::string& key,
+                const ParameterValue& value) {
+  return std::any_of(descriptions.begin(), descriptions.end(),
                      [&](const ParameterDescription& description) {
                        return description.key == key && description.default_value == value;
                      });
@@ -36,15 +31,24 @@ std::string shell_quoted(const std::string& word) {
   return quoted + "'";
 }
 
+ParameterSet changed_parameters(const std::string& method, const ParameterSet& values) {
+  std::vector<ParameterDescription> descriptions;
+  for (const Estimator& estimator : registered_estimators()) {
+    if (estimator.info.id == method) descriptions = estimator.parameters;
+  }
+  ParameterSet changed;
+  for (const auto& [key, value] : values) {
+    if (!is_default(descriptions, key, value)) changed.emplace_back(key, value);
+  }
+  return changed;
+}
+
 std::string command_line_for(const std::string& method, const ParameterSet& values,
                              ViewSelection views, const std::string& input) {
-  const std::vector<Estimator> estimators = registered_estimators();
-  const Estimator* estimator = find(estimators, method);
   std::string line = "episcope-cli estimate " + shell_quoted(method) + " " + shell_quoted(input) +
                      " -o " + shell_quoted(method + ".h5") + " --views " +
                      (views == ViewSelection::All ? "all" : "center");
-  for (const auto& [key, value] : values) {
-    if (estimator && is_default(*estimator, key, value)) continue;
+  for (const auto& [key, value] : changed_parameters(method, values)) {
     // "=" keeps a value that begins with a minus from being read as an option.
     line += " --" + key + "=" + shell_quoted(to_text(value));
   }

@@ -16,6 +16,10 @@ namespace episcope {
 [[nodiscard]] std::string command_line_for(const std::string& method, const ParameterSet& values,
                                            ViewSelection views, const std::string& input);
 
+/// Values that are not the defaults of the method; of a method this build does not know, all.
+[[nodiscard]] ParameterSet changed_parameters(const std::string& method,
+                                              const ParameterSet& values);
+
 /// A word as a POSIX shell reads it back: quoted where it must be.
 [[nodiscard]] std::string shell_quoted(const std::string& word);
 

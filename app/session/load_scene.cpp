@@ -25,38 +25,56 @@ LightFieldPtr renamed(const LightField& light_field, const std::string& name,
   return std::make_shared<const LightField>(std::move(samples), std::move(info));
 }
 
-void show_center_view(const std::string& id, const scenes::RenderOptions& options,
-                      const io::OpenOptions& open, const Progress& progress) {
-  if (!open.on_center_view) return;
+Scene render_center_view(const std::string& id, const scenes::RenderOptions& options,
+                         const Progress& progress) {
   scenes::RenderOptions center_only = options;
   center_only.grid = {1, 1};
-  const Scene scene = scenes::render_builtin(id, center_only, progress);
-  const LightField& light_field = *scene.light_field;
-  if (light_field.sample_type() != SampleType::UInt8) return;
+  return scenes::render_builtin(id, center_only, progress);
+}
+
+void show_center_view(const std::string& id, const Scene& center, GridShape grid,
+                      const io::OpenOptions& open) {
+  const LightField& light_field = *center.light_field;
+  if (!open.on_center_view || light_field.sample_type() != SampleType::UInt8) return;
   const ImageView<const std::uint8_t> view = light_field.view<std::uint8_t>({0, 0});
   Image<std::uint8_t> rgb(view.height, view.width, view.channels);
   std::copy_n(view.data, view.size(), rgb.data());
   LightFieldInfo info = light_field.info();
   info.name = id;
-  open.on_center_view(rgb, info, options.grid);
+  open.on_center_view(rgb, info, grid);
+}
+
+// What the archive form cannot hold of a built-in scene: region masks and where it comes from.
+void complete_kept_scene(Scene& kept, const Scene& center) {
+  auto truth = std::make_shared<GroundTruth>();
+  const GroundTruth& read = *kept.truth;
+  truth->field = {read.field.disparity.clone(), read.field.valid.clone()};
+  truth->foreground = {read.foreground.disparity.clone(), read.foreground.valid.clone()};
+  truth->background = {read.background.disparity.clone(), read.background.valid.clone()};
+  truth->labels = read.labels.clone();
+  truth->regions = center.truth->regions;
+  kept.truth = std::move(truth);
+  kept.convention = center.convention;
 }
 
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
   const scenes::RenderOptions render;
-  const SceneCache cache(options.cache_folder);
+  progress.step("rendering the centre view");
+  const Scene center = render_center_view(id, render, progress.part(0, 0.02));
+  show_center_view(id, center, render.grid, options.open);
   progress.step("reading the built-in scene");
-  std::optional<Scene> scene = cache.read(id, render, progress.part(0, 0.9));
-  const bool is_cached = scene.has_value();
-  if (!is_cached) {
-    progress.step("rendering the built-in scene");
-    show_center_view(id, render, options.open, progress.part(0, 0.02));
+  std::optional<Scene> scene =
+      SceneCache(options.cache_folder).read(id, render, progress.part(0.02, 0.9));
+  if (scene) {
+    complete_kept_scene(*scene, center);
+  } else {
+    progress.step("rendering all views");
     scene = scenes::render_builtin(id, render, progress.part(0.02, 1));
   }
   if (scene->light_field->info().source != source) {
     scene->light_field = renamed(*scene->light_field, id, source);
   }
-  scene->convention.format = is_cached ? "built-in scene, kept on disk" : "built-in scene";
   return std::move(*scene);
 }
 
@@ -92,10 +110,9 @@ void store_in_cache(const std::string& input, const Scene& scene,
   const SceneCache cache(cache_folder);
   const scenes::RenderOptions render;
   std::error_code ignored;
-  // A damaged file is replaced: load_scene calls its scene rendered, not kept.
-  const bool is_kept = scene.convention.format != "built-in scene" &&
-                       std::filesystem::exists(cache.place(id, render), ignored);
-  if (!is_kept) cache.write(id, render, scene, progress);
+  if (!std::filesystem::exists(cache.place(id, render), ignored)) {
+    cache.write(id, render, scene, progress);
+  }
 }
 
 }  // namespace episcope

@@ -55,6 +55,7 @@ std::optional<Scene> SceneCache::read(const std::string& id, const scenes::Rende
     open.flip = io::OpenOptions::Flip::None;
     return io::open_scene(file, open, progress);
   } catch (const Error&) {
+    std::filesystem::remove_all(place(id, options), ignored);
     return std::nullopt;
   }
 }

@@ -20,7 +20,7 @@ class SceneCache {
   /// Where a scene is kept.
   [[nodiscard]] std::filesystem::path place(const std::string& id,
                                             const scenes::RenderOptions& options) const;
-  /// Empty if the scene is not there or cannot be read. Throws Cancelled.
+  /// Empty if the scene is not there. One that cannot be read is removed. Throws Cancelled.
   [[nodiscard]] std::optional<Scene> read(const std::string& id,
                                           const scenes::RenderOptions& options,
                                           const Progress& progress) const;
