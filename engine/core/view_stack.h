@@ -3,9 +3,9 @@
 
 #include "engine/core/image.h"
 #include "engine/core/indices.h"
+#include "engine/core/large_memory.h"
 
 #include <algorithm>
-#include <memory>
 
 namespace episcope {
 
@@ -24,7 +24,7 @@ class ViewStack {
         height_(height),
         width_(width),
         channels_(channels),
-        samples_(std::make_unique_for_overwrite<T[]>(size())) {}
+        samples_(make_large<T>(size())) {}
   ViewStack(ViewStack&& other) noexcept { swap(other); }
   ViewStack& operator=(ViewStack&& other) noexcept {
     ViewStack taken(std::move(other));
@@ -83,7 +83,7 @@ class ViewStack {
   int height_ = 0;
   int width_ = 0;
   int channels_ = 1;
-  std::unique_ptr<T[]> samples_;
+  LargeArray<T> samples_;
 };
 
 }  // namespace episcope

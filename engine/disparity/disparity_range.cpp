@@ -117,7 +117,8 @@ Interval find_disparity_range(const LightField& lf, const Progress& progress, do
   return {std::max(-limit, low - kMargin), std::min(limit, high + kMargin)};
 }
 
-Interval search_range(const LightField& lf, const IntervalOrAuto& wanted, const Progress& progress) {
+Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,
+                      const Progress& progress) {
   if (wanted) return *wanted;
   if (lf.info().disparity_range) return *lf.info().disparity_range;
   progress.step("disparity range");

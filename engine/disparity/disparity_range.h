@@ -8,9 +8,8 @@
 namespace episcope {
 
 /// The disparity range that an estimator should search, px per view step: `wanted` if given, else
-/// what the files promise (LightFieldInfo::disparity_range), else found from the light field itself.
-/// No estimator ever sees the truth.
-/// Throws Cancelled.
+/// what the files promise (LightFieldInfo::disparity_range), else found from the light field
+/// itself. No estimator ever sees the truth. Throws Cancelled.
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 

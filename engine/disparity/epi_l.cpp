@@ -32,7 +32,7 @@ StructureTensor::Sink store_into(const Maps& maps, int v) {
 
 StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
   return [&maps, power, u](int v, PixelIndex begin, int count, const float* disparity,
-                            const float* coherence) {
+                           const float* coherence) {
     merge_orientations(disparity, coherence, count, power,
                        maps.disparity.view({v, u}).row(begin.y) + begin.x,
                        maps.confidence.view({v, u}).row(begin.y) + begin.x);
@@ -50,7 +50,7 @@ void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSe
     return [&, tensor](int i) {
       const int v = first.v + i / bands;
       const int y = i % bands * kBandRows;
-      const TensorTask task{v,        {y, 0},  std::min(kBandRows, lf.height() - y),
+      const TensorTask task{v,          {y, 0},  std::min(kBandRows, lf.height() - y),
                             lf.width(), first.u, first.u + maps.grid().u};
       tensor->estimate(task, store_into(maps, v));
     };
@@ -66,8 +66,8 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
   const int blocks = (lf.width() + width - 1) / width;
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().u * blocks, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical,
-                                                    scales, search);
+    auto tensor =
+        std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical, scales, search);
     return [&, tensor](int i) {
       const int u = first.u + i / blocks;
       const int x = i % blocks * width;
@@ -84,7 +84,9 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
   });
 }
 
-void clear(ViewStack<float>& stack) { std::fill_n(stack.data(), stack.size(), 0.0F); }
+void clear(ViewStack<float>& stack) {
+  std::fill_n(stack.data(), stack.size(), 0.0F);
+}
 
 }  // namespace
 
@@ -118,9 +120,9 @@ Schema<EpiLParameters> epi_l_schema() {
       .real("noise", &P::noise,
             {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
       .integer("fusion_power", &P::fusion_power,
-            {"Fusion power",
-             "Horizontal and vertical estimates are averaged with weights coherence^p"},
-            {0, 32})
+               {"Fusion power",
+                "Horizontal and vertical estimates are averaged with weights coherence^p"},
+               {0, 32})
       .interval("range", &P::range,
                 {"Disparity range",
                  "Disparities searched; auto takes what the files promise or finds it from the "
@@ -130,8 +132,8 @@ Schema<EpiLParameters> epi_l_schema() {
   return schema;
 }
 
-Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters,
-                        ViewSelection views, const Progress& progress) {
+Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
+                        const Progress& progress) {
   Estimate estimate;
   estimate.range = search_range(lf, parameters.range, progress.part(0, 0.05));
   const bool all = views == ViewSelection::All;
@@ -153,8 +155,7 @@ Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters,
   }
   if (lf.grid().v > 1) {
     progress.step("vertical EPIs");
-    run_vertical(maps, scales, search, parameters.fusion_power,
-                 progress.part(0.5, 1));
+    run_vertical(maps, scales, search, parameters.fusion_power, progress.part(0.5, 1));
   }
   return estimate;
 }

@@ -18,7 +18,8 @@ struct EstimatorInfo {
   std::string name;       ///< As in the paper: "EPI_L".
   std::string summary;    ///< One line.
   std::string reference;  ///< Authors, year, key in resources/references.bib.
-  bool all_views = false;  ///< Can estimate every view at once; else one view, the centre by default.
+  bool all_views =
+      false;  ///< Can estimate every view at once; else one view, the centre by default.
 };
 
 /// Which views an estimate should cover.

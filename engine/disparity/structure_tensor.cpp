@@ -24,15 +24,20 @@ const TensorKernel& tensor_kernel() {
   return baseline::kTensorKernel;
 #else
   switch (best_isa()) {
-    case Isa::Avx512: return avx512::kTensorKernel;
-    case Isa::Avx2: return avx2::kTensorKernel;
-    default: return baseline::kTensorKernel;
+    case Isa::Avx512:
+      return avx512::kTensorKernel;
+    case Isa::Avx2:
+      return avx2::kTensorKernel;
+    default:
+      return baseline::kTensorKernel;
   }
 #endif
 }
 
 // Cut at 2σ, where the Gaussian has fallen to 13 %.
-int gaussian_radius(double sigma) { return static_cast<int>(std::ceil(2 * sigma)); }
+int gaussian_radius(double sigma) {
+  return static_cast<int>(std::ceil(2 * sigma));
+}
 
 double gaussian(double sigma, int offset) {
   return sigma > 0 ? std::exp(-0.5 * offset * offset / (sigma * sigma)) : (offset == 0 ? 1 : 0);
@@ -63,7 +68,9 @@ Taps half_sample(const Taps& taps) {
 
 using Matrix = std::vector<std::vector<double>>;
 
-Matrix zero_matrix(int rows) { return Matrix(rows, std::vector<double>(rows, 0)); }
+Matrix zero_matrix(int rows) {
+  return Matrix(rows, std::vector<double>(rows, 0));
+}
 
 // A filter along the views, truncated at the first and last view and renormalised.
 Matrix smoothing_matrix(int rows, int radius, const std::function<double(int)>& weight) {
@@ -123,11 +130,20 @@ struct RowFilters {
   std::vector<RowTaps> smooth, derivative, integrate;
 };
 
+// The farthest row that any row takes in.
+int reach_of(const std::vector<RowTaps>& filter) {
+  int reach = 0;
+  for (int r = 0; r < static_cast<int>(filter.size()); ++r) {
+    reach = std::max({reach, r - filter[r].first, filter[r].first + filter[r].count - 1 - r});
+  }
+  return reach;
+}
+
 RowFilters make_row_filters(int rows, const TensorScales& scales) {
   const int inner = gaussian_radius(scales.inner);
   const int outer = gaussian_radius(scales.views);
-  const Matrix before = smoothing_matrix(
-      rows, inner, [&](int i) { return gaussian(scales.inner, i); });
+  const Matrix before =
+      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
   const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
   RowFilters filters;
   filters.smooth = banded(product(scharr, before), inner + 1);
@@ -178,6 +194,7 @@ struct StructureTensor::State {
   void gather_horizontal(const TensorTask& task, int y);
   void gather_vertical(const TensorTask& task);
   void gather_pixels(ViewIndex view, int y, int x0, int x1, float* const* out);
+  void prefetch_pixels(ViewIndex view, int y, int x) const;
   void estimate_horizontal(const TensorTask& task, const Sink& sink);
   void estimate_vertical(const TensorTask& task, const Sink& sink);
   TensorAverage make_average(int length) const;
@@ -208,7 +225,7 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
 
 void StructureTensor::State::size_block() {
   // Rows of a vertical block: its planes stay in the L2 cache.
-  constexpr int kBand = 96;
+  constexpr int kBand = 128;
   constexpr int kPayloadColumns = 28;
   columns = kPayloadColumns + 2 * across.radius;
   block.stride = horizontal() ? 1 : columns;
@@ -220,11 +237,8 @@ void StructureTensor::State::size_block() {
   }
   // A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
   // along the views moves by the shear.
-  int steps = 0;
-  for (int r = 0; r < block.rows; ++r) {
-    steps = std::max({steps, row_filters.integrate[r].count, row_filters.smooth[r].count});
-  }
-  const int reach = (2 * steps * largest + 1) / 2 + filters.integrate.radius + 3;
+  const int steps = reach_of(row_filters.integrate) + reach_of(row_filters.smooth);
+  const int reach = (steps * largest + 1) / 2 + filters.integrate.radius + 3;
   block.margin = (reach + filters.smooth.radius + 4) * block.stride;
   block.tensor_margin =
       (largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack;
@@ -267,9 +281,9 @@ void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1
                                            float* const* out) {
   const int channels = block.channels;
   if (light_field.sample_type() == SampleType::UInt8) {
-    kernel.deinterleave(light_field.view<std::uint8_t>(view).row(y) +
-                            static_cast<std::size_t>(x0) * channels,
-                        x1 - x0, channels, out);
+    kernel.deinterleave(
+        light_field.view<std::uint8_t>(view).row(y) + static_cast<std::size_t>(x0) * channels,
+        x1 - x0, channels, out);
     return;
   }
   line_float.resize(static_cast<std::size_t>(x1 - x0) * channels);
@@ -277,6 +291,18 @@ void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1
   for (int i = 0; i < x1 - x0; ++i) {
     for (int c = 0; c < channels; ++c) out[c][i] = line_float[i * channels + c];
   }
+}
+
+// The hardware does not foresee steps of a whole image row.
+void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const {
+  constexpr int kRowsAhead = 12;
+  constexpr int kCacheLine = 64;
+  if (light_field.sample_type() != SampleType::UInt8) return;
+  const int row = std::min(y + kRowsAhead, light_field.height() - 1);
+  const std::uint8_t* first =
+      light_field.view<std::uint8_t>(view).row(row) + static_cast<std::size_t>(x) * block.channels;
+  __builtin_prefetch(first);
+  __builtin_prefetch(first + kCacheLine);
 }
 
 void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
@@ -312,6 +338,7 @@ void StructureTensor::State::gather_vertical(const TensorTask& task) {
                    static_cast<std::ptrdiff_t>(margin + i) * columns;
         inside[c] = lanes[c] + (x0 - left);
       }
+      prefetch_pixels({v, task.camera_line}, y, x0);
       gather_pixels({v, task.camera_line}, y, x0, x1, inside.data());
       for (int c = 0; c < block.channels; ++c) {
         std::fill(lanes[c], inside[c], inside[c][0]);
@@ -380,8 +407,8 @@ void StructureTensor::State::estimate_vertical(const TensorTask& task, const Sin
   TensorAverage average = make_average(task.width);
   for (int v = task.first_view; v < task.last_view; ++v) {
     for (int y = 0; y < task.height; ++y) {
-      const std::size_t row = static_cast<std::size_t>(v) * block.best_pitch +
-                              static_cast<std::size_t>(y) * columns;
+      const std::size_t row =
+          static_cast<std::size_t>(v) * block.best_pitch + static_cast<std::size_t>(y) * columns;
       for (int i = 0; i < average.count; ++i) {
         for (int j = 0; j < 3; ++j) average.tensor[i][j] = block.best[j] + row + i;
       }
@@ -402,7 +429,8 @@ int StructureTensor::max_height() const {
 }
 
 int StructureTensor::max_width() const {
-  return state_->horizontal() ? state_->payload_pixels : state_->columns - 2 * state_->across.radius;
+  return state_->horizontal() ? state_->payload_pixels
+                              : state_->columns - 2 * state_->across.radius;
 }
 
 void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {

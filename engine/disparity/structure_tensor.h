@@ -11,12 +11,12 @@ namespace episcope {
 
 /// Scales of the structure tensor on epipolar plane images.
 struct TensorScales {
-  double inner = 0.5;     ///< σ_i in px and views: Gaussian before the derivatives.
-  double outer = 1.0;     ///< σ_o in px: Gaussian over the products of derivatives, along the EPI.
-  double views = 1.5;     ///< The same along the views.
-  double across = 1.0;    ///< The same in px across neighbouring EPIs.
-  double contrast = 2;    ///< Gradients above this are toned down, in 1/255.
-  double noise = 0.15;    ///< Contrast below which coherence fades, in 1/255.
+  double inner = 0.5;   ///< σ_i in px and views: Gaussian before the derivatives.
+  double outer = 1.0;   ///< σ_o in px: Gaussian over the products of derivatives, along the EPI.
+  double views = 1.5;   ///< The same along the views.
+  double across = 1.0;  ///< The same in px across neighbouring EPIs.
+  double contrast = 2;  ///< Gradients above this are toned down, in 1/255.
+  double noise = 0.15;  ///< Contrast below which coherence fades, in 1/255.
 };
 
 /// Where orientation is looked for.
@@ -42,8 +42,8 @@ struct TensorTask {
 
 /// Disparity and coherence of the views of an EPI by the structure tensor: smoothing with σ_i,
 /// derivatives (central difference along, Scharr's [3,10,3]/16 across), products summed over
-/// colour channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² + 4Jxs²))
-/// and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
+/// colour channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² +
+/// 4Jxs²)) and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
 /// Source: Bigün and Granlund 1987 [BG87]; Wanner and Goldluecke 2012 [WG12].
 ///
 /// Where we depart from it, each measured against truth (tests/accuracy):

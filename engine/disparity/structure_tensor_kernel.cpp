@@ -13,10 +13,18 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
 // Lanes that are worked on together, so that every row they touch stays in the L1 cache.
 constexpr int kChunk = 128;
 
-inline Vec load(const float* from) { return *reinterpret_cast<const LooseVec*>(from); }
-inline void store(float* to, Vec value) { *reinterpret_cast<LooseVec*>(to) = value; }
-inline Vec splat(float value) { return value - Vec{}; }
-inline Vec choose(IntVec mask, Vec yes, Vec no) { return mask ? yes : no; }
+inline Vec load(const float* from) {
+  return *reinterpret_cast<const LooseVec*>(from);
+}
+inline void store(float* to, Vec value) {
+  *reinterpret_cast<LooseVec*>(to) = value;
+}
+inline Vec splat(float value) {
+  return value - Vec{};
+}
+inline Vec choose(IntVec mask, Vec yes, Vec no) {
+  return mask ? yes : no;
+}
 inline Vec square_root(Vec value) {
   Vec root;
   for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
@@ -24,25 +32,37 @@ inline Vec square_root(Vec value) {
 }
 
 typedef std::uint8_t Bytes __attribute__((vector_size(16)));
-typedef float SixteenFloats __attribute__((vector_size(64)));
-typedef float LooseSixteenFloats __attribute__((vector_size(64), aligned(4), may_alias));
 
 constexpr float kSampleScale = 1.0F / 255;
 
-// Sixteen samples of one channel out of 48 interleaved bytes.
+// Where sample i of a channel stands among 48 interleaved bytes: gathered from the first two
+// vectors, then from the third.
+constexpr int from_two(int i, int channel) {
+  return 3 * i + channel < 32 ? 3 * i + channel : 0;
+}
+constexpr int from_third(int i, int channel) {
+  return 3 * i + channel < 32 ? i : 3 * i + channel - 16;
+}
+
 template <int kChannel>
 inline void store_channel(Bytes first, Bytes second, Bytes third, float* out) {
-  Bytes low{};
-  Bytes both{};
-  // Where sample i stands among 48 bytes: gathered from the first two vectors, then from the third.
-  for (int i = 0; i < 16; ++i) {
-    const int at = 3 * i + kChannel;
-    low[i] = static_cast<std::uint8_t>(at < 32 ? at : 0);
-    both[i] = static_cast<std::uint8_t>(at < 32 ? i : at - 16);
-  }
-  const Bytes gathered = __builtin_shuffle(__builtin_shuffle(first, second, low), third, both);
-  *reinterpret_cast<LooseSixteenFloats*>(out) =
-      kSampleScale * __builtin_convertvector(gathered, SixteenFloats);
+  const Bytes low = __builtin_shufflevector(
+      first, second, from_two(0, kChannel), from_two(1, kChannel), from_two(2, kChannel),
+      from_two(3, kChannel), from_two(4, kChannel), from_two(5, kChannel), from_two(6, kChannel),
+      from_two(7, kChannel), from_two(8, kChannel), from_two(9, kChannel), from_two(10, kChannel),
+      from_two(11, kChannel), from_two(12, kChannel), from_two(13, kChannel),
+      from_two(14, kChannel), from_two(15, kChannel));
+  const Bytes all = __builtin_shufflevector(
+      low, third, from_third(0, kChannel), from_third(1, kChannel), from_third(2, kChannel),
+      from_third(3, kChannel), from_third(4, kChannel), from_third(5, kChannel),
+      from_third(6, kChannel), from_third(7, kChannel), from_third(8, kChannel),
+      from_third(9, kChannel), from_third(10, kChannel), from_third(11, kChannel),
+      from_third(12, kChannel), from_third(13, kChannel), from_third(14, kChannel),
+      from_third(15, kChannel));
+  // Through memory: the compiler widens a loop, but takes vector conversions apart.
+  std::uint8_t bytes[16];
+  __builtin_memcpy(bytes, &all, sizeof bytes);
+  for (int i = 0; i < 16; ++i) out[i] = kSampleScale * static_cast<float>(bytes[i]);
 }
 
 void deinterleave(const std::uint8_t* in, int count, int channels, float* const* out) {
@@ -81,13 +101,20 @@ void filter_fixed(const float* __restrict in, int begin, int end, int stride, co
 
 void filter(const float* in, int begin, int end, int stride, const Taps& taps, float* out) {
   switch (taps.radius) {
-    case 0: return filter_fixed<0>(in, begin, end, stride, taps.values, out);
-    case 1: return filter_fixed<1>(in, begin, end, stride, taps.values, out);
-    case 2: return filter_fixed<2>(in, begin, end, stride, taps.values, out);
-    case 3: return filter_fixed<3>(in, begin, end, stride, taps.values, out);
-    case 4: return filter_fixed<4>(in, begin, end, stride, taps.values, out);
-    case 5: return filter_fixed<5>(in, begin, end, stride, taps.values, out);
-    default: return filter_fixed<6>(in, begin, end, stride, taps.values, out);
+    case 0:
+      return filter_fixed<0>(in, begin, end, stride, taps.values, out);
+    case 1:
+      return filter_fixed<1>(in, begin, end, stride, taps.values, out);
+    case 2:
+      return filter_fixed<2>(in, begin, end, stride, taps.values, out);
+    case 3:
+      return filter_fixed<3>(in, begin, end, stride, taps.values, out);
+    case 4:
+      return filter_fixed<4>(in, begin, end, stride, taps.values, out);
+    case 5:
+      return filter_fixed<5>(in, begin, end, stride, taps.values, out);
+    default:
+      return filter_fixed<6>(in, begin, end, stride, taps.values, out);
   }
 }
 
@@ -131,7 +158,9 @@ void differentiate(const TensorBlock& block, const TensorFilters& filters, bool 
   }
 }
 
-int floor_half(int half_steps) { return half_steps >> 1; }
+int floor_half(int half_steps) {
+  return half_steps >> 1;
+}
 
 // Where a row is read, so that lane 0 of the sheared coordinates falls on it: the plane (whole or
 // half pixel) and the lane. Disparity k stands upright if row r is read at x − k·(r − center).
@@ -152,8 +181,8 @@ struct Products {
 
 // Gradient of `count` source rows at lane n, one channel, added to the products.
 template <int kCount>
-inline void add_products(const float* const* along, const float* const* across,
-                         const float* smooth, const float* derivative, int n, Products& sum) {
+inline void add_products(const float* const* along, const float* const* across, const float* smooth,
+                         const float* derivative, int n, Products& sum) {
   Vec gx = smooth[0] * load(along[0] + n);
   Vec gs = derivative[0] * load(across[0] + n);
   for (int i = 1; i < kCount; ++i) {
@@ -192,18 +221,30 @@ template <int kChannels>
 void products_row(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
                   float contrast, int begin, int end, float* const* out) {
   switch (smooth.count) {
-    case 2: return products_chunk<2, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 3: return products_chunk<3, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 4: return products_chunk<4, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 5: return products_chunk<5, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 6: return products_chunk<6, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 7: return products_chunk<7, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 8: return products_chunk<8, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 9: return products_chunk<9, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 10: return products_chunk<10, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 11: return products_chunk<11, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 12: return products_chunk<12, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    default: return products_chunk<13, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 2:
+      return products_chunk<2, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 3:
+      return products_chunk<3, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 4:
+      return products_chunk<4, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 5:
+      return products_chunk<5, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 6:
+      return products_chunk<6, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 7:
+      return products_chunk<7, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 8:
+      return products_chunk<8, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 9:
+      return products_chunk<9, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 10:
+      return products_chunk<10, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 11:
+      return products_chunk<11, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    case 12:
+      return products_chunk<12, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+    default:
+      return products_chunk<13, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
   }
 }
 
@@ -282,8 +323,7 @@ void fill_products(const TensorBlock& block, const TensorFilters& filters, const
   RowPointers rows;
   const RowTaps& smooth = filters.row_smooth[row];
   fill_pointers(block, shear, smooth, chunk, rows);
-  float* const out[3] = {products.values[0][row], products.values[1][row],
-                         products.values[2][row]};
+  float* const out[3] = {products.values[0][row], products.values[1][row], products.values[2][row]};
   const auto run = block.channels == 1 ? products_row<1> : products_row<3>;
   run(rows, smooth, filters.row_derivative[row], filters.contrast_energy, window.begin, window.end,
       out);
@@ -371,9 +411,9 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
     const int half_steps = shear.half_steps * (r - shear.center_row);
     const bool half = (half_steps & 1) != 0;
     const Taps& taps = half ? filters.integrate_half : filters.integrate;
-    const long from = static_cast<long>(r) * block.tensor_pitch + block.tensor_margin +
-                      static_cast<long>(floor_half(half_steps) - filters.integrate.radius) *
-                          block.stride;
+    const long from =
+        static_cast<long>(r) * block.tensor_pitch + block.tensor_margin +
+        static_cast<long>(floor_half(half_steps) - filters.integrate.radius) * block.stride;
     const long to = static_cast<long>(r) * block.best_pitch;
     const float* const tensor[3] = {block.tensor[0] + from, block.tensor[1] + from,
                                     block.tensor[2] + from};
@@ -383,19 +423,45 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
       kernel(tensor, block.stride, taps.values, filters.noise_energy, shear, block.length, best);
     };
     switch (2 * filters.integrate.radius + (half ? 2 : 1)) {
-      case 1: run(select_row<1>); break;
-      case 2: run(select_row<2>); break;
-      case 3: run(select_row<3>); break;
-      case 4: run(select_row<4>); break;
-      case 5: run(select_row<5>); break;
-      case 6: run(select_row<6>); break;
-      case 7: run(select_row<7>); break;
-      case 8: run(select_row<8>); break;
-      case 9: run(select_row<9>); break;
-      case 10: run(select_row<10>); break;
-      case 11: run(select_row<11>); break;
-      case 12: run(select_row<12>); break;
-      default: run(select_row<13>); break;
+      case 1:
+        run(select_row<1>);
+        break;
+      case 2:
+        run(select_row<2>);
+        break;
+      case 3:
+        run(select_row<3>);
+        break;
+      case 4:
+        run(select_row<4>);
+        break;
+      case 5:
+        run(select_row<5>);
+        break;
+      case 6:
+        run(select_row<6>);
+        break;
+      case 7:
+        run(select_row<7>);
+        break;
+      case 8:
+        run(select_row<8>);
+        break;
+      case 9:
+        run(select_row<9>);
+        break;
+      case 10:
+        run(select_row<10>);
+        break;
+      case 11:
+        run(select_row<11>);
+        break;
+      case 12:
+        run(select_row<12>);
+        break;
+      default:
+        run(select_row<13>);
+        break;
     }
   }
 }
@@ -423,7 +489,9 @@ void resolve(const TensorAverage& average) {
   }
 }
 
-inline Vec absolute(Vec value) { return choose(value < 0.0F, -value, value); }
+inline Vec absolute(Vec value) {
+  return choose(value < 0.0F, -value, value);
+}
 
 inline Vec raised(Vec base, int power) {
   Vec result = splat(1);
@@ -437,8 +505,8 @@ inline Vec raised(Vec base, int power) {
 // Directions that agree within this many px are averaged.
 constexpr float kAgreement = 0.3F;
 
-inline void merge_at(const float* disparity, const float* coherence, int power,
-                     float* to_disparity, float* to_coherence) {
+inline void merge_at(const float* disparity, const float* coherence, int power, float* to_disparity,
+                     float* to_coherence) {
   const Vec here = load(coherence);
   const Vec there = load(to_coherence);
   const Vec value = load(disparity);

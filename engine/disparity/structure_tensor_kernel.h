@@ -32,24 +32,24 @@ struct TensorBlock {
   int margin = 0;        ///< Lanes before the payload there; samples repeat the border or are real.
   int tensor_pitch = 0;  ///< The same of the planes in sheared coordinates.
   int tensor_margin = 0;
-  int length = 0;                    ///< Lanes of payload.
-  int first_row = 0, last_row = 0;   ///< Rows [first, last) whose result is wanted.
+  int length = 0;                   ///< Lanes of payload.
+  int first_row = 0, last_row = 0;  ///< Rows [first, last) whose result is wanted.
 
   float* samples = nullptr;  ///< [c][row][lane].
   float* line = nullptr;     ///< Two rows of scratch.
-  float* along[2] = {};      ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
-  float* across[2] = {};     ///< [c][row][lane] smoothed along x; [1] likewise.
-  float* tensor[3] = {};     ///< [row][lane] Jxx, Jxs, Jss of one shear, integrated along the views.
-  float* best[4] = {};       ///< [row][length] of the best shear: Jxx, Jxs, Jss unsheared, coherence.
+  float* along[2] = {};   ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
+  float* across[2] = {};  ///< [c][row][lane] smoothed along x; [1] likewise.
+  float* tensor[3] = {};  ///< [row][lane] Jxx, Jxs, Jss of one shear, integrated along the views.
+  float* best[4] = {};    ///< [row][length] of the best shear: Jxx, Jxs, Jss unsheared, coherence.
   int best_pitch = 0;
 };
 
 /// Filters of the tensor, made by `structure_tensor.cpp`.
 struct TensorFilters {
-  Taps smooth;               ///< Pre-smoothing along x.
-  Taps integrate;            ///< Integration along x,
-  Taps integrate_half;       ///< and the same half a pixel further: one tap more.
-  const RowTaps* row_smooth = nullptr;      ///< [rows] pre-smoothing and Scharr across, along views.
+  Taps smooth;                          ///< Pre-smoothing along x.
+  Taps integrate;                       ///< Integration along x,
+  Taps integrate_half;                  ///< and the same half a pixel further: one tap more.
+  const RowTaps* row_smooth = nullptr;  ///< [rows] pre-smoothing and Scharr across, along views.
   const RowTaps* row_derivative = nullptr;  ///< [rows] derivative along s = −u.
   const RowTaps* row_integrate = nullptr;   ///< [rows] integration along the views.
   float contrast_energy = 0;  ///< Gradient energy at which its weight in the tensor is halved.
