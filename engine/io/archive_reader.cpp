@@ -185,8 +185,6 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   scene.scribbles = std::move(labels.scribbles);
   scene.scribbles.view = flipped(scene.scribbles.view, grid, order.flip);
   if (scene.scribbles.labels.empty()) scene.scribbles.view = {};
-  report.reversed_u = order.flip.u;
-  report.reversed_v = order.flip.v;
 
   info.camera = depth.camera;
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));

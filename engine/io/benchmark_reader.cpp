@@ -269,8 +269,6 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const OrderFinding order =
       find_order(samples, evidence, {{}, "folders of the benchmark are in order"}, options.flip);
   report_order(order, report);
-  report.reversed_u = order.flip.u;
-  report.reversed_v = order.flip.v;
   std::visit([&](auto& stack) { reverse_views(stack, views.grid, order.flip); }, samples);
   reverse_views(truth.field, views.grid, order.flip);
   reverse_views(truth.labels, views.grid, order.flip);

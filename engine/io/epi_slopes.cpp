@@ -82,12 +82,13 @@ struct Match {
   double disparity = 0;
 };
 
-std::vector<double> match(const Triple& views, double range) {
+std::vector<double> match(const Triple& views, double range, const Progress& progress) {
   const int rows = (views.middle.height() - 2 * kRadius) / kStride;
   const int columns = (views.middle.width() - 2 * kRadius) / kStride;
   std::vector<Match> matches(static_cast<std::size_t>(std::max(rows, 0)) * std::max(columns, 0));
   const int steps = static_cast<int>(std::round(range / kStep));
   for (int i = -steps; i <= steps; ++i) {
+    progress.check();
     const Image<float> cost = differences(views, i * kStep);
     for (int r = 0; r < rows; ++r) {
       for (int c = 0; c < columns; ++c) {
@@ -135,11 +136,11 @@ struct Sums {
 };
 
 SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center, int step,
-                           double range) {
+                           double range, const Progress& progress) {
   const Triple u = load_triple(samples, center, step, false);
   const Triple v = load_triple(samples, center, step, true);
-  const std::vector<double> along_u = match(u, range);
-  const std::vector<double> along_v = match(v, range);
+  const std::vector<double> along_u = match(u, range, progress);
+  const std::vector<double> along_v = match(v, range, progress);
   const int columns = (u.middle.width() - 2 * kRadius) / kStride;
   const int rows = (u.middle.height() - 2 * kRadius) / kStride;
   Sums sums;
@@ -159,7 +160,8 @@ bool SlopeCorrelation::is_decided() const {
   return points >= 30 && std::abs(value) > 0.2;
 }
 
-SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples) {
+SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
+                                      const Progress& progress) {
   return std::visit(
       [&](const auto& stack) {
         const ViewIndex center = stack.grid().center();
@@ -169,7 +171,7 @@ SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples) {
         const double range = std::clamp(std::min(stack.width(), stack.height()) / 48.0, 3.0, 16.0);
         // Farther views tell small disparities apart, where the next ones do not.
         for (int step = 1; step <= std::min(reach, 4); step *= 2) {
-          const SlopeCorrelation next = correlate(samples, center, step, range);
+          const SlopeCorrelation next = correlate(samples, center, step, range, progress);
           if (std::abs(next.value) * std::min(next.points, 30) >
               std::abs(found.value) * std::min(found.points, 30)) {
             found = next;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/light_field.h"
+#include "engine/core/progress.h"
 
 namespace episcope::io {
 
@@ -17,6 +18,8 @@ struct SlopeCorrelation {
 /// along v and correlates the two disparities. Where the scene has hardly any depth the correlation
 /// about zero takes the place of the one about the means. Linear in the image area and in the
 /// search range of width/48 px; at most 512×512 px in the middle of the view are looked at.
-[[nodiscard]] SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples);
+/// Throws Cancelled.
+[[nodiscard]] SlopeCorrelation correlate_epi_slopes(const LightField::Samples& samples,
+                                                    const Progress& progress);
 
 }  // namespace episcope::io

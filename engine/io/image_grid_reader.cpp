@@ -9,35 +9,44 @@
 namespace episcope::io {
 
 Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
-                      const Progress& progress) {
+                      const Progress& progress, const ImageGridExtras& extras) {
   const NamedGrid grid = name_grid(folder, options.pattern, options.snake);
   const GridShape shape = grid.views.grid;
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = "image grid (" + grid.pattern + (options.snake ? ", snake order" : "") + ")";
+  report.format = extras.format.empty()
+                      ? "image grid (" + grid.pattern + (options.snake ? ", snake order" : "") + ")"
+                      : extras.format;
   report.units = "no depth in an image grid";
   if (grid.left_out > 0) {
     report.warnings.push_back(std::to_string(grid.left_out) +
                               " images of the folder do not fit the pattern and are left out.");
   }
-  LightFieldInfo info{scene_name(folder), folder.string(), {}, std::nullopt};
+  const std::filesystem::path& source = extras.source.empty() ? folder : extras.source;
+  LightFieldInfo info{scene_name(source), source.string(), extras.camera, extras.disparity_range};
   progress.step("reading views");
   LightField::Samples samples = load_views(
       grid.views,
       [&](const Image<std::uint8_t>& center) {
         if (options.on_center_view) options.on_center_view(center, info, shape);
       },
-      progress.part(0, 0.95));
+      progress.part(0, 0.9));
+  GroundTruth truth;
+  if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
   progress.step("checking the order of views");
   progress.check();
+  std::vector<OrderEvidence> evidence;
+  if (truth.has_disparity()) {
+    const ViewIndex at = truth.field.disparity.first();
+    evidence.push_back({at, truth.field.view(at)});
+  }
   const OrderFinding order =
-      find_order(samples, {}, {{}, "rows and columns are as the names say"}, options.flip);
+      find_order(samples, evidence, {{}, "rows and columns are as the names say"}, options.flip);
   report_order(order, report);
-  report.reversed_u = order.flip.u;
-  report.reversed_v = order.flip.v;
   std::visit([&](auto& stack) { reverse_views(stack, shape, order.flip); }, samples);
+  reverse_views(truth.field, shape, order.flip);
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<GroundTruth>();
+  scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   return scene;
 }
 

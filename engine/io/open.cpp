@@ -5,6 +5,7 @@
 #include "engine/io/archive_reader.h"
 #include "engine/io/benchmark_reader.h"
 #include "engine/io/decode_image.h"
+#include "engine/io/excerpt_reader.h"
 #include "engine/io/grid_names.h"
 #include "engine/io/hdf5_file.h"
 #include "engine/io/image_grid_reader.h"
@@ -44,6 +45,7 @@ Scene open_folder(const fs::path& folder, const OpenOptions& options, const Prog
   if (!is_grid_wanted && is_benchmark_folder(folder)) {
     return read_benchmark(folder, options, progress);
   }
+  if (!is_grid_wanted && is_excerpt_folder(folder)) return read_excerpt(folder, options, progress);
   for (const char* name : {"lf", "views", "images", "rectified"}) {
     if (fs::is_directory(folder / name) && count_images(folder / name) > 1) {
       return read_image_grid(folder / name, options, progress);

@@ -114,6 +114,8 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
 void report_order(const OrderFinding& finding, ConventionReport& report) {
   report.order = finding.order;
   report.order_check = finding.check;
+  report.reversed_u = finding.flip.u;
+  report.reversed_v = finding.flip.v;
   report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
 }
 

@@ -31,10 +31,12 @@ struct OrderFinding {
 
 /// Finds which view axes to reverse: by warping with truth where there is some, else by the sign of
 /// the correlation of EPI slopes, else as expected (formats.md §2). A `choice` other than Auto wins
-/// over all, but is checked and contradicted in the warnings. Nothing is reversed yet.
+/// over all, but is checked and contradicted in the warnings. Nothing is reversed
+/// yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
-                                      const ExpectedOrder& expected, OpenOptions::Flip choice);
+                                      const ExpectedOrder& expected, OpenOptions::Flip choice,
+                                      const Progress& progress);
 
 /// Writes a finding into the report of a scene.
 void report_order(const OrderFinding& finding, ConventionReport& report);
