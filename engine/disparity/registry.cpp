@@ -3,12 +3,14 @@
 
 #include "engine/core/error.h"
 #include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
 
 namespace episcope {
 
 std::vector<Estimator> registered_estimators() {
   return {
       epi_l_estimator(),
+      epi_s_estimator(),
   };
 }
 
