@@ -172,9 +172,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   progress.step("reading labels");
   ArchiveLabels labels = read_labels_beside(file, layout.shape, report, progress.part(0.85, 0.95));
   progress.step("checking the order of views");
-  progress.check();
   const OrderFinding order =
-      find_order(samples, evidence(depth, grid), expected_order(file), options.flip);
+      find_order(samples, evidence(depth, grid), expected_order(file), options.flip, progress);
   report_order(order, report);
 
   std::visit([&](auto& stack) { reverse_views(stack, grid, order.flip); }, samples);

@@ -261,13 +261,12 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   read_regions(folder, size, truth);
 
   progress.step("checking the order of views");
-  progress.check();
   std::vector<OrderEvidence> evidence;
   if (truth.has_disparity()) {
     evidence.push_back({views.grid.center(), truth.field.view(views.grid.center())});
   }
-  const OrderFinding order =
-      find_order(samples, evidence, {{}, "folders of the benchmark are in order"}, options.flip);
+  const OrderFinding order = find_order(
+      samples, evidence, {{}, "folders of the benchmark are in order"}, options.flip, progress);
   report_order(order, report);
   std::visit([&](auto& stack) { reverse_views(stack, views.grid, order.flip); }, samples);
   reverse_views(truth.field, views.grid, order.flip);

@@ -34,14 +34,13 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
   progress.step("checking the order of views");
-  progress.check();
   std::vector<OrderEvidence> evidence;
   if (truth.has_disparity()) {
     const ViewIndex at = truth.field.disparity.first();
     evidence.push_back({at, truth.field.view(at)});
   }
-  const OrderFinding order =
-      find_order(samples, evidence, {{}, "rows and columns are as the names say"}, options.flip);
+  const OrderFinding order = find_order(
+      samples, evidence, {{}, "rows and columns are as the names say"}, options.flip, progress);
   report_order(order, report);
   std::visit([&](auto& stack) { reverse_views(stack, shape, order.flip); }, samples);
   reverse_views(truth.field, shape, order.flip);

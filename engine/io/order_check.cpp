@@ -61,8 +61,9 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
   return checked;
 }
 
-Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected) {
-  const SlopeCorrelation slopes = correlate_epi_slopes(samples);
+Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
+                        const Progress& progress) {
+  const SlopeCorrelation slopes = correlate_epi_slopes(samples, progress);
   Checked checked{expected, slopes.is_decided(), {}};
   if (!checked.is_decided) return checked;
   const bool must_differ = slopes.value < 0;
@@ -82,9 +83,11 @@ ViewFlip chosen_flip(OpenOptions::Flip choice) {
 }  // namespace
 
 OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
-                        const ExpectedOrder& expected, OpenOptions::Flip choice) {
+                        const ExpectedOrder& expected, OpenOptions::Flip choice,
+                        const Progress& progress) {
+  progress.check();
   Checked checked = check_by_truth(samples, truth, expected.flip);
-  if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip);
+  if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip, progress);
 
   OrderFinding finding;
   finding.flip = checked.flip;
