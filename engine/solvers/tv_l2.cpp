@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,14 +19,22 @@ namespace episcope {
 namespace {
 
 constexpr float kLeastWeight = 1e-4F;
+// Iterations on each level below the finest, and between two fits of the penalty.
 constexpr int kCoarseIterations = 20;
 constexpr int kPenaltyEvery = 10;
-constexpr float kCoarseEdge = 0.75F;
-constexpr float kRelaxation = 1.7F;
-// In units of the spread of f.
-constexpr float kPenaltyScale = 3.5F;
-constexpr float kPenaltyKnee = 0.07F;
-constexpr float kPenaltySpread = 3.0F;
+
+// Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
+// and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
+struct Pace {
+  float coarse_edge = 0.75F;
+  float relaxation = 1.7F;
+};
+constexpr Pace kSafePace = {1.0F, 1.0F};
+
+// The penalty, in units of the spread of f; found on structure-tensor disparities of real scenes.
+constexpr float kPenaltyScale = 0.5F;
+constexpr float kPenaltyKnee = 0.1F;
+constexpr float kPenaltySpread = 20.0F;
 
 const TvL2Kernel& kernel_for([[maybe_unused]] Isa isa) {
 #ifndef EPISCOPE_BASELINE_ONLY
@@ -71,8 +80,7 @@ struct TvL2Solver::State {
   std::vector<float> rows;
   float offset = 0;  // weighted mean of f, taken off for the sake of float32
   TvL2Penalty penalty;
-  float relaxation = kRelaxation;
-  float coarse_edge = kCoarseEdge;
+  Pace pace;
 
   State(int height, int width, Isa isa);
   void load(const TvL2Problem& problem);
@@ -80,6 +88,9 @@ struct TvL2Solver::State {
   void renew_penalty(std::size_t stage, bool first);
   void correct(std::size_t stage);
   void iterate(std::size_t stage, int iteration, const Progress& progress);
+  void climb(const Progress& progress);
+  TvL2Result finish(const TvL2Options& options, const Progress& progress);
+  void copy_to(ImageView<float> u) const;
 };
 
 TvL2Solver::State::State(int height, int width, Isa isa) : kernel(kernel_for(isa)) {
@@ -147,7 +158,7 @@ void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
   for (std::size_t k = stage + 1; k < grids.size(); ++k) {
     // A multigrid cell weighs as much as its pixels together; coarsen_problem halves that.
     grids[k].level.data_scale = 2 * grids[k - 1].level.data_scale;
-    coarsen_penalty(grids[k - 1].level, grids[k].level, coarse_edge);
+    coarsen_penalty(grids[k - 1].level, grids[k].level, pace.coarse_edge);
     invert_diagonal(grids[k].level);
   }
 }
@@ -155,7 +166,7 @@ void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
 void TvL2Solver::State::correct(std::size_t stage) {
   const std::size_t last = grids.size() - 1;
   for (std::size_t k = stage + 1; k < last; ++k) {
-    kernel.descend(grids[k].level, grids[k + 1].level, rows.data());
+    kernel.descend(grids[k].level, grids[k + 1].level);
   }
   kernel.solve(grids[last].level);
   for (std::size_t k = last; --k > stage;) kernel.ascend(grids[k].level, grids[k + 1].level);
@@ -166,7 +177,49 @@ void TvL2Solver::State::iterate(std::size_t stage, int iteration, const Progress
   if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
   if (iteration > 0) correct(stage);
   kernel.iterate(grids[stage].level, grids[stage + 1].level,
-                 {relaxation, iteration == 0, rows.data()});
+                 {pace.relaxation, iteration == 0, rows.data()});
+}
+
+// Coarse to fine, up to the start of the finest level.
+void TvL2Solver::State::climb(const Progress& progress) {
+  pace = {};
+  // The single pixel below has no level to correct it.
+  std::size_t stage = grids.size() - 2;
+  start_from_data(grids[stage].level);
+  for (; stage > 0; --stage) {
+    for (int i = 0; i < kCoarseIterations; ++i) iterate(stage, i, progress);
+    kernel.project(grids[stage].level);
+    prolong(grids[stage].level, grids[stage - 1].level);
+    kernel.project(grids[stage - 1].level);
+  }
+}
+
+TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress& progress) {
+  const int check_every = std::max(1, options.check_every);
+  TvL2Result result;
+  double gap_before = std::numeric_limits<double>::infinity();
+  while (result.iterations < options.max_iterations && !result.converged) {
+    iterate(0, result.iterations++, progress);
+    const bool is_last = result.iterations == options.max_iterations;
+    if (!is_last && result.iterations % check_every != 0) continue;
+    const TvL2Sums sums = kernel.measure(grids[0].level, rows.data());
+    result.energy = sums.energy;
+    result.gap = sums.energy - sums.dual;
+    result.converged = result.gap <= options.gap * sums.energy;
+    if (result.gap > 2 * gap_before) {
+      pace = kSafePace;
+      renew_penalty(0, false);
+    }
+    gap_before = result.gap;
+  }
+  return result;
+}
+
+void TvL2Solver::State::copy_to(ImageView<float> u) const {
+  const TvL2Level& level = grids[0].level;
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) u.row(y)[x] = level.u[y * level.pitch + x] + offset;
+  }
 }
 
 TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
@@ -190,27 +243,9 @@ TvL2Result TvL2Solver::solve(const TvL2Problem& problem, const TvL2Options& opti
   if (!(problem.lambda > 0)) throw InvalidInput("TV-L2 needs a positive lambda");
   const FlushDenormals flush;
   state.load(problem);
-  const std::size_t last = state.grids.size() - 2;
-  start_from_data(state.grids[last].level);
-  for (std::size_t stage = last; stage > 0; --stage) {
-    for (int i = 0; i < kCoarseIterations; ++i) state.iterate(stage, i, progress);
-    prolong(state.grids[stage].level, state.grids[stage - 1].level);
-  }
-  TvL2Result result;
-  while (result.iterations < options.max_iterations && !result.converged) {
-    state.iterate(0, result.iterations++, progress);
-    const bool last_one = result.iterations == options.max_iterations;
-    if (!last_one && result.iterations % std::max(1, options.check_every) != 0) continue;
-    const TvL2Sums sums = state.kernel.measure(finest, state.rows.data());
-    result.energy = sums.energy;
-    result.gap = sums.energy - sums.dual;
-    result.converged = result.gap <= options.gap * sums.energy;
-  }
-  for (int y = 0; y < finest.height; ++y) {
-    for (int x = 0; x < finest.width; ++x) {
-      u.row(y)[x] = finest.u[y * finest.pitch + x] + state.offset;
-    }
-  }
+  state.climb(progress);
+  const TvL2Result result = state.finish(options, progress);
+  state.copy_to(u);
   return result;
 }
 

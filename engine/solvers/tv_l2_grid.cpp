@@ -2,7 +2,6 @@
 #include "engine/solvers/tv_l2_grid.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 namespace episcope {
@@ -29,51 +28,26 @@ void blend_rows(const float* here, const float* beside, int count, float* out) {
 
 // Cell centres: a pixel lies a quarter of a cell beside the centre of its cell.
 void stretch_centres(const float* cells, int count, int width, float* out) {
-  for (int x = 0; x < width; ++x) {
-    const int cell = x / 2;
-    const int beside = (x & 1) != 0 ? std::min(cell + 1, count - 1) : std::max(cell - 1, 0);
-    out[x] = 0.75F * cells[cell] + 0.25F * cells[beside];
+  const auto value = [=](int cell, int beside) {
+    return 0.75F * cells[cell] + 0.25F * cells[beside];
+  };
+  for (int cell = 1; cell + 1 < count; ++cell) {
+    out[2 * cell] = value(cell, cell - 1);
+    out[2 * cell + 1] = value(cell, cell + 1);
   }
+  const int last = count - 1;
+  out[0] = cells[0];
+  if (width > 1) out[1] = value(0, std::min(1, last));
+  out[2 * last] = value(last, std::max(last - 1, 0));
+  if (2 * last + 1 < width) out[2 * last + 1] = cells[last];
 }
 
 // Faces: the right face of a cell is that of its odd pixel; the even pixel's lies midway.
 void stretch_faces(const float* cells, int width, float* out) {
-  for (int x = 0; x < width; ++x) {
-    const int cell = x / 2;
-    const float before = cell > 0 ? cells[cell - 1] : 0.0F;
-    out[x] = (x & 1) != 0 ? cells[cell] : 0.5F * (cells[cell] + before);
-  }
-}
-
-struct Dual {
-  std::vector<float> x, y;
-};
-
-// p of a whole level, the projection of z.
-Dual project(const TvL2Level& level) {
-  const std::size_t count = static_cast<std::size_t>(level.height) * level.width;
-  Dual p{std::vector<float>(count), std::vector<float>(count)};
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      const long i = y * level.pitch + x;
-      const std::size_t to = static_cast<std::size_t>(y) * level.width + x;
-      const float norm = std::sqrt(level.zx[i] * level.zx[i] + level.zy[i] * level.zy[i] + 1e-30F);
-      const float keep = std::min(1.0F, level.g[i] / norm);
-      p.x[to] = level.zx[i] * keep;
-      p.y[to] = level.zy[i] * keep;
-    }
-  }
-  return p;
-}
-
-void project_row(const TvL2Level& level, int y) {
-  for (int x = 0; x < level.width; ++x) {
-    const long i = y * level.pitch + x;
-    const float norm = std::sqrt(level.zx[i] * level.zx[i] + level.zy[i] * level.zy[i] + 1e-30F);
-    const float keep = std::min(1.0F, level.g[i] / norm);
-    level.zx[i] *= keep;
-    level.zy[i] *= keep;
-  }
+  out[0] = 0.5F * cells[0];
+  for (int cell = 0; 2 * cell + 1 < width; ++cell) out[2 * cell + 1] = cells[cell];
+  for (int cell = 1; 2 * cell < width; ++cell)
+    out[2 * cell] = 0.5F * (cells[cell] + cells[cell - 1]);
 }
 
 }  // namespace
@@ -141,30 +115,24 @@ void invert_diagonal(const TvL2Level& level) {
 }
 
 void prolong(const TvL2Level& coarse, const TvL2Level& fine) {
-  const Dual p = project(coarse);
   std::vector<float> row(coarse.width);
   const int last = coarse.height - 1;
   for (int y = 0; y < fine.height; ++y) {
-    const int cell = y / 2;
-    const int beside = (y & 1) != 0 ? std::min(cell + 1, last) : std::max(cell - 1, 0);
+    const long cell = y / 2 * coarse.pitch;
+    const long beside =
+        ((y & 1) != 0 ? std::min(y / 2 + 1, last) : std::max(y / 2 - 1, 0)) * coarse.pitch;
     const long to = y * fine.pitch;
-    const auto p_row = [&](const std::vector<float>& plane, int at) {
-      return plane.data() + static_cast<std::size_t>(at) * coarse.width;
-    };
-    blend_rows(coarse.u + cell * coarse.pitch, coarse.u + beside * coarse.pitch, coarse.width,
-               row.data());
+    blend_rows(coarse.u + cell, coarse.u + beside, coarse.width, row.data());
     stretch_centres(row.data(), coarse.width, fine.width, fine.u + to);
-    blend_rows(p_row(p.x, cell), p_row(p.x, beside), coarse.width, row.data());
+    blend_rows(coarse.zx + cell, coarse.zx + beside, coarse.width, row.data());
     stretch_faces(row.data(), fine.width, fine.zx + to);
-    const float* const here = p_row(p.y, cell);
-    for (int x = 0; x < coarse.width; ++x) {
-      const float before = cell > 0 ? p_row(p.y, cell - 1)[x] : 0.0F;
-      row[x] = (y & 1) != 0 ? here[x] : 0.5F * (here[x] + before);
-    }
-    stretch_centres(row.data(), coarse.width, fine.width, fine.zy + to);
     fine.zx[to + fine.width - 1] = 0;
+    // The row above the first one is padding: p = 0 there.
+    const float* const below = coarse.zy + cell;
+    const float* const above = (y & 1) != 0 ? below : below - coarse.pitch;
+    for (int x = 0; x < coarse.width; ++x) row[x] = 0.5F * (below[x] + above[x]);
+    stretch_centres(row.data(), coarse.width, fine.width, fine.zy + to);
     if (y + 1 == fine.height) std::fill_n(fine.zy + to, fine.width, 0.0F);
-    project_row(fine, y);
   }
   open_edges(fine);
 }

@@ -30,8 +30,9 @@ void coarsen_penalty(const TvL2Level& fine, const TvL2Level& coarse, float edge_
 /// Fills `inverse` from c, rx, ry.
 void invert_diagonal(const TvL2Level& level);
 
-/// Starts `fine` from the solution on `coarse`: u bilinear, z = p linear on the faces, rx and ry 1
-/// where there is an edge, for `penalise` to give them their value.
+/// Starts `fine` from the solution on `coarse`, whose z is projected: u bilinear, z linear on the
+/// faces and to be projected, rx and ry 1 where there is an edge, for `penalise` to give them their
+/// value.
 void prolong(const TvL2Level& coarse, const TvL2Level& fine);
 
 /// u = f, z = p = 0, rx and ry as `prolong`.

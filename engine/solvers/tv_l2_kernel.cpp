@@ -211,7 +211,7 @@ void iterate(const TvL2Level& level, const TvL2Level& coarse, const TvL2Step& st
   }
 }
 
-void descend(const TvL2Level& level, const TvL2Level& coarse, float*) {
+void descend(const TvL2Level& level, const TvL2Level& coarse) {
   for (int t = 0; t < level.height + 5; ++t) {
     relax_row_from_zero(level, t, 0);
     relax_row(level, t - 1, 1);
@@ -267,6 +267,19 @@ void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
   }
 }
 
+void project(const TvL2Level& level) {
+  const int end = padded(level);
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < end; x += kLanes) {
+      const long i = y * level.pitch + x;
+      const Vec zx = load(level.zx + i), zy = load(level.zy + i);
+      const Vec keep = shrinkage(zx, zy, load(level.g + i));
+      store(level.zx + i, zx * keep);
+      store(level.zy + i, zy * keep);
+    }
+  }
+}
+
 inline double total(Vec lanes) {
   double sum = 0;
   for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lanes[i]);
@@ -309,6 +322,6 @@ TvL2Sums measure(const TvL2Level& level, float* rows) {
 
 }  // namespace
 
-const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve, penalise, measure};
+const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve, penalise, project, measure};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

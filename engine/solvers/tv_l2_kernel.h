@@ -29,7 +29,7 @@ struct TvL2Step {
   bool first = false;     ///< No multigrid correction is pending.
   float* rows = nullptr;  ///< Scratch, `kTvL2ScratchRows` rows of the level's pitch.
 };
-inline constexpr int kTvL2ScratchRows = 6;
+inline constexpr int kTvL2ScratchRows = 3;
 
 /// Penalty R = scale·g·clamp(√(knee/|∇u|), 1/spread, spread).
 struct TvL2Penalty {
@@ -48,13 +48,15 @@ struct TvL2Kernel {
   /// `coarse`.
   void (*iterate)(const TvL2Level&, const TvL2Level& coarse, const TvL2Step&);
   /// Multigrid, down: smooths from 0 and restricts the residual.
-  void (*descend)(const TvL2Level&, const TvL2Level& coarse, float* rows);
+  void (*descend)(const TvL2Level&, const TvL2Level& coarse);
   /// Multigrid, up: adds the correction and smooths.
   void (*ascend)(const TvL2Level&, const TvL2Level& coarse);
   /// Smooths from 0 until solved: for the coarsest level.
   void (*solve)(const TvL2Level&);
   /// Renews R from u, keeping p and d where |p| = g.
   void (*penalise)(const TvL2Level&, const TvL2Penalty&);
+  /// z ← p, its projection to |p| ≤ g.
+  void (*project)(const TvL2Level&);
   /// P(u) and D(p); sums of rows in double, in fixed order.
   TvL2Sums (*measure)(const TvL2Level&, float* rows);
 };
