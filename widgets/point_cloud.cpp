@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <string>
 
 namespace episcope {
@@ -45,6 +47,27 @@ class Projector {
 };
 
 }  // namespace
+
+std::array<double, 6> robust_bounds(const PointCloud& cloud) {
+  constexpr std::size_t kSamples = 20'000;
+  constexpr double kBeyond = 0.005;
+  std::array<double, 6> box{};
+  if (cloud.positions.empty()) return box;
+  const std::size_t stride = cloud.positions.size() / kSamples + 1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::vector<float> values;
+    for (std::size_t i = 0; i < cloud.positions.size(); i += stride) {
+      values.push_back(cloud.positions[i][axis]);
+    }
+    const auto low = static_cast<std::ptrdiff_t>(kBeyond * values.size());
+    const auto high = static_cast<std::ptrdiff_t>(values.size()) - 1 - low;
+    std::nth_element(values.begin(), values.begin() + low, values.end());
+    box[2 * axis] = values[low];
+    std::nth_element(values.begin(), values.begin() + high, values.end());
+    box[2 * axis + 1] = values[high];
+  }
+  return box;
+}
 
 PointCloud make_point_cloud(const DisparityView& view, const CameraGrid& camera,
                             ImageView<const std::uint8_t> rgba, int step) {

@@ -17,6 +17,11 @@ struct PointCloud {
   bool is_metric = false;  ///< Positions are in scene units, not in stretched disparity.
 };
 
+/// A box {x0, x1, y0, y1, z0, z1} around the bulk of a cloud: half a percent of the points may lie
+/// beyond each of its sides, so that a few wild depths do not shrink the rest to a dot. All 0 for
+/// an empty cloud. Linear.
+[[nodiscard]] std::array<double, 6> robust_bounds(const PointCloud& cloud);
+
 /// Points of one view. With a known camera, positions are in scene units: Z by eq. (1), X and Y by
 /// the pinhole model around the image centre, with a focal length of f·xRes px where `focal_length`
 /// is relative to the image width. Without one, x and y are pixels and z is the disparity times a

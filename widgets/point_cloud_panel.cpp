@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/point_cloud_panel.h"
 
+#include "widgets/color_ramp.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
@@ -58,6 +59,7 @@ PointCloudPanel::PointCloudPanel(QWidget* parent)
   layout->setSpacing(theme::kSpacing);
   layout->addLayout(makePresets());
   layout->addLayout(stack_, 1);
+  layout->addWidget(makeLegend());
   layout->addLayout(makeStretch());
   connect(coloring_, &QComboBox::activated, this, [this] { emit coloringSelected(coloring()); });
   connect(stretch_, &QSlider::valueChanged, this, [this](int position) {
@@ -105,6 +107,32 @@ QHBoxLayout* PointCloudPanel::makeStretch() {
   row->addWidget(reset);
   row->addWidget(count_);
   return row;
+}
+
+QWidget* PointCloudPanel::makeLegend() {
+  legend_ = new QWidget(this);
+  legend_->setObjectName("cloud.legend");
+  legend_title_ = new QLabel(legend_);
+  legend_min_ = new QLabel(legend_);
+  legend_max_ = new QLabel(legend_);
+  ramp_ = new ColorRamp(legend_);
+  auto* row = new QHBoxLayout(legend_);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(legend_title_);
+  row->addWidget(legend_min_);
+  row->addWidget(ramp_, 1);
+  row->addWidget(legend_max_);
+  legend_->hide();
+  return legend_;
+}
+
+void PointCloudPanel::setLegend(const QString& title, const render::Shading& shading) {
+  legend_title_->setText(title);
+  legend_min_->setText(QString::number(shading.range.min, 'f', 2));
+  legend_max_->setText(QString::number(shading.range.max, 'f', 2));
+  ramp_->setShading(shading);
+  legend_->setVisible(!title.isEmpty());
 }
 
 void PointCloudPanel::setCloud(const PointCloud& cloud, const QString& hint) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/render/shade.h"
 #include "widgets/point_cloud.h"
 #include "widgets/point_cloud_view.h"
 
@@ -14,6 +15,8 @@ class QStackedLayout;
 
 namespace episcope {
 
+class ColorRamp;
+
 enum class CloudColoring { Image, Disparity, Error };
 
 /// The 3D tab: the point cloud view, or the reason why there is none, with its controls.
@@ -25,6 +28,9 @@ class PointCloudPanel : public QWidget {
 
   /// An empty cloud shows `hint` instead.
   void setCloud(const PointCloud& cloud, const QString& hint = {});
+  /// Colour map and range of the points, drawn below them. An empty title takes it away: the points
+  /// have the colours of the image.
+  void setLegend(const QString& title, const render::Shading& shading = {});
   void setColoring(CloudColoring coloring);
   /// Whether errors can be chosen as colours: there is truth.
   void setErrorAvailable(bool available);
@@ -40,11 +46,17 @@ class PointCloudPanel : public QWidget {
  private:
   QHBoxLayout* makePresets();
   QHBoxLayout* makeStretch();
+  QWidget* makeLegend();
 
   QComboBox* coloring_;
   QSlider* stretch_;
   QLabel* count_;
   QLabel* hint_;
+  QWidget* legend_;
+  QLabel* legend_title_;
+  QLabel* legend_min_;
+  QLabel* legend_max_;
+  ColorRamp* ramp_;
   QStackedLayout* stack_;
   PointCloudView* view_ = nullptr;
 };

@@ -31,6 +31,7 @@
 #include <QWheelEvent>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -40,6 +41,8 @@ namespace episcope {
 /// Everything of VTK: one render window, one renderer, one actor, never shared.
 class PointCloudView::Scene {
  public:
+  using Box = std::array<double, 6>;  ///< x0, x1, y0, y1, z0, z1.
+
   explicit Scene(PointCloudView& view) : view_(view) {
     window_->SetMultiSamples(0);  // With a software renderer, this is most of the time of a frame.
     window_->SetOwnContext(0);
@@ -146,9 +149,10 @@ class PointCloudView::Scene {
   void tellSupported(void* data) { *static_cast<int*>(data) = 1; }
   void askForFrame(void*) { view_.update(); }
   void applyLook();
-  void fillWindow();
+  void fillWindow(const Box& box);
 
   PointCloudView& view_;
+  Box box_{};  ///< Around the cloud, before the z-stretch.
   std::optional<std::pair<double, double>> wanted_look_;  ///< Azimuth, elevation in degrees.
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
@@ -181,8 +185,9 @@ void PointCloudView::Scene::setCloud(const PointCloud& cloud) {
   points_->SetVerts(cells);
   points_->GetPointData()->SetScalars(colors);
   points_->Modified();
+  box_ = robust_bounds(cloud);
   // The z-stretch keeps the middle of the cloud where it is.
-  actor_->SetOrigin(points_->GetCenter());
+  actor_->SetOrigin((box_[0] + box_[1]) / 2, (box_[2] + box_[3]) / 2, (box_[4] + box_[5]) / 2);
   renderer_->ResetCameraClippingRange();
 }
 
@@ -196,15 +201,17 @@ void PointCloudView::Scene::applyLook() {
   camera->Azimuth(azimuth);
   camera->Elevation(elevation);
   camera->OrthogonalizeViewUp();
-  renderer_->ResetCamera();
-  fillWindow();
+  auto box = box_;
+  const double middle = (box[4] + box[5]) / 2;
+  for (auto* z : {&box[4], &box[5]}) *z = middle + (*z - middle) * actor_->GetScale()[2];
+  renderer_->ResetCamera(box.data());
+  fillWindow(box);
   renderer_->ResetCameraClippingRange();
 }
 
 // VTK leaves room for a sphere around the cloud: narrow the view until its box fills the window.
-void PointCloudView::Scene::fillWindow() {
+void PointCloudView::Scene::fillWindow(const Box& box) {
   constexpr double kFilled = 0.94;
-  const double* box = actor_->GetBounds();
   double reach = 0;
   for (int corner = 0; corner < 8; ++corner) {
     double x = box[corner & 1];

@@ -28,6 +28,18 @@ class PointCloudPanelTest : public QObject {
     QVERIFY(!label->text().isEmpty());
   }
 
+  void legend_isShownForMapsOnly() {
+    PointCloudPanel panel;
+    auto* legend = panel.findChild<QWidget*>("cloud.legend");
+    QVERIFY(legend->isHidden());
+
+    panel.setLegend("disparity [px]", {render::color_map("viridis"), {-1, 2}});
+    QVERIFY(!legend->isHidden());
+    panel.setLegend({});
+
+    QVERIFY(legend->isHidden());
+  }
+
   void coloring_isAnIntent() {
     PointCloudPanel panel;
     QSignalSpy selected(&panel, &PointCloudPanel::coloringSelected);

@@ -80,6 +80,20 @@ class PointCloudTest : public QObject {
     QCOMPARE(make_point_cloud({map, {}}, {}, rgba, 4).positions.size(), std::size_t(9));
   }
 
+  void robustBounds_forgiveAFewWildPoints() {
+    PointCloud cloud;
+    for (int i = 0; i < 1000; ++i)
+      cloud.positions.push_back({float(i), float(-i), i % 2 ? 1.f : 2.f});
+    cloud.positions.push_back({0, 0, -1e9f});
+
+    const auto box = robust_bounds(cloud);
+
+    QCOMPARE(box[4], 1.0);
+    QCOMPARE(box[5], 2.0);
+    QVERIFY(box[0] <= 10 && box[1] >= 989 && box[2] <= -989 && box[3] >= -10);
+    QVERIFY(robust_bounds({}) == (std::array<double, 6>{}));
+  }
+
   void wrongInput_isRefused() {
     Image<float> map(4, 4, 1, 0.0f);
 
