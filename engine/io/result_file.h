@@ -23,6 +23,7 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
                                    const std::string& scene = "");
 
 /// Whether the file is one that `write_result` wrote (an HDF5 file with the group `/estimate`).
+/// Throws IoError if it is an HDF5 file and damaged.
 [[nodiscard]] bool is_result_file(const std::filesystem::path& path);
 
 /// JSON object of parameter values, as in result files and `--json` answers.
