@@ -10,7 +10,7 @@
 #include "engine/io/result_file.h"
 
 #include <algorithm>
-#include <cstdio>
+#include <iomanip>
 #include <iostream>
 
 namespace episcope::cli {
@@ -96,14 +96,31 @@ LightFieldPtr load_light_field(const Request& request, Job& job) {
   return scene.light_field;
 }
 
+bool is_sound_result(const std::filesystem::path& path) {
+  try {
+    return io::is_result_file(path);
+  } catch (const IoError&) {
+    return false;  // damaged
+  }
+}
+
+/// Also protects other files: the output could be the light field by mistake.
+void check_result_output(const std::filesystem::path& path) {
+  check_output_file(path);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) return;
+  if (std::filesystem::file_size(path, ignored) == 0 || is_sound_result(path)) return;
+  throw IoError(path, "exists and is not a result file; choose another name or remove it first");
+}
+
 void print_answer(const Request& request, const Estimate& estimate) {
   const bool is_one_view = estimate.field.disparity.grid().count() == 1;
   if (!request.is_json) {
-    std::printf("%s: %s of %s in %.2f s, disparity %.3f … %.3f px, %.0f MiB at most\n",
-                request.output.c_str(), estimate.method.c_str(),
-                is_one_view ? "the centre view" : "all views", estimate.seconds, estimate.range.min,
-                estimate.range.max, peak_memory_mib());
-    std::fflush(stdout);
+    std::cout << request.output << ": " << estimate.method << " of "
+              << (is_one_view ? "the centre view" : "all views") << std::fixed
+              << std::setprecision(2) << " in " << estimate.seconds << " s, disparity "
+              << estimate.range.min << " … " << estimate.range.max << " px, "
+              << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
     return;
   }
   Json json;
@@ -141,7 +158,7 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   if (request.device == "cuda") {
     throw Unavailable("this build computes on the CPU only; use --device cpu or auto");
   }
-  check_output_file(request.output);
+  check_result_output(request.output);
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();

@@ -63,6 +63,10 @@ bool parse(const VerbArguments& arguments, Request& request) {
   if (request.is_json + request.is_csv + request.is_latex > 1) {
     throw UsageError("evaluate: --json, --csv and --latex exclude each other");
   }
+  if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
+    throw UsageError("evaluate writes the error map as PNG, but it is to be " + request.error_map +
+                     "; name it OUT.png");
+  }
   return true;
 }
 

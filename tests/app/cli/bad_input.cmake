@@ -33,6 +33,7 @@ bad("text.pfm" convert text.pfm out/x.ply)
 bad("missing/x.h5.*does not exist" estimate epi_l lf.h5 -o missing/x.h5)
 bad("missing/x.png.*does not exist" show lf.h5 -o missing/x.png)
 bad("missing/x.h5.*does not exist" synthesize fronto -o missing/x.h5)
+bad("lf.h5: exists and is not a result file" estimate epi_l lf.h5 -o lf.h5)
 bad("is a folder" estimate epi_l lf.h5 -o out)
 # Even the superuser cannot make files there.
 bad("/proc/" estimate epi_l lf.h5 -o /proc/x.h5)
@@ -40,3 +41,14 @@ bad("/proc/" convert lf.h5 /proc/x.pfm)
 bad("/proc/" show lf.h5 -o /proc/x.png)
 bad("/proc/" synthesize fronto -o /proc/x.h5 --views 3x3 --size 48x48)
 expect_files(out)
+expect("the light field is whole" 0 OUT "48×48" ARGS info lf.h5)
+expect("a result is replaced" 0 ARGS estimate epi_l lf.h5 -o r.h5)
+
+# Standard output that cannot be written is a failure.
+if(EXISTS /dev/full)
+  execute_process(COMMAND "${CLI}" methods OUTPUT_FILE /dev/full RESULT_VARIABLE exit_code
+                  ERROR_VARIABLE err)
+  if(NOT exit_code EQUAL 1 OR NOT err MATCHES "^episcope-cli: standard output")
+    fail_case("standard output full: exit code ${exit_code}, ${err}")
+  endif()
+endif()

@@ -11,7 +11,9 @@ function(interrupted seconds)
                   WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE exit_code OUTPUT_VARIABLE out
                   ERROR_VARIABLE err TIMEOUT 60)
   if(NOT exit_code EQUAL 130 OR NOT err STREQUAL "episcope-cli: cancelled\n" OR NOT out STREQUAL "")
-    fail_case("interrupted after ${seconds} s: episcope-cli ${ARGN}\n  exit code ${exit_code}\n  out: ${out}\n  err: ${err}")
+    string(CONCAT text "interrupted after ${seconds} s: episcope-cli ${ARGN}\n"
+           "  exit code ${exit_code}\n  out: ${out}\n  err: ${err}")
+    fail_case("${text}")
   endif()
   expect_files(out)
 endfunction()

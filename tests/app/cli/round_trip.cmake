@@ -46,6 +46,9 @@ json_near("${out}" -4 0 range 0)
 expect_file("${result}" ${hdf5})
 expect("estimate of the centre" 0 OUT "center.h5: epi_l of the centre view"
        ARGS estimate epi_l "${lf}" -o center.h5 --views=center)
+expect("estimate smoothly" 0 ARGS estimate epi_s "${lf}" -o smooth.h5 --quiet)
+expect("evaluate two methods" 0 OUT "^file,[^\n]+\n[^\n]*epi_l,[^\n]+\n[^\n]*epi_s,[^\n]+\n$"
+       ARGS evaluate "${result}" smooth.h5 --truth "${lf}" --csv)
 
 expect(evaluate 0 OUT "mse_100 +[0-9.]+\nmse_100_inset15 +[0-9.]+\ndensity +[0-9.]+\n"
        ARGS evaluate "${result}" --truth "${lf}")
