@@ -35,7 +35,7 @@ void draw_slopes(QPainter& painter, const std::vector<Slope>& slopes) {
 }
 
 QString disparity_text(double disparity_px) {
-  return QString("%1 px").arg(disparity_px, 0, 'f', 3);
+  return QString("%1 px").arg(disparity_px, 0, 'f', 3).replace('-', QChar(0x2212));
 }
 
 }  // namespace

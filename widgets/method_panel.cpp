@@ -12,6 +12,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
@@ -34,6 +35,7 @@ MethodPanel::MethodPanel(QWidget* parent)
       summary_(new QLabel(this)),
       reference_(new QLabel(this)),
       form_(new ParameterForm),
+      scroll_(new QScrollArea(this)),
       all_views_(new QCheckBox(tr("All views"), this)),
       run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
       cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancel the running job (Esc)"),
@@ -54,19 +56,18 @@ MethodPanel::MethodPanel(QWidget* parent)
   all_views_->setToolTip(tr("Estimate every view; else only the centre view"));
   run_->setDefault(true);
 
-  auto* scroll = new QScrollArea(this);
-  scroll->setObjectName("method.scroll");
-  scroll->setFrameShape(QFrame::NoFrame);
-  scroll->setWidgetResizable(true);
-  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  auto* sheet = new QWidget(scroll);
+  scroll_->setObjectName("method.scroll");
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setWidgetResizable(true);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* sheet = new QWidget(scroll_);
   auto* sheet_layout = new QVBoxLayout(sheet);
   sheet_layout->setContentsMargins(0, 0, 0, 0);
   sheet_layout->addWidget(form_);
   sheet_layout->addStretch(1);
-  scroll->setWidget(sheet);
+  scroll_->setWidget(sheet);
   // The tab shines through.
-  scroll->viewport()->setAutoFillBackground(false);
+  scroll_->viewport()->setAutoFillBackground(false);
   sheet->setAutoFillBackground(false);
 
   auto* buttons = new QGridLayout;
@@ -81,7 +82,7 @@ MethodPanel::MethodPanel(QWidget* parent)
   for (QWidget* widget : std::initializer_list<QWidget*>{method_, summary_, reference_}) {
     layout->addWidget(widget);
   }
-  layout->addWidget(scroll, 1);
+  layout->addWidget(scroll_, 1);
   layout->addWidget(all_views_);
   layout->addLayout(buttons);
   connectControls();
@@ -133,6 +134,10 @@ void MethodPanel::showMethod(int index) {
   if (const auto kept = kept_values_.find(method.id); kept != kept_values_.end()) {
     form_->setValues(kept->second);
   }
+  // The form has no horizontal scroll bar: it never gets less than it needs.
+  scroll_->widget()->layout()->activate();
+  scroll_->setMinimumWidth(scroll_->widget()->minimumSizeHint().width() +
+                           scroll_->verticalScrollBar()->sizeHint().width());
   updateReset();
   setRunBlocked(blocked_);
 }

@@ -14,6 +14,7 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
+class QScrollArea;
 
 namespace episcope {
 
@@ -81,6 +82,7 @@ class MethodPanel : public QWidget {
   QLabel* summary_;
   QLabel* reference_;
   ParameterForm* form_;
+  QScrollArea* scroll_;
   QCheckBox* all_views_;
   QPushButton* run_;
   QPushButton* cancel_;

@@ -44,7 +44,8 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGr
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setHorizontalSpacing(theme::kSpacing);
   layout_->setVerticalSpacing(4);
-  layout_->setColumnStretch(1, 1);
+  layout_->setColumnStretch(0, 2);
+  layout_->setColumnStretch(1, 3);
 }
 
 void ParameterForm::setParameters(const std::vector<ParameterDescription>& parameters) {
@@ -67,6 +68,7 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   label->setObjectName(key + ".label");
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
+  label->setWordWrap(true);
   editor->setToolTip(tool_tip(description));
   reset->setIconSize({12, 12});
   QSizePolicy keeps_place = reset->sizePolicy();

@@ -4,6 +4,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QCoreApplication>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
@@ -113,6 +114,24 @@ class MethodPanelTest : public QObject {
 
     QCOMPARE(panel.request().method, before.method);
     QVERIFY(panel.request().values == before.values);
+  }
+
+  void form_fitsIntoANarrowPanel() {
+    auto description = number("inner", 0.8);
+    description.label = "A label of more words than a narrow panel has room for";
+    auto all = methods();
+    all[0].parameters = {description};
+    MethodPanel panel;
+    panel.setMethods(all);
+    panel.show();
+
+    panel.resize(panel.minimumSizeHint().width(), 400);
+    QCoreApplication::processEvents();
+
+    const auto* spin = control<QDoubleSpinBox>(panel, "inner.spin");
+    const QPoint corner = spin->mapTo(&panel, QPoint(spin->width(), 0));
+    QVERIFY(panel.width() < 320);
+    QVERIFY2(corner.x() <= panel.width(), qPrintable(QString::number(corner.x())));
   }
 
   void buttons_followTheState() {
