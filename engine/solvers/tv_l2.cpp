@@ -32,9 +32,9 @@ struct Pace {
 constexpr Pace kSafePace = {1.0F, 1.0F};
 
 // The penalty, in units of the spread of f; found on structure-tensor disparities of real scenes.
-constexpr float kPenaltyScale = 0.5F;
-constexpr float kPenaltyKnee = 0.1F;
-constexpr float kPenaltySpread = 20.0F;
+constexpr float kPenaltyScale = 1.0F;
+constexpr float kPenaltyKnee = 0.07F;
+constexpr float kPenaltySpread = 10.0F;
 
 const TvL2Kernel& kernel_for([[maybe_unused]] Isa isa) {
 #ifndef EPISCOPE_BASELINE_ONLY
