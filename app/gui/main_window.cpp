@@ -190,7 +190,7 @@ void MainWindow::showInfo() {
     panels_.info->setInfo(tr("Nothing is open"), {}, {});
     return;
   }
-  const SceneInfo info = describe(*session_->scene(), session_->disparity_range());
+  const SceneInfo info = describe(*session_->scene());
   panels_.info->setInfo(info.title, info.rows, info.warnings);
 }
 

@@ -43,7 +43,10 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   panels.horizontal_epi = new EpiPane(Qt::Horizontal, stage);
   panels.vertical_epi = new EpiPane(Qt::Vertical, stage);
   panels.color_bar = new ColorBar(stage);
-  panels.color_bar->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  // Its place is kept while nothing is drawn over the view, so that the view does not jump.
+  QSizePolicy policy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  policy.setRetainSizeWhenHidden(true);
+  panels.color_bar->setSizePolicy(policy);
 
   auto* legend = new QWidget(stage);
   auto* legend_layout = new QVBoxLayout(legend);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/scene_info.h"
 
+#include "app/session/scene_range.h"
+
 #include <QCoreApplication>
 
 namespace episcope {
@@ -52,7 +54,7 @@ QString camera_text(const CameraGrid& camera) {
 
 }  // namespace
 
-SceneInfo describe(const Scene& scene, Interval disparity_range) {
+SceneInfo describe(const Scene& scene) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
@@ -67,11 +69,10 @@ SceneInfo describe(const Scene& scene, Interval disparity_range) {
                            .arg(light_field.byte_size() / 1'000'000),
                        {}});
   info.rows.push_back({text("Samples"), sample_text(light_field), {}});
-  if (disparity_range.length() > 0) {
-    info.rows.push_back(
-        {text("Disparity"),
-         text("%1 … %2 px").arg(disparity_range.min, 0, 'f', 2).arg(disparity_range.max, 0, 'f', 2),
-         {}});
+  if (const Interval range = known_disparity_range(scene); range.length() > 0) {
+    info.rows.push_back({text("Disparity"),
+                         text("%1 … %2 px").arg(range.min, 0, 'f', 2).arg(range.max, 0, 'f', 2),
+                         {}});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back({text("Order"), utf8(convention.order), utf8(convention.order_check)});

@@ -18,6 +18,6 @@ struct SceneInfo {
   QStringList warnings;
 };
 
-[[nodiscard]] SceneInfo describe(const Scene& scene, Interval disparity_range);
+[[nodiscard]] SceneInfo describe(const Scene& scene);
 
 }  // namespace episcope

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/action_table.h"
+
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMenu>
+#include <QMenuBar>
+#include <QSet>
+#include <QTest>
+#include <QTreeWidget>
+
+using namespace episcope;
+
+class ActionTableTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void ids_areUnique();
+  void keys_areUnique();
+  void everyCommand_hasTextAndTip();
+  void everyCommand_isInAMenu();
+  void everyCommandWithKeys_isInTheShortcutWindow();
+  void palette_findsAndRunsACommand();
+};
+
+void ActionTableTest::ids_areUnique() {
+  WindowFixture f;
+  QSet<QString> ids;
+  for (const Command& command : f.window.actions().commands()) {
+    QVERIFY2(!ids.contains(command.id), qPrintable(command.id));
+    ids.insert(command.id);
+  }
+  QVERIFY(ids.size() > 30);
+}
+
+void ActionTableTest::keys_areUnique() {
+  WindowFixture f;
+  QSet<QString> keys;
+  for (const Command& command : f.window.actions().commands()) {
+    for (const QKeySequence& key : command.keys) {
+      QVERIFY2(!key.isEmpty(), qPrintable(command.id));
+      QVERIFY2(!keys.contains(key.toString()), qPrintable(command.id + " " + key.toString()));
+      keys.insert(key.toString());
+    }
+  }
+}
+
+void ActionTableTest::everyCommand_hasTextAndTip() {
+  WindowFixture f;
+  for (const Command& command : f.window.actions().commands()) {
+    QVERIFY2(!command.text.isEmpty() && !command.tip.isEmpty(), qPrintable(command.id));
+    const QAction* action = f.window.actions().find(command.id);
+    QVERIFY2(action->toolTip().startsWith(command.tip), qPrintable(command.id));
+    if (!command.icon.isEmpty()) QVERIFY2(!action->icon().isNull(), qPrintable(command.id));
+  }
+}
+
+void ActionTableTest::everyCommand_isInAMenu() {
+  WindowFixture f;
+  QSet<QAction*> in_menus;
+  for (const QMenu* menu : f.window.menuBar()->findChildren<QMenu*>()) {
+    for (QAction* action : menu->actions()) in_menus.insert(action);
+  }
+  for (const Command& command : f.window.actions().commands()) {
+    QVERIFY2(in_menus.contains(f.window.actions().find(command.id)), qPrintable(command.id));
+  }
+}
+
+void ActionTableTest::everyCommandWithKeys_isInTheShortcutWindow() {
+  WindowFixture f;
+
+  f.window.actions().find("help.keys")->trigger();
+
+  const auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
+  QVERIFY(dialog && dialog->isVisible());
+  const auto* tree = dialog->findChild<QTreeWidget*>();
+  for (const Command& command : f.window.actions().commands()) {
+    if (command.keys.isEmpty()) continue;
+    const auto rows = tree->findItems(command.tip, Qt::MatchExactly | Qt::MatchRecursive, 1);
+    QVERIFY2(rows.size() == 1, qPrintable(command.id));
+  }
+}
+
+void ActionTableTest::palette_findsAndRunsACommand() {
+  WindowFixture f;
+  f.openSmall();
+  f.window.actions().find("help.palette")->trigger();
+  auto* edit = f.window.findChild<QLineEdit*>("command_palette.edit");
+  auto* list = f.window.findChild<QListWidget*>("command_palette.list");
+  const int all = list->count();
+
+  QTest::keyClicks(edit, "zoom percent");
+  QCOMPARE(list->count(), 0);
+  edit->clear();
+  QTest::keyClicks(edit, "100 view");
+  QCOMPARE(list->count(), 1);
+  QVERIFY(all > 1);
+  QTest::keyClick(edit, Qt::Key_Return);
+
+  auto* canvas = f.window.panels().canvas;
+  QTRY_COMPARE(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF());
+}
+
+QTEST_MAIN(ActionTableTest)
+#include "action_table_test.moc"

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/main_window.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/export_controller.h"
+#include "app/gui/jobs.h"
+#include "app/gui/open_controller.h"
+#include "app/gui/overlay_controller.h"
+#include "app/session/session.h"
+#include "engine/io/pfm.h"
+#include "engine/io/result_file.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/epi_pane.h"
+#include "widgets/message_bar.h"
+#include "widgets/value_bar.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFile>
+#include <QMimeData>
+#include <QRegularExpression>
+#include <QTest>
+#include <QToolBar>
+#include <QTreeWidget>
+#include <QUrl>
+
+#include <cmath>
+#include <limits>
+
+using namespace episcope;
+
+namespace {
+
+void click_pixel(ViewCanvas* canvas, PixelIndex pixel, Qt::KeyboardModifiers keys = {}) {
+  QTest::mouseClick(canvas, Qt::LeftButton, keys, canvas->positionOf(pixel).toPoint());
+}
+
+void click_action(MainWindow& window, const QString& id) {
+  QWidget* button = window.panels().tool_bar->widgetForAction(window.actions().find(id));
+  QVERIFY2(button && button->isEnabled(), qPrintable(id));
+  QTest::mouseClick(button, Qt::LeftButton);
+}
+
+}  // namespace
+
+class MainWindowTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void openedFile_isShown();
+  void emptyWindow_saysWhatToDo();
+  void run_listsItsResultWithItsError();
+  void errorOverlay_isOneClickAway();
+  void arrows_changeTheView();
+  void click_movesTheCrossHairAndTheEpis();
+  void shiftClick_focusesAtThePixel();
+  void valuesAtTheCursor_areRead();
+  void heldTab_flips();
+  void exportedResult_readsBack();
+  void exportedMap_marksInvalidPixels();
+  void savedPicture_isTheShownOne();
+  void failedExport_isTold();
+  void brokenFile_isToldAndKeepsTheScene();
+  void brokenFile_withoutScene_isDrawnAsError();
+  void droppedFile_isOpened();
+  void openedResult_isListed();
+  void resultOfAnotherLightField_isRefused();
+  void escape_cancelsTheRun();
+  void anotherScene_dropsResults();
+  void closedScene_leavesTheEmptyWindow();
+  void copiedCommand_opensTheSameFile();
+  void recentFiles_areRemembered();
+};
+
+void MainWindowTest::openedFile_isShown() {
+  WindowFixture f;
+  f.openSmall();
+
+  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Picture);
+  QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
+}
+
+void MainWindowTest::emptyWindow_saysWhatToDo() {
+  WindowFixture f;
+
+  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
+  QVERIFY(!f.window.actions().find("estimate.run")->isEnabled());
+  QVERIFY(!f.window.actions().find("overlay.signed_error")->isEnabled());
+}
+
+void MainWindowTest::run_listsItsResultWithItsError() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.runAndWait();
+
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QCOMPARE(tree->topLevelItemCount(), 1);
+  const auto row_text = [tree] {
+    QString text;
+    for (int i = 0; i < tree->columnCount(); ++i) text += tree->topLevelItem(0)->text(i) + '|';
+    return text;
+  };
+  QTRY_VERIFY2(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
+               qPrintable(row_text()));
+  QCOMPARE(f.window.overlay().quantity(), render::Quantity::Disparity);
+}
+
+void MainWindowTest::errorOverlay_isOneClickAway() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  const QImage before = f.window.overlay().picture();
+  const QImage canvas_before = f.window.panels().canvas->grab().toImage();
+
+  click_action(f.window, "overlay.signed_error");
+
+  QTRY_VERIFY(f.window.overlay().picture() != before);
+  QVERIFY(f.window.panels().canvas->grab().toImage() != canvas_before);
+  QVERIFY(f.window.actions().find("overlay.signed_error")->isChecked());
+}
+
+void MainWindowTest::arrows_changeTheView() {
+  WindowFixture f;
+  f.openSmall();
+  auto* canvas = f.window.panels().canvas;
+  const Session& session = f.window.session();
+  canvas->setFocus();
+  f.window.activateWindow();
+  QTRY_VERIFY(canvas->hasFocus());
+  const QImage before = canvas->picture();
+
+  QTest::keyClick(canvas, Qt::Key_Right);
+  QVERIFY(session.view() == (ViewIndex{4, 5}));
+  QTest::keyClick(canvas, Qt::Key_Up);
+  QVERIFY(session.view() == (ViewIndex{3, 5}));
+  QTRY_VERIFY(canvas->picture() != before);
+  QTest::keyClick(canvas, Qt::Key_Left, Qt::ShiftModifier);
+  QVERIFY(session.view() == (ViewIndex{3, 0}));
+  QTest::keyClick(canvas, Qt::Key_Home);
+
+  QVERIFY(session.view() == (ViewIndex{4, 4}));
+}
+
+void MainWindowTest::click_movesTheCrossHairAndTheEpis() {
+  WindowFixture f;
+  f.openSmall();
+  auto* epi = f.window.panels().horizontal_epi;
+  const QImage before = epi->grab().toImage();
+
+  click_pixel(f.window.panels().canvas, {20, 33});
+
+  QVERIFY(f.window.session().cross_hair() == (PixelIndex{20, 33}));
+  QTRY_VERIFY(epi->grab().toImage() != before);
+}
+
+void MainWindowTest::shiftClick_focusesAtThePixel() {
+  WindowFixture f;
+  f.openSmall();
+  const double truth = f.window.session().scene()->truth->field.view({4, 4}).disparity.at(20, 33);
+
+  click_pixel(f.window.panels().canvas, {20, 33}, Qt::ShiftModifier);
+
+  QCOMPARE(f.window.session().focus_px(), truth);
+}
+
+void MainWindowTest::valuesAtTheCursor_areRead() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* canvas = f.window.panels().canvas;
+
+  QTest::mouseMove(canvas, canvas->positionOf({20, 33}).toPoint());
+
+  const auto text = [&f] { return f.window.panels().values->text(); };
+  QTRY_VERIFY2(text().contains("x 33 y 20"), qPrintable(text()));
+  QVERIFY2(text().contains("truth") && text().contains("EPI_L"), qPrintable(text()));
+}
+
+void MainWindowTest::heldTab_flips() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* canvas = f.window.panels().canvas;
+  canvas->setFocus();
+  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  const QImage before = f.window.overlay().picture();
+
+  QTest::keyPress(canvas, Qt::Key_Tab);
+  const QImage flipped = f.window.overlay().picture();
+  QTest::keyRelease(canvas, Qt::Key_Tab);
+
+  QVERIFY(flipped != before);
+  QCOMPARE(f.window.overlay().picture(), before);
+}
+
+void MainWindowTest::exportedResult_readsBack() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const EstimateEntry& shown = *f.window.session().shown();
+  const QString path = f.path("résult 1.h5");
+
+  f.window.exporter().exportResult(shown.id, path);
+  QTRY_VERIFY(f.window.panels().messages->text().contains(path));
+
+  const Estimate read = io::read_result(path.toStdString(), {9, 9});
+  QCOMPARE(read.method, std::string("epi_l"));
+  QCOMPARE(read.source_hash, f.window.session().light_field()->sample_hash());
+  const auto& written = shown.estimate->field.disparity;
+  QCOMPARE(read.field.disparity.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const bool is_valid =
+        shown.estimate->field.valid.empty() || shown.estimate->field.valid.data()[i] != 0;
+    if (is_valid) QCOMPARE(read.field.disparity.data()[i], written.data()[i]);
+  }
+}
+
+void MainWindowTest::exportedMap_marksInvalidPixels() {
+  WindowFixture f;
+  f.openSmall();
+  const Scene& scene = *f.window.session().scene();
+  auto estimate = std::make_shared<Estimate>();
+  estimate->method = "theirs";
+  estimate->field.disparity = scene.truth->field.disparity.clone();
+  estimate->field.disparity.view({4, 4}).at(2, 3) = std::numeric_limits<float>::quiet_NaN();
+  const int id =
+      f.window.session().add_estimate(estimate, {-1, 1}, f.window.session().generation());
+
+  f.window.exporter().exportResult(id, f.path("map.pfm"));
+  QTRY_VERIFY(f.window.panels().messages->text().contains("map.pfm"));
+
+  const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
+  QVERIFY(std::isnan(map.at(2, 3)));
+  QCOMPARE(map.at(9, 9), scene.truth->field.view({4, 4}).disparity.at(9, 9));
+}
+
+void MainWindowTest::savedPicture_isTheShownOne() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.exporter().savePicture(f.path("view.png"));
+  QTRY_VERIFY(QFile::exists(f.path("view.png")));
+  QTRY_COMPARE(f.window.jobs().count(), 0);
+
+  const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
+  QCOMPARE(saved, f.window.panels().canvas->picture().convertToFormat(QImage::Format_RGB888));
+}
+
+void MainWindowTest::failedExport_isTold() {
+  WindowFixture f;
+  f.openSmall();
+  const QString path = f.path("no/such/folder/view.png");
+
+  f.window.exporter().savePicture(path);
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2(messages->text().contains(path), qPrintable(messages->text()));
+  QCOMPARE(messages->severity(), Severity::Error);
+}
+
+void MainWindowTest::brokenFile_isToldAndKeepsTheScene() {
+  WindowFixture f;
+  f.openSmall();
+  const auto scene = f.window.session().scene();
+  QFile broken(f.path("broken.h5"));
+  QVERIFY(broken.open(QIODevice::WriteOnly));
+  broken.write("this is no HDF5 file");
+  broken.close();
+
+  f.window.open(broken.fileName());
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2(messages->text().contains("broken.h5"), qPrintable(messages->text()));
+  QVERIFY(messages->isVisible());
+  QCOMPARE(f.window.session().scene(), scene);
+  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Picture);
+}
+
+void MainWindowTest::brokenFile_withoutScene_isDrawnAsError() {
+  WindowFixture f;
+
+  f.window.open("/no/such/place");
+
+  QTRY_COMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Failed);
+}
+
+void MainWindowTest::droppedFile_isOpened() {
+  WindowFixture f;
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(f.writeScene("slant", WindowFixture::smallOptions()))});
+  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &enter);
+  QVERIFY(enter.isAccepted());
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_VERIFY(f.window.session().scene() != nullptr);
+}
+
+void MainWindowTest::openedResult_isListed() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const QString path = f.path("result.h5");
+  f.window.exporter().exportResult(f.window.session().shown()->id, path);
+  QTRY_VERIFY(f.window.panels().messages->text().contains(path));
+
+  f.window.opener().openResult(path);
+
+  QTRY_COMPARE(f.window.session().estimates().size(), 2U);
+  QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
+}
+
+void MainWindowTest::resultOfAnotherLightField_isRefused() {
+  WindowFixture f;
+  f.openSmall();
+  io::write_pfm(f.path("other.pfm").toStdString(), Image<float>(50, 40));
+
+  f.window.opener().openResult(f.path("other.pfm"));
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2(messages->text().contains("40×50"), qPrintable(messages->text()));
+  QVERIFY(f.window.session().estimates().empty());
+}
+
+void MainWindowTest::escape_cancelsTheRun() {
+  WindowFixture f;
+  auto options = WindowFixture::smallOptions();
+  options.height = options.width = 384;
+  f.window.open(f.writeScene("slant", options));
+  QTRY_VERIFY(f.window.actions().find("estimate.run")->isEnabled());
+  auto* canvas = f.window.panels().canvas;
+  canvas->setFocus();
+  bool has_begun = false;
+  connect(&f.window.jobs(), &Jobs::progressed, this,
+          [&has_begun](quint64, double fraction) { has_begun = has_begun || fraction > 0; });
+  f.window.actions().find("estimate.run")->trigger();
+  QTRY_VERIFY(has_begun);
+
+  QTest::keyClick(canvas, Qt::Key_Escape);
+  QTRY_COMPARE(f.window.jobs().count(), 0);
+
+  QVERIFY(f.window.session().estimates().empty());
+  QVERIFY(f.window.panels().messages->text().isEmpty());
+}
+
+void MainWindowTest::anotherScene_dropsResults() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const auto former = f.window.session().generation();
+
+  f.window.open(f.writeScene("slant", WindowFixture::smallOptions()));
+
+  QTRY_VERIFY(f.window.session().generation() > former);
+  QVERIFY(f.window.session().estimates().empty());
+  QTRY_COMPARE(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(), 0);
+}
+
+void MainWindowTest::closedScene_leavesTheEmptyWindow() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.actions().find("file.close")->trigger();
+
+  QTRY_COMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
+  QCOMPARE(f.window.windowTitle(), QString("Episcope"));
+}
+
+void MainWindowTest::copiedCommand_opensTheSameFile() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.actions().find("estimate.copy_command")->trigger();
+
+  const QString text = QGuiApplication::clipboard()->text();
+  QVERIFY2(text.startsWith("episcope-cli estimate epi_l "), qPrintable(text));
+  QVERIFY2(text.contains(f.path("edge/lf.h5")), qPrintable(text));
+}
+
+void MainWindowTest::recentFiles_areRemembered() {
+  WindowFixture f;
+  f.openSmall();
+
+  QCOMPARE(f.window.opener().recentInputs(), QStringList(f.path("edge/lf.h5")));
+  f.window.opener().forgetRecentInputs();
+  QVERIFY(f.window.opener().recentInputs().isEmpty());
+}
+
+QTEST_MAIN(MainWindowTest)
+#include "main_window_test.moc"
