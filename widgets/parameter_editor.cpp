@@ -210,10 +210,8 @@ class IntervalEditor : public ParameterEditor {
         max_(make_spin(description, "max", this)) {
     automatic_->setObjectName(control_name(description, "auto"));
     min_->setSuffix({});
-    for (auto* end : {min_, max_}) {
-      end->setButtonSymbols(QAbstractSpinBox::NoButtons);
-      end->setMinimumWidth(44);
-    }
+    for (auto* end : {min_, max_}) end->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    min_->setMinimumWidth(44);
     ends_ = {std::max(domain_.min, -1.0), std::min(domain_.max, 1.0)};
     if (ends_.length() <= 0) ends_ = domain_;
     auto* row = make_row(this);
