@@ -11,26 +11,18 @@
 namespace episcope::cli {
 namespace {
 
-Json scene_json(const Scene& scene, const std::string& input) {
-  const SceneSummary summary = summarize(scene);
-  const LightField& light_field = *scene.light_field;
-  Json json;
-  json["input"] = input;
-  json["name"] = light_field.info().name;
-  json["format"] = scene.convention.format;
-  json["views"] = {{"v", light_field.grid().v}, {"u", light_field.grid().u}};
-  json["height"] = light_field.height();
-  json["width"] = light_field.width();
-  json["channels"] = light_field.channels();
-  json["sample_type"] = summary.sample_type;
-  json["bytes"] = light_field.byte_size();
-  if (const auto& camera = light_field.info().camera; camera.is_known()) {
+void add_camera(Json& json, const LightFieldInfo& info) {
+  if (const auto& camera = info.camera; camera.is_known()) {
     json["camera"] = {{"baseline", camera.baseline},
                       {"focal_length", camera.focal_length},
                       {"shift", camera.shift}};
     if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
   }
-  if (const auto& promised = light_field.info().disparity_range) {
+}
+
+/// Keys of what there is; what is missing has no key.
+void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
+  if (const auto& promised = scene.light_field->info().disparity_range) {
     json["disparity_promised"] = interval_json(*promised);
   }
   if (summary.truth) {
@@ -52,6 +44,23 @@ Json scene_json(const Scene& scene, const std::string& input) {
     json["regions"] = Json::array();
     for (const auto& [name, mask] : scene.truth->regions) json["regions"].push_back(name);
   }
+}
+
+Json scene_json(const Scene& scene, const std::string& input) {
+  const SceneSummary summary = summarize(scene);
+  const LightField& light_field = *scene.light_field;
+  Json json;
+  json["input"] = input;
+  json["name"] = light_field.info().name;
+  json["format"] = scene.convention.format;
+  json["views"] = {{"v", light_field.grid().v}, {"u", light_field.grid().u}};
+  json["height"] = light_field.height();
+  json["width"] = light_field.width();
+  json["channels"] = light_field.channels();
+  json["sample_type"] = summary.sample_type;
+  json["bytes"] = light_field.byte_size();
+  add_camera(json, light_field.info());
+  add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {
     json["companions"].push_back(
