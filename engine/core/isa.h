@@ -17,3 +17,13 @@ enum class Isa { Baseline, Avx2, Avx512 };
 [[nodiscard]] const char* isa_name(Isa isa);
 
 }  // namespace episcope
+
+/// The kernel table `name` of the namespace for `isa`; where only the baseline is built, that one.
+#ifdef EPISCOPE_BASELINE_ONLY
+#define EPISCOPE_CHOOSE_KERNEL(isa, name) (baseline::name)
+#else
+#define EPISCOPE_CHOOSE_KERNEL(isa, name)          \
+  ((isa) == ::episcope::Isa::Avx512 ? avx512::name \
+   : (isa) == ::episcope::Isa::Avx2 ? avx2::name   \
+                                    : baseline::name)
+#endif

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <functional>
 #include <utility>
 
 namespace episcope {
@@ -19,138 +18,14 @@ namespace {
 constexpr int kSlack = 64;
 constexpr int kMaxRows = 32;
 
-const TensorKernel& tensor_kernel() {
-#ifdef EPISCOPE_BASELINE_ONLY
-  return baseline::kTensorKernel;
-#else
-  switch (best_isa()) {
-    case Isa::Avx512:
-      return avx512::kTensorKernel;
-    case Isa::Avx2:
-      return avx2::kTensorKernel;
-    default:
-      return baseline::kTensorKernel;
+int views_along(const LightField& lf, StructureTensor::Direction direction) {
+  const bool horizontal = direction == StructureTensor::Direction::Horizontal;
+  const int views = horizontal ? lf.grid().u : lf.grid().v;
+  if (views < 2 || views > kMaxRows) {
+    throw InvalidInput("the structure tensor needs 2 to 32 views along an EPI, but the grid has " +
+                       std::to_string(views));
   }
-#endif
-}
-
-// Cut at 2σ, where the Gaussian has fallen to 13 %.
-int gaussian_radius(double sigma) {
-  return static_cast<int>(std::ceil(2 * sigma));
-}
-
-double gaussian(double sigma, int offset) {
-  return sigma > 0 ? std::exp(-0.5 * offset * offset / (sigma * sigma)) : (offset == 0 ? 1 : 0);
-}
-
-Taps gaussian_taps(double sigma) {
-  Taps taps;
-  taps.radius = gaussian_radius(sigma);
-  double sum = 0;
-  for (int i = -taps.radius; i <= taps.radius; ++i) sum += gaussian(sigma, i);
-  for (int i = -taps.radius; i <= taps.radius; ++i) {
-    taps.values[i + taps.radius] = static_cast<float>(gaussian(sigma, i) / sum);
-  }
-  return taps;
-}
-
-// The same filter evaluated half a sample further: the mean of two neighbouring positions.
-Taps half_sample(const Taps& taps) {
-  Taps half = taps;
-  const int count = 2 * taps.radius + 1;
-  half.values[count] = 0;
-  for (int i = count; i >= 0; --i) {
-    const float here = i < count ? taps.values[i] : 0;
-    half.values[i] = 0.5F * (here + (i > 0 ? taps.values[i - 1] : 0));
-  }
-  return half;
-}
-
-using Matrix = std::vector<std::vector<double>>;
-
-Matrix zero_matrix(int rows) {
-  return Matrix(rows, std::vector<double>(rows, 0));
-}
-
-// A filter along the views, truncated at the first and last view and renormalised.
-Matrix smoothing_matrix(int rows, int radius, const std::function<double(int)>& weight) {
-  Matrix matrix = zero_matrix(rows);
-  for (int r = 0; r < rows; ++r) {
-    double sum = 0;
-    for (int i = std::max(0, r - radius); i <= std::min(rows - 1, r + radius); ++i) {
-      sum += matrix[r][i] = weight(i - r);
-    }
-    for (double& value : matrix[r]) value /= sum;
-  }
-  return matrix;
-}
-
-// d/ds with s = −u: central inside, one-sided at the ends.
-Matrix derivative_matrix(int rows) {
-  Matrix matrix = zero_matrix(rows);
-  for (int r = 0; r < rows; ++r) {
-    const int before = std::max(0, r - 1);
-    const int after = std::min(rows - 1, r + 1);
-    matrix[r][before] += 1.0 / (after - before);
-    matrix[r][after] -= 1.0 / (after - before);
-  }
-  return matrix;
-}
-
-Matrix product(const Matrix& a, const Matrix& b) {
-  const int rows = static_cast<int>(a.size());
-  Matrix matrix = zero_matrix(rows);
-  for (int i = 0; i < rows; ++i) {
-    for (int k = 0; k < rows; ++k) {
-      for (int j = 0; j < rows; ++j) matrix[i][j] += a[i][k] * b[k][j];
-    }
-  }
-  return matrix;
-}
-
-std::vector<RowTaps> banded(const Matrix& matrix, int radius) {
-  const int rows = static_cast<int>(matrix.size());
-  std::vector<RowTaps> taps(rows);
-  for (int r = 0; r < rows; ++r) {
-    taps[r].first = std::max(0, r - radius);
-    taps[r].count = std::min(rows - 1, r + radius) - taps[r].first + 1;
-    for (int i = 0; i < taps[r].count; ++i) {
-      taps[r].values[i] = static_cast<float>(matrix[r][taps[r].first + i]);
-    }
-  }
-  return taps;
-}
-
-// Energy of a contrast given in 1/255, over all channels.
-float sample_energy(double contrast, int channels) {
-  return static_cast<float>(channels * contrast * contrast / (255.0 * 255.0));
-}
-
-struct RowFilters {
-  std::vector<RowTaps> smooth, derivative, integrate;
-};
-
-// The farthest row that any row takes in.
-int reach_of(const std::vector<RowTaps>& filter) {
-  int reach = 0;
-  for (int r = 0; r < static_cast<int>(filter.size()); ++r) {
-    reach = std::max({reach, r - filter[r].first, filter[r].first + filter[r].count - 1 - r});
-  }
-  return reach;
-}
-
-RowFilters make_row_filters(int rows, const TensorScales& scales) {
-  const int inner = gaussian_radius(scales.inner);
-  const int outer = gaussian_radius(scales.views);
-  const Matrix before =
-      smoothing_matrix(rows, inner, [&](int i) { return gaussian(scales.inner, i); });
-  const Matrix scharr = smoothing_matrix(rows, 1, [](int i) { return i == 0 ? 10.0 : 3.0; });
-  RowFilters filters;
-  filters.smooth = banded(product(scharr, before), inner + 1);
-  filters.derivative = banded(product(derivative_matrix(rows), before), inner + 1);
-  filters.integrate = banded(
-      smoothing_matrix(rows, outer, [&](int i) { return gaussian(scales.views, i); }), outer);
-  return filters;
+  return views;
 }
 
 }  // namespace
@@ -172,10 +47,12 @@ struct StructureTensor::State {
   const LightField& light_field;
   Direction direction;
   TensorSearch search;
-  const TensorKernel& kernel = tensor_kernel();
-  RowFilters row_filters;
-  TensorFilters filters;
-  Taps across;
+  const SampleKernel& samples = EPISCOPE_CHOOSE_KERNEL(best_isa(), kSampleKernel);
+  const TensorKernel& tensors = EPISCOPE_CHOOSE_KERNEL(best_isa(), kTensorKernel);
+  const OrientationKernel& orientations = EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel);
+  const TensorFilterSet set;
+  const TensorFilters& filters = set.filters;
+  const Taps& across = set.across;
   TensorBlock block;
   int columns = 0;         // Lanes of a pixel row of a vertical block, with the neighbours across.
   int payload_pixels = 0;  // Along the EPI, at most.
@@ -202,23 +79,12 @@ struct StructureTensor::State {
 
 StructureTensor::State::State(const LightField& lf, Direction dir, const TensorScales& scales,
                               TensorSearch wanted)
-    : light_field(lf), direction(dir), search(std::move(wanted)) {
-  block.rows = horizontal() ? lf.grid().u : lf.grid().v;
-  if (block.rows < 2 || block.rows > kMaxRows) {
-    throw InvalidInput("the structure tensor needs 2 to 32 views along an EPI, but the grid has " +
-                       std::to_string(block.rows));
-  }
+    : light_field(lf),
+      direction(dir),
+      search(std::move(wanted)),
+      set(make_tensor_filters(views_along(lf, dir), lf.channels(), scales)) {
+  block.rows = views_along(lf, dir);
   block.channels = lf.channels();
-  row_filters = make_row_filters(block.rows, scales);
-  filters.smooth = gaussian_taps(scales.inner);
-  filters.integrate = gaussian_taps(scales.outer);
-  filters.integrate_half = half_sample(filters.integrate);
-  filters.row_smooth = row_filters.smooth.data();
-  filters.row_derivative = row_filters.derivative.data();
-  filters.row_integrate = row_filters.integrate.data();
-  filters.contrast_energy = sample_energy(scales.contrast, block.channels);
-  filters.noise_energy = sample_energy(scales.noise, block.channels);
-  across = gaussian_taps(scales.across);
   size_block();
   allocate();
 }
@@ -237,8 +103,7 @@ void StructureTensor::State::size_block() {
   }
   // A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
   // along the views moves by the shear.
-  const int steps = reach_of(row_filters.integrate) + reach_of(row_filters.smooth);
-  const int reach = (steps * largest + 1) / 2 + filters.integrate.radius + 3;
+  const int reach = (set.view_reach * largest + 1) / 2 + filters.integrate.radius + 3;
   block.margin = (reach + filters.smooth.radius + 4) * block.stride;
   block.tensor_margin =
       (largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack;
@@ -281,7 +146,7 @@ void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1
                                            float* const* out) {
   const int channels = block.channels;
   if (light_field.sample_type() == SampleType::UInt8) {
-    kernel.deinterleave(
+    samples.deinterleave(
         light_field.view<std::uint8_t>(view).row(y) + static_cast<std::size_t>(x0) * channels,
         x1 - x0, channels, out);
     return;
@@ -352,12 +217,12 @@ void StructureTensor::State::run_shears(const TensorTask& task, int count) {
   block.first_row = task.first_view;
   block.last_row = task.last_view;
   block.length = count * block.stride;
-  kernel.differentiate(block, filters, with_half);
+  tensors.differentiate(block, filters, with_half);
   for (const int half_steps : search.half_step_shears) {
     const Shear shear{half_steps, block.rows / 2, static_cast<float>(search.limit),
                       static_cast<float>(search.range.min), static_cast<float>(search.range.max)};
-    kernel.accumulate(block, filters, shear);
-    kernel.select(block, filters, shear);
+    tensors.accumulate(block, filters, shear);
+    orientations.select(block, filters, shear);
   }
 }
 
@@ -394,7 +259,7 @@ void StructureTensor::State::estimate_horizontal(const TensorTask& task, const S
           average.tensor[i][j] = slot + j * plane + static_cast<std::size_t>(u) * block.best_pitch;
         }
       }
-      kernel.resolve(average);
+      orientations.resolve(average);
       sink(u, {y, task.begin.x}, task.width, result[0], result[1]);
     }
   }
@@ -412,7 +277,7 @@ void StructureTensor::State::estimate_vertical(const TensorTask& task, const Sin
       for (int i = 0; i < average.count; ++i) {
         for (int j = 0; j < 3; ++j) average.tensor[i][j] = block.best[j] + row + i;
       }
-      kernel.resolve(average);
+      orientations.resolve(average);
       sink(v, {task.begin.y + y, task.begin.x}, task.width, result[0], result[1]);
     }
   }
@@ -443,7 +308,8 @@ void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {
 
 void merge_orientations(const float* disparity, const float* coherence, int count, int power,
                         float* to_disparity, float* to_coherence) {
-  tensor_kernel().merge(disparity, coherence, count, power, to_disparity, to_coherence);
+  EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel)
+      .merge(disparity, coherence, count, power, to_disparity, to_coherence);
 }
 
 }  // namespace episcope

@@ -2,22 +2,13 @@
 #pragma once
 
 #include "engine/core/light_field.h"
+#include "engine/disparity/tensor_filters.h"
 
 #include <functional>
 #include <memory>
 #include <vector>
 
 namespace episcope {
-
-/// Scales of the structure tensor on epipolar plane images.
-struct TensorScales {
-  double inner = 0.5;   ///< σ_i in px and views: Gaussian before the derivatives.
-  double outer = 1.0;   ///< σ_o in px: Gaussian over the products of derivatives, along the EPI.
-  double views = 1.5;   ///< The same along the views.
-  double across = 1.0;  ///< The same in px across neighbouring EPIs.
-  double contrast = 2;  ///< Gradients above this are toned down, in 1/255.
-  double noise = 0.15;  ///< Contrast below which coherence fades, in 1/255.
-};
 
 /// Where orientation is looked for.
 struct TensorSearch {

@@ -76,16 +76,25 @@ struct TensorAverage {
   float* coherence = nullptr;
 };
 
-/// Samples of any storage type to float planes: out[c][i] = scale·in[i·channels + c].
-using DeinterleaveU8 = void (*)(const std::uint8_t* in, int count, int channels, float* const* out);
+/// Where the sheared coordinates of a row begin, whole pixels: the floor of half steps.
+constexpr int floor_half(int half_steps) {
+  return half_steps >> 1;
+}
 
-/// The kernel's entry points, one set for each instruction set.
+/// The kernels' entry points, a set of each for each instruction set.
+struct SampleKernel {
+  /// Interleaved bytes to float planes in [0, 1]: out[c][i] = in[i·channels + c]/255.
+  void (*deinterleave)(const std::uint8_t* in, int count, int channels, float* const* out);
+};
+
 struct TensorKernel {
-  DeinterleaveU8 deinterleave;
   /// Pre-smooths `samples` and fills `along` and `across`.
   void (*differentiate)(const TensorBlock&, const TensorFilters&, bool with_half);
   /// Fills `tensor` for one shear, all channels summed.
   void (*accumulate)(const TensorBlock&, const TensorFilters&, const Shear&);
+};
+
+struct OrientationKernel {
   /// Integrates `tensor` along x and keeps in `best` the tensor of the most coherent shear so far.
   void (*select)(const TensorBlock&, const TensorFilters&, const Shear&);
   /// Averages tensors and reads disparity and coherence off the mean.
@@ -96,13 +105,19 @@ struct TensorKernel {
 };
 
 namespace baseline {
+extern const SampleKernel kSampleKernel;
 extern const TensorKernel kTensorKernel;
-}
+extern const OrientationKernel kOrientationKernel;
+}  // namespace baseline
 namespace avx2 {
+extern const SampleKernel kSampleKernel;
 extern const TensorKernel kTensorKernel;
-}
+extern const OrientationKernel kOrientationKernel;
+}  // namespace avx2
 namespace avx512 {
+extern const SampleKernel kSampleKernel;
 extern const TensorKernel kTensorKernel;
-}
+extern const OrientationKernel kOrientationKernel;
+}  // namespace avx512
 
 }  // namespace episcope

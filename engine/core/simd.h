@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// Vectors of floats as wide as the instruction set that a kernel source is compiled for
+/// (engine/core/isa.h), by the compiler's vector extensions. For kernel sources only: everything
+/// here has internal linkage, in the namespace of that instruction set.
+
+#ifndef EPISCOPE_VECTOR_BYTES
+#define EPISCOPE_VECTOR_BYTES 16
+#define EPISCOPE_KERNEL_NAMESPACE baseline
+#endif
+
+namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+constexpr int kLanes = EPISCOPE_VECTOR_BYTES / sizeof(float);
+typedef float Vec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
+typedef int IntVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
+typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligned(4), may_alias));
+
+[[maybe_unused]] inline Vec load(const float* from) {
+  return *reinterpret_cast<const LooseVec*>(from);
+}
+[[maybe_unused]] inline void store(float* to, Vec value) {
+  *reinterpret_cast<LooseVec*>(to) = value;
+}
+[[maybe_unused]] inline Vec splat(float value) {
+  return value - Vec{};
+}
+[[maybe_unused]] inline Vec choose(IntVec mask, Vec yes, Vec no) {
+  return mask ? yes : no;
+}
+[[maybe_unused]] inline Vec least(Vec a, Vec b) {
+  return a < b ? a : b;
+}
+[[maybe_unused]] inline Vec greatest(Vec a, Vec b) {
+  return a > b ? a : b;
+}
+[[maybe_unused]] inline Vec absolute(Vec value) {
+  return choose(value < 0.0F, -value, value);
+}
+[[maybe_unused]] inline Vec square_root(Vec value) {
+  Vec root;
+  for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
+  return root;
+}
+
+}  // namespace
+}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE
