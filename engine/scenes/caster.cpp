@@ -7,6 +7,7 @@
 #include "engine/scenes/trace_kernel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -63,6 +64,7 @@ class ViewsCast {
  public:
   ViewsCast(const Stage& stage, const Model& model, const RenderOptions& options)
       : stage_(stage), model_(model), options_(options), trace_row_(trace_row_for(best_isa())) {
+    assert(model.primitives.size() <= kMaxCandidates);
     const ViewIndex center = options.grid.center();
     for (int v = 0; v < options.grid.v; ++v) {
       for (int u = 0; u < options.grid.u; ++u) {

@@ -62,11 +62,11 @@ void add_room(StillLife& scene) {
 
 void add_vase(StillLife& scene) {
   const Place foot{-1.75, 0, 3.6};
-  Texture ceramic = scene.noise_at(foot, 31, {0.86F, 0.87F, 0.88F}, 0.22F);
+  Texture ceramic = scene.noise_at(foot, 31, {0.70F, 0.71F, 0.72F}, 0.22F);
   set_color(ceramic.color[1], {0.16F, 0.30F, 0.58F});
   scene.add_pattern(ceramic, Pattern::Stripes, foot, 0.42, {Vector3{0, 1, 0}, Vector3{}});
   ceramic.pattern_warp = 0.14F;
-  ceramic.gloss = 0.35F;
+  ceramic.gloss = 0.25F;
   const int texture = scene.model().add(ceramic);
   scene.turned(foot, 1.5, {0.42, 0.78, 0.38}, texture, kVase);
   Place neck = foot;
@@ -80,7 +80,7 @@ void add_vase(StillLife& scene) {
     std::array<float, 3> color;
   };
   const Flower flowers[] = {{-0.75, 1.50, 0.1, {0.86F, 0.30F, 0.36F}},
-                            {-0.20, 1.85, 0.3, {0.94F, 0.72F, 0.30F}},
+                            {-0.20, 1.85, 0.3, {0.80F, 0.62F, 0.26F}},
                             {0.38, 1.62, -0.2, {0.80F, 0.36F, 0.62F}},
                             {0.85, 1.15, 0.2, {0.92F, 0.56F, 0.30F}}};
   unsigned seed = 33;
@@ -94,10 +94,10 @@ void add_vase(StillLife& scene) {
 void add_balls(StillLife& scene) {
   const Place marble{-0.75, 0.78, 1.55};
   Texture veins = scene.noise_at(marble, 41, {0.80F, 0.34F, 0.20F}, 0.25F);
-  set_color(veins.color[1], {0.95F, 0.74F, 0.46F});
+  set_color(veins.color[1], {0.80F, 0.62F, 0.38F});
   scene.add_pattern(veins, Pattern::Stripes, marble, 0.55, {Vector3{0.6, 0.8, 0.2}, Vector3{}});
   veins.pattern_warp = 0.9F;
-  veins.gloss = 0.4F;
+  veins.gloss = 0.25F;
   scene.sphere(marble, 0.78, veins, kMarble);
 
   const Place green{1.6, 1.30 + 0.42, 3.0};
@@ -106,14 +106,14 @@ void add_balls(StillLife& scene) {
   scene.sphere(green, 0.42, moss, kGreenBall);
 
   const Place yellow{-2.05, 0.36, 0.95};
-  Texture lemon = scene.noise_at(yellow, 43, {0.90F, 0.76F, 0.26F}, 0.35F);
-  lemon.gloss = 0.4F;
+  Texture lemon = scene.noise_at(yellow, 43, {0.76F, 0.64F, 0.22F}, 0.35F);
+  lemon.gloss = 0.25F;
   scene.sphere(yellow, 0.36, lemon, kYellowBall);
 }
 
 void add_solids(StillLife& scene) {
   const Place box{1.6, 0, 3.0, {0.8, 0.6}};
-  Texture checks = scene.noise_at(box, 51, {0.78F, 0.74F, 0.66F}, 0.25F);
+  Texture checks = scene.noise_at(box, 51, {0.70F, 0.66F, 0.60F}, 0.25F);
   set_color(checks.color[1], {0.36F, 0.26F, 0.40F});
   scene.add_pattern(checks, Pattern::Checker, box, 0.65, {Vector3{1, 0, 1}, Vector3{0, 1, 0}});
   scene.box(box, {0.75, 0.65, 0.75}, checks, kBox);
@@ -121,7 +121,7 @@ void add_solids(StillLife& scene) {
 
   const Place cone{0.25, 0, 3.9};
   Texture swirl = scene.noise_at(cone, 52, {0.82F, 0.26F, 0.24F}, 0.22F);
-  set_color(swirl.color[1], {0.92F, 0.88F, 0.80F});
+  set_color(swirl.color[1], {0.74F, 0.71F, 0.65F});
   scene.add_pattern(swirl, Pattern::Stripes, cone, 0.55, {Vector3{0.3, 1, 0.1}, Vector3{}});
   const int texture = scene.model().add(swirl);
   // r = 0.75·(1 − y/h): the squared radius of a cone.
@@ -131,13 +131,13 @@ void add_solids(StillLife& scene) {
 
   const Place can{1.05, 0, 0.95};
   Texture tin = scene.noise_at(can, 53, {0.26F, 0.50F, 0.56F}, 0.30F);
-  set_color(tin.color[1], {0.88F, 0.84F, 0.70F});
+  set_color(tin.color[1], {0.74F, 0.70F, 0.58F});
   scene.add_pattern(tin, Pattern::Stripes, can, 0.6, {Vector3{0, 1, 0}, Vector3{}});
   tin.gloss = 0.25F;
   scene.turned(can, 0.95, {0.45, 0.45, 0.45}, scene.model().add(tin), kCan);
   Place lid = can;
   lid.y = 0.95;
-  const Texture tin_lid = scene.noise_at(lid, 54, {0.80F, 0.80F, 0.76F}, 0.30F);
+  const Texture tin_lid = scene.noise_at(lid, 54, {0.66F, 0.66F, 0.63F}, 0.30F);
   scene.disc(lid, 0.45, scene.model().add(tin_lid), kCan);
   scene.occluder({can.x, 0.35, can.z}, 0.45, kCan);
   scene.occluder({can.x, 0.7, can.z}, 0.42, kCan);

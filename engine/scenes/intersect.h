@@ -18,6 +18,36 @@ struct Rays {
   Pack<R> dy;
 };
 
+/// A primitive as seen from one view: its frame in the precision of the rays.
+template <class R>
+struct Frame {
+  const Primitive* primitive;
+  R axes[3][3];
+  R center[3];  ///< Of the primitive, turned into its own frame.
+  R offset[3];  ///< Of the view from the centre, likewise.
+  R start_depth;
+};
+
+template <class R>
+inline Frame<R> frame_of(const Primitive& primitive, const ViewCamera& camera) {
+  Frame<R> frame;
+  frame.primitive = &primitive;
+  frame.start_depth = static_cast<R>(primitive.center[2]);
+  for (int i = 0; i < 3; ++i) {
+    double center = 0;
+    double offset = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double axis = primitive.axes[i][k];
+      frame.axes[i][k] = static_cast<R>(axis);
+      center += axis * primitive.center[k];
+      offset += axis * (camera.origin[k] - primitive.center[k]);
+    }
+    frame.center[i] = static_cast<R>(center);
+    frame.offset[i] = static_cast<R>(offset);
+  }
+  return frame;
+}
+
 /// Rays in the frame of a primitive; they begin at the depth of its centre, so that numbers stay of
 /// the size of the object and precision is not lost far from the camera.
 template <class R>
@@ -28,18 +58,13 @@ struct LocalRays {
 };
 
 template <class R>
-inline LocalRays<R> to_local(const Primitive& primitive, const ViewCamera& camera,
-                             const Rays<R>& rays) {
+inline LocalRays<R> to_local(const Frame<R>& frame, const Rays<R>& rays) {
   LocalRays<R> local;
-  local.start_depth = static_cast<R>(primitive.center[2]);
+  local.start_depth = frame.start_depth;
   for (int i = 0; i < 3; ++i) {
-    const double* axis = primitive.axes[i];
-    double offset = 0;
-    for (int k = 0; k < 3; ++k) offset += axis[k] * (camera.origin[k] - primitive.center[k]);
-    local.direction[i] = rays.dx * static_cast<R>(axis[0]) + rays.dy * static_cast<R>(axis[1]) +
-                         static_cast<R>(axis[2]);
-    local.start[i] =
-        local.direction[i] * static_cast<R>(primitive.center[2]) + static_cast<R>(offset);
+    const R* axis = frame.axes[i];
+    local.direction[i] = rays.dx * axis[0] + rays.dy * axis[1] + axis[2];
+    local.start[i] = local.direction[i] * frame.start_depth + frame.offset[i];
   }
   return local;
 }

@@ -90,6 +90,9 @@ struct Candidate {
   int end = 0;
 };
 
+/// Most primitives of a scene.
+inline constexpr int kMaxCandidates = 64;
+
 /// What is found in one row of one view. Arrays are as long as the row; `width` is a multiple of 16
 /// or padded to it.
 struct RowResult {
@@ -105,7 +108,7 @@ struct RowJob {
   ModelView model;
   ViewCamera camera;
   const Candidate* candidates = nullptr;
-  int candidate_count = 0;
+  int candidate_count = 0;  ///< Up to kMaxCandidates.
   int y = 0;
   int width = 0;  ///< Rounded up to a multiple of 16.
 };

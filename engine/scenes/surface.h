@@ -45,17 +45,15 @@ inline void box_normal(const Primitive& primitive, const Floats* p, Floats* n) {
   for (int i = 0; i < 3; ++i) n[i] = select(share[i] >= most, p[i], Floats(0.0F));
 }
 
-inline SurfacePoints surface_points(const Primitive& primitive, const LocalRays<float>& rays,
+inline SurfacePoints surface_points(const Frame<float>& frame, const LocalRays<float>& rays,
                                     const Floats& depth) {
+  const Primitive& primitive = *frame.primitive;
   SurfacePoints points;
   points.depth = depth;
   const Floats t = depth - rays.start_depth;
   for (int i = 0; i < 3; ++i) {
-    const double* axis = primitive.axes[i];
-    const double center = axis[0] * primitive.center[0] + axis[1] * primitive.center[1] +
-                          axis[2] * primitive.center[2];
     points.position[i] = along(rays, i, t);
-    points.from_center_view[i] = points.position[i] + static_cast<float>(center);
+    points.from_center_view[i] = points.position[i] + frame.center[i];
     points.normal[i] = Floats(i == 2 ? 1.0F : 0.0F);
   }
   if (primitive.shape == Shape::Revolution) {
