@@ -120,17 +120,6 @@ ExpectedOrder expected_order(const Hdf5Input& file) {
   return {{}, "the file has no attributes of the archive"};
 }
 
-std::vector<OrderEvidence> evidence(const ArchiveTruth& truth, GridShape grid) {
-  std::vector<OrderEvidence> found;
-  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
-    if (field->empty()) continue;
-    if (field != &truth.field && truth.field.contains(grid.center())) continue;
-    const ViewIndex at = field->contains(grid.center()) ? grid.center() : field->disparity.first();
-    found.push_back({at, field->view(at)});
-  }
-  return found;
-}
-
 std::optional<Interval> stated_range(const Hdf5Input& file) {
   const auto min = file.number("/", "disp_min");
   const auto max = file.number("/", "disp_max");
@@ -171,27 +160,20 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
       read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
   ArchiveLabels labels = read_labels_beside(file, layout.shape, report, progress.part(0.85, 0.95));
-  progress.step("checking the order of views");
-  const OrderFinding order =
-      find_order(samples, evidence(depth, grid), expected_order(file), options.flip, progress);
-  report_order(order, report);
-
-  std::visit([&](auto& stack) { reverse_views(stack, grid, order.flip); }, samples);
-  for (DisparityField* field : {&depth.field, &depth.foreground, &depth.background}) {
-    reverse_views(*field, grid, order.flip);
-  }
-  reverse_views(labels.labels, grid, order.flip);
+  GroundTruth truth{std::move(depth.field),
+                    std::move(depth.foreground),
+                    std::move(depth.background),
+                    std::move(labels.labels),
+                    {}};
+  put_in_order(samples, truth, expected_order(file), options.flip, report, progress);
   scene.scribbles = std::move(labels.scribbles);
-  scene.scribbles.view = flipped(scene.scribbles.view, grid, order.flip);
-  if (scene.scribbles.labels.empty()) scene.scribbles.view = {};
-
+  if (!scene.scribbles.labels.empty()) {
+    scene.scribbles.view =
+        flipped(scene.scribbles.view, grid, {report.reversed_u, report.reversed_v});
+  }
   info.camera = depth.camera;
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<GroundTruth>(GroundTruth{std::move(depth.field),
-                                                          std::move(depth.foreground),
-                                                          std::move(depth.background),
-                                                          std::move(labels.labels),
-                                                          {}});
+  scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   scene.companions = find_companions(path.parent_path());
   return scene;
 }

@@ -260,17 +260,8 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   read_object_ids(folder, views.grid, size, truth);
   read_regions(folder, size, truth);
 
-  progress.step("checking the order of views");
-  std::vector<OrderEvidence> evidence;
-  if (truth.has_disparity()) {
-    evidence.push_back({views.grid.center(), truth.field.view(views.grid.center())});
-  }
-  const OrderFinding order = find_order(
-      samples, evidence, {{}, "folders of the benchmark are in order"}, options.flip, progress);
-  report_order(order, report);
-  std::visit([&](auto& stack) { reverse_views(stack, views.grid, order.flip); }, samples);
-  reverse_views(truth.field, views.grid, order.flip);
-  reverse_views(truth.labels, views.grid, order.flip);
+  put_in_order(samples, truth, {{}, "folders of the benchmark are in order"}, options.flip, report,
+               progress);
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   return scene;

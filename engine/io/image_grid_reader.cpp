@@ -33,17 +33,8 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
       progress.part(0, 0.9));
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
-  progress.step("checking the order of views");
-  std::vector<OrderEvidence> evidence;
-  if (truth.has_disparity()) {
-    const ViewIndex at = truth.field.disparity.first();
-    evidence.push_back({at, truth.field.view(at)});
-  }
-  const OrderFinding order = find_order(
-      samples, evidence, {{}, "rows and columns are as the names say"}, options.flip, progress);
-  report_order(order, report);
-  std::visit([&](auto& stack) { reverse_views(stack, shape, order.flip); }, samples);
-  reverse_views(truth.field, shape, order.flip);
+  put_in_order(samples, truth, {{}, "rows and columns are as the names say"}, options.flip, report,
+               progress);
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   return scene;

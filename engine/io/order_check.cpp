@@ -75,6 +75,17 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
   return checked;
 }
 
+/// The truth of one view: the disparity, or the two layers of a transparent scene.
+std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex center) {
+  std::vector<OrderEvidence> found;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
+    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
+    found.push_back({at, field->view(at)});
+  }
+  return found;
+}
+
 ViewFlip chosen_flip(OpenOptions::Flip choice) {
   using Flip = OpenOptions::Flip;
   return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
@@ -114,12 +125,23 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   return finding;
 }
 
-void report_order(const OrderFinding& finding, ConventionReport& report) {
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress) {
+  progress.step("checking the order of views");
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const OrderFinding finding =
+      find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
   report.order = finding.order;
   report.order_check = finding.check;
   report.reversed_u = finding.flip.u;
   report.reversed_v = finding.flip.v;
   report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+
+  std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, samples);
+  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    reverse_views(*field, grid, finding.flip);
+  }
+  reverse_views(truth.labels, grid, finding.flip);
 }
 
 }  // namespace episcope::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/light_field.h"
+#include "engine/core/scene.h"
 #include "engine/io/open.h"
 #include "engine/io/view_order.h"
 
@@ -38,7 +39,9 @@ struct OrderFinding {
                                       const ExpectedOrder& expected, OpenOptions::Flip choice,
                                       const Progress& progress);
 
-/// Writes a finding into the report of a scene.
-void report_order(const OrderFinding& finding, ConventionReport& report);
+/// Brings views and truth as stored into the house order, as `find_order` finds it by the disparity
+/// of the truth, and tells `report`. Throws Cancelled.
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress);
 
 }  // namespace episcope::io
