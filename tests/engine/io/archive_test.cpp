@@ -181,7 +181,8 @@ class ArchiveTest : public QObject {
     };
     write_raw_archive(path("lf.h5"), scene, form);
 
-    const DisparityView map = open(path("lf.h5")).truth->field.view({2, 2});
+    const Scene read = open(path("lf.h5"));
+    const DisparityView map = read.truth->field.view({2, 2});
 
     QVERIFY(!map.is_valid(0, 7));
     QVERIFY(map.is_valid(0, 8));
