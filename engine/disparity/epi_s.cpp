@@ -52,7 +52,8 @@ std::vector<double> denoise(const LightField& lf, const EpiSParameters& paramete
       const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       const TvL2Result result =
-          solver->solve({map, *weights, edges, parameters.lambda}, {}, progress, map);
+          solver->solve({map, *weights, edges, parameters.lambda},
+                        {parameters.max_iterations, parameters.gap}, progress, map);
       gaps[i] = result.energy > 0 ? result.gap / result.energy : 0;
     };
   });

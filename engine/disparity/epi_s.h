@@ -10,6 +10,8 @@ struct EpiSParameters : EpiLParameters {
   double lambda = 0.1;
   double weight_power = 2;
   double edge_strength = 30;
+  int max_iterations = 30;
+  double gap = 1e-4;
 };
 
 [[nodiscard]] Schema<EpiSParameters> epi_s_schema();

@@ -36,14 +36,6 @@ constexpr float kPenaltyScale = 1.0F;
 constexpr float kPenaltyKnee = 0.07F;
 constexpr float kPenaltySpread = 10.0F;
 
-const TvL2Kernel& kernel_for([[maybe_unused]] Isa isa) {
-#ifndef EPISCOPE_BASELINE_ONLY
-  if (isa == Isa::Avx512) return avx512::kTvL2Kernel;
-  if (isa == Isa::Avx2) return avx2::kTvL2Kernel;
-#endif
-  return baseline::kTvL2Kernel;
-}
-
 // Duals decay to denormals in flat areas, which would slow every operation on them down.
 class FlushDenormals {
  public:
@@ -93,7 +85,8 @@ struct TvL2Solver::State {
   void copy_to(ImageView<float> u) const;
 };
 
-TvL2Solver::State::State(int height, int width, Isa isa) : kernel(kernel_for(isa)) {
+TvL2Solver::State::State(int height, int width, Isa isa)
+    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2Kernel)) {
   grids.emplace_back(height, width);
   // Down to a single pixel, whose equation is the mean of all: no smoother would ever find that.
   while (std::max(height, width) > 1 || grids.size() < 2) {

@@ -2,41 +2,14 @@
 // Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
 #include "engine/solvers/tv_l2_kernel.h"
 
+#include "engine/core/simd.h"
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #endif
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
-
-constexpr int kLanes = EPISCOPE_VECTOR_BYTES / sizeof(float);
-typedef float Vec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
-typedef int IntVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
-typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligned(4), may_alias));
-
-inline Vec load(const float* from) {
-  return *reinterpret_cast<const LooseVec*>(from);
-}
-inline void store(float* to, Vec value) {
-  *reinterpret_cast<LooseVec*>(to) = value;
-}
-inline Vec splat(float value) {
-  return value - Vec{};
-}
-inline Vec select(IntVec mask, Vec yes, Vec no) {
-  return mask ? yes : no;
-}
-inline Vec least(Vec a, Vec b) {
-  return a < b ? a : b;
-}
-inline Vec greatest(Vec a, Vec b) {
-  return a > b ? a : b;
-}
-inline Vec square_root(Vec value) {
-  Vec root;
-  for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
-  return root;
-}
 
 // 1/√value to about 23 bits, value > 0.
 inline Vec reciprocal_root(Vec value) {
@@ -87,7 +60,7 @@ void relax_row(const TvL2Level& level, int y, int colour) {
     const Vec sum = load(b + x) + load(rx + x) * load(u + x + 1) + load(rx + x - 1) * left +
                     load(ry + x) * load(u + x + pitch) + load(ry + x - pitch) * load(u + x - pitch);
     left = load(u + x + kLanes - 1);  // of the other colour where it counts: not yet overtaken
-    store(u + x, select(mask, sum * load(inverse + x), here));
+    store(u + x, choose(mask, sum * load(inverse + x), here));
   }
 }
 
@@ -99,7 +72,7 @@ void relax_row_from_zero(const TvL2Level& level, int y, int colour) {
   const int end = padded(level);
   for (int x = 0; x < end; x += kLanes) {
     store(level.u + at + x,
-          select(mask, load(level.b + at + x) * load(level.inverse + at + x), splat(0)));
+          choose(mask, load(level.b + at + x) * load(level.inverse + at + x), splat(0)));
   }
 }
 
@@ -245,8 +218,8 @@ void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
       const Vec rx = load(level.rx + i), ry = load(level.ry + i);
       const Vec here = load(level.u + i);
       const Vec zero = splat(0);
-      const Vec gx = select(rx > 0.0F, load(level.u + i + 1) - here, zero);
-      const Vec gy = select(ry > 0.0F, load(level.u + i + level.pitch) - here, zero);
+      const Vec gx = choose(rx > 0.0F, load(level.u + i + 1) - here, zero);
+      const Vec gy = choose(ry > 0.0F, load(level.u + i + level.pitch) - here, zero);
       const Vec ratio = penalty.knee * reciprocal_root(gx * gx + gy * gy + 1e-16F);
       const Vec g = load(level.g + i);
       const Vec next = penalty.scale * g * least(greatest(square_root(ratio), low), high);
@@ -257,12 +230,12 @@ void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
       } else {
         const Vec keep = shrinkage(zx, zy, g);
         const Vec any = greatest(rx, ry);
-        const Vec stretch = keep + (1.0F - keep) * next / select(any > 0.0F, any, splat(1));
+        const Vec stretch = keep + (1.0F - keep) * next / choose(any > 0.0F, any, splat(1));
         store(level.zx + i, zx * stretch);
         store(level.zy + i, zy * stretch);
       }
-      store(level.rx + i, select(rx > 0.0F, next, zero));
-      store(level.ry + i, select(ry > 0.0F, next, zero));
+      store(level.rx + i, choose(rx > 0.0F, next, zero));
+      store(level.ry + i, choose(ry > 0.0F, next, zero));
     }
   }
 }
@@ -302,9 +275,9 @@ TvL2Sums measure(const TvL2Level& level, float* rows) {
       store(px + x, zx * keep);
       store(py + x, zy * keep);
       const Vec here = load(level.u + i);
-      const Vec gx = select(load(level.rx + i) > 0.0F, load(level.u + i + 1) - here, splat(0));
+      const Vec gx = choose(load(level.rx + i) > 0.0F, load(level.u + i + 1) - here, splat(0));
       const Vec gy =
-          select(load(level.ry + i) > 0.0F, load(level.u + i + level.pitch) - here, splat(0));
+          choose(load(level.ry + i) > 0.0F, load(level.u + i + level.pitch) - here, splat(0));
       const Vec off = here - load(level.f + i);
       energy += g * square_root(gx * gx + gy * gy) + 0.5F * load(level.c + i) * off * off;
     }
@@ -312,7 +285,7 @@ TvL2Sums measure(const TvL2Level& level, float* rows) {
       const long i = y * level.pitch + x;
       const Vec c = load(level.c + i);
       const Vec divergence = load(px + x) - load(px + x - 1) + load(py + x) - load(above + x);
-      dual -= divergence * (load(level.f + i) + 0.5F * divergence / select(c > 0.0F, c, splat(1)));
+      dual -= divergence * (load(level.f + i) + 0.5F * divergence / choose(c > 0.0F, c, splat(1)));
     }
     sums.energy += total(energy);
     sums.dual += total(dual);
