@@ -2,6 +2,7 @@
 #include "app/gui/metric_controller.h"
 
 #include "app/gui/estimate_controller.h"
+#include "app/gui/metric_names.h"
 #include "app/gui/text_file.h"
 #include "widgets/metric_table.h"
 
@@ -23,33 +24,33 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-QString protocol_text(Protocol protocol) {
-  return protocol == Protocol::Vmv2013 ? MetricController::tr("2013")
-                                       : MetricController::tr("2016");
+// Every metric that any result has.
+std::vector<Place> places_of(const std::vector<Judged>& judged) {
+  std::vector<Place> places;
+  for (const Judged& each : judged) {
+    for (const auto& [protocol, metrics] : each.metrics) {
+      for (const auto& [key, value] : metrics) {
+        const Place place{protocol, key};
+        if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+      }
+    }
+  }
+  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return metric_rank(a.key) < metric_rank(b.key);
+  });
+  return places;
 }
 
-QString metric_label(const std::string& key) {
-  if (key == "mse_100") return MetricController::tr("MSE ×100");
-  if (key == "badpix_0010") return MetricController::tr("BadPix 0.01 %");
-  if (key == "badpix_0030") return MetricController::tr("BadPix 0.03 %");
-  if (key == "badpix_0070") return MetricController::tr("BadPix 0.07 %");
-  if (key == "q_25_100") return MetricController::tr("Q25 ×100");
-  if (key == "density") return MetricController::tr("density %");
-  return QString::fromStdString(key);
-}
-
-QString metric_help(const Place& place) {
-  const QString protocol =
-      place.protocol == Protocol::Vmv2013
-          ? MetricController::tr("Protocol vmv2013: all pixels with truth, centre view")
-          : MetricController::tr("Protocol benchmark2016: without a border of 15 px, centre view");
-  return QString::fromStdString(place.key) + '\n' + protocol;
-}
-
-MetricColumn column_of(const Place& place) {
-  const QString protocol = protocol_name(place.protocol);
-  return {protocol + '.' + QString::fromStdString(place.key),
-          protocol_text(place.protocol) + '\n' + metric_label(place.key), metric_help(place), 3};
+MetricRow row_of(const Judged& judged, const std::vector<Place>& places) {
+  MetricRow row{static_cast<quint64>(judged.id), {QString::fromStdString(judged.name)}};
+  for (const Place& place : places) {
+    const auto metrics = judged.metrics.find(place.protocol);
+    const auto value =
+        metrics == judged.metrics.end() ? std::nullopt : find_metric(metrics->second, place.key);
+    row.values.push_back(value ? QVariant(*value) : QVariant());
+  }
+  row.values.push_back(judged.seconds > 0 ? QVariant(judged.seconds) : QVariant());
+  return row;
 }
 
 }  // namespace
@@ -82,38 +83,27 @@ void MetricController::fillTable() {
     return;
   }
   panels_.metrics->setEmptyText(tr("Run a method: its errors against the truth appear here."));
-  std::vector<Place> places;
-  std::vector<std::pair<const EstimateEntry*, std::array<EvaluationPtr, kProtocols.size()>>> judged;
-  for (const EstimateEntry& entry : session_.estimates()) {
-    std::array<EvaluationPtr, kProtocols.size()> evaluations;
-    for (std::size_t i = 0; i < kProtocols.size(); ++i) {
-      evaluations[i] = session_.evaluation({entry.id, judged_view(session_), kProtocols[i]});
-      if (!evaluations[i]) continue;
-      for (const auto& [key, value] : evaluations[i]->metrics) {
-        const Place place{kProtocols[i], key};
-        if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
-      }
-    }
-    judged.emplace_back(&entry, evaluations);
-  }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const Place& a, const Place& b) { return a.protocol < b.protocol; });
-  std::vector<MetricColumn> columns = {{"method", tr("Result"), tr("Name of the result"), 0},
-                                       {"seconds", tr("Time\ns"), tr("Seconds taken"), 2}};
-  for (const Place& place : places) columns.push_back(column_of(place));
+  const std::vector<Judged> judged = judgeAll();
+  const std::vector<Place> places = places_of(judged);
+  std::vector<MetricColumn> columns = {{"method", tr("Result"), tr("Name of the result"), 0}};
+  for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
+  columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2});
   std::vector<MetricRow> rows;
-  for (const auto& [entry, evaluations] : judged) {
-    MetricRow row{static_cast<quint64>(entry->id), {QString::fromStdString(entry->name)}};
-    const double seconds = entry->estimate->seconds;
-    row.values.push_back(seconds > 0 ? QVariant(seconds) : QVariant());
-    for (const Place& place : places) {
-      const auto& evaluation = evaluations[place.protocol == kProtocols[0] ? 0 : 1];
-      const auto value = evaluation ? find_metric(evaluation->metrics, place.key) : std::nullopt;
-      row.values.push_back(value ? QVariant(*value) : QVariant());
-    }
-    rows.push_back(std::move(row));
-  }
+  for (const Judged& each : judged) rows.push_back(row_of(each, places));
   panels_.metrics->setTable(columns, rows);
+}
+
+std::vector<Judged> MetricController::judgeAll() {
+  std::vector<Judged> judged;
+  for (const EstimateEntry& entry : session_.estimates()) {
+    Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
+    for (const Protocol protocol : kProtocols) {
+      const auto evaluation = session_.evaluation({entry.id, judged_view(session_), protocol});
+      if (evaluation) each.metrics[protocol] = evaluation->metrics;
+    }
+    judged.push_back(std::move(each));
+  }
+  return judged;
 }
 
 void MetricController::save(const QString& suffix, const QString& text) {

@@ -7,7 +7,19 @@
 
 #include <QObject>
 
+#include <map>
+#include <string>
+#include <vector>
+
 namespace episcope {
+
+/// A result with the numbers that are known of it.
+struct Judged {
+  int id = 0;
+  std::string name;
+  double seconds = 0;
+  std::map<Protocol, Metrics> metrics;
+};
 
 /// Fills the table of metrics: every result under both protocols.
 class MetricController : public QObject {
@@ -19,6 +31,7 @@ class MetricController : public QObject {
  private:
   void update(Parts parts);
   void fillTable();
+  [[nodiscard]] std::vector<Judged> judgeAll();
   void save(const QString& suffix, const QString& text);
 
   Session& session_;

@@ -71,7 +71,10 @@ SceneInfo describe(const Scene& scene) {
   info.rows.push_back({text("Samples"), sample_text(light_field), {}});
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back({text("Disparity"),
-                         text("%1 … %2 px").arg(range.min, 0, 'f', 2).arg(range.max, 0, 'f', 2),
+                         text("%1 … %2 px")
+                             .arg(range.min, 0, 'f', 2)
+                             .arg(range.max, 0, 'f', 2)
+                             .replace('-', QChar(0x2212)),
                          {}});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});

@@ -86,7 +86,7 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
   }
   if (!overlay_.picture().isNull()) {
     const auto value = overlay_.valueAt(pixel);
-    if (value) return {QString::number(*value, 'f', 3)};
+    if (value) return {QString::number(*value, 'f', 3).replace('-', QChar(0x2212))};
   }
   return samples_at(*light_field, session_.view(), pixel).texts;
 }

@@ -52,6 +52,7 @@ class MainWindowTest : public QObject {
  private slots:
   void openedFile_isShown();
   void emptyWindow_saysWhatToDo();
+  void builtinScene_isEstimatedAtOnce();
   void run_listsItsResultWithItsError();
   void errorOverlay_isOneClickAway();
   void arrows_changeTheView();
@@ -89,6 +90,16 @@ void MainWindowTest::emptyWindow_saysWhatToDo() {
   QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
   QVERIFY(!f.window.actions().find("estimate.run")->isEnabled());
   QVERIFY(!f.window.actions().find("overlay.signed_error")->isEnabled());
+}
+
+void MainWindowTest::builtinScene_isEstimatedAtOnce() {
+  WindowFixture f;
+
+  f.window.open("demo:fronto");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, 120'000);
+  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QVERIFY(f.window.actions().find("overlay.signed_error")->isEnabled());
 }
 
 void MainWindowTest::run_listsItsResultWithItsError() {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/evaluation/metrics.h"
+#include "widgets/metric_table.h"
+
+#include <string>
+
+namespace episcope {
+
+/// Header, tool tip and decimals of a metric (keys of engine/evaluation) in tables.
+[[nodiscard]] MetricColumn metric_column(Protocol protocol, const std::string& key);
+
+/// Place of a metric in tables: what is asked for first comes first, whatever the protocol.
+[[nodiscard]] int metric_rank(const std::string& key);
+
+}  // namespace episcope
