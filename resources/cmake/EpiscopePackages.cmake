@@ -2,10 +2,8 @@
 find_package(Threads REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs)
-find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
-find_package(spdlog REQUIRED)
 
 if(EPISCOPE_GUI)
   find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)
