@@ -1,17 +1,33 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/gui/window_fixture.h"
 
+#include "app/gui/action_table.h"
 #include "app/gui/open_controller.h"
 #include "app/session/session.h"
 #include "engine/io/write_scene.h"
 #include "widgets/view_canvas.h"
 
 #include <QAbstractButton>
+#include <QAction>
 #include <QDir>
 #include <QSettings>
 #include <QTest>
 
+#include <map>
+#include <utility>
+
 namespace episcope {
+namespace {
+
+// Each scene is rendered once for all tests of the process.
+const Scene& rendered(const std::string& id, const scenes::RenderOptions& options) {
+  static std::map<std::pair<std::string, int>, Scene> scenes;
+  const auto [place, is_new] = scenes.try_emplace({id, options.width});
+  if (is_new) place->second = scenes::render_builtin(id, options, Progress());
+  return place->second;
+}
+
+}  // namespace
 
 WindowFixture::WindowFixture() {
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder_.filePath("settings"));
@@ -32,14 +48,14 @@ QString WindowFixture::writeScene(const std::string& id,
   const QString scene_folder = folder_.filePath(QString::fromStdString(id));
   QDir().mkpath(scene_folder);
   const QString file = scene_folder + "/lf.h5";
-  io::write_archive(file.toStdString(), scenes::render_builtin(id, options, Progress()),
-                    Progress());
+  io::write_archive(file.toStdString(), rendered(id, options), Progress());
   return file;
 }
 
 void WindowFixture::openSmall(const std::string& id) {
   window.open(writeScene(id, smallOptions()));
-  QTRY_VERIFY(window.session().scene() != nullptr);
+  // The session tells the window of its scene one turn later.
+  QTRY_VERIFY_WITH_TIMEOUT(window.actions().find("estimate.run")->isEnabled(), 60'000);
   QTRY_COMPARE(window.panels().canvas->picture().size(), QSize(96, 96));
 }
 
@@ -47,6 +63,7 @@ void WindowFixture::runAndWait() {
   const std::size_t before = window.session().estimates().size();
   auto* run = window.findChild<QAbstractButton*>("method.run");
   QVERIFY(run);
+  QTRY_VERIFY(run->isEnabled());
   QTest::mouseClick(run, Qt::LeftButton);
   QTRY_COMPARE_WITH_TIMEOUT(window.session().estimates().size(), before + 1, 60'000);
 }
