@@ -78,7 +78,7 @@ QWidget* make_left(Panels& panels, QWidget* parent) {
   panels.info->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
   left->addWidget(panels.view_grid);
   left->addWidget(panels.info);
-  left->setStretchFactor(0, 1);
+  left->setStretchFactor(0, 0);
   left->setStretchFactor(1, 1);
   left->setChildrenCollapsible(false);
   return left;
