@@ -98,6 +98,21 @@ Schema<EpiLParameters> epi_l_schema() {
 
 Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
                         const Progress& progress) {
+  Estimate estimate = estimate_orientations(lf, parameters, views, progress);
+  clamp_to_range(estimate);
+  return estimate;
+}
+
+void clamp_to_range(Estimate& estimate) {
+  const auto low = static_cast<float>(estimate.range.min);
+  const auto high = static_cast<float>(estimate.range.max);
+  ViewStack<float>& disparity = estimate.field.disparity;
+  float* values = disparity.data();
+  for (std::size_t i = 0; i < disparity.size(); ++i) values[i] = std::clamp(values[i], low, high);
+}
+
+Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,
+                               ViewSelection views, const Progress& progress) {
   Estimate estimate;
   estimate.range = search_range(lf, parameters.range, progress.part(0, 0.05));
   const bool all = views == ViewSelection::All;

@@ -35,6 +35,15 @@ void add_epi_l_parameters(Schema<P>& schema);
                                       const EpiLParameters& parameters, ViewSelection views,
                                       const Progress& progress);
 
+/// The same before it is clamped to the range: what a method that denoises it should begin with,
+/// since clamped noise no longer averages out. Values overshoot the range by up to 0.6 px.
+[[nodiscard]] Estimate estimate_orientations(const LightField& light_field,
+                                             const EpiLParameters& parameters, ViewSelection views,
+                                             const Progress& progress);
+
+/// Clamps every disparity to `estimate.range`.
+void clamp_to_range(Estimate& estimate);
+
 [[nodiscard]] Estimator epi_l_estimator();
 
 template <class P>
@@ -56,7 +65,7 @@ void add_epi_l_parameters(Schema<P>& schema) {
              "Distance of the shears that bring every disparity near to upright before its "
              "orientation is measured; rounded to half pixels",
              "px"},
-            {0.5, 2})
+            {0.5, 1.5})
       .real("contrast", &P::contrast,
             {"Contrast limit",
              "Gradients above it count less, so that silhouettes do not drown the texture beside "

@@ -77,16 +77,24 @@ Schema<EpiSParameters> epi_s_schema() {
           {"Edge strength β",
            "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
            "in the paper"},
-          {0, 100});
+          {0, 100})
+      .integer("max_iterations", &P::max_iterations,
+               {"Iterations", "At most so many of the denoising, at full resolution"},
+               {1, 2000, true})
+      .real("gap", &P::gap,
+            {"Stop at gap",
+             "The denoising stops early once the duality gap is this share of the energy"},
+            {1e-6, 0.1, true});
   add_epi_l_parameters(schema);
   return schema;
 }
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress) {
-  Estimate estimate = estimate_epi_l(lf, parameters, views, progress.part(0, 0.4));
+  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.4));
   progress.step("denoising");
   const std::vector<double> gaps = denoise(lf, parameters, estimate, progress.part(0.4, 1));
+  clamp_to_range(estimate);
   estimate.notes.push_back(gap_note(gaps));
   return estimate;
 }

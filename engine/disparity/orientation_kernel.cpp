@@ -13,46 +13,50 @@ inline Vec integrate_at(const float* in, int stride, const float* taps) {
   return sum;
 }
 
-// Slope and coherence of a tensor (Bigün and Granlund 1987) in the angle-free form, for upright
-// structure: d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² + 4Jxs²)).
-struct Orientation {
-  Vec disparity, coherence;
-};
-
-inline Orientation orientation(Vec xx, Vec xs, Vec ss, Vec noise_energy) {
-  const Vec difference = xx - ss;
-  const Vec trace = xx + ss;
-  const Vec root = square_root(difference * difference + 4.0F * xs * xs);
-  const Vec tiny = splat(1e-20F);
-  const Vec steep = difference + root;
-  // Jxs = 0 and Jxx ≤ Jss: a line along x has no finite disparity.
-  const IntVec has_slope = steep > 1e-6F * trace + tiny;
-  const Vec slope = -2.0F * xs / choose(has_slope, steep, splat(1));
-  const Vec coherence = root / (trace + noise_energy + tiny);
-  return {choose(has_slope, slope, splat(1e6F)), choose(has_slope, coherence, splat(0))};
+// |d| < 1 lies below a bound b exactly if tan 2θ does: with d = −tan θ and tan 2θ = 2Jxs/(Jxx −
+// Jss), d ≤ b means −2Jxs ≤ 2b/(1 − b²)·(Jxx − Jss), Jxx > Jss. No root, no division.
+inline float double_angle(float bound) {
+  return 2 * bound / (1 - bound * bound);
 }
 
+// Bounds of the disparity that remains after a shear.
+struct Bounds {
+  float below, above;
+};
+
+Bounds bounds_of(const Shear& shear) {
+  const float upright = 0.5F * static_cast<float>(shear.half_steps);
+  const float low = shear.min - upright;
+  const float high = shear.max - upright;
+  return {double_angle(low > -shear.limit ? low : -shear.limit),
+          double_angle(high < shear.limit ? high : shear.limit)};
+}
+
+// Keeps the tensor of the most coherent shear; coherence is compared squared:
+// r² = ((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²)² (Bigün and Granlund 1987).
 template <int kCount>
 void select_row(const float* const* tensor, int stride, const float* taps, float noise_energy,
                 const Shear& shear, int length, float* __restrict const* best) {
   const Vec upright = splat(0.5F * static_cast<float>(shear.half_steps));
+  const Bounds bounds = bounds_of(shear);
   for (int n = 0; n < length; n += kLanes) {
     const Vec xx = integrate_at<kCount>(tensor[0] + n, stride, taps);
     const Vec xs = integrate_at<kCount>(tensor[1] + n, stride, taps);
     const Vec ss = integrate_at<kCount>(tensor[2] + n, stride, taps);
-    const Orientation local = orientation(xx, xs, ss, splat(noise_energy));
-    const Vec value = local.disparity + upright;
-    const IntVec inside = (local.disparity <= shear.limit) & (local.disparity >= -shear.limit) &
-                          (value >= shear.min) & (value <= shear.max);
+    const Vec difference = xx - ss;
+    const Vec twice = -2.0F * xs;
+    const Vec whole = xx + ss + (noise_energy + 1e-20F);
+    const Vec coherence = (difference * difference + twice * twice) / (whole * whole);
     const Vec so_far = load(best[3] + n);
-    const IntVec better = inside & (local.coherence > so_far);
+    const IntVec better = (difference > 0.0F) & (twice >= bounds.below * difference) &
+                          (twice <= bounds.above * difference) & (coherence > so_far);
     // Back to unsheared coordinates: ∂s = ∂s' − k ∂x.
     const Vec unsheared_xs = xs - upright * xx;
     const Vec unsheared_ss = ss - upright * (xs + unsheared_xs);
     store(best[0] + n, choose(better, xx, load(best[0] + n)));
     store(best[1] + n, choose(better, unsheared_xs, load(best[1] + n)));
     store(best[2] + n, choose(better, unsheared_ss, load(best[2] + n)));
-    store(best[3] + n, choose(better, local.coherence, so_far));
+    store(best[3] + n, choose(better, coherence, so_far));
   }
 }
 

@@ -18,6 +18,10 @@ namespace {
 constexpr int kSlack = 64;
 constexpr int kMaxRows = 32;
 
+// How far beyond the range noisy estimates are followed, in px: cut off at the range itself, noise
+// about a disparity near its end would no longer average out.
+constexpr double kOvershoot = 0.35;
+
 int views_along(const LightField& lf, StructureTensor::Direction direction) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
   const int views = horizontal ? lf.grid().u : lf.grid().v;
@@ -31,15 +35,16 @@ int views_along(const LightField& lf, StructureTensor::Direction direction) {
 }  // namespace
 
 TensorSearch cover_range(Interval range, int step_half_px) {
-  TensorSearch search;
-  search.range = range;
-  search.limit = 0.25 * step_half_px + 0.1;
   const double step = 0.5 * step_half_px;
+  TensorSearch search;
+  search.limit = 0.5 * step + 0.1;
   const int first = static_cast<int>(std::floor(range.min / step + 0.5));
   const int last = static_cast<int>(std::ceil(range.max / step - 0.5));
   for (int i = first; i <= std::max(first, last); ++i) {
     search.half_step_shears.push_back(i * step_half_px);
   }
+  search.accepted = {std::min(range.min, first * step) - kOvershoot,
+                     std::max(range.max, last * step) + kOvershoot};
   return search;
 }
 
@@ -220,7 +225,8 @@ void StructureTensor::State::run_shears(const TensorTask& task, int count) {
   tensors.differentiate(block, filters, with_half);
   for (const int half_steps : search.half_step_shears) {
     const Shear shear{half_steps, block.rows / 2, static_cast<float>(search.limit),
-                      static_cast<float>(search.range.min), static_cast<float>(search.range.max)};
+                      static_cast<float>(search.accepted.min),
+                      static_cast<float>(search.accepted.max)};
     tensors.accumulate(block, filters, shear);
     orientations.select(block, filters, shear);
   }
@@ -232,8 +238,8 @@ TensorAverage StructureTensor::State::make_average(int length) const {
   std::copy_n(across.values, average.count, average.weights);
   average.length = length;
   average.noise_energy = filters.noise_energy;
-  average.min = static_cast<float>(search.range.min);
-  average.max = static_cast<float>(search.range.max);
+  average.min = static_cast<float>(search.accepted.min);
+  average.max = static_cast<float>(search.accepted.max);
   average.disparity = result[0];
   average.coherence = result[1];
   return average;

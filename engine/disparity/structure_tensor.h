@@ -12,9 +12,9 @@ namespace episcope {
 
 /// Where orientation is looked for.
 struct TensorSearch {
-  Interval range;  ///< Disparities in px per view step.
-  /// Shears in half pixels per view step; every disparity of the range must lie within `limit` of
-  /// one.
+  /// Estimates accepted, px per view step: the range of interest and some overshoot for noise.
+  Interval accepted;
+  /// Shears in half pixels per view step; every disparity of interest lies within `limit` of one.
   std::vector<int> half_step_shears;
   double limit = 0.6;
 };
@@ -52,8 +52,8 @@ class StructureTensor {
  public:
   enum class Direction { Horizontal, Vertical };
 
-  /// Takes a run of results of one view: pixels (begin.y, begin.x …). Coherence 0 = no orientation
-  /// found in the range; the disparity is then 0 or clamped to it.
+  /// Takes a run of results of one view: pixels (begin.y, begin.x …). Coherence 0 = no accepted
+  /// orientation; the disparity is then 0 or the nearest accepted.
   using Sink = std::function<void(int view, PixelIndex begin, int count, const float* disparity,
                                   const float* coherence)>;
 

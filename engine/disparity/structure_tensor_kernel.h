@@ -40,7 +40,7 @@ struct TensorBlock {
   float* along[2] = {};   ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
   float* across[2] = {};  ///< [c][row][lane] smoothed along x; [1] likewise.
   float* tensor[3] = {};  ///< [row][lane] Jxx, Jxs, Jss of one shear, integrated along the views.
-  float* best[4] = {};    ///< [row][length] of the best shear: Jxx, Jxs, Jss unsheared, coherence.
+  float* best[4] = {};  ///< [row][length] of the best shear: Jxx, Jxs, Jss unsheared, coherence².
   int best_pitch = 0;
 };
 
@@ -60,7 +60,7 @@ struct TensorFilters {
 struct Shear {
   int half_steps = 0;
   int center_row = 0;
-  float limit = 0;         ///< Largest |d − shear| accepted.
+  float limit = 0;         ///< Largest |d − shear| accepted, below 1.
   float min = 0, max = 0;  ///< Disparities beyond are not accepted.
 };
 
