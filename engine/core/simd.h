@@ -5,6 +5,10 @@
 /// (engine/core/isa.h), by the compiler's vector extensions. For kernel sources only: everything
 /// here has internal linkage, in the namespace of that instruction set.
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 #ifndef EPISCOPE_VECTOR_BYTES
 #define EPISCOPE_VECTOR_BYTES 16
 #define EPISCOPE_KERNEL_NAMESPACE baseline
@@ -43,6 +47,19 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   Vec root;
   for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
   return root;
+}
+
+/// 1/value to 11 bits at least: for weights, not for results.
+[[maybe_unused]] inline Vec rough_reciprocal(Vec value) {
+#if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  return reinterpret_cast<Vec>(_mm512_maskz_rcp14_ps(0xFFFF, reinterpret_cast<__m512>(value)));
+#elif defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  return reinterpret_cast<Vec>(_mm256_rcp_ps(reinterpret_cast<__m256>(value)));
+#elif defined(__SSE2__) && EPISCOPE_VECTOR_BYTES == 16
+  return reinterpret_cast<Vec>(_mm_rcp_ps(reinterpret_cast<__m128>(value)));
+#else
+  return 1.0F / value;
+#endif
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_l.h"
 
+#include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/structure_tensor.h"
@@ -113,6 +114,9 @@ void clamp_to_range(Estimate& estimate) {
 
 Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,
                                ViewSelection views, const Progress& progress) {
+  if (lf.grid().count() == 1) {
+    throw InvalidInput("disparity needs at least 2 views, but this light field has only 1");
+  }
   Estimate estimate;
   estimate.range = search_range(lf, parameters.range, progress.part(0, 0.05));
   const bool all = views == ViewSelection::All;
@@ -125,16 +129,18 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
                             parameters.cross_scale, parameters.contrast,    parameters.noise};
   const TensorSearch search = cover_range(
       estimate.range, std::max(1, static_cast<int>(std::lround(2 * parameters.shear_step))));
+  // Where the vertical EPIs begin.
+  const double half = lf.grid().v == 1 ? 1 : lf.grid().u == 1 ? 0.05 : 0.5;
   if (lf.grid().u > 1) {
     progress.step("horizontal EPIs");
-    run_horizontal(maps, scales, search, progress.part(0.05, 0.5));
+    run_horizontal(maps, scales, search, progress.part(0.05, half));
   } else {
     clear(estimate.field.disparity);
     clear(estimate.confidence);
   }
   if (lf.grid().v > 1) {
     progress.step("vertical EPIs");
-    run_vertical(maps, scales, search, parameters.fusion_power, progress.part(0.5, 1));
+    run_vertical(maps, scales, search, parameters.fusion_power, progress.part(half, 1));
   }
   return estimate;
 }

@@ -133,7 +133,7 @@ void products_chunk(const RowPointers& rows, const RowTaps& smooth, const RowTap
       add_products<kCount>(rows.along[c], rows.across[c], smooth.values, derivative.values, n, sum);
     }
     // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
-    const Vec weight = contrast / (sum.xx + sum.ss + contrast);
+    const Vec weight = contrast * rough_reciprocal(sum.xx + sum.ss + contrast);
     store(out[0] + n, weight * sum.xx);
     store(out[1] + n, weight * sum.xs);
     store(out[2] + n, weight * sum.ss);
