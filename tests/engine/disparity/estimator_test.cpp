@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What every estimator owes to those who run it by name: data-driven over the registry.
+#include "engine/disparity/estimator.h"
+
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/disparity/registry.h"
+#include "tests/engine/disparity/light_fields.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <limits>
+#include <set>
+#include <stop_token>
+#include <vector>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+const LightField& tiny() {
+  static const Scene scene = render("edge", 48, 56, {5, 5});
+  return *scene.light_field;
+}
+
+void add_methods() {
+  QTest::addColumn<QString>("id");
+  for (const Estimator& estimator : registered_estimators()) {
+    QTest::newRow(estimator.info.id.c_str()) << QString::fromStdString(estimator.info.id);
+  }
+}
+
+ViewSelection widest(const Estimator& estimator) {
+  return estimator.info.all_views ? ViewSelection::All : ViewSelection::Center;
+}
+
+Estimator fetched() {
+  QFETCH(QString, id);
+  return find_estimator(id.toStdString());
+}
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+class EstimatorTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void registry_listsDistinctMethods();
+  void unknownMethod_namesTheNearest();
+  void method_runsAndFillsProvenance_data() { add_methods(); }
+  void method_runsAndFillsProvenance();
+  void givenParameters_areUsedAndRecorded_data() { add_methods(); }
+  void givenParameters_areUsedAndRecorded();
+  void badParameters_areRefused_data() { add_methods(); }
+  void badParameters_areRefused();
+  void everyParameterAtItsEnds_runs_data();
+  void everyParameterAtItsEnds_runs();
+  void singleView_isRefused_data() { add_methods(); }
+  void singleView_isRefused();
+  void progress_risesToOne_data();
+  void progress_risesToOne();
+  void stop_endsWithinLimit_data() { add_methods(); }
+  void stop_endsWithinLimit();
+  void stopBeforeStart_throwsCancelled_data() { add_methods(); }
+  void stopBeforeStart_throwsCancelled();
+};
+
+void EstimatorTest::registry_listsDistinctMethods() {
+  std::set<std::string> ids;
+  for (const Estimator& estimator : registered_estimators()) {
+    QVERIFY(ids.insert(estimator.info.id).second);
+    QVERIFY(!estimator.info.name.empty() && !estimator.info.summary.empty());
+    QVERIFY(!estimator.info.reference.empty());
+    QVERIFY(!estimator.parameters.empty());
+    for (const ParameterDescription& parameter : estimator.parameters) {
+      QVERIFY2(!parameter.label.empty() && !parameter.help.empty(), parameter.key.c_str());
+    }
+  }
+  QVERIFY(ids.contains("epi_l") && ids.contains("epi_s"));
+}
+
+void EstimatorTest::unknownMethod_namesTheNearest() {
+  QVERIFY_THROWS_EXCEPTION(Unavailable, (void)find_estimator("epi_t"));
+  const std::string text = message_of([] { (void)find_estimator("epi_sl"); });
+  QVERIFY2(mentions(text, "'epi_sl'") && mentions(text, "did you mean 'epi_"), text.c_str());
+  const std::string far = message_of([] { (void)find_estimator("zzzzzzzzzzzz"); });
+  QVERIFY2(!far.empty() && !mentions(far, "did you mean"), far.c_str());
+}
+
+void EstimatorTest::method_runsAndFillsProvenance() {
+  const Estimator estimator = fetched();
+  const auto start = Clock::now();
+  const Estimate estimate = estimator.run(tiny(), {}, widest(estimator), Progress());
+  const double elapsed = std::chrono::duration<double>(Clock::now() - start).count();
+  QCOMPARE(estimate.method, estimator.info.id);
+  QCOMPARE(estimate.version, std::string(kVersion));
+  QCOMPARE(estimate.source, tiny().info().source);
+  QVERIFY(estimate.seconds > 0 && estimate.seconds <= elapsed);
+  QVERIFY(estimate.range.min < -0.4 && estimate.range.max > 0.7);
+  QCOMPARE(estimate.parameters.size(), estimator.parameters.size());
+  for (std::size_t i = 0; i < estimate.parameters.size(); ++i) {
+    QCOMPARE(estimate.parameters[i].first, estimator.parameters[i].key);
+    QVERIFY(estimate.parameters[i].second == estimator.parameters[i].default_value);
+  }
+  const ViewStack<float>& map = estimate.field.disparity;
+  QVERIFY(estimator.info.all_views ? map.grid() == tiny().grid() : map.grid().count() == 1);
+  QVERIFY(map.height() == tiny().height() && map.width() == tiny().width());
+  QVERIFY(all_finite(map));
+  if (!estimate.confidence.empty()) {
+    QCOMPARE(estimate.confidence.size(), map.size());
+    QVERIFY(all_finite(estimate.confidence));
+  }
+}
+
+void EstimatorTest::givenParameters_areUsedAndRecorded() {
+  const Estimator estimator = fetched();
+  const Interval wanted{-0.7, 1.1};
+  const Estimate estimate =
+      estimator.run(tiny(), {{"range", IntervalOrAuto(wanted)}}, ViewSelection::Center, Progress());
+  QCOMPARE(estimate.range, wanted);
+  const auto given = std::find_if(estimate.parameters.begin(), estimate.parameters.end(),
+                                  [](const auto& entry) { return entry.first == "range"; });
+  QVERIFY(given != estimate.parameters.end());
+  QVERIFY(given->second == ParameterValue(IntervalOrAuto(wanted)));
+}
+
+void EstimatorTest::badParameters_areRefused() {
+  const Estimator estimator = fetched();
+  const std::vector<ParameterSet> bad = {
+      {{"rnage", IntervalOrAuto{}}},
+      {{"range", 1.0}},
+      {{"range", IntervalOrAuto(Interval{2, 1})}},
+      {{"range", IntervalOrAuto(Interval{-1e6, 1})}},
+      {{"inner_scale", -1.0}},
+      {{"inner_scale", std::numeric_limits<double>::quiet_NaN()}},
+      {{"outer_scale", std::string("wide")}},
+  };
+  for (const ParameterSet& values : bad) {
+    QVERIFY_THROWS_EXCEPTION(
+        InvalidInput, (void)estimator.run(tiny(), values, ViewSelection::Center, Progress()));
+  }
+  const std::string text = message_of(
+      [&] { (void)estimator.run(tiny(), bad.front(), ViewSelection::Center, Progress()); });
+  QVERIFY2(mentions(text, "did you mean 'range'"), text.c_str());
+}
+
+void EstimatorTest::everyParameterAtItsEnds_runs_data() {
+  QTest::addColumn<QString>("id");
+  QTest::addColumn<QString>("key");
+  QTest::addColumn<bool>("largest");
+  for (const Estimator& estimator : registered_estimators()) {
+    for (const ParameterDescription& parameter : estimator.parameters) {
+      for (const bool largest : {false, true}) {
+        QTest::addRow("%s %s %s", estimator.info.id.c_str(), parameter.key.c_str(),
+                      largest ? "max" : "min")
+            << QString::fromStdString(estimator.info.id) << QString::fromStdString(parameter.key)
+            << largest;
+      }
+    }
+  }
+}
+
+// A slider may be drawn to either end.
+void EstimatorTest::everyParameterAtItsEnds_runs() {
+  QFETCH(QString, key);
+  QFETCH(bool, largest);
+  const Estimator estimator = fetched();
+  const auto parameter =
+      std::find_if(estimator.parameters.begin(), estimator.parameters.end(),
+                   [&](const ParameterDescription& one) { return one.key == key.toStdString(); });
+  QVERIFY(parameter != estimator.parameters.end());
+  const double end = largest ? parameter->max : parameter->min;
+  ParameterSet values{{"range", IntervalOrAuto(Interval{-1, 1})}};
+  const ParameterValue& sample = parameter->default_value;
+  ParameterValue value = sample;
+  if (std::holds_alternative<double>(sample)) value = end;
+  if (std::holds_alternative<int>(sample)) value = static_cast<int>(end);
+  if (std::holds_alternative<bool>(sample)) value = largest;
+  if (std::holds_alternative<std::string>(sample)) {
+    value = largest ? parameter->choices.back() : parameter->choices.front();
+  }
+  if (std::holds_alternative<IntervalOrAuto>(sample)) {
+    // The widest interval that begins or ends there.
+    value = IntervalOrAuto(largest ? Interval{0, end} : Interval{end, 0});
+    values.clear();
+  }
+  values.emplace_back(parameter->key, value);
+  const Estimate estimate = estimator.run(tiny(), values, ViewSelection::Center, Progress());
+  QVERIFY(all_finite(estimate.field.disparity));
+}
+
+void EstimatorTest::singleView_isRefused() {
+  const Estimator estimator = fetched();
+  const LightField lf = make_light_field({1, 1}, 20, 20, 3, [](ViewIndex, int y, int x, int) {
+    return 0.1F * static_cast<float>((x + y) % 10);
+  });
+  const std::string text =
+      message_of([&] { (void)estimator.run(lf, {}, ViewSelection::Center, Progress()); });
+  QVERIFY2(mentions(text, "view"), text.c_str());
+}
+
+void EstimatorTest::progress_risesToOne_data() {
+  QTest::addColumn<QString>("id");
+  QTest::addColumn<int>("rows");
+  QTest::addColumn<int>("columns");
+  for (const Estimator& estimator : registered_estimators()) {
+    const QString id = QString::fromStdString(estimator.info.id);
+    QTest::addRow("%s 5x5", estimator.info.id.c_str()) << id << 5 << 5;
+    QTest::addRow("%s 1x5", estimator.info.id.c_str()) << id << 1 << 5;
+    QTest::addRow("%s 5x1", estimator.info.id.c_str()) << id << 5 << 1;
+  }
+}
+
+void EstimatorTest::progress_risesToOne() {
+  QFETCH(int, rows);
+  QFETCH(int, columns);
+  const Estimator estimator = fetched();
+  const Scene scene = render("edge", 160, 168, {rows, columns});
+  std::vector<double> fractions;
+  std::set<std::string> steps;
+  const Progress progress({}, [&](const ProgressState& state) {
+    fractions.push_back(state.fraction);
+    steps.insert(state.step);
+  });
+  (void)estimator.run(*scene.light_field, {}, widest(estimator), progress);
+  QVERIFY(fractions.size() > 5);
+  QVERIFY(std::is_sorted(fractions.begin(), fractions.end()));
+  QCOMPARE(fractions.back(), 1.0);
+  // One that stands still and jumps tells nothing.
+  double gap = 0;
+  for (std::size_t i = 1; i < fractions.size(); ++i) {
+    gap = std::max(gap, fractions[i] - fractions[i - 1]);
+  }
+  QVERIFY2(gap < 0.25, qPrintable(QString::number(gap)));
+  QVERIFY(steps.size() >= 2);
+}
+
+// A stop is honoured within 200 ms; twice that here, because the machine that runs the tests may
+// give this process half a core.
+void EstimatorTest::stop_endsWithinLimit() {
+  const Estimator estimator = fetched();
+  static const Scene scene = render("edge", 320, 360, {9, 9});
+  for (const double stop_at : {0.02, 0.3, 0.6, 0.9}) {
+    std::stop_source source;
+    Clock::time_point stopped;
+    const Progress progress(source.get_token(), [&](const ProgressState& state) {
+      if (state.fraction < stop_at || source.stop_requested()) return;
+      stopped = Clock::now();
+      source.request_stop();
+    });
+    QVERIFY_THROWS_EXCEPTION(
+        Cancelled, (void)estimator.run(*scene.light_field, {}, widest(estimator), progress));
+    const auto late =
+        std::chrono::duration_cast<std::chrono::milliseconds>(Clock::now() - stopped).count();
+    QVERIFY2(late < 400, qPrintable(QString("%1 ms at %2").arg(late).arg(stop_at)));
+  }
+}
+
+void EstimatorTest::stopBeforeStart_throwsCancelled() {
+  const Estimator estimator = fetched();
+  std::stop_source source;
+  source.request_stop();
+  const Progress progress(source.get_token(), nullptr);
+  const ParameterSet given{{"range", IntervalOrAuto(Interval{-1, 1})}};
+  QVERIFY_THROWS_EXCEPTION(Cancelled,
+                           (void)estimator.run(tiny(), given, ViewSelection::Center, progress));
+}
+
+QTEST_APPLESS_MAIN(EstimatorTest)
+#include "estimator_test.moc"

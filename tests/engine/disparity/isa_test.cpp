@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The kernels of every instruction set give the same maps. A process uses one set for all its life,
+// so this program runs itself with another and compares.
+#include "engine/core/isa.h"
+#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi_s.h"
+#include "tests/engine/disparity/light_fields.h"
+
+#include <QtTest>
+
+#include <cmath>
+#include <cstring>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace {
+
+// Maps of EPI_L, their confidence and the maps of EPI_S, one behind the other.
+QByteArray computed_maps() {
+  const Scene scene = render("objects", 61, 75, {5, 7});
+  EpiSParameters parameters;
+  parameters.range = Interval{-2, 2};
+  const Estimate local =
+      estimate_epi_l(*scene.light_field, parameters, ViewSelection::All, Progress());
+  const Estimate smooth =
+      estimate_epi_s(*scene.light_field, parameters, ViewSelection::All, Progress());
+  QByteArray bytes;
+  for (const ViewStack<float>* stack :
+       {&local.field.disparity, &local.confidence, &smooth.field.disparity}) {
+    bytes.append(reinterpret_cast<const char*>(stack->data()),
+                 static_cast<qsizetype>(stack->size() * sizeof(float)));
+  }
+  return bytes;
+}
+
+std::vector<float> as_floats(const QByteArray& bytes) {
+  std::vector<float> floats(static_cast<std::size_t>(bytes.size()) / sizeof(float));
+  std::memcpy(floats.data(), bytes.constData(), floats.size() * sizeof(float));
+  return floats;
+}
+
+QByteArray maps_under(const char* isa) {
+  QTemporaryDir folder;
+  const QString path = folder.filePath("maps");
+  QProcess process;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("EPISCOPE_ISA", isa);
+  process.setProcessEnvironment(environment);
+  process.start(QCoreApplication::applicationFilePath(), {"--write", path});
+  if (!process.waitForFinished() || process.exitCode() != 0) return {};
+  QFile file(path);
+  return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
+}
+
+int write_maps(const QString& path) {
+  QFile file(path);
+  const QByteArray bytes = computed_maps();
+  return file.open(QIODevice::WriteOnly) && file.write(bytes) == bytes.size() ? 0 : 1;
+}
+
+}  // namespace
+
+class IsaTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void everyInstructionSet_givesTheSameMaps_data();
+  void everyInstructionSet_givesTheSameMaps();
+};
+
+void IsaTest::everyInstructionSet_givesTheSameMaps_data() {
+  QTest::addColumn<QString>("isa");
+  QTest::newRow("baseline") << "baseline";
+  QTest::newRow("avx2") << "avx2";
+}
+
+void IsaTest::everyInstructionSet_givesTheSameMaps() {
+  QFETCH(QString, isa);
+  static const std::vector<float> best = as_floats(computed_maps());
+  const std::vector<float> other = as_floats(maps_under(isa.toLatin1().constData()));
+  QCOMPARE(other.size(), best.size());
+  const std::size_t third = best.size() / 3;
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < 2 * third; ++i) {
+    QVERIFY(std::isfinite(other[i]));
+    // A doubtful pixel may take another shear by one rounding.
+    const bool confident = best[third + i % third] > 0.9F;
+    if (confident && std::fabs(best[i] - other[i]) > 1e-3F) ++differ;
+  }
+  QVERIFY2(differ < third / 1000, qPrintable(QString("EPI_L: %1 of %2").arg(differ).arg(third)));
+  double sum = 0;
+  for (std::size_t i = 2 * third; i < best.size(); ++i) sum += std::fabs(best[i] - other[i]);
+  const double mean_difference = sum / static_cast<double>(third);
+  QVERIFY2(mean_difference < 1e-3, qPrintable(QString("EPI_S: %1").arg(mean_difference)));
+}
+
+int main(int argc, char** argv) {
+  const QCoreApplication application(argc, argv);
+  if (argc == 3 && std::strcmp(argv[1], "--write") == 0) return write_maps(argv[2]);
+  IsaTest test;
+  return QTest::qExec(&test, argc, argv);
+}
+
+#include "isa_test.moc"
