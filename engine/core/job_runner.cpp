@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/job_runner.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <deque>
@@ -8,6 +9,7 @@
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -39,9 +41,19 @@ struct JobRunner::State {
   std::atomic<bool> closed{false};
   std::jthread thread;
 
+  std::shared_ptr<Job> take_from_queue(JobId id);
   void work(const std::stop_token& end);
   void run(Job& job);
 };
+
+std::shared_ptr<Job> JobRunner::State::take_from_queue(JobId id) {
+  const auto found = std::find_if(queue.begin(), queue.end(),
+                                  [id](const std::shared_ptr<Job>& job) { return job->id == id; });
+  if (found == queue.end()) return nullptr;
+  std::shared_ptr<Job> job = *found;
+  queue.erase(found);
+  return job;
+}
 
 void JobRunner::State::work(const std::stop_token& end) {
   while (true) {
@@ -86,14 +98,17 @@ void JobRunner::State::run(Job& job) {
 
 JobRunner::JobRunner(Post post) : state_(std::make_shared<State>()) {
   state_->post = std::move(post);
-  state_->thread = std::jthread([state = state_.get()](const std::stop_token& end) {
-    state->work(end);
-  });
+  state_->thread =
+      std::jthread([state = state_.get()](const std::stop_token& end) { state->work(end); });
 }
 
 JobRunner::~JobRunner() {
   state_->closed = true;
-  cancel_all();
+  {
+    const std::scoped_lock lock(state_->mutex);
+    for (auto& [id, stop] : state_->alive) stop.request_stop();
+    state_->queue.clear();
+  }
   state_->thread.request_stop();
   state_->thread.join();
 }
@@ -115,15 +130,26 @@ JobId JobRunner::enqueue(std::function<void(const Progress&)> run, std::function
 }
 
 void JobRunner::cancel(JobId id) {
-  const std::scoped_lock lock(state_->mutex);
-  if (const auto found = state_->alive.find(id); found != state_->alive.end()) {
+  std::shared_ptr<Job> unstarted;
+  {
+    const std::scoped_lock lock(state_->mutex);
+    const auto found = state_->alive.find(id);
+    if (found == state_->alive.end()) return;
     found->second.request_stop();
+    unstarted = state_->take_from_queue(id);
+    if (unstarted) state_->alive.erase(found);
   }
+  // It need not wait for its turn to say so.
+  if (unstarted) state_->post(std::move(unstarted->finish));
 }
 
 void JobRunner::cancel_all() {
-  const std::scoped_lock lock(state_->mutex);
-  for (auto& [id, stop] : state_->alive) stop.request_stop();
+  std::vector<JobId> ids;
+  {
+    const std::scoped_lock lock(state_->mutex);
+    for (const auto& [id, stop] : state_->alive) ids.push_back(id);
+  }
+  for (const JobId id : ids) cancel(id);
 }
 
 int JobRunner::pending() const {
