@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/interrupt.h"
 
-#include "app/cli/exit_code.h"
-
 #include <pthread.h>
-#include <unistd.h>
 #include <csignal>
 #include <thread>
 
@@ -29,9 +26,7 @@ sigset_t awaited_signals() {
 
 void wait_for_signals(sigset_t signals, std::stop_source stop) {
   int signal = 0;
-  while (sigwait(&signals, &signal) == 0 && signal != kEndOfWaiting) {
-    if (!stop.request_stop()) _exit(kCancelled);
-  }
+  while (sigwait(&signals, &signal) == 0 && signal != kEndOfWaiting) stop.request_stop();
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace episcope::cli {
 
-/// Turns Ctrl+C (SIGINT) and SIGTERM into a stop request while it lives; a second signal ends the
-/// process at once with exit code 130. To be made before any other thread: it blocks the signals in
-/// the calling thread and all threads begun later, and waits for them in a thread of its own.
+/// Turns Ctrl+C (SIGINT) and SIGTERM into a stop request while it lives. Further signals change
+/// nothing: the stop under way first removes what is half-written. To be made before any other
+/// thread: it blocks the signals in the calling thread and all threads begun later, and waits for
+/// them in a thread of its own.
 class Interrupt {
  public:
   Interrupt();

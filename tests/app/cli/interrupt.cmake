@@ -22,3 +22,18 @@ endfunction()
 interrupted(0.7 synthesize demo -o out/lf.h5 --views 17x17 --size 1024x1024)
 interrupted(0.7 estimate epi_l demo -o out/x.h5 --threads 1)
 interrupted(0.7 info demo:objects --threads 1)
+
+# Twice in a row, once the hidden temporary file is there: it is removed all the same.
+find_program(sh sh REQUIRED)
+foreach(pause 0 0.02)
+  file(MAKE_DIRECTORY "${WORK}/twice")
+  set(script "'${CLI}' synthesize fronto -q -o twice/lf.h5 --size 512x512 & cli=$!
+    until ls twice/.*.part >/dev/null 2>&1; do kill -0 $cli || break; sleep 0.002; done
+    kill -TERM $cli; sleep ${pause}; kill -TERM $cli; wait $cli; echo $?")
+  execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
+                  ERROR_VARIABLE err TIMEOUT 60)
+  if(NOT out STREQUAL "130\n")
+    fail_case("interrupted twice, ${pause} s apart: ${out} ${err}")
+  endif()
+  expect_files(twice)
+endforeach()
