@@ -72,6 +72,7 @@ class GeometryTest : public QObject {
   void frontoPlane_isExactInEveryView();
   void slantedPlane_isWithinLimit();
   void planesWithEdge_areFlatAwayFromEdge();
+  void edge_staysInPlace();
   void everyView_agreesWithItsTruth();
   void transposedLightField_transposesResult();
   void addedBrightness_changesNothing();
@@ -131,6 +132,27 @@ void GeometryTest::planesWithEdge_areFlatAwayFromEdge() {
   }
   QVERIFY(std::fabs(map.at(36, 20) + 0.5F) < 0.01F);
   QVERIFY(std::fabs(map.at(36, width - 20) - 0.8F) < 0.01F);
+}
+
+// Fattening: how far the place moves where the map crosses from one plane to the other. A window
+// over a silhouette would move it by its own radius of 2 px.
+void GeometryTest::edge_staysInPlace() {
+  const Scene scene = render("edge", 72, 128);
+  const Estimate estimate = epi_l(*scene.light_field);
+  for (const ViewIndex view : {ViewIndex{4, 4}, ViewIndex{4, 2}, ViewIndex{2, 6}}) {
+    const ImageView<const float> map = estimate.field.disparity.view(view);
+    const DisparityView truth = scene.truth->field.view(view);
+    constexpr float middle = 0.15F;
+    double shift = 0;
+    for (int y = 15; y < map.height - 15; ++y) {
+      for (int x = 15; x < map.width - 15; ++x) {
+        shift += (map.at(y, x) > middle) - (truth.disparity.at(y, x) > middle);
+      }
+    }
+    shift /= map.height - 30;
+    QVERIFY2(std::fabs(shift) < 0.5,
+             qPrintable(QString("view %1,%2 moved by %3 px").arg(view.v).arg(view.u).arg(shift)));
+  }
 }
 
 // Each view has a truth of its own: a map stored at the wrong view would be off by up to
