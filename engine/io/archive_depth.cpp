@@ -2,6 +2,9 @@
 #include "engine/io/archive_depth.h"
 
 #include "engine/io/depth_maps.h"
+#include "engine/io/depth_units.h"
+
+#include <cmath>
 
 namespace episcope::io {
 namespace {
@@ -26,21 +29,69 @@ DepthMaps read_depth(const Hdf5Input& file, const std::string& name, const Field
   return maps;
 }
 
+constexpr const char* kCameraNames[] = {"dH", "focalLength", "shift"};
+
+/// On the root or on LF.
+std::optional<double> camera_number(const Hdf5Input& file, const char* name) {
+  const auto value = file.number("/", name);
+  return value ? value : file.number("LF", name);
+}
+
+/// The attributes that turn depth into disparity, whatever they mean.
+CameraGrid stored_camera(const Hdf5Input& file) {
+  CameraGrid camera;
+  camera.baseline = camera_number(file, "dH").value_or(0);
+  camera.focal_length = camera_number(file, "focalLength").value_or(0);
+  camera.cam_distance = camera_number(file, "camDistance");
+  if (camera.cam_distance && !(*camera.cam_distance > 0 && std::isfinite(*camera.cam_distance))) {
+    camera.cam_distance.reset();
+  }
+  const double from_distance =
+      camera.cam_distance ? camera.baseline * camera.focal_length / *camera.cam_distance : 0;
+  camera.shift = camera_number(file, "shift").value_or(from_distance);
+  const bool is_finite = std::isfinite(camera.baseline) && std::isfinite(camera.focal_length) &&
+                         std::isfinite(camera.shift);
+  return is_finite ? camera : CameraGrid{};
+}
+
+/// Why depth cannot be turned into disparity.
+std::string camera_fault(const Hdf5Input& file) {
+  for (const char* name : kCameraNames) {
+    const std::string attribute = std::string("the attribute ") + name;
+    const auto value = camera_number(file, name);
+    if (value && !std::isfinite(*value)) return attribute + " is not a finite number; correct it";
+    if (!value && (file.has_attribute("/", name) || file.has_attribute("LF", name))) {
+      return attribute + " is not a single number; store it as one";
+    }
+  }
+  if (camera_number(file, "dH") && camera_number(file, "focalLength")) {
+    return "dH and focalLength must be positive; correct these attributes";
+  }
+  return "the file lacks the attributes dH and focalLength that turn depth into disparity";
+}
+
+/// `write_archive` states so where it had to make up attributes to hold disparity as depth.
+bool states_no_camera(const Hdf5Input& file) {
+  return file.text("/", "camera").value_or("").starts_with("unknown");
+}
+
+/// Of two layers both are needed to tell a transparent surface from what lies behind it.
+void drop_single_layer(ArchiveTruth& truth, ConventionReport& report) {
+  if (truth.foreground.empty() == truth.background.empty()) return;
+  const bool lacks_foreground = truth.foreground.empty();
+  report.warnings.push_back(
+      std::string(lacks_foreground ? "GT_DEPTH_BACKGROUND" : "GT_DEPTH_FOREGROUND") +
+      " is left out, since the other layer, " +
+      (lacks_foreground ? "GT_DEPTH_FOREGROUND" : "GT_DEPTH_BACKGROUND") +
+      ", is missing or holds no depth; add it, or store a single layer as GT_DEPTH.");
+  truth.foreground = {};
+  truth.background = {};
+}
+
 }  // namespace
 
 CameraGrid read_camera(const Hdf5Input& file) {
-  const auto number = [&](const char* name) {
-    const auto value = file.number("/", name);
-    return value ? value : file.number("LF", name);
-  };
-  CameraGrid camera;
-  camera.baseline = number("dH").value_or(0);
-  camera.focal_length = number("focalLength").value_or(0);
-  camera.cam_distance = number("camDistance");
-  const double from_distance =
-      camera.cam_distance ? camera.baseline * camera.focal_length / *camera.cam_distance : 0;
-  camera.shift = number("shift").value_or(from_distance);
-  return camera;
+  return states_no_camera(file) ? CameraGrid{} : stored_camera(file);
 }
 
 ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples& samples,
@@ -48,7 +99,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
                                 const Progress& progress) {
   const FieldShape shape = shape_of(samples);
   ArchiveTruth truth;
-  truth.camera = read_camera(file);
+  truth.camera = stored_camera(file);
   DepthMaps field = read_depth(file, "GT_DEPTH", shape, progress.part(0, 0.7));
   DepthMaps foreground = read_depth(file, "GT_DEPTH_FOREGROUND", shape, progress.part(0.7, 0.8));
   DepthMaps background = read_depth(file, "GT_DEPTH_BACKGROUND", shape, progress.part(0.8, 0.9));
@@ -56,13 +107,13 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
       !field.empty() ? field : (!background.empty() ? background : foreground);
   if (reference.empty()) {
     report.units = "no depth in this file";
+    truth.camera = read_camera(file);
+    settle_zero_depth(truth.camera, report);
     return truth;
   }
   if (!truth.camera.is_known()) {
     report.units = "depth left out";
-    report.warnings.push_back(reference.name +
-                              " is left out, since the file lacks the attributes dH and "
-                              "focalLength that turn depth into disparity.");
+    report.warnings.push_back(reference.name + " is left out, since " + camera_fault(file) + ".");
     return truth;
   }
   truth.camera = settle_units(reference, samples, truth.camera, units, report);
@@ -74,6 +125,9 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
   truth.field = finish(field, 0.9);
   truth.foreground = finish(foreground, 0.93);
   truth.background = finish(background, 0.96);
+  drop_single_layer(truth, report);
+  if (states_no_camera(file)) truth.camera = {};
+  settle_zero_depth(truth.camera, report);
   return truth;
 }
 

@@ -14,7 +14,7 @@ struct ArchiveTruth {
   DisparityField field;
   DisparityField foreground;
   DisparityField background;
-  CameraGrid camera;  ///< With units settled.
+  CameraGrid camera;  ///< With units settled; unknown if the file states so.
 };
 
 /// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and
@@ -25,7 +25,8 @@ struct ArchiveTruth {
                                               OpenOptions::Units units, ConventionReport& report,
                                               const Progress& progress);
 
-/// Camera attributes as stored, on the root or on LF.
+/// Camera attributes as stored, on the root or on LF; an unknown camera if they are missing, if one
+/// is not finite, or if the file states that it has none.
 [[nodiscard]] CameraGrid read_camera(const Hdf5Input& file);
 
 }  // namespace episcope::io

@@ -78,16 +78,6 @@ const Reading& best_by_warping(std::vector<Reading>& readings,
   return *best;
 }
 
-void check_cam_distance(const CameraGrid& camera, UnitsFinding& finding) {
-  if (!camera.cam_distance || !(camera.shift > 0)) return;
-  const double zero = zero_depth(camera);
-  if (std::abs(zero - *camera.cam_distance) < 0.01 * *camera.cam_distance) return;
-  finding.warnings.push_back("By dH, focalLength and shift disparity is zero at depth " +
-                             number(zero) + ", but camDistance says " +
-                             number(*camera.cam_distance) +
-                             "; check these attributes of the file.");
-}
-
 }  // namespace
 
 UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,
@@ -117,8 +107,20 @@ UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,
                                " px per view step, which is hardly right; check dH, focalLength "
                                "and shift of the file.");
   }
-  check_cam_distance(taken.camera, finding);
   return finding;
+}
+
+void settle_zero_depth(CameraGrid& camera, ConventionReport& report) {
+  if (!camera.is_known() || !camera.cam_distance) return;
+  const double zero = zero_depth(camera);
+  if (std::abs(zero - *camera.cam_distance) < 0.01 * *camera.cam_distance) return;
+  const std::string by_shift =
+      std::isfinite(zero) ? "is zero at depth " + number(zero) : "is zero at no finite depth";
+  report.warnings.push_back("By dH, focalLength and shift disparity " + by_shift +
+                            ", but camDistance says " + number(*camera.cam_distance) +
+                            ": camDistance is left out; check these attributes of the file.");
+  camera.cam_distance.reset();
+  if (std::isfinite(zero)) camera.cam_distance = zero;
 }
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/camera_grid.h"
 #include "engine/core/indices.h"
+#include "engine/core/scene.h"
 #include "engine/io/open.h"
 
 #include <functional>
@@ -29,5 +30,9 @@ struct UnitsFinding {
 /// views warp onto each other best. `warp_error(camera)` is in grey levels.
 [[nodiscard]] UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,
                                       const std::function<double(const CameraGrid&)>& warp_error);
+
+/// Where camDistance contradicts dH·focalLength/shift, the latter becomes the depth of zero
+/// disparity, since disparity is computed by it, and a warning says so.
+void settle_zero_depth(CameraGrid& camera, ConventionReport& report);
 
 }  // namespace episcope::io

@@ -151,6 +151,12 @@ Listing list_group(hid_t file, const std::string& name) {
   return listing;
 }
 
+bool is_group(hid_t file, const std::string& name) {
+  H5O_info_t info;
+  return H5Oget_info_by_name2(file, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+         info.type == H5O_TYPE_GROUP;
+}
+
 hid_t open_attribute(hid_t file, const std::string& object, const std::string& name) {
   if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return -1;
   return H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
@@ -238,6 +244,12 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
                              (held.empty() ? "no dataset at all" : held) + "; choose another file");
   }
   const Session session;
+  if (is_group(file_, name)) {
+    throw IoError(path_, name +
+                             " is a group in this file, but must be a dataset; store the samples "
+                             "as the dataset " +
+                             name + " or choose another file");
+  }
   return describe(open_dataset(name), name);
 }
 
@@ -274,6 +286,11 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::uint16_
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::int32_t*) const;
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) const;
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
+
+bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
+  const Session session;
+  return Handle(open_attribute(file_, object, name), H5Aclose).ok();
+}
 
 std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
   const std::vector<double> all = numbers(object, name);

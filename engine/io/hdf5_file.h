@@ -53,13 +53,14 @@ class Hdf5Input {
   [[nodiscard]] bool has(const std::string& name) const;
   /// Datasets of the root group and of the groups directly in it, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
-  /// Throws IoError, naming what the file holds, if there is no such dataset.
+  /// Throws IoError, naming what the file holds, if there is no such dataset; also for a group.
   [[nodiscard]] Hdf5Dataset dataset(const std::string& name) const;
 
   /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
   template <class T>
   void read(const std::string& name, const Hdf5Block& block, T* out) const;
 
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
   /// Attribute of any numeric type, a scalar or an array of length 1; empty if there is none.
   [[nodiscard]] std::optional<double> number(const std::string& object,
                                              const std::string& name) const;

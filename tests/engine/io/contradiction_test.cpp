@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/open.h"
+#include "engine/io/write_scene.h"
+#include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/synthetic_scene.h"
+
+#include <QTemporaryDir>
+#include <QtTest>
+
+#include <cmath>
+#include <limits>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+/// Files that say less than they seem to, or one thing here and another there: told, never
+/// believed.
+class ContradictionTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  fs::path path(const char* name) const { return fs::path(folder_->path().toStdString()) / name; }
+  Scene open(const fs::path& file) const { return io::open_scene(file, {}, Progress(2)); }
+
+  /// The plane as a raw file, with attributes of the test's choice.
+  Scene open_with(const std::function<void(io::Hdf5Output&)>& more, RawArchive form = {}) const {
+    form.has_attributes = false;
+    form.more = more;
+    write_raw_archive(path("lf.h5"), plane_scene(), form);
+    return open(path("lf.h5"));
+  }
+  static Scene without_camera() {
+    Scene scene = plane_scene();
+    LightFieldInfo info = scene.light_field->info();
+    info.camera = {};
+    scene.light_field = std::make_shared<LightField>(bytes_of(scene).clone(), info);
+    return scene;
+  }
+  static bool warns(const Scene& scene, const char* words) {
+    for (const std::string& warning : scene.convention.warnings) {
+      if (warning.find(words) != std::string::npos) return true;
+    }
+    return false;
+  }
+  QString refusal(const fs::path& file) const {
+    try {
+      (void)open(file);
+    } catch (const IoError& error) {
+      return QString::fromStdString(error.what());
+    }
+    return {};
+  }
+  static void set_camera(io::Hdf5Output& file, double baseline, double shift) {
+    file.set_number("/", "dH", baseline);
+    file.set_number("/", "focalLength", 1.5);
+    file.set_number("/", "shift", shift);
+    file.set_number("/", "camDistance", 12);
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void unknownCamera_staysUnknownInAnArchive() {
+    const Scene scene = without_camera();
+    io::write_archive(path("lf.h5"), scene, Progress(2));
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY(!read.light_field->info().camera.is_known());
+    QVERIFY(!read.light_field->info().camera.cam_distance);
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < 1e-5);
+  }
+
+  void depthWithoutUsableCamera_saysWhatIsWrong_data() {
+    QTest::addColumn<double>("baseline");
+    QTest::addColumn<double>("shift");
+    QTest::addColumn<QString>("words");
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    QTest::newRow("dH") << nan << 5.0 << "dH is not a finite number";
+    QTest::newRow("shift") << 40.0 << nan << "shift is not a finite number";
+    QTest::newRow("zero dH") << 0.0 << 5.0 << "must be positive";
+  }
+  void depthWithoutUsableCamera_saysWhatIsWrong() {
+    QFETCH(double, baseline);
+    QFETCH(double, shift);
+    QFETCH(QString, words);
+
+    const Scene read = open_with([&](io::Hdf5Output& file) { set_camera(file, baseline, shift); });
+
+    QVERIFY2(warns(read, words.toUtf8()), describe(read.convention).c_str());
+    QVERIFY(!read.light_field->info().camera.is_known());
+    QVERIFY(!read.truth->has_disparity());
+  }
+
+  void cameraAsText_isTold() {
+    const Scene read = open_with([](io::Hdf5Output& file) {
+      file.set_text("/", "dH", "40");
+      file.set_number("/", "focalLength", 1.5);
+    });
+
+    QVERIFY2(warns(read, "dH is not a single number"), describe(read.convention).c_str());
+  }
+
+  void groupForLightField_isNamed() {
+    io::AtomicFile target(path("lf.h5"));
+    io::Hdf5Output file(target);
+    file.add_group("LF");
+    file.close();
+    target.commit();
+
+    QVERIFY2(refusal(path("lf.h5")).contains("LF is a group"), qPrintable(refusal(path("lf.h5"))));
+  }
+
+  void singleLayer_isLeftOutWithAWarning() {
+    RawArchive form;
+    form.has_depth = false;
+    const Scene read = open_with(
+        [](io::Hdf5Output& file) {
+          set_camera(file, 40, 5);
+          file.add_dataset<float>("GT_DEPTH_BACKGROUND", {64, 80}, "", "");
+          const std::vector<float> depth(64 * 80, 12.0F);
+          file.write("GT_DEPTH_BACKGROUND", {{0, 0}, {64, 80}}, depth.data());
+        },
+        form);
+
+    QVERIFY2(warns(read, "GT_DEPTH_FOREGROUND, is missing"), describe(read.convention).c_str());
+    QVERIFY(read.truth->background.empty());
+  }
+
+  void zeroDepth_comesFromTheShift() {
+    const Scene read = open_with([](io::Hdf5Output& file) { set_camera(file, 40, 0); });
+
+    QVERIFY2(warns(read, "camDistance says 12"), describe(read.convention).c_str());
+    QVERIFY(!read.light_field->info().camera.cam_distance);
+  }
+};
+
+QTEST_APPLESS_MAIN(ContradictionTest)
+#include "contradiction_test.moc"
