@@ -6,10 +6,12 @@
 #include "engine/io/archive_labels.h"
 #include "engine/io/center_preview.h"
 #include "engine/io/companions.h"
+#include "engine/io/float_samples.h"
 #include "engine/io/order_check.h"
 #include "engine/io/scene_name.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope::io {
 namespace {
@@ -23,6 +25,23 @@ struct Layout {
   bool has_channel_axis = true;
   Hdf5Type type = Hdf5Type::UInt8;
 };
+
+std::string whole(double value) {
+  return std::isfinite(value) ? std::to_string(std::llround(value)) : "NaN";
+}
+
+/// Sizes in attributes only repeat the shape of LF; one that differs speaks for a mistake.
+void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
+  const Hdf5Shape shape = file.dataset(kLightField).shape;
+  constexpr const char* names[] = {"vRes", "hRes", "yRes", "xRes", "channels"};
+  for (std::size_t axis = 0; axis < shape.size(); ++axis) {
+    const auto stated = file.number("/", names[axis]);
+    if (!stated || *stated == static_cast<double>(shape[axis])) continue;
+    report.warnings.push_back("The attribute " + std::string(names[axis]) + " says " +
+                              whole(*stated) + ", but LF has " + std::to_string(shape[axis]) +
+                              " along that axis; the shape of LF is taken.");
+  }
+}
 
 Layout layout_of(const Hdf5Input& file) {
   const Hdf5Dataset dataset = file.dataset(kLightField);
@@ -41,6 +60,12 @@ Layout layout_of(const Hdf5Input& file) {
                                    ", which is no light field; choose another file");
   }
   const std::size_t channels = shape.size() == 5 ? shape[4] : 1;
+  const double stated = file.number("/", "channels").value_or(1);
+  if (shape.size() == 4 && stated != 1) {
+    throw IoError(file.path(), "the dataset LF has 4 axes (" + shape_text(shape) +
+                                   "), but the attribute channels says " + whole(stated) +
+                                   "; store it as v × h × y × x × channels");
+  }
   if (channels != 1 && channels != 3 && channels != 4) {
     throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) + " and so " +
                                    std::to_string(channels) +
@@ -151,10 +176,12 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "archive (" + path.filename().string() + ")";
+  compare_sizes(file, report);
   LightFieldInfo info{scene_name(path), path.string(), read_camera(file), stated_range(file)};
 
   progress.step("reading views");
   LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
+  tidy_float_samples(samples, report);
   progress.step("reading depth");
   ArchiveTruth depth =
       read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/config_file.h"
 #include "engine/io/decode_image.h"
+#include "engine/io/float_samples.h"
 #include "engine/io/load_views.h"
 #include "engine/io/order_check.h"
 #include "engine/io/pfm.h"
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <cstdio>
 #include <set>
+#include <sstream>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -80,28 +83,55 @@ std::optional<Interval> promised_range(const ConfigFile& config) {
   return Interval{*min, *max};
 }
 
-CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, ConventionReport& report) {
-  BenchmarkCamera camera;
-  camera.focal_length_mm = config.number("focal_length_mm").value_or(0);
-  camera.sensor_size_mm = config.number("sensor_size_mm").value_or(0);
-  camera.baseline_mm = config.number("baseline_mm").value_or(0);
-  camera.focus_distance_m = config.number("focus_distance_m").value_or(0);
-  camera.larger_side_px =
-      static_cast<int>(std::max(config.number("image_resolution_x_px").value_or(0),
-                                config.number("image_resolution_y_px").value_or(0)));
-  try {
-    return camera_grid_from_benchmark(camera);
-  } catch (const InvalidInput& error) {
-    report.warnings.push_back("The camera of " + (folder / kConfig).string() +
-                              " is left out: " + error.what() + ".");
-    return {};
-  }
-}
-
 struct Size {
   int height = 0;
   int width = 0;
 };
+
+/// The size in the file only repeats that of the views, which counts.
+void compare_size(const ConfigFile& config, Size size, ConventionReport& report) {
+  const auto compare = [&](const char* key, int length) {
+    const auto stated = config.number(key);
+    if (!stated || *stated == length) return;
+    std::ostringstream text;
+    text << key << " of " << kConfig << " is " << *stated << ", but the views have " << length
+         << " px; the size of the views is taken.";
+    report.warnings.push_back(text.str());
+  };
+  compare("image_resolution_x_px", size.width);
+  compare("image_resolution_y_px", size.height);
+}
+
+/// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
+CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size size,
+                       ConventionReport& report) {
+  BenchmarkCamera camera;
+  camera.larger_side_px = std::max(size.width, size.height);
+  const std::pair<const char*, double*> keys[] = {{"focal_length_mm", &camera.focal_length_mm},
+                                                  {"sensor_size_mm", &camera.sensor_size_mm},
+                                                  {"baseline_mm", &camera.baseline_mm},
+                                                  {"focus_distance_m", &camera.focus_distance_m}};
+  std::string missing;
+  int found = 0;
+  for (const auto& [key, value] : keys) {
+    const auto number = config.number(key);
+    if (!number) missing += (missing.empty() ? "" : ", ") + std::string(key);
+    *value = number.value_or(0);
+    found += number ? 1 : 0;
+  }
+  if (found == 0) return {};
+  const std::string left_out = "The camera of " + (folder / kConfig).string() + " is left out: ";
+  if (!missing.empty()) {
+    report.warnings.push_back(left_out + missing + " is missing; add it.");
+    return {};
+  }
+  try {
+    return camera_grid_from_benchmark(camera);
+  } catch (const InvalidInput& error) {
+    report.warnings.push_back(left_out + error.what() + ".");
+    return {};
+  }
+}
 
 Size size_of(const LightField::Samples& samples) {
   return std::visit([](const auto& stack) { return Size{stack.height(), stack.width()}; }, samples);
@@ -241,10 +271,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
                               " views was inferred from the number of files.");
   }
   LightFieldInfo info{scene_name(folder), folder.string(), {}, std::nullopt};
-  if (config) {
-    info.camera = read_camera(folder, *config, report);
-    info.disparity_range = promised_range(*config);
-  }
+  if (config) info.disparity_range = promised_range(*config);
   progress.step("reading views");
   LightField::Samples samples = load_views(
       views,
@@ -252,8 +279,13 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0, 0.85));
+  tidy_float_samples(samples, report);
   progress.step("reading truth");
   const Size size = size_of(samples);
+  if (config) {
+    compare_size(*config, size, report);
+    info.camera = read_camera(folder, *config, size, report);
+  }
   GroundTruth truth;
   truth.field =
       read_truth(folder, views.grid, size, info.camera, report, progress.part(0.85, 0.95));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/image_grid_reader.h"
 
+#include "engine/io/float_samples.h"
 #include "engine/io/grid_names.h"
 #include "engine/io/load_views.h"
 #include "engine/io/order_check.h"
@@ -31,6 +32,7 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
         if (options.on_center_view) options.on_center_view(center, info, shape);
       },
       progress.part(0, 0.9));
+  tidy_float_samples(samples, report);
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
   put_in_order(samples, truth, {{}, "rows and columns are as the names say"}, options.flip, report,

@@ -4,6 +4,7 @@
 #include "engine/io/epi_slopes.h"
 #include "engine/io/warp_check.h"
 
+#include <algorithm>
 #include <cstdio>
 
 namespace episcope::io {
@@ -25,7 +26,7 @@ WarpErrors mean_errors(const LightField::Samples& samples,
     const double a = static_cast<double>(to.pixels) / total;
     const double b = static_cast<double>(more.pixels) / total;
     to = {a * to.forward + b * more.forward, a * to.reversed + b * more.reversed,
-          to.pixels + more.pixels};
+          a * to.unwarped + b * more.unwarped, to.pixels + more.pixels};
   };
   for (const OrderEvidence& one : truth) {
     const WarpErrors errors = warp_errors(samples, one.at, one.disparity);
@@ -45,7 +46,20 @@ struct Checked {
   ViewFlip flip;
   bool is_decided = false;
   std::string text;
+  std::string warning = {};
 };
+
+/// Of a single map; the layers of a transparent scene explain views only together.
+std::string poor_truth(const WarpErrors& errors) {
+  if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
+  const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
+  return "The truth hardly explains the views: warped by it they differ by " +
+         number(std::min(worse.forward, worse.reversed)) + " grey levels along " +
+         (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
+         number(std::max(worse.forward, worse.reversed)) + " and unwarped by " +
+         number(worse.unwarped) +
+         "; check the truth, and dH, focalLength and shift if it was stored as depth.";
+}
 
 Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
                        ViewFlip expected) {
@@ -58,6 +72,7 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
                    axis_text("u", errors.u, checked.flip.u) + ", " +
                    axis_text("v", errors.v, checked.flip.v);
   }
+  if (truth.size() == 1) checked.warning = poor_truth(errors);
   return checked;
 }
 
@@ -98,9 +113,10 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
                         const Progress& progress) {
   progress.check();
   Checked checked = check_by_truth(samples, truth, expected.flip);
+  OrderFinding finding;
+  if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
   if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip, progress);
 
-  OrderFinding finding;
   finding.flip = checked.flip;
   finding.check = checked.is_decided
                       ? checked.text

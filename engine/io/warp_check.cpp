@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/warp_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -38,6 +39,7 @@ void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bo
           is_u ? sample(neighbour, y, x + shift) : sample(neighbour, y + shift, x);
       sums.forward += std::abs(here - forward);
       sums.reversed += std::abs(here - backward);
+      sums.unwarped += std::abs(here - neighbour.at(y, x));
       ++sums.pixels;
     }
   }
@@ -56,6 +58,7 @@ AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is
   if (errors.pixels > 0) {
     errors.forward /= static_cast<double>(errors.pixels);
     errors.reversed /= static_cast<double>(errors.pixels);
+    errors.unwarped /= static_cast<double>(errors.pixels);
   }
   return errors;
 }
@@ -65,6 +68,14 @@ AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is
 bool AxisErrors::is_decided() const {
   const double difference = std::abs(forward - reversed);
   return pixels > 0 && difference > 0.02 && difference > 0.03 * std::min(forward, reversed);
+}
+
+bool AxisErrors::is_poor() const {
+  if (pixels == 0) return false;
+  const double best = std::min(forward, reversed);
+  const double other = std::max(forward, reversed);
+  if (is_decided()) return best > 0.9 * std::min(other, unwarped);
+  return best > 1.1 * unwarped + 0.5;
 }
 
 double WarpErrors::best() const {

@@ -137,6 +137,107 @@ class ContradictionTest : public QObject {
     QVERIFY2(warns(read, "camDistance says 12"), describe(read.convention).c_str());
     QVERIFY(!read.light_field->info().camera.cam_distance);
   }
+
+  void wrongShift_makesTheTruthPoor_data() {
+    QTest::addColumn<double>("shift");
+    QTest::addColumn<bool>("is_poor");
+    QTest::newRow("right") << 5.0 << false;
+    QTest::newRow("wrong") << 1.0 << true;
+  }
+  void wrongShift_makesTheTruthPoor() {
+    QFETCH(double, shift);
+    QFETCH(bool, is_poor);
+
+    const Scene read = open_with([&](io::Hdf5Output& file) { set_camera(file, 40, shift); });
+
+    QVERIFY2(warns(read, "hardly explains") == is_poor, describe(read.convention).c_str());
+  }
+
+  void sizeInAttributes_isComparedWithTheData() {
+    const Scene read = open_with([](io::Hdf5Output& file) {
+      file.set_integers("/", "xRes", {640});
+      file.set_integers("/", "yRes", {64});
+    });
+
+    QVERIFY2(warns(read, "xRes says 640, but LF has 80"), describe(read.convention).c_str());
+    QVERIFY(!warns(read, "yRes"));
+  }
+
+  void channelsWithoutTheirAxis_areRefused() {
+    io::AtomicFile target(path("lf.h5"));
+    io::Hdf5Output file(target);
+    add_bytes(file, "LF", {3, 3, 8, 24}, std::vector<std::uint8_t>(3 * 3 * 8 * 24));
+    file.set_integers("/", "channels", {3});
+    file.close();
+    target.commit();
+
+    QVERIFY2(refusal(path("lf.h5")).contains("channels says 3"),
+             qPrintable(refusal(path("lf.h5"))));
+  }
+
+  void floatSamples_areBroughtIntoRange_data() {
+    QTest::addColumn<double>("factor");
+    QTest::addColumn<int>("nans");
+    QTest::addColumn<QString>("words");
+    QTest::newRow("of a byte") << 1.0 << 0 << "divided by 255.";
+    QTest::newRow("of 16 bits") << 257.0 << 0 << "divided by 65535";
+    QTest::newRow("NaN") << 1 / 255.0 << 7 << "7 of 384000 samples";
+  }
+  void floatSamples_areBroughtIntoRange() {
+    QFETCH(double, factor);
+    QFETCH(int, nans);
+    QFETCH(QString, words);
+    const Scene scene = plane_scene();
+    const ViewStack<std::uint8_t>& bytes = bytes_of(scene);
+    ViewStack<float> floats({5, 5}, 64, 80, 3);
+    for (std::size_t i = 0; i < floats.size(); ++i) {
+      floats.data()[i] = static_cast<float>(factor * bytes.data()[i]);
+    }
+    const std::size_t first = floats.size() / 2;
+    for (int i = 0; i < nans; ++i) {
+      floats.data()[first + static_cast<std::size_t>(i)] = std::numeric_limits<float>::quiet_NaN();
+    }
+    Scene stored = scene;
+    stored.light_field = std::make_shared<LightField>(std::move(floats), scene.light_field->info());
+    io::write_archive(path("lf.h5"), stored, Progress(2));
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(warns(read, words.toUtf8()), describe(read.convention).c_str());
+    QVERIFY(QString::fromStdString(read.convention.order_check).contains("truth"));
+    const auto view = read.light_field->view<float>({2, 2});
+    const auto before = bytes.view({2, 2});
+    for (std::size_t i = 0; i < view.size(); ++i) {
+      if (view.data[i] == 0) continue;
+      QVERIFY(std::abs(view.data[i] - static_cast<float>(before.data[i]) / 255) < 1e-6F);
+    }
+  }
+
+  void unknownCamera_staysUnknownInABenchmarkFolder() {
+    io::write_benchmark_folder(path("folder"), without_camera(), Progress(2));
+
+    const Scene read = open(path("folder"));
+
+    QVERIFY(!read.light_field->info().camera.is_known());
+    QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
+  }
+
+  void sizeInAConfig_isComparedWithTheViews() {
+    const Scene scene = plane_scene();
+    io::write_benchmark_folder(path("folder"), scene, Progress(2));
+    QFile config(QString::fromStdString((path("folder") / "parameters.cfg").string()));
+    QVERIFY(config.open(QIODevice::ReadWrite));
+    const QByteArray text = config.readAll().replace("x_px = 80", "x_px = 999");
+    config.seek(0);
+    config.write(text);
+    config.close();
+
+    const Scene read = open(path("folder"));
+
+    QVERIFY2(warns(read, "is 999, but the views have 80 px"), describe(read.convention).c_str());
+    QVERIFY(std::abs(read.light_field->info().camera.shift -
+                     scene.light_field->info().camera.shift) < 1e-9);
+  }
 };
 
 QTEST_APPLESS_MAIN(ContradictionTest)
