@@ -99,17 +99,21 @@ Schema<EpiLParameters> epi_l_schema() {
 
 Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
                         const Progress& progress) {
-  Estimate estimate = estimate_orientations(lf, parameters, views, progress);
-  clamp_to_range(estimate);
+  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.97));
+  clamp_to_range(estimate, progress.part(0.97, 1));
   return estimate;
 }
 
-void clamp_to_range(Estimate& estimate) {
+void clamp_to_range(Estimate& estimate, const Progress& progress) {
   const auto low = static_cast<float>(estimate.range.min);
   const auto high = static_cast<float>(estimate.range.max);
   ViewStack<float>& disparity = estimate.field.disparity;
-  float* values = disparity.data();
-  for (std::size_t i = 0; i < disparity.size(); ++i) values[i] = std::clamp(values[i], low, high);
+  parallel_for(disparity.grid().count(), progress, [&](int i) {
+    float* view = disparity.data() + i * disparity.view_size();
+    for (std::size_t n = 0; n < disparity.view_size(); ++n) {
+      view[n] = std::clamp(view[n], low, high);
+    }
+  });
 }
 
 Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,

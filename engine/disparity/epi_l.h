@@ -42,7 +42,7 @@ void add_epi_l_parameters(Schema<P>& schema);
                                              const Progress& progress);
 
 /// Clamps every disparity to `estimate.range`.
-void clamp_to_range(Estimate& estimate);
+void clamp_to_range(Estimate& estimate, const Progress& progress);
 
 [[nodiscard]] Estimator epi_l_estimator();
 

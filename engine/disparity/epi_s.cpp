@@ -93,8 +93,8 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
                         const Progress& progress) {
   Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.4));
   progress.step("denoising");
-  const std::vector<double> gaps = denoise(lf, parameters, estimate, progress.part(0.4, 1));
-  clamp_to_range(estimate);
+  const std::vector<double> gaps = denoise(lf, parameters, estimate, progress.part(0.4, 0.98));
+  clamp_to_range(estimate, progress.part(0.98, 1));
   estimate.notes.push_back(gap_note(gaps));
   return estimate;
 }

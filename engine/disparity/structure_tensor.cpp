@@ -15,7 +15,7 @@ namespace episcope {
 namespace {
 
 // Lanes that a kernel may read or write beyond what it is asked for.
-constexpr int kSlack = 64;
+constexpr int kSlack = 128;
 constexpr int kMaxRows = 32;
 
 // How far beyond the range noisy estimates are followed, in px: cut off at the range itself, noise
@@ -97,7 +97,7 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
 void StructureTensor::State::size_block() {
   // Rows of a vertical block: its planes stay in the L2 cache.
   constexpr int kBand = 128;
-  constexpr int kPayloadColumns = 28;
+  constexpr int kPayloadColumns = 32;
   columns = kPayloadColumns + 2 * across.radius;
   block.stride = horizontal() ? 1 : columns;
   payload_pixels = horizontal() ? light_field.width() : std::min(light_field.height(), kBand);

@@ -98,25 +98,6 @@ RowSource source_of(const TensorBlock& block, const Shear& shear, int row) {
                               static_cast<long>(floor_half(half_steps)) * block.stride};
 }
 
-struct Products {
-  Vec xx, xs, ss;
-};
-
-// Gradient of `count` source rows at lane n, one channel, added to the products.
-template <int kCount>
-inline void add_products(const float* const* along, const float* const* across, const float* smooth,
-                         const float* derivative, int n, Products& sum) {
-  Vec gx = smooth[0] * load(along[0] + n);
-  Vec gs = derivative[0] * load(across[0] + n);
-  for (int i = 1; i < kCount; ++i) {
-    gx += smooth[i] * load(along[i] + n);
-    gs += derivative[i] * load(across[i] + n);
-  }
-  sum.xx += gx * gx;
-  sum.xs += gx * gs;
-  sum.ss += gs * gs;
-}
-
 constexpr int kMaxChannels = 3;
 
 struct RowPointers {
@@ -124,50 +105,51 @@ struct RowPointers {
   const float* across[kMaxChannels][kMaxTaps];
 };
 
-template <int kCount, int kChannels>
-void products_chunk(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
-                    float contrast, int begin, int end, float* __restrict const* out) {
-  for (int n = begin; n < end; n += kLanes) {
-    Products sum{};
-    for (int c = 0; c < kChannels; ++c) {
-      add_products<kCount>(rows.along[c], rows.across[c], smooth.values, derivative.values, n, sum);
+// Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
+// as the registers hold.
+constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+constexpr int kGroupLanes = kGroup * kLanes;
+
+struct Group {
+  Vec at[kGroup];
+};
+
+inline void multiply_add(Group& sum, float tap, const float* from) {
+  for (int k = 0; k < kGroup; ++k) sum.at[k] += tap * load(from + k * kLanes);
+}
+
+// Products of the gradient at a group of lanes, all channels summed, toned down and stored.
+template <int kChannels>
+inline void products_group(const RowPointers& rows, const RowTaps& smooth,
+                           const RowTaps& derivative, float contrast, int n,
+                           float* __restrict const* out) {
+  Group xx{}, xs{}, ss{};
+  for (int c = 0; c < kChannels; ++c) {
+    Group gx{}, gs{};
+    for (int i = 0; i < smooth.count; ++i) {
+      multiply_add(gx, smooth.values[i], rows.along[c][i] + n);
+      multiply_add(gs, derivative.values[i], rows.across[c][i] + n);
     }
+    for (int k = 0; k < kGroup; ++k) {
+      xx.at[k] += gx.at[k] * gx.at[k];
+      xs.at[k] += gx.at[k] * gs.at[k];
+      ss.at[k] += gs.at[k] * gs.at[k];
+    }
+  }
+  for (int k = 0; k < kGroup; ++k) {
     // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
-    const Vec weight = contrast * rough_reciprocal(sum.xx + sum.ss + contrast);
-    store(out[0] + n, weight * sum.xx);
-    store(out[1] + n, weight * sum.xs);
-    store(out[2] + n, weight * sum.ss);
+    const Vec weight = contrast * rough_reciprocal(xx.at[k] + ss.at[k] + contrast);
+    store(out[0] + n + k * kLanes, weight * xx.at[k]);
+    store(out[1] + n + k * kLanes, weight * xs.at[k]);
+    store(out[2] + n + k * kLanes, weight * ss.at[k]);
   }
 }
 
 template <int kChannels>
 void products_row(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
                   float contrast, int begin, int end, float* const* out) {
-  switch (smooth.count) {
-    case 2:
-      return products_chunk<2, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 3:
-      return products_chunk<3, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 4:
-      return products_chunk<4, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 5:
-      return products_chunk<5, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 6:
-      return products_chunk<6, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 7:
-      return products_chunk<7, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 8:
-      return products_chunk<8, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 9:
-      return products_chunk<9, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 10:
-      return products_chunk<10, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 11:
-      return products_chunk<11, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    case 12:
-      return products_chunk<12, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
-    default:
-      return products_chunk<13, kChannels>(rows, smooth, derivative, contrast, begin, end, out);
+  for (int n = begin; n < end; n += kGroupLanes) {
+    products_group<kChannels>(rows, smooth, derivative, contrast, n, out);
   }
 }
 
@@ -218,14 +200,14 @@ Window source_window(const TensorBlock& block, const TensorFilters& filters, con
   return window;
 }
 
-void integrate_rows(const float (*products)[kChunk + kLanes], const RowTaps& taps, Window window,
-                    float* __restrict out) {
-  for (int n = window.begin; n < window.end; n += kLanes) {
-    Vec sum = taps.values[0] * load(products[taps.first] + n);
-    for (int i = 1; i < taps.count; ++i) {
-      sum += taps.values[i] * load(products[taps.first + i] + n);
+void integrate_rows(const float (*products)[kChunk + kGroupLanes], const RowTaps& taps,
+                    Window window, float* __restrict out) {
+  for (int n = window.begin; n < window.end; n += kGroupLanes) {
+    Group sum{};
+    for (int i = 0; i < taps.count; ++i) {
+      multiply_add(sum, taps.values[i], products[taps.first + i] + n);
     }
-    store(out + n, sum);
+    for (int k = 0; k < kGroup; ++k) store(out + n + k * kLanes, sum.at[k]);
   }
 }
 
@@ -237,8 +219,8 @@ Window clip(Window window, int chunk) {
 }
 
 struct ChunkProducts {
-  // Vectors may begin anywhere and reach beyond the chunk.
-  alignas(64) float values[3][kMaxRows][kChunk + kLanes];
+  // Groups may begin anywhere and reach beyond the chunk.
+  alignas(64) float values[3][kMaxRows][kChunk + kGroupLanes];
 };
 
 void fill_products(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
