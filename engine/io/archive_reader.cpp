@@ -181,7 +181,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
 
   progress.step("reading views");
   LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
-  tidy_float_samples(samples, report);
+  scale_float_samples(samples, report);
   progress.step("reading depth");
   ArchiveTruth depth =
       read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));
@@ -193,6 +193,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     std::move(labels.labels),
                     {}};
   put_in_order(samples, truth, expected_order(file), options.flip, report, progress);
+  zero_odd_samples(samples, report);
   scene.scribbles = std::move(labels.scribbles);
   if (!scene.scribbles.labels.empty()) {
     scene.scribbles.view =
@@ -201,7 +202,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   info.camera = depth.camera;
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
-  scene.companions = find_companions(path.parent_path());
+  scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
   return scene;
 }
 

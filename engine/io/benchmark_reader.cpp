@@ -279,7 +279,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0, 0.85));
-  tidy_float_samples(samples, report);
+  scale_float_samples(samples, report);
   progress.step("reading truth");
   const Size size = size_of(samples);
   if (config) {
@@ -294,6 +294,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
 
   put_in_order(samples, truth, {{}, "folders of the benchmark are in order"}, options.flip, report,
                progress);
+  zero_odd_samples(samples, report);
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   return scene;

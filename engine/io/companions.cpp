@@ -6,6 +6,7 @@
 #include "engine/io/view_order.h"
 
 #include <array>
+#include <optional>
 
 namespace episcope::io {
 namespace {
@@ -35,25 +36,55 @@ Hdf5Shape stack_shape(const LightField& field) {
           view[0], view[1]};
 }
 
+/// The axis left when those of the views and pixels are taken away.
+std::optional<std::size_t> label_axis(const Hdf5Shape& shape, const LightField& field) {
+  for (std::size_t axis = shape.size(); axis-- > 0;) {
+    Hdf5Shape others = shape;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));
+    if (others == view_shape(field) || others == stack_shape(field)) return axis;
+  }
+  return std::nullopt;
+}
+
+/// Throws IoError if the dataset does not fit the light field.
+void require_fit(const std::filesystem::path& path, const std::string& dataset,
+                 const Hdf5Shape& shape, const LightField& field) {
+  const bool is_weights = dataset == kEdgeWeights;
+  const Hdf5Shape plain = stack_shape(field);
+  Hdf5Shape directed = plain;
+  directed.push_back(2);
+  const bool fits =
+      is_weights ? shape == plain || shape == directed : label_axis(shape, field).has_value();
+  if (fits) return;
+  throw IoError(path, "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
+                          shape_text(plain) +
+                          (is_weights ? " is expected to fit the light field; store it so"
+                                      : " or one view with one more axis of labels is expected; "
+                                        "store it so"));
+}
+
 ViewFlip flip_of(const Scene& scene) {
   return {scene.convention.reversed_u, scene.convention.reversed_v};
 }
 
 }  // namespace
 
-std::vector<Companion> find_companions(const std::filesystem::path& folder) {
+std::vector<Companion> find_companions(const std::filesystem::path& folder, const LightField& field,
+                                       ConventionReport& report) {
   std::vector<Companion> found;
   for (const KnownFile& known : kKnownFiles) {
     const std::filesystem::path path = folder / known.file;
     if (!has_hdf5_signature(path)) continue;
     try {
       const Hdf5Input file(path);
-      if (file.has(known.dataset)) {
-        found.push_back({known.kind, path, shape_text(file.dataset(known.dataset).shape)});
-      }
-    } catch (const IoError&) {
-      // A damaged companion must not keep the light field from opening; it is told when it is read.
-      found.push_back({known.kind, path, "damaged"});
+      if (!file.has(known.dataset)) continue;
+      const Hdf5Shape shape = file.dataset(known.dataset).shape;
+      require_fit(path, known.dataset, shape, field);
+      found.push_back({known.kind, path, shape_text(shape)});
+    } catch (const IoError& error) {
+      // A companion that cannot be read must not keep the light field from opening.
+      report.warnings.push_back(std::string("The file of ") + known.kind +
+                                " is left out: " + error.what() + ".");
     }
   }
   return found;
@@ -64,15 +95,10 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
   const Hdf5Input file(path);
   const LightField& field = *scene.light_field;
   const Hdf5Shape shape = file.dataset(kEdgeWeights).shape;
-  const Hdf5Shape plain = stack_shape(field);
-  Hdf5Shape directed = plain;
-  directed.push_back(2);
-  if (shape != plain && shape != directed) {
-    throw IoError(path, "the dataset EDGE_WEIGHTS has the shape " + shape_text(shape) + ", but " +
-                            shape_text(plain) + " is expected to fit the light field; store it so");
-  }
+  require_fit(path, kEdgeWeights, shape, field);
+  const bool is_plain = shape == stack_shape(field);
   const GridShape grid = field.grid();
-  ViewStack<float> weights(grid, field.height(), field.width(), shape == plain ? 1 : 2);
+  ViewStack<float> weights(grid, field.height(), field.width(), is_plain ? 1 : 2);
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex stored{i / grid.u, i % grid.u};
@@ -103,17 +129,8 @@ ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene&
   state.grid = field.grid();
   state.flip = flip_of(scene);
   state.shape = state.file.dataset(kProbabilities).shape;
-  for (std::size_t axis = state.shape.size(); axis-- > 0;) {
-    Hdf5Shape others = state.shape;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(axis));
-    if (others == view_shape(field) || others == stack_shape(field)) {
-      state.label_axis = axis;
-      return;
-    }
-  }
-  throw IoError(path, "the dataset Probabilities has the shape " + shape_text(state.shape) +
-                          ", but " + shape_text(stack_shape(field)) +
-                          " or one view with one more axis of labels is expected; store it so");
+  require_fit(path, kProbabilities, state.shape, field);
+  state.label_axis = *label_axis(state.shape, field);
 }
 
 ProbabilityFile::~ProbabilityFile() = default;

@@ -12,8 +12,11 @@
 namespace episcope::io {
 
 /// edge_weights.h5 and the three files of label probabilities in `folder`, as far as they are there
-/// and hold what their names say.
-[[nodiscard]] std::vector<Companion> find_companions(const std::filesystem::path& folder);
+/// and hold what their names say. One that is damaged or does not fit the light field is left out
+/// with a warning.
+[[nodiscard]] std::vector<Companion> find_companions(const std::filesystem::path& folder,
+                                                     const LightField& field,
+                                                     ConventionReport& report);
 
 /// Edge weights in [0, 1] of all views in the house order, `[v][u][y][x]`, or `[v][u][y][x][2]` if
 /// the file has one weight per direction. Throws IoError, also if they do not fit; Cancelled.

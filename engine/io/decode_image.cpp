@@ -2,6 +2,7 @@
 #include "engine/io/decode_image.h"
 
 #include "engine/core/error.h"
+#include "engine/io/png_check.h"
 #include "engine/io/system_error.h"
 
 #include <opencv2/core/utils/logger.hpp>
@@ -28,8 +29,15 @@ Image<T> copy_rgb(const cv::Mat& decoded) {
   return image;
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw IoError(path,
+                "the image cannot be decoded: it is damaged or of another kind than its "
+                "name says; copy or export it again");
+}
+
 cv::Mat read_mat(const std::filesystem::path& path) {
   require_readable_file(path);
+  if (is_damaged_png(path)) refuse(path);  // the decoder would print a message of its own
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat decoded;
   try {
@@ -37,11 +45,7 @@ cv::Mat read_mat(const std::filesystem::path& path) {
   } catch (const cv::Exception&) {
     decoded.release();
   }
-  if (decoded.empty()) {
-    throw IoError(path,
-                  "the image cannot be decoded: it is damaged or of another kind than its "
-                  "name says; copy or export it again");
-  }
+  if (decoded.empty()) refuse(path);
   return decoded;
 }
 

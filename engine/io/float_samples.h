@@ -6,9 +6,13 @@
 
 namespace episcope::io {
 
-/// Brings float samples into the range that the engine works in and tells `report`: samples that
-/// are NaN or infinite become 0; samples beyond 1.5 are taken for those of 8 bits and divided by
-/// 255, beyond 255.5 for those of 16 bits and divided by 65535. Integers stay as they are.
-void tidy_float_samples(LightField::Samples& samples, ConventionReport& report);
+/// Brings float samples into the range that the engine works in and tells `report`: those beyond
+/// 1.5 are taken for samples of 8 bits and divided by 255, beyond 255.5 for those of 16 bits and
+/// divided by 65535. Integers stay as they are.
+void scale_float_samples(LightField::Samples& samples, ConventionReport& report);
+
+/// Turns samples that are NaN or infinite into 0 and tells `report` how many. To be called after
+/// the order of views was checked, which leaves such samples out.
+void zero_odd_samples(LightField::Samples& samples, ConventionReport& report);
 
 }  // namespace episcope::io

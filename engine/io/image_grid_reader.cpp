@@ -32,11 +32,12 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
         if (options.on_center_view) options.on_center_view(center, info, shape);
       },
       progress.part(0, 0.9));
-  tidy_float_samples(samples, report);
+  scale_float_samples(samples, report);
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
   put_in_order(samples, truth, {{}, "rows and columns are as the names say"}, options.flip, report,
                progress);
+  zero_odd_samples(samples, report);
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   return scene;

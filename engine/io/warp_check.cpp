@@ -37,9 +37,11 @@ void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bo
           is_u ? sample(neighbour, y, x - shift) : sample(neighbour, y - shift, x);
       const float backward =
           is_u ? sample(neighbour, y, x + shift) : sample(neighbour, y + shift, x);
+      const float unwarped = neighbour.at(y, x);
+      if (!std::isfinite(here + forward + backward + unwarped)) continue;
       sums.forward += std::abs(here - forward);
       sums.reversed += std::abs(here - backward);
-      sums.unwarped += std::abs(here - neighbour.at(y, x));
+      sums.unwarped += std::abs(here - unwarped);
       ++sums.pixels;
     }
   }

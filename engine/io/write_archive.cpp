@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace episcope::io {
@@ -102,7 +104,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
 /// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
 /// A single view is stored as `[y][x]` if it is the centre, else as one valid view of all.
 void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
-                 const Scene& scene, const CameraGrid& camera) {
+                 const Scene& scene, const CameraGrid& camera, const Progress& progress) {
   if (field.empty()) return;
   const LightField& light_field = *scene.light_field;
   const ViewStack<float>& disparity = field.disparity;
@@ -127,15 +129,22 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
     }
     return depth.data();
   };
-  write_maps<float>(file, name, maps, "scene units", Progress(1), to_depth);
-  if (field.valid.empty() && disparity.grid() == maps.grid) return;
-  std::vector<std::uint8_t> mask(disparity.view_size());
-  write_maps<std::uint8_t>(file, name + "_MASK", maps, "", Progress(1),
-                           [&](ViewIndex view) -> const std::uint8_t* {
-                             const float* z = to_depth(view);
-                             for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = z[i] > 0;
-                             return mask.data();
-                           });
+  const bool has_mask = !field.valid.empty() || !(disparity.grid() == maps.grid);
+  std::vector<std::uint8_t> mask;  ///< Of all views, in the order in which they are written.
+  write_maps<float>(
+      file, name, maps, "scene units", progress.part(0, has_mask ? 0.8 : 1), [&](ViewIndex view) {
+        const float* z = to_depth(view);
+        if (has_mask) {
+          std::transform(z, z + depth.size(), std::back_inserter(mask),
+                         [](float one) { return static_cast<std::uint8_t>(one > 0); });
+        }
+        return z;
+      });
+  if (!has_mask) return;
+  const std::uint8_t* next = mask.data();
+  write_maps<std::uint8_t>(file, name + "_MASK", maps, "", progress.part(0.8, 1), [&](ViewIndex) {
+    return std::exchange(next, next + disparity.view_size());
+  });
 }
 
 void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
@@ -161,6 +170,45 @@ bool may_write_labels(const std::filesystem::path& labels, const std::filesystem
   return has_hdf5_signature(labels) &&
          Hdf5Input(labels).text("/", "light_field") == file.filename().string();
 }
+
+/// Keeps what lies at a path, to bring it back if a later step fails: light field and labels are to
+/// change both or neither. Where the disk knows no hard links, the new file stays.
+class FormerFile {
+ public:
+  explicit FormerFile(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    was_there_ = std::filesystem::exists(path, error);
+    if (!was_there_) return;
+    path_ = std::filesystem::canonical(path, error);
+    kept_ = path_.parent_path() / path_.filename().string().insert(0, 1, '.').append(".former");
+    std::filesystem::remove(kept_, error);
+    std::filesystem::create_hard_link(path_, kept_, error);
+    if (error) kept_.clear();
+  }
+  ~FormerFile() {
+    std::error_code ignored;
+    if (!kept_.empty()) std::filesystem::remove(kept_, ignored);
+  }
+  FormerFile(const FormerFile&) = delete;
+  FormerFile& operator=(const FormerFile&) = delete;
+
+  template <class Step>
+  void restore_unless(const Step& step) {
+    try {
+      step();
+    } catch (...) {
+      std::error_code ignored;
+      if (!was_there_) std::filesystem::remove(path_, ignored);
+      if (!kept_.empty()) std::filesystem::rename(kept_, path_, ignored);
+      throw;
+    }
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path kept_;
+  bool was_there_ = false;
+};
 
 std::uintmax_t scene_bytes(const Scene& scene) {
   const auto of = [](const DisparityField& field) {
@@ -196,11 +244,13 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
       {"GT_DEPTH", &truth.field},
       {"GT_DEPTH_FOREGROUND", &truth.foreground},
       {"GT_DEPTH_BACKGROUND", &truth.background}};
+  double done = 0.6;
   for (const auto& [name, field] : fields) {
     progress.check();
-    write_depth(file, name, *field, scene, camera);
+    write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
+    done += 0.08;
   }
-  if (is_inside) write_labels(file, scene, progress.part(0.8, 0.9));
+  if (is_inside) write_labels(file, scene, progress.part(0.84, 0.95));
   file.close();
 
   if (is_apart) {
@@ -208,12 +258,15 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
     Hdf5Output labels(label_target);
     labels.set_text("/", "light_field", path.filename().string());
     labels.set_text("/", "convention", kConvention);
-    write_labels(labels, scene, progress.part(0.8, 0.9));
+    write_labels(labels, scene, progress.part(0.84, 0.95));
     labels.close();
     progress.check();
-    label_target.commit();
+    FormerFile former(path);
+    target.commit();
+    former.restore_unless([&] { label_target.commit(); });
+  } else {
+    target.commit();
   }
-  target.commit();
   // Labels of the file that was written over would else be taken for those of the new one.
   if (!has_labels(scene) && std::filesystem::exists(beside) && may_write_labels(beside, path)) {
     std::filesystem::remove(beside);

@@ -375,6 +375,48 @@ class ArchiveTest : public QObject {
     QVERIFY(std::filesystem::is_empty(folder_->path().toStdString()));
   }
 
+  void failingLabels_bringTheOldLightFieldBack_data() {
+    QTest::addColumn<bool>("was_there");
+    QTest::newRow("new file") << false;
+    QTest::newRow("over an old one") << true;
+  }
+  void failingLabels_bringTheOldLightFieldBack() {
+    QFETCH(bool, was_there);
+    PlaneOptions options;
+    options.d0 = 0.5;
+    const Scene former = plane_scene(options);
+    if (was_there) io::write_archive(path("lf.h5"), former, Progress(2));
+    // A folder in the place of the labels, made when they are being written, cannot be replaced.
+    const std::stop_source stop;
+    const Progress progress(stop.get_token(), [&](const ProgressState& state) {
+      if (state.fraction < 0.9) return;
+      std::filesystem::remove(path("labels.h5"));
+      std::filesystem::create_directories(path("labels.h5"));
+    });
+
+    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), IoError);
+
+    const std::size_t files =
+        static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path("")), {}));
+    QCOMPARE(files, std::size_t{was_there ? 2U : 1U});
+    if (!was_there) return;
+    std::filesystem::remove(path("labels.h5"));
+    QVERIFY(has_same_samples(former, open(path("lf.h5"))));
+  }
+
+  void writing_stopsWithinDepth() {
+    std::stop_source stop;
+    int later = 0;
+    const Progress progress(stop.get_token(), [&](const ProgressState& state) {
+      later += stop.stop_requested() ? 1 : 0;
+      if (state.fraction > 0.61) stop.request_stop();
+    });
+
+    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
+    QCOMPARE(later, 0);
+    QVERIFY(std::filesystem::is_empty(path("")));
+  }
+
   void evenGrids_andGreyViews_areRead() {
     PlaneOptions options;
     options.grid = {4, 6};

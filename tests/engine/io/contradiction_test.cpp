@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/image_file.h"
 #include "engine/io/open.h"
+#include "engine/io/png_check.h"
 #include "engine/io/write_scene.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -181,7 +183,7 @@ class ContradictionTest : public QObject {
     QTest::addColumn<QString>("words");
     QTest::newRow("of a byte") << 1.0 << 0 << "divided by 255.";
     QTest::newRow("of 16 bits") << 257.0 << 0 << "divided by 65535";
-    QTest::newRow("NaN") << 1 / 255.0 << 7 << "7 of 384000 samples";
+    QTest::newRow("NaN") << 1 / 255.0 << 34909 << "34909 of 384000 samples";
   }
   void floatSamples_areBroughtIntoRange() {
     QFETCH(double, factor);
@@ -193,9 +195,8 @@ class ContradictionTest : public QObject {
     for (std::size_t i = 0; i < floats.size(); ++i) {
       floats.data()[i] = static_cast<float>(factor * bytes.data()[i]);
     }
-    const std::size_t first = floats.size() / 2;
     for (int i = 0; i < nans; ++i) {
-      floats.data()[first + static_cast<std::size_t>(i)] = std::numeric_limits<float>::quiet_NaN();
+      floats.data()[11 * static_cast<std::size_t>(i)] = std::numeric_limits<float>::quiet_NaN();
     }
     Scene stored = scene;
     stored.light_field = std::make_shared<LightField>(std::move(floats), scene.light_field->info());
@@ -205,12 +206,61 @@ class ContradictionTest : public QObject {
 
     QVERIFY2(warns(read, words.toUtf8()), describe(read.convention).c_str());
     QVERIFY(QString::fromStdString(read.convention.order_check).contains("truth"));
+    QVERIFY2(!warns(read, "hardly explains"), describe(read.convention).c_str());
     const auto view = read.light_field->view<float>({2, 2});
     const auto before = bytes.view({2, 2});
     for (std::size_t i = 0; i < view.size(); ++i) {
       if (view.data[i] == 0) continue;
       QVERIFY(std::abs(view.data[i] - static_cast<float>(before.data[i]) / 255) < 1e-6F);
     }
+  }
+
+  void companionsThatDoNotFit_areLeftOutWithAWarning() {
+    io::write_archive(path("lf.h5"), plane_scene(), Progress(2));
+    const std::pair<const char*, const char*> files[] = {
+        {"edge_weights.h5", "EDGE_WEIGHTS"}, {"feature_depth_probabilities.h5", "Probabilities"}};
+    for (const auto& [name, dataset] : files) {
+      io::AtomicFile target(path(name));
+      io::Hdf5Output file(target);
+      add_bytes(file, dataset, {5, 5, 80, 64}, std::vector<std::uint8_t>(5 * 5 * 80 * 64));
+      file.close();
+      target.commit();
+    }
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY(read.companions.empty());
+    QVERIFY2(warns(read, "The file of edge weights is left out"),
+             describe(read.convention).c_str());
+    QVERIFY(warns(read, "The file of probabilities (depth) is left out"));
+  }
+
+  void damagedPng_isFoundBeforeItIsDecoded_data() {
+    QTest::addColumn<int>("kept");
+    QTest::addColumn<int>("changed");
+    QTest::addColumn<bool>("is_damaged");
+    const int all = 1 << 20;
+    QTest::newRow("whole") << all << -1 << false;
+    QTest::newRow("cut in the middle") << 300 << -1 << true;
+    QTest::newRow("cut after the signature") << 8 << -1 << true;
+    QTest::newRow("one byte changed") << all << 200 << true;
+    QTest::newRow("no PNG") << all << 0 << false;
+  }
+  void damagedPng_isFoundBeforeItIsDecoded() {
+    QFETCH(int, kept);
+    QFETCH(int, changed);
+    QFETCH(bool, is_damaged);
+    const Scene scene = plane_scene();
+    io::write_png(path("view.png"), bytes_of(scene).view({0, 0}));
+    QFile file(QString::fromStdString(path("view.png").string()));
+    QVERIFY(file.open(QIODevice::ReadWrite));
+    QByteArray bytes = file.readAll().left(kept);
+    if (changed >= 0) bytes[changed] = static_cast<char>(bytes[changed] ^ 1);
+    file.resize(0);
+    file.write(bytes);
+    file.close();
+
+    QCOMPARE(io::is_damaged_png(path("view.png")), is_damaged);
   }
 
   void unknownCamera_staysUnknownInABenchmarkFolder() {
