@@ -64,12 +64,12 @@ void DisparityRangeTest::foundRange_holdsTheTruth_data() {
   QTest::addColumn<QString>("id");
   QTest::addColumn<double>("scale");
   QTest::addColumn<double>("noise");
-  for (const double scale : {0.5, 1.0, 1.5, 2.0, 3.5}) {
+  for (const double scale : {0.5, 1.0, 2.0, 3.5}) {
     QTest::addRow("slant %g", scale) << "slant" << scale << 0.0;
     QTest::addRow("edge %g", scale) << "edge" << scale << 0.0;
     QTest::addRow("bars %g", scale) << "bars" << scale << 0.0;
   }
-  for (const double scale : {0.5, 1.0, 2.0}) {
+  for (const double scale : {0.5, 2.0}) {
     QTest::addRow("objects %g", scale) << "objects" << scale << 0.0;
     QTest::addRow("demo %g", scale) << "demo" << scale << 0.0;
   }
@@ -81,7 +81,7 @@ void DisparityRangeTest::foundRange_holdsTheTruth() {
   QFETCH(QString, id);
   QFETCH(double, scale);
   QFETCH(double, noise);
-  const Scene scene = render(id.toStdString(), 96, 112, {9, 9}, scale, noise);
+  const Scene scene = render(id.toStdString(), 80, 96, {5, 5}, scale, noise);
   const Interval truth = true_range(scene);
   const Interval found = find_disparity_range(*scene.light_field, Progress());
   const QString both = text(found) + " for " + text(truth);

@@ -234,7 +234,7 @@ void EstimatorTest::progress_risesToOne() {
   QFETCH(int, rows);
   QFETCH(int, columns);
   const Estimator estimator = fetched();
-  const Scene scene = render("edge", 160, 168, {rows, columns});
+  const Scene scene = render("edge", 136, 144, {rows, columns});
   std::vector<double> fractions;
   std::set<std::string> steps;
   const Progress progress({}, [&](const ProgressState& state) {
@@ -258,7 +258,7 @@ void EstimatorTest::progress_risesToOne() {
 // give this process half a core.
 void EstimatorTest::stop_endsWithinLimit() {
   const Estimator estimator = fetched();
-  static const Scene scene = render("edge", 320, 360, {9, 9});
+  static const Scene scene = render("edge", 224, 240, {7, 7});
   for (const double stop_at : {0.02, 0.3, 0.6, 0.9}) {
     std::stop_source source;
     Clock::time_point stopped;
