@@ -37,6 +37,7 @@ WarpErrors mean_errors(const LightField::Samples& samples,
 }
 
 std::string axis_text(const char* name, const AxisErrors& errors, bool is_flipped) {
+  if (errors.pixels == 0) return std::string(name) + " not compared";
   const double taken = is_flipped ? errors.reversed : errors.forward;
   const double other = is_flipped ? errors.forward : errors.reversed;
   return std::string(name) + " " + number(taken) + " (other way " + number(other) + ")";

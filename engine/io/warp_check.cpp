@@ -2,6 +2,7 @@
 #include "engine/io/warp_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -38,7 +39,6 @@ void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bo
       const float backward =
           is_u ? sample(neighbour, y, x + shift) : sample(neighbour, y + shift, x);
       const float unwarped = neighbour.at(y, x);
-      if (!std::isfinite(here + forward + backward + unwarped)) continue;
       sums.forward += std::abs(here - forward);
       sums.reversed += std::abs(here - backward);
       sums.unwarped += std::abs(here - unwarped);
@@ -96,9 +96,15 @@ Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
             static_cast<float>(image.channels);
         Image<float> grey(image.height, image.width);
         for (int y = 0; y < image.height; ++y) {
+          std::array<float, 4> last{};
           for (int x = 0; x < image.width; ++x) {
             float sum = 0;
-            for (int c = 0; c < image.channels; ++c) sum += static_cast<float>(image.at(y, x, c));
+            for (int c = 0; c < image.channels; ++c) {
+              const auto value = static_cast<float>(image.at(y, x, c));
+              float& kept = last[static_cast<std::size_t>(c)];
+              if (std::isfinite(value)) kept = value;
+              sum += kept;
+            }
             grey.at(y, x) = scale * sum;
           }
         }

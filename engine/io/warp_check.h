@@ -30,12 +30,11 @@ struct WarpErrors {
   [[nodiscard]] double best() const;
 };
 
-/// A view as grey values in 0…255.
+/// A view as grey values in 0…255; a sample that is not finite takes the value to its left.
 [[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
 
 /// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
-/// targets lie inside the image for both orders and are finite count, so that both are judged on
-/// the same pixels.
+/// targets lie inside the image for both orders count, so that both are judged on the same pixels.
 [[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
                                      const DisparityView& disparity);
 
