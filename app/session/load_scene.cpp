@@ -46,14 +46,8 @@ void show_center_view(const std::string& id, const Scene& center, GridShape grid
 
 // What the archive form cannot hold of a built-in scene: region masks and where it comes from.
 void complete_kept_scene(Scene& kept, const Scene& center) {
-  auto truth = std::make_shared<GroundTruth>();
-  const GroundTruth& read = *kept.truth;
-  truth->field = {read.field.disparity.clone(), read.field.valid.clone()};
-  truth->foreground = {read.foreground.disparity.clone(), read.foreground.valid.clone()};
-  truth->background = {read.background.disparity.clone(), read.background.valid.clone()};
-  truth->labels = read.labels.clone();
-  truth->regions = center.truth->regions;
-  kept.truth = std::move(truth);
+  // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
+  std::const_pointer_cast<GroundTruth>(kept.truth)->regions = center.truth->regions;
   kept.convention = center.convention;
 }
 
