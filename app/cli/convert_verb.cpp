@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
+#include "app/cli/output.h"
+#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "engine/io/image_file.h"
 #include "engine/io/pfm.h"
 #include "engine/io/ply.h"
-#include "engine/io/result_file.h"
 #include "engine/io/write_scene.h"
 #include "engine/render/shade.h"
 
@@ -20,6 +21,7 @@ struct Request {
   std::string input;
   std::string output;
   std::string truth;
+  bool is_overwriting = false;
   JobOptions job;
   ReadOptions read;
 };
@@ -36,9 +38,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.positional("OUT", request.output, "File or folder to write");
   parser.option("--truth", request.truth, "INPUT",
                 "Light field of a RESULT; by default the one that its file names");
-  declare_job_options(parser, request.job);
-  declare_read_options(parser, request.read);
-  return parser.parse(arguments);
+  parser.flag("--overwrite", request.is_overwriting, "Replace a light field that is there");
+  return parse_reading(parser, arguments, request.job, request.read);
 }
 
 enum class Format { Archive, Pfm, Tiff, Ply, Folder };
@@ -76,12 +77,12 @@ Subject load_subject(const Request& request, Format format, const Progress& prog
       format == Format::Archive || format == Format::Folder || format == Format::Ply;
   if (request.truth.empty()) {
     subject.estimate = read_result_alone(request.input);
-    const std::string source = source_of(*subject.estimate);
+    const std::string source = source_of(*subject.estimate, request.input);
+    protect_input(request.output, source);
     if (needs_scene && !source.empty()) subject.scene = load_input(source, request.read, progress);
   } else {
     subject.scene = load_input(request.truth, request.read, progress);
-    subject.estimate = io::read_result(request.input, subject.scene->light_field->grid(),
-                                       subject.scene->light_field->info().name);
+    subject.estimate = read_result_of(*subject.scene->light_field, request.input);
   }
   if (needs_scene && !subject.scene) {
     throw IoError(request.input,
@@ -160,6 +161,12 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   const Format format = format_of(request.output);
   if (format != Format::Folder) check_output_file(request.output);
+  protect_input(request.output, request.input);
+  if (!request.truth.empty()) protect_input(request.output, request.truth);
+  if (format == Format::Archive) {
+    check_light_field_output(request.output,
+                             request.is_overwriting ? Overwrite::Yes : Overwrite::No);
+  }
 
   Job job(std::move(stop), request.job);
   Subject subject = load_subject(request, format, job.progress().part(0, 0.5));

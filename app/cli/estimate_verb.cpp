@@ -2,10 +2,11 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/json.h"
+#include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
+#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
-#include "app/session/load_scene.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/result_file.h"
 
@@ -83,34 +84,11 @@ ViewSelection selected_views(const Request& request, const Estimator& estimator)
   throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center");
 }
 
-/// What opens the light field again from any folder.
-std::string lasting_source(const std::string& input) {
-  if (!builtin_scene_id(input).empty()) return input;
-  return std::filesystem::weakly_canonical(input).string();
-}
-
 /// The light field alone: truth and labels of all views would double the memory that is held.
 LightFieldPtr load_light_field(const Request& request, Job& job) {
   const Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.3));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   return scene.light_field;
-}
-
-bool is_sound_result(const std::filesystem::path& path) {
-  try {
-    return io::is_result_file(path);
-  } catch (const IoError&) {
-    return false;  // damaged
-  }
-}
-
-/// Also protects other files: the output could be the light field by mistake.
-void check_result_output(const std::filesystem::path& path) {
-  check_output_file(path);
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored)) return;
-  if (std::filesystem::file_size(path, ignored) == 0 || is_sound_result(path)) return;
-  throw IoError(path, "exists and is not a result file; choose another name or remove it first");
 }
 
 void print_answer(const Request& request, const Estimate& estimate) {
@@ -158,13 +136,15 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   if (request.device == "cuda") {
     throw Unavailable("this build computes on the CPU only; use --device cpu or auto");
   }
+  check_hdf5_output("estimate", request.output);
   check_result_output(request.output);
+  protect_input(request.output, request.input);
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();
   const LightFieldPtr light_field = load_light_field(request, job);
   Estimate estimate = estimator->run(*light_field, values, views, progress.part(0.3, 0.9));
-  estimate.source = lasting_source(request.input);
+  estimate.source = source_text(request.input, request.output);
   estimate.source_hash = light_field->sample_hash();
   progress.check();
   progress.step("writing " + request.output);

@@ -3,12 +3,13 @@
 #include "app/cli/input.h"
 #include "app/cli/json.h"
 #include "app/cli/judgement.h"
+#include "app/cli/output.h"
 #include "app/cli/pictures.h"
+#include "app/cli/result_input.h"
 #include "app/cli/table.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "engine/io/image_file.h"
-#include "engine/io/result_file.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -57,9 +58,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.flag("--latex", request.is_latex, "A LaTeX tabular");
   parser.option("--error-map", request.error_map, "OUT.png",
                 "Picture of truth − estimate; with several results one for each");
-  declare_job_options(parser, request.job);
-  declare_read_options(parser, request.read);
-  if (!parser.parse(arguments)) return false;
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (request.is_json + request.is_csv + request.is_latex > 1) {
     throw UsageError("evaluate: --json, --csv and --latex exclude each other");
   }
@@ -70,9 +69,11 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return true;
 }
 
-/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat.
+/// OUT.png for one result; OUT-<result>.png for several, numbered where names repeat. Empty if no
+/// error map is wanted.
 std::vector<std::filesystem::path> error_map_paths(const Request& request) {
   const std::filesystem::path path = request.error_map;
+  if (path.empty()) return {};
   if (request.files.size() == 1) return {path};
   std::vector<std::filesystem::path> paths;
   std::set<std::string> taken;
@@ -134,6 +135,8 @@ Table results_table(const Request& request, const std::vector<Row>& rows) {
   Table table{{"file", "method"}, {}};
   table.header.insert(table.header.end(), keys.begin(), keys.end());
   table.header.emplace_back("seconds");
+  const bool has_classes = request.protocol == "vmv2013";
+  if (has_classes) table.header.insert(table.header.end(), {"runtime_class", "all_views"});
   for (const Row& row : rows) {
     std::vector<std::string> cells{row.file, row.method};
     for (const auto& key : keys) {
@@ -141,6 +144,10 @@ Table results_table(const Request& request, const std::vector<Row>& rows) {
       cells.push_back(value ? number_text(*value, digits) : "");
     }
     cells.push_back(row.seconds > 0 ? number_text(row.seconds, digits) : "");
+    if (has_classes) {
+      cells.emplace_back(row.seconds > 0 ? runtime_class(row.seconds) : "");
+      cells.emplace_back(row.has_all_views ? "yes" : "no");
+    }
     table.rows.push_back(std::move(cells));
   }
   return table;
@@ -175,6 +182,27 @@ void print_answer(const Request& request, const std::vector<Row>& rows, ViewInde
   }
 }
 
+/// Judges one result and writes its error map, if a path is given for it.
+Row judge_file(const std::string& file, const Scene& scene, const EvaluationOptions& options,
+               const std::filesystem::path& error_map, ViewIndex& view, Job& job) {
+  job.progress().check();
+  job.progress().step("judging " + file);
+  const LightField& light_field = *scene.light_field;
+  const Estimate estimate = read_result_of(light_field, file);
+  Judgement judgement;
+  try {
+    judgement = judge(estimate, scene, options);
+  } catch (const InvalidInput& error) {
+    throw IoError(file, error.what());
+  }
+  note_other_source(estimate, light_field, job);
+  if (!error_map.empty()) io::write_png(error_map, error_picture(judgement.evaluation, {}).view());
+  view = judgement.view;
+  return {file, estimate.method, estimate.seconds,
+          estimate.field.disparity.grid() == light_field.grid(),
+          std::move(judgement.evaluation.metrics)};
+}
+
 }  // namespace
 
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
@@ -185,34 +213,18 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
       request.invalid == "bad" ? InvalidEstimates::Bad : InvalidEstimates::Compatible,
       {}};
   const auto maps = error_map_paths(request);
-  if (!request.error_map.empty()) {
-    for (const auto& map : maps) check_output_file(map);
+  for (const auto& map : maps) {
+    check_output_file(map);
+    protect_input(map, request.truth);
   }
 
   std::vector<Row> rows;
   ViewIndex view;
   Job job(std::move(stop), request.job);
   const Scene scene = load_input(request.truth, request.read, job.progress().part(0, 0.8));
-  const LightField& light_field = *scene.light_field;
   for (std::size_t i = 0; i < request.files.size(); ++i) {
-    const std::string& file = request.files[i];
-    job.progress().check();
-    job.progress().step("judging " + file);
-    const Estimate estimate = io::read_result(file, light_field.grid(), light_field.info().name);
-    Judgement judgement;
-    try {
-      judgement = judge(estimate, scene, options);
-    } catch (const InvalidInput& error) {
-      throw IoError(file, error.what());
-    }
-    note_other_source(estimate, light_field, job);
-    view = judgement.view;
-    rows.push_back({file, estimate.method, estimate.seconds,
-                    estimate.field.disparity.grid() == light_field.grid(),
-                    judgement.evaluation.metrics});
-    if (!request.error_map.empty()) {
-      io::write_png(maps[i], error_picture(judgement.evaluation, {}).view());
-    }
+    const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
+    rows.push_back(judge_file(request.files[i], scene, options, map, view, job));
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
   }
   job.finish();

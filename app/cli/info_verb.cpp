@@ -179,9 +179,7 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
                             "episcope-cli info demo --json"});
   parser.positional("INPUT", input, "The light field");
   parser.flag("--json", is_json, "One JSON object instead of lines");
-  declare_job_options(parser, job_options);
-  declare_read_options(parser, read);
-  if (!parser.parse(arguments)) return;
+  if (!parse_reading(parser, arguments, job_options, read)) return;
 
   const Scene scene = [&] {
     const Job job(std::move(stop), job_options);

@@ -4,13 +4,10 @@
 #include "app/cli/arguments.h"
 #include "app/cli/usage_error.h"
 #include "app/session/load_scene.h"
-#include "engine/io/result_file.h"
 #include "engine/scenes/builtin.h"
 
-#include <unistd.h>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <utility>
 
 namespace episcope::cli {
@@ -51,6 +48,18 @@ void check_builtin_scene(const std::string& id) {
   }
 }
 
+/// Options that nothing came of.
+void warn_of_ignored(const ReadOptions& options, bool is_builtin, ConventionReport& report) {
+  const bool is_overridden = options.flip != "auto" || options.units != "auto";
+  const bool names_images = !options.pattern.empty() || options.is_snake;
+  if (is_builtin && (is_overridden || names_images)) {
+    report.warnings.emplace_back("options of reading are ignored, for a built-in scene has none.");
+  } else if (names_images && report.format.starts_with("archive (")) {
+    report.warnings.emplace_back("--pattern and --snake are ignored, for this is " + report.format +
+                                 " and no grid of images.");
+  }
+}
+
 }  // namespace
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
@@ -65,6 +74,13 @@ void declare_read_options(Arguments& arguments, ReadOptions& options) {
                  "Every second row of an image grid runs from right to left");
 }
 
+bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
+                   ReadOptions& read) {
+  declare_job_options(parser, job);
+  declare_read_options(parser, read);
+  return parser.parse(arguments);
+}
+
 Scene load_input(const std::string& input, const ReadOptions& options, const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
   if (!builtin.empty()) check_builtin_scene(builtin);
@@ -76,57 +92,9 @@ Scene load_input(const std::string& input, const ReadOptions& options, const Pro
   load.cache_folder = default_cache_folder();
   progress.step("reading " + std::filesystem::path(input).filename().string());
   Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));
+  warn_of_ignored(options, !builtin.empty(), scene.convention);
   if (!builtin.empty()) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
   return scene;
-}
-
-bool names_result(const std::string& argument) {
-  std::error_code ignored;
-  if (!builtin_scene_id(argument).empty()) return false;
-  if (!std::filesystem::is_regular_file(argument, ignored)) return false;
-  const std::string suffix = suffix_of(argument);
-  return suffix == ".pfm" || suffix == ".tif" || suffix == ".tiff" || io::is_result_file(argument);
-}
-
-Estimate read_result_alone(const std::filesystem::path& path) {
-  // Larger than any: a result file says itself where in the grid its views are.
-  constexpr GridShape any_grid{1 << 14, 1 << 14};
-  return io::read_result(path, io::is_result_file(path) ? any_grid : GridShape{1, 1});
-}
-
-std::string source_of(const Estimate& estimate) {
-  std::error_code ignored;
-  const bool is_there = !builtin_scene_id(estimate.source).empty() ||
-                        std::filesystem::exists(estimate.source, ignored);
-  return is_there ? estimate.source : std::string();
-}
-
-void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {
-  if (estimate.source_hash == 0 || estimate.source_hash == light_field.sample_hash()) return;
-  job.note("the result was estimated from other samples than those of " + light_field.info().name);
-}
-
-void check_output_file(const std::filesystem::path& path) {
-  std::error_code ignored;
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (std::filesystem::is_directory(path, ignored)) {
-    throw IoError(path, "is a folder; name a file to write");
-  }
-  if (!std::filesystem::is_directory(folder, ignored)) {
-    throw IoError(path, "cannot be written, for the folder " + folder.string() +
-                            " does not exist; make it first");
-  }
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw IoError(path, "cannot be written, for the folder " + folder.string() +
-                            " is read-only; choose another one");
-  }
-}
-
-std::string suffix_of(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
 }
 
 std::string view_text(ViewIndex view) {

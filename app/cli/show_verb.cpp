@@ -2,11 +2,12 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/judgement.h"
+#include "app/cli/output.h"
 #include "app/cli/pictures.h"
+#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "engine/io/image_file.h"
-#include "engine/io/result_file.h"
 #include "engine/render/color_map.h"
 
 #include <algorithm>
@@ -72,9 +73,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--truth", request.truth, "INPUT",
                 "Light field of a RESULT; by default the one that its file names");
   parser.option("--label", texts.label, "N", "Label whose probability is shown, from 1");
-  declare_job_options(parser, request.job);
-  declare_read_options(parser, request.read);
-  if (!parser.parse(arguments)) return false;
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.picture = picture_options(texts, color_map);
   if (suffix_of(request.output) != ".png") {
     throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
@@ -97,7 +96,8 @@ Picture scene_picture(const Request& request, const Scene& scene) {
 /// there is none and the picture does without.
 std::optional<Scene> scene_of(const Request& request, const Estimate& estimate,
                               const Progress& progress) {
-  const std::string input = request.truth.empty() ? source_of(estimate) : request.truth;
+  const std::string input =
+      request.truth.empty() ? source_of(estimate, request.subject) : request.truth;
   if (!input.empty()) return load_input(input, request.read, progress);
   if (request.what == "disparity" || request.what == "confidence") return std::nullopt;
   throw IoError(request.subject,
@@ -112,8 +112,7 @@ Picture result_picture(const Request& request, Job& job) {
   if (!request.truth.empty()) {
     scene = load_input(request.truth, request.read, job.progress().part(0, 0.9));
   }
-  const Estimate estimate = scene ? io::read_result(request.subject, scene->light_field->grid(),
-                                                    scene->light_field->info().name)
+  const Estimate estimate = scene ? read_result_of(*scene->light_field, request.subject)
                                   : read_result_alone(request.subject);
   if (request.what == "confidence") return confidence_picture(estimate, request.picture);
   const bool has_own_range = request.what == "disparity" && request.picture.range;
@@ -133,6 +132,8 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
   check_output_file(request.output);
+  protect_input(request.output, request.subject);
+  if (!request.truth.empty()) protect_input(request.output, request.truth);
   if (!request.is_result() && (request.what == "error" || request.what == "confidence")) {
     throw UsageError("--what " + request.what + " needs a RESULT, but " + request.subject +
                      " is none");

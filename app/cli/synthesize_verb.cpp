@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
-#include "app/cli/input.h"
+#include "app/cli/job.h"
+#include "app/cli/output.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "engine/io/write_scene.h"
@@ -20,6 +21,7 @@ struct Request {
   std::string size = "512x512";
   std::string noise = "0";
   std::string seed = "1";
+  bool is_overwriting = false;
   JobOptions job;
 };
 
@@ -44,6 +46,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--noise", request.noise, "SIGMA",
                 "Gaussian noise in grey levels of 255 (default 0)");
   parser.option("--seed", request.seed, "N", "Seed of the noise (default 1)");
+  parser.flag("--overwrite", request.is_overwriting, "Replace a light field that is there");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);
 }
@@ -79,7 +82,8 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   if (!parse(arguments, request)) return;
   check_scene(request.scene);
   const scenes::RenderOptions options = render_options(request);
-  check_output_file(request.output);
+  check_hdf5_output("synthesize", request.output);
+  check_light_field_output(request.output, request.is_overwriting ? Overwrite::Yes : Overwrite::No);
 
   Job job(std::move(stop), request.job);
   job.progress().step("rendering " + request.scene);

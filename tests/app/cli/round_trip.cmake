@@ -50,7 +50,7 @@ expect("estimate smoothly" 0 ARGS estimate epi_s "${lf}" -o smooth.h5 --quiet)
 expect("evaluate two methods" 0 OUT "^file,[^\n]+\n[^\n]*epi_l,[^\n]+\n[^\n]*epi_s,[^\n]+\n$"
        ARGS evaluate "${result}" smooth.h5 --truth "${lf}" --csv)
 
-expect(evaluate 0 OUT "mse_100 +[0-9.]+\nmse_100_inset15 +[0-9.]+\ndensity +[0-9.]+\n"
+expect(evaluate 0 OUT "mse_100 +[0-9.]+\nmse_100_inset15 +[0-9.]+\ndensity +[0-9.]+\n.*runtime_class +fast\nall_views +yes\n"
        ARGS evaluate "${result}" --truth "${lf}")
 expect("evaluate by vmv2013" 0 ARGS evaluate "${result}" --truth "${lf}" --json)
 json_is("${out}" vmv2013 protocol)
@@ -70,9 +70,9 @@ json_absent("${out}" results 0 mse_100_inset15)
 json_absent("${out}" results 0 fine_thinning_0150)
 expect_file("error-ergebnis ä.png" ${png})
 expect_file("error-center.png" ${png})
-expect("evaluate as CSV" 0 OUT "^file,method,mse_100,mse_100_inset15,density,seconds\n[^\n]+\n$"
+expect("evaluate as CSV" 0 OUT "^file,method,mse_100,mse_100_inset15,density,seconds,runtime_class,all_views\n[^\n]+,fast,yes\n$"
        ARGS evaluate "${result}" --truth "${lf}" --csv)
-expect("evaluate as LaTeX" 0 OUT "tabular.*mse\\\\_100.*epi\\\\_l.*bottomrule"
+expect("evaluate as LaTeX" 0 OUT "tabular.*mse\\\\_100.*runtime\\\\_class & all\\\\_views.*epi\\\\_l.*fast & yes.*bottomrule"
        ARGS evaluate "${result}" --truth "${lf}" --latex)
 expect("evaluate against other samples" 0 ERR "^note: [^\n]*other samples" OUT "mse_100"
        ARGS evaluate "${result}" --truth other.h5)
@@ -126,8 +126,22 @@ expect("convert to the archive form" 0 ARGS convert bench back.h5)
 expect("evaluate against the archive form" 0 ARGS evaluate t.pfm --truth back.h5 --json)
 # Disparity went through depth in float: 1e-6 px, squared and times 100.
 json_near("${out}" 0 0.0001 results 0 mse_100)
+expect("info with a pattern that means nothing" 0 OUT "warning +--pattern[^\n]*ignored"
+       ARGS info "${lf}" --pattern "{row}_{col}.png")
+expect("info of a built-in scene with a flip" 0 OUT "warning +[^\n]*ignored"
+       ARGS info demo:fronto --flip u)
 expect("convert with a flip" 0 ERR "^note: [^\n]*chosen by hand[^\n]*\n$"
        ARGS convert "${lf}" flipped.h5 --flip u)
+
+# A result finds its light field from any folder, and after both have moved together.
+file(MAKE_DIRECTORY "${WORK}/moved")
+file(RENAME "${WORK}/${folder}" "${WORK}/moved/folder")
+expect("show the error after a move" 0
+       ARGS show "moved/folder/ergebnis ä.h5" -o moved/error.png --what error)
+file(STRINGS "${WORK}/moved/folder/ergebnis ä.h5" paths REGEX "/round_trip/")
+if(paths)
+  fail_case("the result holds an absolute path: ${paths}")
+endif()
 
 expect(methods 0 OUT "epi_l +EPI_L.*--range" ARGS methods)
 expect("methods as JSON" 0 ARGS methods --json)

@@ -17,5 +17,5 @@ function(on_terminal expected)
 endfunction()
 
 on_terminal(YES synthesize edge -o lf.h5 --views 3x3 --size 64x64)
-on_terminal(NO synthesize edge -o lf.h5 --views 3x3 --size 64x64 --quiet)
+on_terminal(NO synthesize edge -o lf.h5 --views 3x3 --size 64x64 --quiet --overwrite)
 on_terminal(NO info lf.h5 -q)
