@@ -86,7 +86,9 @@ ViewSelection selected_views(const Request& request, const Estimator& estimator)
 
 /// The light field alone: truth and labels of all views would double the memory that is held.
 LightFieldPtr load_light_field(const Request& request, Job& job) {
-  const Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.3));
+  ReadOptions read = request.read;
+  read.needs_truth = false;
+  const Scene scene = load_input(request.input, read, job.progress().part(0, 0.3));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   return scene.light_field;
 }

@@ -89,6 +89,7 @@ Scene load_input(const std::string& input, const ReadOptions& options, const Pro
   load.open.units = value_of(kUnits, options.units);
   load.open.pattern = options.pattern;
   load.open.snake = options.is_snake;
+  load.needs_truth = options.needs_truth;
   load.cache_folder = default_cache_folder();
   progress.step("reading " + std::filesystem::path(input).filename().string());
   Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));

@@ -15,6 +15,7 @@ struct ReadOptions {
   std::string units = "auto";
   std::string pattern;
   bool is_snake = false;
+  bool needs_truth = true;  ///< Whether truth and labels are wanted.
 };
 
 void declare_read_options(Arguments& arguments, ReadOptions& options);

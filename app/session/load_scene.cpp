@@ -51,6 +51,18 @@ void complete_kept_scene(Scene& kept, const Scene& center) {
   kept.convention = center.convention;
 }
 
+// All samples of a scene that was rendered in its centre view only.
+Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
+                    const std::string& source) {
+  LightFieldInfo info = center.light_field->info();
+  info.source = source;
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
+  scene.truth = std::make_shared<const GroundTruth>();
+  scene.convention = center.convention;
+  return scene;
+}
+
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
   const scenes::RenderOptions render;
@@ -58,6 +70,10 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
   const Scene center = render_center_view(id, render, progress.part(0, 0.02));
   show_center_view(id, center, render.grid, options.open);
   progress.step("reading the built-in scene");
+  if (!options.needs_truth) {
+    auto samples = SceneCache(options.cache_folder).read_samples(id, render, progress);
+    if (samples) return without_truth(std::move(*samples), center, source);
+  }
   std::optional<Scene> scene =
       SceneCache(options.cache_folder).read(id, render, progress.part(0.02, 0.9));
   if (scene) {

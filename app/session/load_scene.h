@@ -14,6 +14,9 @@ struct LoadOptions {
   io::OpenOptions open;
   /// Folder that keeps built-in scenes once they were rendered; empty = none is kept.
   std::filesystem::path cache_folder;
+  /// Whether truth and labels are wanted. Without, kept built-in scenes are read in a fraction of
+  /// the memory; other inputs may need their truth to settle the order of views.
+  bool needs_truth = true;
 };
 
 /// `$XDG_CACHE_HOME/episcope`, else `~/.cache/episcope`; empty if neither is known.

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
+#include "engine/io/hdf5_file.h"
 #include "engine/io/open.h"
 #include "engine/io/write_scene.h"
 
@@ -56,6 +57,34 @@ std::optional<Scene> SceneCache::read(const std::string& id, const scenes::Rende
     return io::open_scene(file, open, progress);
   } catch (const Error&) {
     std::filesystem::remove_all(place(id, options), ignored);
+    return std::nullopt;
+  }
+}
+
+std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
+    const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const {
+  const std::filesystem::path path = place(id, options) / "lf.h5";
+  std::error_code ignored;
+  if (folder_.empty() || !std::filesystem::exists(path, ignored)) return std::nullopt;
+  try {
+    const io::Hdf5Input file(path);
+    ViewStack<std::uint8_t> stack(options.grid, options.height, options.width, options.channels);
+    const auto length = [](int n) { return static_cast<std::size_t>(n); };
+    const io::Hdf5Shape shape{length(options.grid.v), length(options.grid.u),
+                              length(options.height), length(options.width),
+                              length(options.channels)};
+    const io::Hdf5Dataset dataset = file.dataset("LF");
+    if (dataset.shape != shape || dataset.type != io::Hdf5Type::UInt8) return std::nullopt;
+    for (int i = 0; i < options.grid.count(); ++i) {
+      progress.check();
+      const ViewIndex view{i / options.grid.u, i % options.grid.u};
+      const io::Hdf5Block block{{length(view.v), length(view.u), 0, 0, 0},
+                                {1, 1, shape[2], shape[3], shape[4]}};
+      file.read("LF", block, stack.view(view).data);
+      progress.report((i + 1.0) / options.grid.count());
+    }
+    return stack;
+  } catch (const IoError&) {
     return std::nullopt;
   }
 }

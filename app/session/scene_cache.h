@@ -24,6 +24,10 @@ class SceneCache {
   [[nodiscard]] std::optional<Scene> read(const std::string& id,
                                           const scenes::RenderOptions& options,
                                           const Progress& progress) const;
+  /// Samples of a kept scene without its truth, which takes several times their memory. Empty if
+  /// they are not there, damaged or of another shape. Throws Cancelled.
+  [[nodiscard]] std::optional<ViewStack<std::uint8_t>> read_samples(
+      const std::string& id, const scenes::RenderOptions& options, const Progress& progress) const;
   /// Returns whether the scene is kept now. What cannot be written is not kept. Throws Cancelled.
   bool write(const std::string& id, const scenes::RenderOptions& options, const Scene& scene,
              const Progress& progress) const;
