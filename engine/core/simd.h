@@ -49,17 +49,19 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   return root;
 }
 
-/// 1/value to 11 bits at least: for weights, not for results.
-[[maybe_unused]] inline Vec rough_reciprocal(Vec value) {
+/// 1/value to about 22 bits, value > 0: a quarter of the time of a division.
+[[maybe_unused]] inline Vec reciprocal(Vec value) {
 #if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
-  return reinterpret_cast<Vec>(_mm512_maskz_rcp14_ps(0xFFFF, reinterpret_cast<__m512>(value)));
+  const Vec guess =
+      reinterpret_cast<Vec>(_mm512_maskz_rcp14_ps(0xFFFF, reinterpret_cast<__m512>(value)));
 #elif defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
-  return reinterpret_cast<Vec>(_mm256_rcp_ps(reinterpret_cast<__m256>(value)));
+  const Vec guess = reinterpret_cast<Vec>(_mm256_rcp_ps(reinterpret_cast<__m256>(value)));
 #elif defined(__SSE2__) && EPISCOPE_VECTOR_BYTES == 16
-  return reinterpret_cast<Vec>(_mm_rcp_ps(reinterpret_cast<__m128>(value)));
+  const Vec guess = reinterpret_cast<Vec>(_mm_rcp_ps(reinterpret_cast<__m128>(value)));
 #else
-  return 1.0F / value;
+  const Vec guess = 1.0F / value;
 #endif
+  return guess * (2.0F - value * guess);  // one Newton step
 }
 
 }  // namespace

@@ -47,7 +47,7 @@ void select_row(const float* const* tensor, int stride, const float* taps, float
     const Vec twice = -2.0F * xs;
     const Vec whole = xx + ss + (noise_energy + 1e-20F);
     const Vec coherence =
-        (difference * difference + twice * twice) * rough_reciprocal(whole * whole);
+        (difference * difference + twice * twice) * reciprocal(whole * whole);
     const Vec so_far = load(best[3] + n);
     const IntVec better = (difference > 0.0F) & (twice >= bounds.below * difference) &
                           (twice <= bounds.above * difference) & (coherence > so_far);

@@ -138,7 +138,7 @@ inline void products_group(const RowPointers& rows, const RowTaps& smooth,
   }
   for (int k = 0; k < kGroup; ++k) {
     // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
-    const Vec weight = contrast * rough_reciprocal(xx.at[k] + ss.at[k] + contrast);
+    const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
     store(out[0] + n + k * kLanes, weight * xx.at[k]);
     store(out[1] + n + k * kLanes, weight * xs.at[k]);
     store(out[2] + n + k * kLanes, weight * ss.at[k]);
