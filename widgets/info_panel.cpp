@@ -7,6 +7,7 @@
 
 #include <QEvent>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollArea>
 #include <QVBoxLayout>
@@ -32,12 +33,17 @@ QLabel* make_value(const QString& text, QWidget* parent) {
 }  // namespace
 
 InfoPanel::InfoPanel(QWidget* parent)
-    : QWidget(parent), title_(new ElidedLabel(this)), scroll_(new QScrollArea(this)) {
+    : QWidget(parent),
+      title_(new ElidedLabel(this)),
+      conventions_(new QToolButton(this)),
+      scroll_(new QScrollArea(this)) {
   setObjectName("infoPanel");
   title_->setObjectName("info.title");
   QFont bold = font();
   bold.setBold(true);
   title_->setFont(bold);
+  conventions_->setObjectName("info.conventions");
+  conventions_->setAutoRaise(true);
   scroll_->setObjectName("info.scroll");
   scroll_->setFrameShape(QFrame::NoFrame);
   scroll_->setWidgetResizable(true);
@@ -46,7 +52,10 @@ InfoPanel::InfoPanel(QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
-  layout->addWidget(title_);
+  auto* head = new QHBoxLayout;
+  head->addWidget(title_, 1);
+  head->addWidget(conventions_);
+  layout->addLayout(head);
   layout->addWidget(scroll_, 1);
   setInfo({}, {}, {});
 }

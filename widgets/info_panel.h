@@ -3,6 +3,7 @@
 
 #include <QString>
 #include <QStringList>
+#include <QToolButton>
 #include <QWidget>
 
 #include <vector>
@@ -30,6 +31,8 @@ class InfoPanel : public QWidget {
 
   /// An empty title says that there is no light field.
   void setInfo(const QString& title, const std::vector<InfoRow>& rows, const QStringList& warnings);
+  /// The command behind the button beside the title; it is disabled with the action.
+  void setConventionsAction(QAction* action) { conventions_->setDefaultAction(action); }
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -40,6 +43,7 @@ class InfoPanel : public QWidget {
   std::vector<InfoRow> rows_;
   QStringList warnings_;
   ElidedLabel* title_;
+  QToolButton* conventions_;
   QScrollArea* scroll_;
 };
 

@@ -53,6 +53,13 @@ void add_file_actions(ActionTable& table, MainWindow& window) {
              .icon = "",
              .keys = {},
              .run = [&window] { window.open("demo"); }});
+  table.add({.id = "file.conventions",
+             .menu = menu,
+             .text = tr("Conventions…"),
+             .tip = tr("Overrules the order of views, the units or the names that were found"),
+             .icon = "",
+             .keys = {tr("Ctrl+Shift+R")},
+             .run = [&opener] { opener.conventionsDialog(); }});
   table.add({.id = "file.export",
              .menu = menu,
              .text = tr("Export result…"),

@@ -167,11 +167,11 @@ void EstimateController::copyCommand() {
   const RunRequest request = panels_.method->request();
   if (request.method.empty() || !session_.scene()) return;
   copy(command_line_for(request.method, request.values, views_of(request.all_views),
-                        session_.input()));
+                        session_.input(), session_.conventions()));
 }
 
 void EstimateController::copyCommandOf(const EstimateEntry& entry) {
-  copy(command_line_for(*entry.estimate, session_.input()));
+  copy(command_line_for(*entry.estimate, session_.input(), session_.conventions()));
 }
 
 void EstimateController::copy(const std::string& command) {

@@ -148,6 +148,8 @@ void MainWindow::connectControllers() {
   connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);
   connect(opener_, &OpenController::previewing, overlay_, &OverlayController::setSuspended);
   connect(opener_, &OpenController::recentInputsChanged, this, &MainWindow::fillRecentMenu);
+  connect(opener_, &OpenController::reopenableChanged, this, &MainWindow::updateActions);
+  panels_.info->setConventionsAction(actions_->find("file.conventions"));
   connect(opener_, &OpenController::titleChanged, this, [this](const QString& title) {
     setWindowTitle(title.isEmpty() ? QString("Episcope") : tr("%1 — Episcope").arg(title));
   });
@@ -179,6 +181,7 @@ void MainWindow::updateActions() {
   for (const char* id : {"file.export", "estimate.remove", "estimate.next", "estimate.previous"}) {
     actions_->find(id)->setEnabled(has_result);
   }
+  actions_->find("file.conventions")->setEnabled(!opener_->reopenable().isEmpty());
   for (const char* id : {"file.save_picture", "file.close", "file.open_result", "estimate.run",
                          "estimate.copy_command"}) {
     actions_->find(id)->setEnabled(has_scene);
@@ -190,7 +193,7 @@ void MainWindow::showInfo() {
     panels_.info->setInfo(tr("Nothing is open"), {}, {});
     return;
   }
-  const SceneInfo info = describe(*session_->scene());
+  const SceneInfo info = describe(*session_->scene(), session_->conventions());
   panels_.info->setInfo(info.title, info.rows, info.warnings);
 }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/open_controller.h"
 
+#include "app/gui/conventions_dialog.h"
 #include "app/gui/queued_post.h"
+#include "app/gui/remembered_conventions.h"
 #include "app/session/load_scene.h"
 #include "app/session/run_estimator.h"
+#include "engine/core/error.h"
 #include "engine/io/result_file.h"
 #include "engine/render/shade.h"
 #include "widgets/picture.h"
@@ -58,6 +61,30 @@ Image<std::uint8_t> rgba_of(const Image<std::uint8_t>& center) {
   return picture;
 }
 
+ReadScene read_as_told(const std::string& input, const LoadOptions& options,
+                       const Progress& progress) {
+  io::OpenOptions conventions = options.open;
+  conventions.on_center_view = nullptr;
+  return {std::make_shared<const Scene>(load_scene(input, options, progress)), conventions};
+}
+
+// Conventions that no longer fit the file are told and not used.
+ReadScene read_as_remembered(const std::string& input, const LoadOptions& options,
+                             const Progress& progress) {
+  if (!overrules(options.open)) return read_as_told(input, options, progress);
+  try {
+    return read_as_told(input, options, progress);
+  } catch (const IoError& error) {
+    LoadOptions automatic;
+    automatic.cache_folder = options.cache_folder;
+    automatic.open.on_center_view = options.open.on_center_view;
+    Scene scene = load_scene(input, automatic, progress);
+    scene.convention.warnings.push_back(
+        std::string("The conventions that you set for this file were not used: ") + error.what());
+    return {std::make_shared<const Scene>(std::move(scene)), {}};
+  }
+}
+
 }  // namespace
 
 OpenController::OpenController(Session& session, Jobs& jobs, BrowseController& browse,
@@ -71,17 +98,36 @@ OpenController::OpenController(Session& session, Jobs& jobs, BrowseController& b
   connect(&jobs_, &Jobs::progressed, this,
           [this](quint64 job, double fraction) { showLoading(job, fraction); });
   connect(&jobs_, &Jobs::failed, this, [this](const QString& sentence) {
-    if (!session_.scene()) last_failure_ = sentence;
+    if (loading_job_ != 0) last_failure_ = sentence;
   });
 }
 
 void OpenController::open(const QString& input_as_given, std::function<void()> opened) {
   const QString input = absolute(input_as_given);
-  jobs_.cancelLane(Lane::Load);
-  const quint64 load = ++load_;
+  const io::OpenOptions conventions =
+      is_builtin(input) ? io::OpenOptions() : remembered_conventions(input);
+  load(input, conventions, true, std::move(opened));
+}
+
+void OpenController::reopenWith(const io::OpenOptions& conventions) {
+  const QString input = reopenable();
+  if (input.isEmpty()) return;
+  load(input, conventions, false,
+       [input, conventions] { remember_conventions(input, conventions); });
+}
+
+QString OpenController::reopenable() const {
+  const QString input =
+      failed_input_.isEmpty() ? QString::fromStdString(session_.input()) : failed_input_;
+  return is_builtin(input) ? QString() : input;
+}
+
+LoadOptions OpenController::loadOptions(quint64 load, const io::OpenOptions& conventions) {
   LoadOptions options;
   options.cache_folder = cache_folder_;
-  options.open.on_center_view = [this, load, post = queued_post(this)](
+  options.open = conventions;
+  // The reading thread ends with the jobs, after this object: posts go by way of the jobs.
+  options.open.on_center_view = [this, load, post = queued_post(&jobs_)](
                                     const Image<std::uint8_t>& center, const LightFieldInfo& info,
                                     GridShape) {
     auto picture = std::make_shared<Image<std::uint8_t>>(rgba_of(center));
@@ -91,19 +137,27 @@ void OpenController::open(const QString& input_as_given, std::function<void()> o
       emit previewing(true);
     });
   };
+  return options;
+}
+
+void OpenController::load(const QString& input, const io::OpenOptions& conventions,
+                          bool is_remembered, std::function<void()> opened) {
+  jobs_.cancelLane(Lane::Load);
+  const quint64 load = ++load_;
   beginLoading(short_name(input));
-  using ScenePtr = std::shared_ptr<const Scene>;
-  loading_job_ = jobs_.start<ScenePtr>(
+  loading_job_ = jobs_.start<ReadScene>(
       Lane::Load, tr("Opening %1").arg(loading_name_),
-      [path = input.toStdString(), options](const Progress& progress) {
-        return std::make_shared<const Scene>(load_scene(path, options, progress));
+      [path = input.toStdString(), options = loadOptions(load, conventions),
+       is_remembered](const Progress& progress) {
+        return is_remembered ? read_as_remembered(path, options, progress)
+                             : read_as_told(path, options, progress);
       },
-      [this, input, load, opened = std::move(opened)](const ScenePtr& scene) {
+      [this, input, load, opened = std::move(opened)](const ReadScene& read) {
         if (load != load_) return;
-        finishOpening(input, scene);
+        finishOpening(input, read);
         if (opened) opened();
       },
-      [this, load] { endLoading(load); });
+      [this, load, input] { endLoading(load, input); });
 }
 
 void OpenController::beginLoading(const QString& name) {
@@ -117,9 +171,9 @@ void OpenController::showLoading(quint64 job, double fraction) {
   panels_.canvas->showLoading(loading_name_, fraction);
 }
 
-void OpenController::finishOpening(const QString& input, std::shared_ptr<const Scene> scene) {
+void OpenController::finishOpening(const QString& input, const ReadScene& read) {
   jobs_.cancelLane(Lane::Estimate);  // they belong to the former light field
-  session_.open(std::move(scene), input.toStdString());
+  session_.open(read.scene, input.toStdString(), read.conventions);
   emit titleChanged(QString::fromStdString(session_.light_field()->info().name));
   if (is_builtin(input)) {
     keepBuiltin(input);
@@ -128,9 +182,11 @@ void OpenController::finishOpening(const QString& input, std::shared_ptr<const S
   }
 }
 
-void OpenController::endLoading(quint64 load) {
+void OpenController::endLoading(quint64 load, const QString& input) {
   if (load != load_) return;
   loading_job_ = 0;
+  failed_input_ = last_failure_.isEmpty() ? QString() : input;
+  emit reopenableChanged();
   const bool was_previewing = browse_.isPreviewing();
   browse_.endPreview();
   if (was_previewing) emit previewing(false);
@@ -175,6 +231,23 @@ void OpenController::openResult(const QString& path) {
       });
 }
 
+void OpenController::conventionsDialog() {
+  const QString input = reopenable();
+  if (input.isEmpty()) return;
+  const bool is_open = failed_input_.isEmpty();
+  const std::string format = is_open ? session_.scene()->convention.format : std::string();
+  const bool is_archive = format.starts_with("archive") || QFileInfo(input).isFile();
+  auto* dialog = new ConventionsDialog(
+      input, remembered_conventions(input),
+      {.has_units = is_archive || !is_open, .has_names = !is_archive}, panels_.viewer->window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, dialog, input] {
+    // Something else may have been opened meanwhile, by a drop.
+    if (reopenable() == input) reopenWith(dialog->conventions());
+  });
+  dialog->open();
+}
+
 void OpenController::openFileDialog() {
   auto* dialog = new QFileDialog(
       panels_.viewer->window(), tr("Open a light field"), QString(),
@@ -210,6 +283,7 @@ void OpenController::closeScene() {
   jobs_.cancelLane(Lane::Estimate);
   ++load_;
   loading_job_ = 0;
+  failed_input_.clear();
   session_.close();
   emit titleChanged({});
 }

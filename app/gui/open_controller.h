@@ -4,6 +4,7 @@
 #include "app/gui/browse_controller.h"
 #include "app/gui/jobs.h"
 #include "app/gui/panels.h"
+#include "app/session/load_scene.h"
 #include "app/session/session.h"
 
 #include <QObject>
@@ -11,8 +12,15 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 
 namespace episcope {
+
+/// A scene and the choices of the user that it was read by.
+struct ReadScene {
+  std::shared_ptr<const Scene> scene;
+  io::OpenOptions conventions;
+};
 
 /// Opens light fields and results in the background: dialogs, dropped files, recent files.
 class OpenController : public QObject {
@@ -27,6 +35,12 @@ class OpenController : public QObject {
   void open(const QString& input, std::function<void()> opened = nullptr);
   /// Adds a result file, or a map from elsewhere, to the results of the open light field.
   void openResult(const QString& path);
+  /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
+  /// for that file if it could be read.
+  void reopenWith(const io::OpenOptions& conventions);
+  /// What `reopenWith` would read; empty if there is nothing, or a built-in scene.
+  [[nodiscard]] QString reopenable() const;
+  void conventionsDialog();
   void openFileDialog();
   void openFolderDialog();
   void openResultDialog();
@@ -41,16 +55,21 @@ class OpenController : public QObject {
  signals:
   void recentInputsChanged();
   void titleChanged(const QString& title);
+  /// What `reopenWith` would read may be another one, or none.
+  void reopenableChanged();
   void previewing(bool is_previewing);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void load(const QString& input, const io::OpenOptions& conventions, bool is_remembered,
+            std::function<void()> opened);
+  [[nodiscard]] LoadOptions loadOptions(quint64 load, const io::OpenOptions& conventions);
   void beginLoading(const QString& name);
   void showLoading(quint64 job, double fraction);
-  void finishOpening(const QString& input, std::shared_ptr<const Scene> scene);
-  void endLoading(quint64 load);
+  void finishOpening(const QString& input, const ReadScene& read);
+  void endLoading(quint64 load, const QString& input);
   void keepBuiltin(const QString& input);
   void remember(const QString& input);
 
@@ -63,6 +82,7 @@ class OpenController : public QObject {
   quint64 loading_job_ = 0;
   QString loading_name_;
   QString last_failure_;
+  QString failed_input_;  // asked for last, and not to be read
 };
 
 }  // namespace episcope

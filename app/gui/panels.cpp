@@ -128,8 +128,8 @@ Panels make_panels(QWidget* window) {
   auto* browser = new QSplitter(Qt::Horizontal, panels.viewer);
   browser->addWidget(make_left(panels, browser));
   browser->addWidget(make_stage(panels, browser));
-  browser->setStretchFactor(0, 1);
-  browser->setStretchFactor(1, 8);
+  browser->setStretchFactor(0, 0);  // what a larger window gives belongs to the view
+  browser->setStretchFactor(1, 1);
   browser->setSizes({kLeftWidth, kCenterWidth});
   auto* viewer_layout = new QVBoxLayout(panels.viewer);
   viewer_layout->setContentsMargins(0, 0, 0, 0);
@@ -138,8 +138,8 @@ Panels make_panels(QWidget* window) {
   auto* split = new QSplitter(Qt::Horizontal, window);
   split->addWidget(panels.viewer);
   split->addWidget(make_right(panels, split));
-  split->setStretchFactor(0, 9);
-  split->setStretchFactor(1, 1);
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 0);
   split->setSizes({kLeftWidth + kCenterWidth, kRightWidth});
   split->setChildrenCollapsible(false);
 

@@ -52,9 +52,21 @@ QString camera_text(const CameraGrid& camera) {
   return line;
 }
 
+// Readers speak of a choice made by hand; here it is known whose hand it was.
+QString by_whom(QString finding) {
+  return finding.replace(", as chosen by hand", text(" (set by you)"));
+}
+
+QString names_text(const io::OpenOptions& conventions) {
+  QString names =
+      conventions.pattern.empty() ? text("automatic") : QString::fromStdString(conventions.pattern);
+  if (conventions.snake) names += text(", snake");
+  return names + text(" (set by you)");
+}
+
 }  // namespace
 
-SceneInfo describe(const Scene& scene) {
+SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
@@ -78,10 +90,14 @@ SceneInfo describe(const Scene& scene) {
                          {}});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
-  info.rows.push_back({text("Order"), utf8(convention.order), utf8(convention.order_check)});
   info.rows.push_back(
-      {text("Camera"), camera_text(light_field.info().camera), utf8(convention.units)});
+      {text("Order"), by_whom(utf8(convention.order)), utf8(convention.order_check)});
+  info.rows.push_back(
+      {text("Camera"), camera_text(light_field.info().camera), by_whom(utf8(convention.units))});
   info.rows.push_back({text("Format"), utf8(convention.format), {}});
+  if (!conventions.pattern.empty() || conventions.snake) {
+    info.rows.push_back({text("Names"), names_text(conventions), {}});
+  }
   for (const Companion& companion : scene.companions) {
     info.rows.push_back({utf8(companion.kind), utf8(companion.shape), {}});
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/scene.h"
+#include "engine/io/open.h"
 #include "widgets/info_panel.h"
 
 #include <QString>
@@ -18,6 +19,7 @@ struct SceneInfo {
   QStringList warnings;
 };
 
-[[nodiscard]] SceneInfo describe(const Scene& scene);
+/// `conventions` are those that the user chose.
+[[nodiscard]] SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions);
 
 }  // namespace episcope

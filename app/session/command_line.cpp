@@ -4,6 +4,7 @@
 #include "engine/disparity/registry.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 namespace episcope {
@@ -43,8 +44,24 @@ ParameterSet changed_parameters(const std::string& method, const ParameterSet& v
   return changed;
 }
 
+std::string reading_options(const io::OpenOptions& conventions) {
+  // In the order of the enumerations.
+  constexpr std::array flips = {"auto", "none", "u", "v", "both"};
+  constexpr std::array units = {"auto", "with-width", "without-width"};
+  std::string options;
+  if (conventions.flip != io::OpenOptions::Flip::Auto) {
+    options += std::string(" --flip=") + flips[static_cast<std::size_t>(conventions.flip)];
+  }
+  if (conventions.units != io::OpenOptions::Units::Auto) {
+    options += std::string(" --units=") + units[static_cast<std::size_t>(conventions.units)];
+  }
+  if (!conventions.pattern.empty()) options += " --pattern=" + shell_quoted(conventions.pattern);
+  return conventions.snake ? options + " --snake" : options;
+}
+
 std::string command_line_for(const std::string& method, const ParameterSet& values,
-                             ViewSelection views, const std::string& input) {
+                             ViewSelection views, const std::string& input,
+                             const io::OpenOptions& conventions) {
   std::string line = "episcope-cli estimate " + shell_quoted(method) + " " + shell_quoted(input) +
                      " -o " + shell_quoted(method + ".h5") + " --views " +
                      (views == ViewSelection::All ? "all" : "center");
@@ -52,13 +69,15 @@ std::string command_line_for(const std::string& method, const ParameterSet& valu
     // "=" keeps a value that begins with a minus from being read as an option.
     line += " --" + key + "=" + shell_quoted(to_text(value));
   }
-  return line;
+  return line + reading_options(conventions);
 }
 
-std::string command_line_for(const Estimate& estimate, const std::string& input) {
+std::string command_line_for(const Estimate& estimate, const std::string& input,
+                             const io::OpenOptions& conventions) {
   const bool is_one_view = estimate.field.disparity.grid().count() == 1;
   return command_line_for(estimate.method, estimate.parameters,
-                          is_one_view ? ViewSelection::Center : ViewSelection::All, input);
+                          is_one_view ? ViewSelection::Center : ViewSelection::All, input,
+                          conventions);
 }
 
 }  // namespace episcope

@@ -28,10 +28,12 @@ void Session::deliver() {
   for (const Listener& listener : listeners_) listener(parts);
 }
 
-void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
+void Session::open(std::shared_ptr<const Scene> scene, std::string input,
+                   io::OpenOptions conventions) {
   close();
   scene_ = std::move(scene);
   input_ = std::move(input);
+  conventions_ = std::move(conventions);
   if (!scene_) return;
   known_range_ = known_disparity_range(*scene_);
   view_ = scene_->light_field->center();
@@ -43,6 +45,7 @@ void Session::close() {
   estimates_.clear();
   scene_.reset();
   input_.clear();
+  conventions_ = {};
   shown_ = shown_before_ = 0;
   known_range_ = {};
   focus_px_ = 0;

@@ -3,6 +3,7 @@
 
 #include "app/session/judge.h"
 #include "app/session/parts.h"
+#include "engine/io/open.h"
 
 #include <cstdint>
 #include <functional>
@@ -33,13 +34,16 @@ class Session {
   /// Listeners live as long as the session.
   void on_changed(Listener listener) { listeners_.push_back(std::move(listener)); }
 
-  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again.
-  void open(std::shared_ptr<const Scene> scene, std::string input);
+  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again,
+  /// `conventions` what the user overruled in it.
+  void open(std::shared_ptr<const Scene> scene, std::string input,
+            io::OpenOptions conventions = {});
   void close();
   /// Null if nothing is open.
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
   [[nodiscard]] LightFieldPtr light_field() const;
   [[nodiscard]] const std::string& input() const { return input_; }
+  [[nodiscard]] const io::OpenOptions& conventions() const { return conventions_; }
   /// Grows with every scene: results begun under another number belong to a former light field.
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
@@ -87,6 +91,7 @@ class Session {
   Parts gathered_;
   std::shared_ptr<const Scene> scene_;
   std::string input_;
+  io::OpenOptions conventions_;
   std::uint64_t generation_ = 0;
   Interval known_range_{};  // of truth or files; empty if neither says
   std::vector<EstimateEntry> estimates_;

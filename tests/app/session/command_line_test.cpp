@@ -37,6 +37,7 @@ class CommandLineTest : public QObject {
   void changedValue_isNamed();
   void unknownMethod_namesEveryValue();
   void estimateOfOneView_saysSo();
+  void overruledConventions_areNamed();
 };
 
 void CommandLineTest::word_isQuotedWhereItMust_data() {
@@ -94,6 +95,19 @@ void CommandLineTest::estimateOfOneView_saysSo() {
 
   QCOMPARE(command_line_for(estimate, "x"),
            std::string("episcope-cli estimate theirs x -o theirs.h5 --views center"));
+}
+
+void CommandLineTest::overruledConventions_areNamed() {
+  io::OpenOptions conventions;
+  QCOMPARE(reading_options(conventions), std::string());
+  conventions.flip = io::OpenOptions::Flip::Both;
+  conventions.units = io::OpenOptions::Units::WithoutWidth;
+  conventions.pattern = "a {row} {col}.png";
+  conventions.snake = true;
+
+  QCOMPARE(command_line_for("epi_l", {}, ViewSelection::All, "x", conventions),
+           std::string("episcope-cli estimate epi_l x -o epi_l.h5 --views all --flip=both "
+                       "--units=without-width --pattern='a {row} {col}.png' --snake"));
 }
 
 QTEST_GUILESS_MAIN(CommandLineTest)

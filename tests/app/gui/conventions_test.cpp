@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/action_table.h"
+#include "app/gui/main_window.h"
+#include "app/gui/open_controller.h"
+#include "app/gui/remembered_conventions.h"
+#include "app/session/session.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/info_panel.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QClipboard>
+#include <QComboBox>
+#include <QDialog>
+#include <QDir>
+#include <QImage>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTest>
+#include <QToolButton>
+
+using namespace episcope;
+
+using Flip = io::OpenOptions::Flip;
+
+namespace {
+
+QDialog* open_dialog(MainWindow& window) {
+  auto* button = window.findChild<QToolButton*>("info.conventions");
+  if (!button || !button->isEnabled()) return nullptr;
+  QTest::mouseClick(button, Qt::LeftButton);
+  return window.findChild<QDialog*>("conventions");
+}
+
+// Chooses with keys, as a person does: the first entry, then so many down.
+void choose(QDialog* dialog, const char* name, int steps_down) {
+  auto* box = dialog->findChild<QComboBox*>(name);
+  QVERIFY(box);
+  dialog->activateWindow();
+  QTRY_COMPARE(QApplication::activeWindow(), dialog);
+  box->setFocus();
+  QTest::keyClick(box, Qt::Key_Home);
+  for (int i = 0; i < steps_down; ++i) QTest::keyClick(box, Qt::Key_Down);
+  QCOMPARE(box->currentIndex(), steps_down);
+}
+
+void click(QDialog* dialog, const char* name) {
+  auto* button = dialog->findChild<QPushButton*>(name);
+  QVERIFY(button);
+  QTest::mouseClick(button, Qt::LeftButton);
+}
+
+// Applies what the dialog says and waits for the scene that comes of it.
+void apply(MainWindow& window, QDialog* dialog) {
+  const auto before = window.session().generation();
+  click(dialog, "conventions.apply");
+  QTRY_VERIFY_WITH_TIMEOUT(window.session().generation() > before && window.session().scene(),
+                           60'000);
+}
+
+QString order_shown(const MainWindow& window) {
+  const auto* label = window.findChild<QLabel*>("info.Order");
+  return label ? label->text() : QString();
+}
+
+// A grid of three rows and four columns whose names tell the column first.
+QString write_odd_grid(const QString& folder) {
+  QDir().mkpath(folder);
+  for (int v = 0; v < 3; ++v) {
+    for (int u = 0; u < 4; ++u) {
+      QImage image(16, 12, QImage::Format_RGB888);
+      image.fill(QColor(20 * v, 20 * u, 90));
+      image.save(folder + QString("/take-%1of%2-final.png").arg(u + 1).arg(v + 1));
+    }
+  }
+  return folder;
+}
+
+}  // namespace
+
+class ConventionsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void chosenOrder_readsTheFileAgain();
+  void choice_isRememberedForItsFileOnly();
+  void allAutomatic_forgetsTheChoice();
+  void chosenUnits_areShownAsSetByTheUser();
+  void copiedCommand_readsAlike();
+  void cancel_changesNothing();
+  void builtinScene_hasNoChoice();
+  void gridOfOddNames_opensByPattern();
+  void folderThatFailed_mayBeReadOtherwise();
+  void rememberedChoiceThatNoLongerFits_isToldAndNotUsed();
+};
+
+void ConventionsTest::chosenOrder_readsTheFileAgain() {
+  WindowFixture f;
+  f.openSmall();
+  const auto before = f.window.session().scene();
+  const auto first = before->light_field->view<std::uint8_t>({0, 0});
+
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.order", 2);
+  apply(f.window, dialog);
+
+  const auto after = f.window.session().light_field()->view<std::uint8_t>({0, 8});
+  QVERIFY(std::equal(first.data, first.data + first.size(), after.data));
+  QTRY_VERIFY2(order_shown(f.window).contains("(set by you)"), qPrintable(order_shown(f.window)));
+}
+
+void ConventionsTest::choice_isRememberedForItsFileOnly() {
+  WindowFixture f;
+  f.openSmall();
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.order", 3);
+  apply(f.window, dialog);
+
+  f.openSmall("slant");
+  QTRY_VERIFY(f.window.session().input().find("slant") != std::string::npos);
+  QVERIFY(f.window.session().conventions().flip == Flip::Auto);
+  f.openSmall("edge");
+  QTRY_VERIFY(f.window.session().input().find("edge") != std::string::npos);
+
+  QVERIFY(f.window.session().conventions().flip == Flip::V);
+  QVERIFY(f.window.session().scene()->convention.reversed_v);
+}
+
+void ConventionsTest::allAutomatic_forgetsTheChoice() {
+  WindowFixture f;
+  f.openSmall();
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.order", 4);
+  apply(f.window, dialog);
+  QTRY_VERIFY(order_shown(f.window).contains("(set by you)"));
+  QTRY_VERIFY(!f.window.findChild<QDialog*>("conventions"));
+
+  dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  QCOMPARE(dialog->findChild<QComboBox*>("conventions.order")->currentIndex(), 4);
+  click(dialog, "conventions.reset");
+  apply(f.window, dialog);
+
+  QTRY_VERIFY(!order_shown(f.window).contains("(set by you)"));
+  QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
+}
+
+void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
+  WindowFixture f;
+  f.openSmall();
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.units", 1);
+  apply(f.window, dialog);
+
+  const auto text = [&f] {
+    QString all;
+    for (const auto* label : f.window.panels().info->findChildren<QLabel*>()) all += label->text();
+    return all;
+  };
+  QTRY_VERIFY2(text().contains("(set by you)"), qPrintable(text()));
+}
+
+void ConventionsTest::copiedCommand_readsAlike() {
+  WindowFixture f;
+  f.openSmall();
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.order", 1);
+  apply(f.window, dialog);
+
+  f.window.actions().find("estimate.copy_command")->trigger();
+
+  const QString command = QApplication::clipboard()->text();
+  QVERIFY2(command.endsWith(" --flip=none"), qPrintable(command));
+}
+
+void ConventionsTest::cancel_changesNothing() {
+  WindowFixture f;
+  f.openSmall();
+  const auto before = f.window.session().generation();
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  choose(dialog, "conventions.order", 2);
+
+  QTest::keyClick(dialog, Qt::Key_Escape);
+
+  QTRY_VERIFY(!f.window.findChild<QDialog*>("conventions"));
+  QCOMPARE(f.window.session().generation(), before);
+  QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
+}
+
+void ConventionsTest::builtinScene_hasNoChoice() {
+  WindowFixture f;
+  QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
+  f.window.open("demo:fronto");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 120'000);
+
+  QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
+}
+
+void ConventionsTest::gridOfOddNames_opensByPattern() {
+  WindowFixture f;
+  f.window.open(write_odd_grid(f.path("odd")));
+  QTRY_VERIFY(f.window.actions().find("file.conventions")->isEnabled());
+  QVERIFY(f.window.session().scene());
+  // Left alone, a reader takes the first number for the row.
+  QVERIFY(f.window.session().light_field()->grid() == (GridShape{4, 3}));
+
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  QTest::keyClicks(dialog->findChild<QLineEdit*>("conventions.pattern"),
+                   "take-{col}of{row}-final.png");
+  apply(f.window, dialog);
+
+  QVERIFY(f.window.session().light_field()->grid() == (GridShape{3, 4}));
+  QTRY_VERIFY(f.window.findChild<QLabel*>("info.Names"));
+}
+
+void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
+  WindowFixture f;
+  const QString folder = write_odd_grid(f.path("odd"));
+  QVERIFY(QFile::copy(folder + "/take-1of1-final.png", folder + "/take-7of9-final.png"));
+  f.window.open(folder);
+  QTRY_VERIFY(f.window.actions().find("file.conventions")->isEnabled());
+  QVERIFY(!f.window.session().scene());
+}
+
+void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
+  WindowFixture f;
+  const QString folder = write_odd_grid(f.path("odd"));
+  io::OpenOptions stale;
+  stale.pattern = "gone-{row}-{col}.png";
+  remember_conventions(folder, stale);
+
+  f.window.open(folder);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, 60'000);
+  QVERIFY(!overrules(f.window.session().conventions()));
+  const auto& warnings = f.window.session().scene()->convention.warnings;
+  QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.find("not used") != std::string::npos;
+  }));
+}
+
+QTEST_MAIN(ConventionsTest)
+#include "conventions_test.moc"
