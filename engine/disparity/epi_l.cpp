@@ -21,8 +21,10 @@ struct Maps {
 };
 
 // Rows of a task of horizontal EPIs: many against the neighbours it shares with the next task, few
-// enough to end soon after a stop request (about 20 ms at 768 columns).
-constexpr int kBandRows = 96;
+// enough to report progress and to end soon after a stop request (about 20 ms at 768 columns).
+int band_rows(int height) {
+  return std::clamp(height / 8, 8, 96);
+}
 
 StructureTensor::Sink store_into(const Maps& maps, int v) {
   return [&maps, v](int u, PixelIndex begin, int count, const float* disparity,
@@ -44,15 +46,16 @@ StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
 void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                     const Progress& progress) {
   const LightField& lf = maps.light_field;
-  const int bands = (lf.height() + kBandRows - 1) / kBandRows;
+  const int rows = band_rows(lf.height());
+  const int bands = (lf.height() + rows - 1) / rows;
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().v * bands, progress, [&]() -> std::function<void(int)> {
     auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Horizontal,
                                                     scales, search);
     return [&, tensor](int i) {
       const int v = first.v + i / bands;
-      const int y = i % bands * kBandRows;
-      const TensorTask task{v,          {y, 0},  std::min(kBandRows, lf.height() - y),
+      const int y = i % bands * rows;
+      const TensorTask task{v,          {y, 0},  std::min(rows, lf.height() - y),
                             lf.width(), first.u, first.u + maps.grid().u};
       tensor->estimate(task, store_into(maps, v));
     };
