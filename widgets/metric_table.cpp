@@ -14,11 +14,17 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
 constexpr int kValueRole = Qt::UserRole;
 constexpr int kIdRole = Qt::UserRole + 1;
+constexpr double kHeaderScale = 0.88;
+constexpr int kSortArrowWidth = 14;
+constexpr int kColumnPadding = 9;
+constexpr int kWidestText = 130;
 
 /// Sorts numbers as numbers, texts as people sort them, and what is absent to the end, whichever
 /// way is up.
@@ -116,7 +122,12 @@ void MetricTable::setUpTable() {
   table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
   table_->horizontalHeader()->setHighlightSections(false);
   table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setMinimumSectionSize(24);
+  QFont small = font();
+  small.setPointSizeF(small.pointSizeF() * kHeaderScale);
+  table_->horizontalHeader()->setFont(small);
+  connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this,
+          &MetricTable::fitColumns);
   table_->horizontalHeader()->setSortIndicatorClearable(true);
   connect(table_, &QTableWidget::cellClicked, this, [this](int row, int) {
     emit rowClicked(table_->item(row, 0)->data(kIdRole).toULongLong());
@@ -143,10 +154,29 @@ void MetricTable::setTable(const std::vector<MetricColumn>& columns,
   for (std::size_t i = 0; i < rows.size(); ++i) fillRow(static_cast<int>(i), rows[i]);
   table_->horizontalHeader()->setSortIndicator(is_same_shape ? sort_column : -1, order);
   table_->setSortingEnabled(true);
+  fitColumns();
   const bool is_empty = rows.empty() || columns.empty();
   table_->setVisible(!is_empty);
   empty_->setVisible(is_empty);
   for (auto* button : {copy_csv_, copy_latex_, save_}) button->setEnabled(!is_empty);
+}
+
+// No wider than the text: a style would keep room for a sort arrow in every header.
+void MetricTable::fitColumns() {
+  const QHeaderView* header = table_->horizontalHeader();
+  const QFontMetrics header_metrics(header->font());
+  for (int column = 0; column < table_->columnCount(); ++column) {
+    int header_width = header_metrics.size(0, table_->horizontalHeaderItem(column)->text()).width();
+    if (header->sortIndicatorSection() == column) header_width += kSortArrowWidth;
+    int width = header_width;
+    for (int row = 0; row < table_->rowCount(); ++row) {
+      const auto* item = table_->item(row, column);
+      if (!item) continue;  // the table is being filled
+      const int text_width = table_->fontMetrics().horizontalAdvance(item->text());
+      width = std::max(width, std::min(text_width, kWidestText));
+    }
+    table_->setColumnWidth(column, width + kColumnPadding);
+  }
 }
 
 void MetricTable::fillRow(int row, const MetricRow& values) {

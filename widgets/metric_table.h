@@ -58,6 +58,7 @@ class MetricTable : public QWidget {
  private:
   void setUpTable();
   void fillRow(int row, const MetricRow& values);
+  void fitColumns();
 
   std::vector<MetricColumn> columns_;
   QTableWidget* table_;

@@ -17,6 +17,8 @@
 namespace episcope {
 namespace {
 
+constexpr int kRowPadding = 6;
+
 enum Column { kMark, kMethod, kMse, kSeconds, kParameters, kColumnCount };
 
 quint64 id_of(const QTreeWidgetItem* item) {
@@ -61,7 +63,7 @@ ResultList::ResultList(QWidget* parent)
 
   const auto connect_button = [this](QToolButton* button, void (ResultList::*intent)(quint64)) {
     connect(button, &QToolButton::clicked, this, [this, intent] {
-      if (const auto id = selectedId()) emit(this->*intent)(*id);
+      if (const auto id = target()) emit(this->*intent)(*id);
     });
   };
   connect_button(export_, &ResultList::exportRequested);
@@ -111,6 +113,8 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
   for (const auto& result : results) {
     auto* item = new QTreeWidgetItem(tree_);
     item->setData(kMark, Qt::UserRole, result.id);
+    // As tall as the row with the icon.
+    item->setSizeHint(kMark, {0, fontMetrics().height() + kRowPadding});
     item->setText(kMethod, result.method);
     item->setText(kMse, result.mse_100 ? QString::number(*result.mse_100, 'f', 2) : "–");
     item->setText(kSeconds, seconds_text(result.seconds));
@@ -140,6 +144,7 @@ void ResultList::setShown(std::optional<quint64> id) {
     font.setBold(is_shown);
     item->setFont(kMethod, font);
   }
+  updateButtons();
 }
 
 std::optional<quint64> ResultList::selectedId() const {
@@ -148,8 +153,13 @@ std::optional<quint64> ResultList::selectedId() const {
   return id_of(items.front());
 }
 
+std::optional<quint64> ResultList::target() const {
+  const auto selected = selectedId();
+  return selected || tree_->topLevelItemCount() == 0 ? selected : shown_;
+}
+
 void ResultList::updateButtons() {
-  for (auto* button : {export_, remove_, reuse_}) button->setEnabled(selectedId().has_value());
+  for (auto* button : {export_, remove_, reuse_}) button->setEnabled(target().has_value());
 }
 
 void ResultList::showMenu(const QPoint& position) {

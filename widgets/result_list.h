@@ -48,6 +48,8 @@ class ResultList : public QWidget {
  private:
   void setUpTree();
   void showMenu(const QPoint& position);
+  /// What the buttons act on: the selected result, else the shown one.
+  [[nodiscard]] std::optional<quint64> target() const;
   void updateButtons();
 
   QTreeWidget* tree_;

@@ -67,7 +67,7 @@ MetricController::MetricController(Session& session, Jobs& jobs, const Panels& p
 
 void MetricController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations)) fillTable();
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
     const EstimateEntry* shown = session_.shown();
     panels_.metrics->setCurrent(shown ? static_cast<quint64>(shown->id) : 0);
   }

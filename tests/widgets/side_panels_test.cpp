@@ -110,6 +110,10 @@ class SidePanelsTest : public QObject {
     QSignalSpy exported(&list, &ResultList::exportRequested);
     auto* remove = list.findChild<QToolButton*>("results.remove");
     QVERIFY(!remove->isEnabled());
+    list.setShown(1);
+    remove->click();
+    QCOMPARE(removed[0][0].toULongLong(), quint64(1));
+    removed.clear();
 
     const QRect row = tree->visualItemRect(tree->topLevelItem(1));
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, {60, row.center().y()});

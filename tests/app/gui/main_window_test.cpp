@@ -11,6 +11,7 @@
 #include "engine/io/result_file.h"
 #include "tests/app/gui/window_fixture.h"
 #include "widgets/epi_pane.h"
+#include "widgets/info_panel.h"
 #include "widgets/message_bar.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
@@ -22,6 +23,9 @@
 #include <QFile>
 #include <QMimeData>
 #include <QRegularExpression>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTableWidget>
 #include <QTest>
 #include <QToolBar>
 #include <QTreeWidget>
@@ -74,6 +78,8 @@ class MainWindowTest : public QObject {
   void closedScene_leavesTheEmptyWindow();
   void copiedCommand_opensTheSameFile();
   void recentFiles_areRemembered();
+  void compareTab_showsTheMainMetricsWithoutScrolling();
+  void largerWindow_givesItsRoomToTheView();
 };
 
 void MainWindowTest::openedFile_isShown() {
@@ -402,6 +408,40 @@ void MainWindowTest::recentFiles_areRemembered() {
   QCOMPARE(f.window.opener().recentInputs(), QStringList(f.path("edge/lf.h5")));
   f.window.opener().forgetRecentInputs();
   QVERIFY(f.window.opener().recentInputs().isEmpty());
+}
+
+void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* tabs = f.window.panels().tabs->tabBar();
+  QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_VERIFY(table->isVisible() && table->columnCount() > 7);
+
+  const QStringList wanted = {"Result",        "2013\nMSE",     "2016\nMSE", "2016\nbad .07",
+                              "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
+  for (int column = 0; column < wanted.size(); ++column) {
+    QCOMPARE(table->horizontalHeaderItem(column)->text(), wanted[column]);
+    QVERIFY(!table->horizontalHeaderItem(column)->toolTip().isEmpty());
+  }
+  const int end = table->columnViewportPosition(6) + table->columnWidth(6);
+  QVERIFY2(end <= table->viewport()->width(),
+           qPrintable(QString("%1 > %2").arg(end).arg(table->viewport()->width())));
+}
+
+void MainWindowTest::largerWindow_givesItsRoomToTheView() {
+  WindowFixture f;
+  f.openSmall();
+  const int side = f.window.panels().info->width();
+  const int tabs = f.window.panels().tabs->width();
+  const int view = f.window.panels().canvas->width();
+
+  f.window.resize(2560, 1440);
+
+  QTRY_VERIFY(f.window.panels().canvas->width() > view + 1000);
+  QCOMPARE(f.window.panels().info->width(), side);
+  QCOMPARE(f.window.panels().tabs->width(), tabs);
 }
 
 QTEST_MAIN(MainWindowTest)
