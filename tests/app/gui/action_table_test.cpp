@@ -102,7 +102,7 @@ void ActionTableTest::palette_findsAndRunsACommand() {
   QTest::keyClick(edit, Qt::Key_Return);
 
   auto* canvas = f.window.panels().canvas;
-  QTRY_COMPARE(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF());
+  QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(), 30000);
 }
 
 QTEST_MAIN(ActionTableTest)

@@ -38,7 +38,7 @@ void choose(QDialog* dialog, const char* name, int steps_down) {
   auto* box = dialog->findChild<QComboBox*>(name);
   QVERIFY(box);
   dialog->activateWindow();
-  QTRY_COMPARE(QApplication::activeWindow(), dialog);
+  QTRY_COMPARE_WITH_TIMEOUT(QApplication::activeWindow(), dialog, 30000);
   box->setFocus();
   QTest::keyClick(box, Qt::Key_Home);
   for (int i = 0; i < steps_down; ++i) QTest::keyClick(box, Qt::Key_Down);
@@ -120,10 +120,10 @@ void ConventionsTest::choice_isRememberedForItsFileOnly() {
   apply(f.window, dialog);
 
   f.openSmall("slant");
-  QTRY_VERIFY(f.window.session().input().find("slant") != std::string::npos);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("slant") != std::string::npos, 30000);
   QVERIFY(f.window.session().conventions().flip == Flip::Auto);
   f.openSmall("edge");
-  QTRY_VERIFY(f.window.session().input().find("edge") != std::string::npos);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("edge") != std::string::npos, 30000);
 
   QVERIFY(f.window.session().conventions().flip == Flip::V);
   QVERIFY(f.window.session().scene()->convention.reversed_v);
@@ -136,8 +136,8 @@ void ConventionsTest::allAutomatic_forgetsTheChoice() {
   QVERIFY(dialog);
   choose(dialog, "conventions.order", 4);
   apply(f.window, dialog);
-  QTRY_VERIFY(order_shown(f.window).contains("(set by you)"));
-  QTRY_VERIFY(!f.window.findChild<QDialog*>("conventions"));
+  QTRY_VERIFY_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), 30000);
 
   dialog = open_dialog(f.window);
   QVERIFY(dialog);
@@ -145,7 +145,7 @@ void ConventionsTest::allAutomatic_forgetsTheChoice() {
   click(dialog, "conventions.reset");
   apply(f.window, dialog);
 
-  QTRY_VERIFY(!order_shown(f.window).contains("(set by you)"));
+  QTRY_VERIFY_WITH_TIMEOUT(!order_shown(f.window).contains("(set by you)"), 30000);
   QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
 }
 
@@ -189,7 +189,7 @@ void ConventionsTest::cancel_changesNothing() {
 
   QTest::keyClick(dialog, Qt::Key_Escape);
 
-  QTRY_VERIFY(!f.window.findChild<QDialog*>("conventions"));
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), 30000);
   QCOMPARE(f.window.session().generation(), before);
   QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
 }
@@ -206,7 +206,7 @@ void ConventionsTest::builtinScene_hasNoChoice() {
 void ConventionsTest::gridOfOddNames_opensByPattern() {
   WindowFixture f;
   f.window.open(write_odd_grid(f.path("odd")));
-  QTRY_VERIFY(f.window.actions().find("file.conventions")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), 30000);
   QVERIFY(f.window.session().scene());
   // Left alone, a reader takes the first number for the row.
   QVERIFY(f.window.session().light_field()->grid() == (GridShape{4, 3}));
@@ -218,7 +218,7 @@ void ConventionsTest::gridOfOddNames_opensByPattern() {
   apply(f.window, dialog);
 
   QVERIFY(f.window.session().light_field()->grid() == (GridShape{3, 4}));
-  QTRY_VERIFY(f.window.findChild<QLabel*>("info.Names"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.Names"), 30000);
 }
 
 void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
@@ -226,7 +226,7 @@ void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
   const QString folder = write_odd_grid(f.path("odd"));
   QVERIFY(QFile::copy(folder + "/take-1of1-final.png", folder + "/take-7of9-final.png"));
   f.window.open(folder);
-  QTRY_VERIFY(f.window.actions().find("file.conventions")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), 30000);
   QVERIFY(!f.window.session().scene());
 }
 

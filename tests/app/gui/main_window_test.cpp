@@ -104,7 +104,7 @@ void MainWindowTest::builtinScene_isEstimatedAtOnce() {
   f.window.open("demo:fronto");
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, 120'000);
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
   QVERIFY(f.window.actions().find("overlay.signed_error")->isEnabled());
 }
 
@@ -130,13 +130,13 @@ void MainWindowTest::errorOverlay_isOneClickAway() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
   const QImage before = f.window.overlay().picture();
   const QImage canvas_before = f.window.panels().canvas->grab().toImage();
 
   click_action(f.window, "overlay.signed_error");
 
-  QTRY_VERIFY(f.window.overlay().picture() != before);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, 30000);
   QVERIFY(f.window.panels().canvas->grab().toImage() != canvas_before);
   QVERIFY(f.window.actions().find("overlay.signed_error")->isChecked());
 }
@@ -148,14 +148,14 @@ void MainWindowTest::arrows_changeTheView() {
   const Session& session = f.window.session();
   canvas->setFocus();
   f.window.activateWindow();
-  QTRY_VERIFY(canvas->hasFocus());
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->hasFocus(), 30000);
   const QImage before = canvas->picture();
 
   QTest::keyClick(canvas, Qt::Key_Right);
   QVERIFY(session.view() == (ViewIndex{4, 5}));
   QTest::keyClick(canvas, Qt::Key_Up);
   QVERIFY(session.view() == (ViewIndex{3, 5}));
-  QTRY_VERIFY(canvas->picture() != before);
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->picture() != before, 30000);
   QTest::keyClick(canvas, Qt::Key_Left, Qt::ShiftModifier);
   QVERIFY(session.view() == (ViewIndex{3, 0}));
   QTest::keyClick(canvas, Qt::Key_Home);
@@ -172,7 +172,7 @@ void MainWindowTest::click_movesTheCrossHairAndTheEpis() {
   click_pixel(f.window.panels().canvas, {20, 33});
 
   QVERIFY(f.window.session().cross_hair() == (PixelIndex{20, 33}));
-  QTRY_VERIFY(epi->grab().toImage() != before);
+  QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, 30000);
 }
 
 void MainWindowTest::shiftClick_focusesAtThePixel() {
@@ -204,7 +204,7 @@ void MainWindowTest::heldTab_flips() {
   f.runAndWait();
   auto* canvas = f.window.panels().canvas;
   canvas->setFocus();
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
   const QImage before = f.window.overlay().picture();
 
   QTest::keyPress(canvas, Qt::Key_Tab);
@@ -223,7 +223,7 @@ void MainWindowTest::exportedResult_readsBack() {
   const QString path = f.path("résult 1.h5");
 
   f.window.exporter().exportResult(shown.id, path);
-  QTRY_VERIFY(f.window.panels().messages->text().contains(path));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), 30000);
 
   const Estimate read = io::read_result(path.toStdString(), {9, 9});
   QCOMPARE(read.method, std::string("epi_l"));
@@ -249,7 +249,7 @@ void MainWindowTest::exportedMap_marksInvalidPixels() {
       f.window.session().add_estimate(estimate, {-1, 1}, f.window.session().generation());
 
   f.window.exporter().exportResult(id, f.path("map.pfm"));
-  QTRY_VERIFY(f.window.panels().messages->text().contains("map.pfm"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains("map.pfm"), 30000);
 
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
@@ -261,8 +261,8 @@ void MainWindowTest::savedPicture_isTheShownOne() {
   f.openSmall();
 
   f.window.exporter().savePicture(f.path("view.png"));
-  QTRY_VERIFY(QFile::exists(f.path("view.png")));
-  QTRY_COMPARE(f.window.jobs().count(), 0);
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("view.png")), 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
 
   const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
   QCOMPARE(saved, f.window.panels().canvas->picture().convertToFormat(QImage::Format_RGB888));
@@ -303,7 +303,7 @@ void MainWindowTest::brokenFile_withoutScene_isDrawnAsError() {
 
   f.window.open("/no/such/place");
 
-  QTRY_COMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Failed);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Failed, 30000);
 }
 
 void MainWindowTest::droppedFile_isOpened() {
@@ -317,7 +317,7 @@ void MainWindowTest::droppedFile_isOpened() {
   QVERIFY(enter.isAccepted());
   QCoreApplication::sendEvent(&f.window, &drop);
 
-  QTRY_VERIFY(f.window.session().scene() != nullptr);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, 30000);
 }
 
 void MainWindowTest::openedResult_isListed() {
@@ -326,11 +326,11 @@ void MainWindowTest::openedResult_isListed() {
   f.runAndWait();
   const QString path = f.path("result.h5");
   f.window.exporter().exportResult(f.window.session().shown()->id, path);
-  QTRY_VERIFY(f.window.panels().messages->text().contains(path));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), 30000);
 
   f.window.opener().openResult(path);
 
-  QTRY_COMPARE(f.window.session().estimates().size(), 2U);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, 30000);
   QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
 }
 
@@ -351,17 +351,17 @@ void MainWindowTest::escape_cancelsTheRun() {
   auto options = WindowFixture::smallOptions();
   options.height = options.width = 384;
   f.window.open(f.writeScene("slant", options));
-  QTRY_VERIFY(f.window.actions().find("estimate.run")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 30000);
   auto* canvas = f.window.panels().canvas;
   canvas->setFocus();
   bool has_begun = false;
   connect(&f.window.jobs(), &Jobs::progressed, this,
           [&has_begun](quint64, double fraction) { has_begun = has_begun || fraction > 0; });
   f.window.actions().find("estimate.run")->trigger();
-  QTRY_VERIFY(has_begun);
+  QTRY_VERIFY_WITH_TIMEOUT(has_begun, 30000);
 
   QTest::keyClick(canvas, Qt::Key_Escape);
-  QTRY_COMPARE(f.window.jobs().count(), 0);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
 
   QVERIFY(f.window.session().estimates().empty());
   QVERIFY(f.window.panels().messages->text().isEmpty());
@@ -375,9 +375,9 @@ void MainWindowTest::anotherScene_dropsResults() {
 
   f.window.open(f.writeScene("slant", WindowFixture::smallOptions()));
 
-  QTRY_VERIFY(f.window.session().generation() > former);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().generation() > former, 30000);
   QVERIFY(f.window.session().estimates().empty());
-  QTRY_COMPARE(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(), 0);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(), 0, 30000);
 }
 
 void MainWindowTest::closedScene_leavesTheEmptyWindow() {
@@ -386,7 +386,7 @@ void MainWindowTest::closedScene_leavesTheEmptyWindow() {
 
   f.window.actions().find("file.close")->trigger();
 
-  QTRY_COMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Empty, 30000);
   QCOMPARE(f.window.windowTitle(), QString("Episcope"));
 }
 
@@ -417,7 +417,7 @@ void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   auto* tabs = f.window.panels().tabs->tabBar();
   QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_VERIFY(table->isVisible() && table->columnCount() > 7);
+  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, 30000);
 
   const QStringList wanted = {"Result",        "2013\nMSE",     "2016\nMSE", "2016\nbad .07",
                               "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
@@ -439,7 +439,7 @@ void MainWindowTest::largerWindow_givesItsRoomToTheView() {
 
   f.window.resize(2560, 1440);
 
-  QTRY_VERIFY(f.window.panels().canvas->width() > view + 1000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().canvas->width() > view + 1000, 30000);
   QCOMPARE(f.window.panels().info->width(), side);
   QCOMPARE(f.window.panels().tabs->width(), tabs);
 }
