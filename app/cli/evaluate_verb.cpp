@@ -2,20 +2,18 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/json.h"
-#include "app/cli/judgement.h"
 #include "app/cli/output.h"
 #include "app/cli/pictures.h"
 #include "app/cli/result_input.h"
-#include "app/cli/table.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
+#include "app/session/judgement.h"
+#include "engine/core/text_table.h"
 #include "engine/io/image_file.h"
 
 #include <algorithm>
-#include <iomanip>
 #include <iostream>
 #include <set>
-#include <sstream>
 
 namespace episcope::cli {
 namespace {
@@ -122,17 +120,11 @@ std::vector<std::string> metric_keys(const std::vector<Row>& rows) {
   return keys;
 }
 
-std::string number_text(double value, int digits) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(digits) << value;
-  return text.str();
-}
-
-Table results_table(const Request& request, const std::vector<Row>& rows) {
+TextTable results_table(const Request& request, const std::vector<Row>& rows) {
   constexpr int exact_digits = 6;
   const int digits = request.is_csv ? exact_digits : 3;
   const auto keys = metric_keys(rows);
-  Table table{{"file", "method"}, {}};
+  TextTable table{{"file", "method"}, {}};
   table.header.insert(table.header.end(), keys.begin(), keys.end());
   table.header.emplace_back("seconds");
   const bool has_classes = request.protocol == "vmv2013";
@@ -141,9 +133,9 @@ Table results_table(const Request& request, const std::vector<Row>& rows) {
     std::vector<std::string> cells{row.file, row.method};
     for (const auto& key : keys) {
       const auto value = find_metric(row.metrics, key);
-      cells.push_back(value ? number_text(*value, digits) : "");
+      cells.push_back(value ? fixed_text(*value, digits) : "");
     }
-    cells.push_back(row.seconds > 0 ? number_text(row.seconds, digits) : "");
+    cells.push_back(row.seconds > 0 ? fixed_text(row.seconds, digits) : "");
     if (has_classes) {
       cells.emplace_back(row.seconds > 0 ? runtime_class(row.seconds) : "");
       cells.emplace_back(row.has_all_views ? "yes" : "no");
@@ -153,24 +145,9 @@ Table results_table(const Request& request, const std::vector<Row>& rows) {
   return table;
 }
 
-/// The table for people stands on its side: a metric a line, a result a column.
-Table turned(const Table& table) {
-  Table result;
-  for (std::size_t column = 0; column < table.header.size(); ++column) {
-    std::vector<std::string> cells{table.header[column]};
-    for (const auto& row : table.rows) cells.push_back(row[column]);
-    if (column == 0) {
-      result.header = std::move(cells);
-    } else {
-      result.rows.push_back(std::move(cells));
-    }
-  }
-  return result;
-}
-
 void print_answer(const Request& request, const std::vector<Row>& rows, ViewIndex view) {
   if (request.is_json) return print_json(results_json(request, rows, view));
-  const Table table = results_table(request, rows);
+  const TextTable table = results_table(request, rows);
   if (request.is_csv) {
     std::cout << table_to_csv(table);
   } else if (request.is_latex) {
@@ -178,7 +155,7 @@ void print_answer(const Request& request, const std::vector<Row>& rows, ViewInde
   } else {
     std::cout << request.protocol << " against " << request.truth << ", view " << view_text(view)
               << "\n\n"
-              << table_to_text(turned(table));
+              << table_to_text(turned(table));  // a metric a line, a result a column
   }
 }
 

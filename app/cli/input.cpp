@@ -98,8 +98,4 @@ Scene load_input(const std::string& input, const ReadOptions& options, const Pro
   return scene;
 }
 
-std::string view_text(ViewIndex view) {
-  return std::to_string(view.v) + "," + std::to_string(view.u);
-}
-
 }  // namespace episcope::cli

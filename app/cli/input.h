@@ -30,7 +30,4 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 [[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,
                                const Progress& progress);
 
-/// "4,4".
-[[nodiscard]] std::string view_text(ViewIndex view);
-
 }  // namespace episcope::cli

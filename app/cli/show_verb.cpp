@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
-#include "app/cli/judgement.h"
 #include "app/cli/output.h"
 #include "app/cli/pictures.h"
 #include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
+#include "app/session/judgement.h"
 #include "engine/io/image_file.h"
 #include "engine/render/color_map.h"
 

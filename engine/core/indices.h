@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <string>
+
 namespace episcope {
 
 /// A view of the camera grid. `u` is the camera column, growing to the camera's right; `v` is the
@@ -10,6 +12,11 @@ struct ViewIndex {
   int u = 0;
   friend bool operator==(const ViewIndex&, const ViewIndex&) = default;
 };
+
+/// "4,4".
+[[nodiscard]] inline std::string view_text(ViewIndex view) {
+  return std::to_string(view.v) + "," + std::to_string(view.u);
+}
 
 /// A pixel of one view: `x` to the right, `y` downwards, both from 0.
 struct PixelIndex {

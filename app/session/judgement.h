@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace episcope::cli {
+namespace episcope {
 
 /// The error of a result in one view. Of a result in two layers against a truth in two layers, keys
 /// begin with "foreground_" and "background_", and the maps are those of the foreground.
@@ -22,4 +22,4 @@ struct Judgement {
 [[nodiscard]] Judgement judge(const Estimate& estimate, const Scene& scene,
                               EvaluationOptions options, std::optional<ViewIndex> view = {});
 
-}  // namespace episcope::cli
+}  // namespace episcope

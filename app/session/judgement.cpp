@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/judgement.h"
+#include "app/session/judgement.h"
 
-#include "app/cli/input.h"
 #include "engine/core/error.h"
 
 #include <utility>
 
-namespace episcope::cli {
+namespace episcope {
 namespace {
 
 /// The view to judge: the centre if `field` covers it.
@@ -62,4 +61,4 @@ Judgement judge(const Estimate& estimate, const Scene& scene, EvaluationOptions 
                          view == light_field.center() ? truth.regions : no_regions, options)};
 }
 
-}  // namespace episcope::cli
+}  // namespace episcope

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/cli/table.h"
+#include "engine/core/text_table.h"
 
 #include <algorithm>
+#include <cstdio>
 
-namespace episcope::cli {
+namespace episcope {
 namespace {
 
 std::string csv_cell(const std::string& text) {
@@ -14,9 +15,14 @@ std::string csv_cell(const std::string& text) {
 }
 
 std::string latex_cell(const std::string& text) {
+  static const std::string times = "×";
   std::string escaped;
-  for (const char c : text) {
-    if (c == '\\') {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (text.compare(i, times.size(), times) == 0) {
+      escaped += "$\\times$";
+      i += times.size() - 1;
+    } else if (c == '\\') {
       escaped += "\\textbackslash{}";
     } else if (c == '~' || c == '^') {
       escaped += std::string("\\") + c + "{}";
@@ -43,7 +49,27 @@ std::size_t letters_in(const std::string& text) {
   }));
 }
 
-std::string table_to_text(const Table& table) {
+std::string fixed_text(double value, int digits) {
+  char text[400];  // room for the largest double
+  std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+TextTable turned(const TextTable& table) {
+  TextTable result;
+  for (std::size_t column = 0; column < table.header.size(); ++column) {
+    std::vector<std::string> cells{table.header[column]};
+    for (const auto& row : table.rows) cells.push_back(row[column]);
+    if (column == 0) {
+      result.header = std::move(cells);
+    } else {
+      result.rows.push_back(std::move(cells));
+    }
+  }
+  return result;
+}
+
+std::string table_to_text(const TextTable& table) {
   std::vector<std::size_t> widths(table.header.size());
   const auto widen = [&widths](const std::vector<std::string>& cells) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -67,13 +93,13 @@ std::string table_to_text(const Table& table) {
   return text;
 }
 
-std::string table_to_csv(const Table& table) {
+std::string table_to_csv(const TextTable& table) {
   std::string text = joined(table.header, ",", csv_cell) + "\n";
   for (const auto& row : table.rows) text += joined(row, ",", csv_cell) + "\n";
   return text;
 }
 
-std::string table_to_latex(const Table& table) {
+std::string table_to_latex(const TextTable& table) {
   std::string columns(table.header.size(), 'r');
   columns.front() = 'l';
   std::string text = "\\begin{tabular}{" + columns + "}\n\\toprule\n" +
@@ -82,4 +108,4 @@ std::string table_to_latex(const Table& table) {
   return text + "\\bottomrule\n\\end{tabular}\n";
 }
 
-}  // namespace episcope::cli
+}  // namespace episcope

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A table of texts in UTF-8; every row has as many cells as the header.
+struct TextTable {
+  std::vector<std::string> header;
+  std::vector<std::vector<std::string>> rows;
+};
+
+/// Columns aligned for people: the first to the left, the others to the right.
+[[nodiscard]] std::string table_to_text(const TextTable& table);
+/// RFC 4180, "." as the decimal point.
+[[nodiscard]] std::string table_to_csv(const TextTable& table);
+/// A `tabular` with rules of booktabs.
+[[nodiscard]] std::string table_to_latex(const TextTable& table);
+
+/// The same on its side: the first column becomes the header.
+[[nodiscard]] TextTable turned(const TextTable& table);
+
+/// A number with so many digits after the point: 0.25 with 3 is "0.250".
+[[nodiscard]] std::string fixed_text(double value, int digits);
+
+/// Letters of a UTF-8 text.
+[[nodiscard]] std::size_t letters_in(const std::string& text);
+
+}  // namespace episcope
