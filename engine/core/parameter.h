@@ -31,6 +31,7 @@ struct ParameterDescription {
   double max = 0;
   bool logarithmic = false;          ///< A slider should move in powers.
   std::vector<std::string> choices;  ///< For strings: the only values allowed.
+  std::vector<ParameterValue> searched;  ///< Values that a parameter search tries; empty = none.
 };
 
 /// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`.

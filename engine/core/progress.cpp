@@ -41,7 +41,7 @@ void Progress::report(double fraction) const {
 void Progress::step(const std::string& text) const {
   if (!shared_->listener) return;
   const std::scoped_lock lock(shared_->mutex);
-  shared_->state.step = text;
+  shared_->state.step = title_ + text;
   shared_->listener(shared_->state);
 }
 
@@ -58,6 +58,12 @@ Progress Progress::part(double begin, double end) const {
   inner.begin_ = begin_ + begin * (end_ - begin_);
   inner.end_ = begin_ + end * (end_ - begin_);
   return inner;
+}
+
+Progress Progress::titled(const std::string& title) const {
+  Progress named = *this;
+  named.title_ = title_ + title + ": ";
+  return named;
 }
 
 }  // namespace episcope

@@ -37,12 +37,15 @@ class Progress {
 
   /// A progress for the part [begin, end] of this one.
   [[nodiscard]] Progress part(double begin, double end) const;
+  /// This one, with "<title>: " before the name of every stage.
+  [[nodiscard]] Progress titled(const std::string& title) const;
 
  private:
   struct Shared;
   std::shared_ptr<Shared> shared_;
   double begin_ = 0;
   double end_ = 1;
+  std::string title_;
 };
 
 }  // namespace episcope

@@ -5,6 +5,8 @@
 #include "engine/core/parameter.h"
 
 #include <functional>
+#include <initializer_list>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -46,6 +48,20 @@ class Schema {
     return add(key, member, text, domain);
   }
 
+  /// Names the values that a search for the best parameters tries for a number or flag (0, 1), in
+  /// place of those named before; the grid of a method is the product over its parameters. Throws
+  /// InvalidInput for an unknown key or a value outside the domain.
+  Schema& search(const char* key, std::initializer_list<double> values) {
+    std::vector<ParameterValue> typed;
+    for (const double value : values) typed.push_back(like_default(key, value));
+    return search_values(key, std::move(typed));
+  }
+  /// Likewise for a choice.
+  Schema& search_choices(const char* key, std::initializer_list<const char*> values) {
+    const std::vector<std::string> strings(values.begin(), values.end());
+    return search_values(key, std::vector<ParameterValue>(strings.begin(), strings.end()));
+  }
+
   [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const {
     return descriptions_;
   }
@@ -75,9 +91,23 @@ class Schema {
   template <class T>
   Schema& add(const char* key, T P::*member, Text text, Domain domain) {
     descriptions_.push_back({key, text.label, text.help, text.unit, P{}.*member, domain.min,
-                             domain.max, domain.logarithmic, {}});
+                             domain.max, domain.logarithmic, {}, {}});
     read_.push_back([member](const P& p) { return ParameterValue(p.*member); });
     write_.push_back([member](P& p, const ParameterValue& v) { p.*member = std::get<T>(v); });
+    return *this;
+  }
+
+  [[nodiscard]] ParameterValue like_default(const char* key, double value) const {
+    const ParameterValue& like = descriptions_[index_of(key)].default_value;
+    if (std::holds_alternative<bool>(like)) return value != 0;
+    if (std::holds_alternative<int>(like)) return static_cast<int>(value);
+    return value;
+  }
+
+  Schema& search_values(const char* key, std::vector<ParameterValue> values) {
+    ParameterDescription& description = descriptions_[index_of(key)];
+    for (const auto& value : values) check_parameter(description, value);
+    description.searched = std::move(values);
     return *this;
   }
 

@@ -98,6 +98,9 @@ void clear(ViewStack<float>& stack) {
 Schema<EpiLParameters> epi_l_schema() {
   Schema<EpiLParameters> schema;
   add_epi_l_parameters(schema);
+  schema.search("inner_scale", {0.3, 0.5, 0.8, 1.1})
+      .search("outer_scale", {0.5, 1, 1.5, 2})
+      .search("shear_step", {0.5, 1, 1.5});
   return schema;
 }
 

@@ -20,6 +20,7 @@ struct EstimatorInfo {
   std::string reference;  ///< Authors, year, key in resources/references.bib.
   bool all_views =
       false;  ///< Can estimate every view at once; else one view, the centre by default.
+  int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
 };
 
 /// Which views an estimate should cover.

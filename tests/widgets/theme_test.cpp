@@ -38,8 +38,8 @@ namespace {
 constexpr double kLegible = 4.5;
 
 MethodDescription method() {
-  ParameterDescription number{"inner", "Inner", "", "", 0.8, 0, 2, false, {}};
-  ParameterDescription range{"range", "Range", "", "", IntervalOrAuto{}, -2, 2, false, {}};
+  ParameterDescription number{"inner", "Inner", "", "", 0.8, 0, 2, false, {}, {}};
+  ParameterDescription range{"range", "Range", "", "", IntervalOrAuto{}, -2, 2, false, {}, {}};
   return {"m", "M", "", "", true, {number, range}};
 }
 

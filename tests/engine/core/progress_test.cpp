@@ -103,6 +103,15 @@ class ProgressTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(part.check(), Cancelled);
   }
 
+  void titles_precedeTheStage() {
+    std::string step;
+    const Progress progress(std::stop_token{}, [&](const ProgressState& s) { step = s.step; });
+
+    progress.titled("cotton").part(0, 0.5).titled("epi_l").step("reading");
+
+    QCOMPARE(step, std::string("cotton: epi_l: reading"));
+  }
+
   void threads_areAtLeastOne() {
     QVERIFY(Progress().threads() >= 1);
     QCOMPARE(Progress(3).threads(), 3);

@@ -97,6 +97,23 @@ class SchemaTest : public QObject {
     QVERIFY(
         error_of({{"range", ParameterValue(IntervalOrAuto(Interval{3, 2}))}}).contains("A < B"));
   }
+
+  void searchedValues_haveTheTypeOfTheParameter() {
+    Schema<Tuning> searched = schema();
+
+    searched.search("scale", {1, 2.5}).search("rounds", {1, 9}).search("weighted", {0, 1});
+    searched.search_choices("fusion", {"best"});
+
+    const auto values = [&](int i) { return searched.descriptions()[i].searched; };
+    QVERIFY(values(0) == (std::vector<ParameterValue>{1.0, 2.5}));
+    QVERIFY(values(1) == (std::vector<ParameterValue>{1, 9}));
+    QVERIFY(values(2) == (std::vector<ParameterValue>{false, true}));
+    QVERIFY(values(3) == (std::vector<ParameterValue>{std::string("best")}));
+    QVERIFY(values(4).empty());
+    QVERIFY_EXCEPTION_THROWN(searched.search("scale", {7}), InvalidInput);
+    QVERIFY_EXCEPTION_THROWN(searched.search("scael", {1}), InvalidInput);
+    QVERIFY_EXCEPTION_THROWN(searched.search_choices("fusion", {"worst"}), InvalidInput);
+  }
 };
 
 QTEST_APPLESS_MAIN(SchemaTest)
