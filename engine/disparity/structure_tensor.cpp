@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/isa.h"
+#include "engine/disparity/sample_planes.h"
 #include "engine/disparity/structure_tensor_kernel.h"
 
 #include <algorithm>
@@ -52,7 +53,6 @@ struct StructureTensor::State {
   const LightField& light_field;
   Direction direction;
   TensorSearch search;
-  const SampleKernel& samples = EPISCOPE_CHOOSE_KERNEL(best_isa(), kSampleKernel);
   const TensorKernel& tensors = EPISCOPE_CHOOSE_KERNEL(best_isa(), kTensorKernel);
   const OrientationKernel& orientations = EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel);
   const TensorFilterSet set;
@@ -63,7 +63,7 @@ struct StructureTensor::State {
   int payload_pixels = 0;  // Along the EPI, at most.
   bool with_half = false;
   std::vector<float> memory;
-  std::vector<float> line_float;
+  SamplePlanes planes;
   std::vector<float*> slots;  // Best tensors: of neighbouring lines (horizontal) or of the block.
   float* result[2] = {};
 
@@ -75,7 +75,6 @@ struct StructureTensor::State {
   void run_shears(const TensorTask& task, int count);
   void gather_horizontal(const TensorTask& task, int y);
   void gather_vertical(const TensorTask& task);
-  void gather_pixels(ViewIndex view, int y, int x0, int x1, float* const* out);
   void prefetch_pixels(ViewIndex view, int y, int x) const;
   void estimate_horizontal(const TensorTask& task, const Sink& sink);
   void estimate_vertical(const TensorTask& task, const Sink& sink);
@@ -87,7 +86,8 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
     : light_field(lf),
       direction(dir),
       search(std::move(wanted)),
-      set(make_tensor_filters(views_along(lf, dir), lf.channels(), scales)) {
+      set(make_tensor_filters(views_along(lf, dir), lf.channels(), scales)),
+      planes(lf) {
   block.rows = views_along(lf, dir);
   block.channels = lf.channels();
   size_block();
@@ -147,22 +147,6 @@ void StructureTensor::State::use_slot(float* slot) {
   std::fill_n(slot, 4 * plane, 0.0F);
 }
 
-void StructureTensor::State::gather_pixels(ViewIndex view, int y, int x0, int x1,
-                                           float* const* out) {
-  const int channels = block.channels;
-  if (light_field.sample_type() == SampleType::UInt8) {
-    samples.deinterleave(
-        light_field.view<std::uint8_t>(view).row(y) + static_cast<std::size_t>(x0) * channels,
-        x1 - x0, channels, out);
-    return;
-  }
-  line_float.resize(static_cast<std::size_t>(x1 - x0) * channels);
-  light_field.read_row(view, y, x0, x1, line_float.data());
-  for (int i = 0; i < x1 - x0; ++i) {
-    for (int c = 0; c < channels; ++c) out[c][i] = line_float[i * channels + c];
-  }
-}
-
 // The hardware does not foresee steps of a whole image row.
 void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const {
   constexpr int kRowsAhead = 12;
@@ -185,7 +169,7 @@ void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
       rows[c] = block.samples + (static_cast<std::size_t>(c) * block.rows + u) * block.pitch;
       inside[c] = rows[c] + block.margin + x0 - task.begin.x;
     }
-    gather_pixels({task.camera_line, u}, y, x0, x1, inside.data());
+    planes.read({task.camera_line, u}, y, x0, x1, inside.data());
     for (int c = 0; c < block.channels; ++c) {
       std::fill(rows[c], inside[c], inside[c][0]);
       std::fill(inside[c] + (x1 - x0), rows[c] + block.pitch, inside[c][x1 - x0 - 1]);
@@ -209,7 +193,7 @@ void StructureTensor::State::gather_vertical(const TensorTask& task) {
         inside[c] = lanes[c] + (x0 - left);
       }
       prefetch_pixels({v, task.camera_line}, y, x0);
-      gather_pixels({v, task.camera_line}, y, x0, x1, inside.data());
+      planes.read({v, task.camera_line}, y, x0, x1, inside.data());
       for (int c = 0; c < block.channels; ++c) {
         std::fill(lanes[c], inside[c], inside[c][0]);
         std::fill(inside[c] + (x1 - x0), lanes[c] + columns, inside[c][x1 - x0 - 1]);

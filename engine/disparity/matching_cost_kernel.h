@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace episcope {
+
+/// Lanes that the matching kernel may read or write beyond the columns it is asked for.
+inline constexpr int kMatchingSlack = 16;
+
+/// A tile of the reference view beside one other view at one label. All planes `[row][lane]`.
+struct MatchingTile {
+  int channels = 0;
+  int rows = 0;
+  int columns = 0;
+  /// Rows and columns [first, last) of the tile whose sample lies within the other view.
+  int first_row = 0, last_row = 0;
+  int first_column = 0, last_column = 0;
+
+  const float* reference[3] = {};  ///< Reference samples, one plane for each channel.
+  const float* samples[3] = {};    ///< The other view's at the first tap of row 0, column 0.
+  int reference_pitch = 0;
+  int sample_pitch = 0;
+
+  int row_taps = 1;  ///< 1, 2 or 4: how a sample between rows is put together,
+  int column_taps = 1;
+  float row_weights[4] = {1};
+  float column_weights[4] = {1};
+
+  float* lines = nullptr;  ///< Scratch: `channels` rows of `line_pitch` lanes.
+  int line_pitch = 0;
+
+  float cap = 0;
+  float* costs = nullptr;  ///< Added to.
+  long cost_pitch = 0;
+};
+
+/// Adds min(cap, |samples − reference|) to the costs.
+struct MatchingKernel {
+  void (*add)(const MatchingTile&);
+};
+
+namespace baseline {
+extern const MatchingKernel kMatchingKernel;
+}
+namespace avx2 {
+extern const MatchingKernel kMatchingKernel;
+}
+namespace avx512 {
+extern const MatchingKernel kMatchingKernel;
+}
+
+}  // namespace episcope
