@@ -14,9 +14,15 @@
 namespace episcope {
 namespace {
 
+// What the owner may ask of a job.
+struct Requests {
+  std::stop_source stop;
+  std::stop_source finish;
+};
+
 struct Job {
   JobId id = 0;
-  std::stop_source stop;
+  Requests requests;
   std::function<void(const Progress&)> run;
   std::function<void()> finish;
   JobRunner::OnProgress on_progress;
@@ -36,7 +42,7 @@ struct JobRunner::State {
   mutable std::mutex mutex;
   std::condition_variable_any wake;
   std::deque<std::shared_ptr<Job>> queue;
-  std::map<JobId, std::stop_source> alive;
+  std::map<JobId, Requests> alive;
   JobId last_id = 0;
   std::atomic<bool> closed{false};
   std::jthread thread;
@@ -87,7 +93,8 @@ void JobRunner::State::run(Job& job) {
       });
     };
   }
-  const Progress progress(job.stop.get_token(), std::move(listener));
+  const Progress progress(job.requests.stop.get_token(), job.requests.finish.get_token(),
+                          std::move(listener));
   if (!progress.stop_requested()) job.run(progress);
   {
     const std::scoped_lock lock(mutex);
@@ -106,7 +113,7 @@ JobRunner::~JobRunner() {
   state_->closed = true;
   {
     const std::scoped_lock lock(state_->mutex);
-    for (auto& [id, stop] : state_->alive) stop.request_stop();
+    for (auto& [id, requests] : state_->alive) requests.stop.request_stop();
     state_->queue.clear();
   }
   state_->thread.request_stop();
@@ -122,7 +129,7 @@ JobId JobRunner::enqueue(std::function<void(const Progress&)> run, std::function
   {
     const std::scoped_lock lock(state_->mutex);
     job->id = ++state_->last_id;
-    state_->alive.emplace(job->id, job->stop);
+    state_->alive.emplace(job->id, job->requests);
     state_->queue.push_back(job);
   }
   state_->wake.notify_one();
@@ -135,7 +142,7 @@ void JobRunner::cancel(JobId id) {
     const std::scoped_lock lock(state_->mutex);
     const auto found = state_->alive.find(id);
     if (found == state_->alive.end()) return;
-    found->second.request_stop();
+    found->second.stop.request_stop();
     unstarted = state_->take_from_queue(id);
     if (unstarted) state_->alive.erase(found);
   }
@@ -143,11 +150,17 @@ void JobRunner::cancel(JobId id) {
   if (unstarted) state_->post(std::move(unstarted->finish));
 }
 
+void JobRunner::finish(JobId id) {
+  const std::scoped_lock lock(state_->mutex);
+  const auto found = state_->alive.find(id);
+  if (found != state_->alive.end()) found->second.finish.request_stop();
+}
+
 void JobRunner::cancel_all() {
   std::vector<JobId> ids;
   {
     const std::scoped_lock lock(state_->mutex);
-    for (const auto& [id, stop] : state_->alive) ids.push_back(id);
+    for (const auto& [id, requests] : state_->alive) ids.push_back(id);
   }
   for (const JobId id : ids) cancel(id);
 }

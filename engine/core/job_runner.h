@@ -60,6 +60,9 @@ class JobRunner {
 
   /// Asks a queued or running job to stop; its outcome says whether it did. Unknown ids are ignored.
   void cancel(JobId id);
+  /// Asks a running job for the best result so far (Progress::finish_requested); a queued one ends
+  /// after its first look. Unknown ids are ignored.
+  void finish(JobId id);
   void cancel_all();
 
   /// Jobs queued or running.

@@ -11,6 +11,7 @@ namespace episcope {
 
 struct Progress::Shared {
   std::stop_token stop;
+  std::stop_token finish;
   Listener listener;
   int threads = 1;
   std::mutex mutex;
@@ -20,8 +21,12 @@ struct Progress::Shared {
 Progress::Progress(int threads) : Progress(std::stop_token{}, nullptr, threads) {}
 
 Progress::Progress(std::stop_token stop, Listener listener, int threads)
+    : Progress(std::move(stop), {}, std::move(listener), threads) {}
+
+Progress::Progress(std::stop_token stop, std::stop_token finish, Listener listener, int threads)
     : shared_(std::make_shared<Shared>()) {
   shared_->stop = std::move(stop);
+  shared_->finish = std::move(finish);
   shared_->listener = std::move(listener);
   shared_->threads =
       threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -50,6 +55,8 @@ void Progress::check() const {
 }
 
 bool Progress::stop_requested() const { return shared_->stop.stop_requested(); }
+
+bool Progress::finish_requested() const { return shared_->finish.stop_requested(); }
 
 int Progress::threads() const { return shared_->threads; }
 

@@ -25,6 +25,8 @@ class Progress {
   explicit Progress(int threads = 0);
   /// `listener` is called from the computing threads, one call at a time; it must not block.
   Progress(std::stop_token stop, Listener listener, int threads = 0);
+  /// As before; a stop of `finish` asks an iterative method for what it has (`finish_requested`).
+  Progress(std::stop_token stop, std::stop_token finish, Listener listener, int threads = 0);
 
   /// Tells that `fraction` in [0, 1] of this part is done. Throttled to 1/1000 of the job.
   void report(double fraction) const;
@@ -33,6 +35,9 @@ class Progress {
   /// Throws Cancelled if a stop was requested.
   void check() const;
   [[nodiscard]] bool stop_requested() const;
+  /// Whether somebody would rather have the best result so far than wait: an iterative method then
+  /// ends its iteration and goes on with what it has, as if it had converged.
+  [[nodiscard]] bool finish_requested() const;
   [[nodiscard]] int threads() const;
 
   /// A progress for the part [begin, end] of this one.

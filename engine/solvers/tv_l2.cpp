@@ -2,6 +2,7 @@
 #include "engine/solvers/tv_l2.h"
 
 #include "engine/core/error.h"
+#include "engine/core/flush_denormals.h"
 #include "engine/solvers/tv_l2_grid.h"
 #include "engine/solvers/tv_l2_kernel.h"
 
@@ -10,10 +11,6 @@
 #include <limits>
 #include <string>
 #include <vector>
-
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
 
 namespace episcope {
 namespace {
@@ -35,24 +32,6 @@ constexpr Pace kSafePace = {1.0F, 1.0F};
 constexpr float kPenaltyScale = 1.0F;
 constexpr float kPenaltyKnee = 0.07F;
 constexpr float kPenaltySpread = 10.0F;
-
-// Duals decay to denormals in flat areas, which would slow every operation on them down.
-class FlushDenormals {
- public:
-#if defined(__x86_64__)
-  FlushDenormals() : before_(_mm_getcsr()) {
-    _mm_setcsr(before_ | _MM_FLUSH_ZERO_ON | 0x0040);  // 0x0040: denormals are zeros
-  }
-  ~FlushDenormals() {
-    _mm_setcsr(before_);
-  }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned before_;
-#endif
-};
 
 template <class T>
 void check_shape(const ImageView<T>& image, int height, int width, const char* what) {

@@ -167,6 +167,26 @@ class JobRunnerTest : public QObject {
     QCOMPARE(runner.pending(), 0);
   }
 
+  void finish_letsARunningJobGiveWhatItHas() {
+    Inbox inbox;
+    JobRunner runner(inbox.post());
+    std::latch begun(1);
+    int value = 0;
+
+    const JobId id = runner.start<int>(
+        [&begun](const Progress& progress) {
+          begun.count_down();
+          while (!progress.finish_requested()) std::this_thread::yield();
+          return 7;
+        },
+        [&](Outcome<int> outcome) { value = outcome.value.value_or(-1); });
+    begun.wait();
+    runner.finish(id);
+    inbox.run_until([&] { return value != 0; });
+
+    QCOMPARE(value, 7);
+  }
+
   void cancel_keepsAQueuedJobFromRunning() {
     Inbox inbox;
     JobRunner runner(inbox.post());

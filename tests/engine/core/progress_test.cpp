@@ -112,6 +112,19 @@ class ProgressTest : public QObject {
     QCOMPARE(step, std::string("cotton: epi_l: reading"));
   }
 
+  void finish_isAskedApartFromStop() {
+    std::stop_source finish;
+    const Progress progress(std::stop_token{}, finish.get_token(), {});
+    const Progress inner = progress.part(0, 0.5);
+    QVERIFY(!inner.finish_requested());
+
+    finish.request_stop();
+
+    QVERIFY(inner.finish_requested());
+    QVERIFY(!inner.stop_requested());
+    inner.check();
+  }
+
   void threads_areAtLeastOne() {
     QVERIFY(Progress().threads() >= 1);
     QCOMPARE(Progress(3).threads(), 3);
