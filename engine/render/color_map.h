@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/label_info.h"
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -8,7 +10,7 @@
 
 namespace episcope::render {
 
-using Rgb = std::array<std::uint8_t, 3>;
+using episcope::Rgb;
 
 /// 256 colours from low to high, with a colour for invalid pixels.
 struct ColorMap {

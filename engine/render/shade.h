@@ -41,9 +41,6 @@ struct Shading {
 /// RGBA8 picture of a view.
 [[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view);
 
-/// Colour of a label id: a fixed palette of well separated colours for 1 … 20, further ones by hue.
-[[nodiscard]] Rgb label_color(std::int32_t id);
-
 /// RGBA8 picture of label ids: 0 and negative ids transparent, the others in their `label_color`.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
 
