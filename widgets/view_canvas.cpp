@@ -53,9 +53,34 @@ void ViewCanvas::setPixelText(PixelText text) {
   update();
 }
 
-void ViewCanvas::setCaption(const QString& caption) {
+void ViewCanvas::setCaption(const QString& caption, Side side) {
   caption_ = caption;
+  side_ = side;
   update();
+}
+
+void ViewCanvas::setWipe(double position, const QImage& overlay, const QString& caption) {
+  wipe_position_ = std::clamp(position, 0.0, 1.0);
+  wipe_overlay_ = overlay;
+  wipe_caption_ = caption;
+  update();
+}
+
+void ViewCanvas::endWipe() {
+  wipe_position_ = std::nullopt;
+  wipe_overlay_ = {};
+  if (gesture_ == Gesture::Wipe) gesture_ = Gesture::None;
+  updateCursorShape();
+  update();
+}
+
+double ViewCanvas::dividerX() const {
+  return std::floor(wipe_position_.value_or(0) * width()) + 0.5;
+}
+
+bool ViewCanvas::isOnDivider(QPointF position) const {
+  constexpr double kReach = 6;
+  return wipe_position_ && std::abs(position.x() - dividerX()) <= kReach;
 }
 
 void ViewCanvas::setParallaxEnabled(bool enabled) {
@@ -97,6 +122,17 @@ std::optional<PixelIndex> ViewCanvas::pixelAt(QPointF position) const {
 
 QPointF ViewCanvas::positionOf(PixelIndex pixel) const {
   return transform_.to_widget({pixel.x + 0.5, pixel.y + 0.5}, size());
+}
+
+double ViewCanvas::fitScale() const {
+  return fit_transform(picture_.size(), size()).scale;
+}
+
+QRect ViewCanvas::visiblePixels() const {
+  if (picture_.isNull()) return {};
+  const QRectF seen(transform_.to_image({0, 0}, size()),
+                    transform_.to_image({width() * 1.0, height() * 1.0}, size()));
+  return seen.toAlignedRect() & picture_.rect();
 }
 
 QSize ViewCanvas::sizeHint() const {

@@ -3,6 +3,7 @@
 
 #include "engine/core/indices.h"
 #include "widgets/canvas_transform.h"
+#include "widgets/side.h"
 
 #include <QImage>
 #include <QStringList>
@@ -37,8 +38,13 @@ class ViewCanvas : public QWidget {
   void setOverlayOpacity(double opacity);
   void setCrossHair(std::optional<PixelIndex> pixel);
   void setPixelText(PixelText text);
-  /// What is shown, e.g. "view (4, 4)", drawn in the upper left corner; empty = none.
-  void setCaption(const QString& caption);
+  /// What is shown, e.g. "view (4, 4)", drawn in the upper left corner, after the badge of a side;
+  /// empty = none.
+  void setCaption(const QString& caption, Side side = Side::None);
+  /// Right of a divider at `position` (part of the width, clamped to [0, 1]), `overlay` is drawn
+  /// instead of the overlay, with `caption` in the upper right corner.
+  void setWipe(double position, const QImage& overlay, const QString& caption);
+  void endWipe();
   /// Whether a left drag is parallax (default). Off: it pans.
   void setParallaxEnabled(bool enabled);
 
@@ -54,6 +60,12 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
+  /// Scale at which the whole picture just fits.
+  [[nodiscard]] double fitScale() const;
+  /// The pixels in sight; empty without a picture.
+  [[nodiscard]] QRect visiblePixels() const;
+  /// Where the divider stands; none without a wipe.
+  [[nodiscard]] std::optional<double> wipePosition() const { return wipe_position_; }
   [[nodiscard]] bool isFitted() const { return fitted_; }
   /// The pixel under a widget position; none outside the picture.
   [[nodiscard]] std::optional<PixelIndex> pixelAt(QPointF position) const;
@@ -88,6 +100,8 @@ class ViewCanvas : public QWidget {
   void parallaxStarted();
   void parallaxDragged(QPointF views);
   void parallaxFinished();
+  /// The divider was dragged to a part of the width.
+  void wipeMoved(double position);
   /// Space pressed and released without a drag: play or pause.
   void playToggled();
   /// Alt+wheel: steps of the focus plane, positive = nearer.
@@ -108,7 +122,7 @@ class ViewCanvas : public QWidget {
   void focusOutEvent(QFocusEvent* event) override;
 
  private:
-  enum class Gesture { None, Press, Pan, Parallax };
+  enum class Gesture { None, Press, Pan, Parallax, Wipe };
 
   void changeTransform(const CanvasTransform& transform, bool fitted);
   void zoomAt(QPointF anchor, double factor);
@@ -116,7 +130,10 @@ class ViewCanvas : public QWidget {
   void drag(QPointF position);
   void updateCursorShape();
   void showMessage(State state, const QString& text);
-  void paintPicture(QPainter& painter, const QRect& exposed) const;
+  [[nodiscard]] double dividerX() const;
+  [[nodiscard]] bool isOnDivider(QPointF position) const;
+  void paintPicture(QPainter& painter, const QRect& exposed, const QImage& overlay) const;
+  void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
   void paintCrossHair(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
@@ -127,6 +144,10 @@ class ViewCanvas : public QWidget {
   QString message_;
   double loading_fraction_ = -1;
   QString caption_;
+  Side side_ = Side::None;
+  std::optional<double> wipe_position_;
+  QImage wipe_overlay_;
+  QString wipe_caption_;
   QImage picture_;
   QImage overlay_;
   double overlay_opacity_ = 0.7;

@@ -7,6 +7,8 @@
 #include <QStyleHints>
 #include <QWheelEvent>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
@@ -53,7 +55,8 @@ void ViewCanvas::mousePressEvent(QMouseEvent* event) {
     space_used_ = true;
     updateCursorShape();
   } else if (event->button() == Qt::LeftButton) {
-    gesture_ = Gesture::Press;
+    gesture_ = isOnDivider(event->position()) ? Gesture::Wipe : Gesture::Press;
+    updateCursorShape();
   } else {
     event->ignore();
   }
@@ -68,6 +71,7 @@ void ViewCanvas::mouseMoveEvent(QMouseEvent* event) {
   }
   drag(position);
   followCursor(position);
+  if (gesture_ == Gesture::None) updateCursorShape();
 }
 
 void ViewCanvas::beginDrag() {
@@ -82,6 +86,8 @@ void ViewCanvas::drag(QPointF position) {
   } else if (gesture_ == Gesture::Parallax) {
     // A point of disparity d > 0 moves by −d per view: the other way than the views.
     emit parallaxDragged((press_position_ - position) / kParallaxStep);
+  } else if (gesture_ == Gesture::Wipe) {
+    emit wipeMoved(std::clamp(position.x() / std::max(1, width()), 0.0, 1.0));
   }
   last_position_ = position;
 }
@@ -165,6 +171,8 @@ void ViewCanvas::updateCursorShape() {
     setCursor(Qt::SizeAllCursor);
   } else if (space_held_) {
     setCursor(Qt::OpenHandCursor);
+  } else if (gesture_ == Gesture::Wipe || (cursor_ && isOnDivider(*cursor_))) {
+    setCursor(Qt::SplitHCursor);
   } else {
     setCursor(Qt::CrossCursor);
   }

@@ -33,7 +33,8 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
   painter.fillRect(event->rect(), theme::kCanvas);
   if (state_ == State::Picture) {
-    paintPicture(painter, event->rect());
+    paintPicture(painter, event->rect(), overlay_);
+    if (wipe_position_) paintWipe(painter, event->rect());
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
     paintCaption(painter);
@@ -46,7 +47,8 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
   }
 }
 
-void ViewCanvas::paintPicture(QPainter& painter, const QRect& exposed) const {
+void ViewCanvas::paintPicture(QPainter& painter, const QRect& exposed,
+                              const QImage& overlay) const {
   const QRectF seen(transform_.to_image(QRectF(exposed).topLeft(), size()),
                     transform_.to_image(QRectF(exposed).bottomRight(), size()));
   // Whole pixels only, so that samples do not shift with the exposed part.
@@ -57,16 +59,41 @@ void ViewCanvas::paintPicture(QPainter& painter, const QRect& exposed) const {
   painter.setRenderHint(QPainter::SmoothPixmapTransform,
                         transform_.scale * devicePixelRatioF() < 1);
   painter.drawImage(target, picture_, source);
-  if (!overlay_.isNull() && overlay_opacity_ > 0) {
-    const double across = 1.0 * overlay_.width() / picture_.width();
-    const double down = 1.0 * overlay_.height() / picture_.height();
+  if (!overlay.isNull() && overlay_opacity_ > 0) {
+    const double across = 1.0 * overlay.width() / picture_.width();
+    const double down = 1.0 * overlay.height() / picture_.height();
     painter.setOpacity(overlay_opacity_);
-    painter.drawImage(target, overlay_,
+    painter.drawImage(target, overlay,
                       QRectF(source.x() * across, source.y() * down, source.width() * across,
                              source.height() * down));
     painter.setOpacity(1);
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);
+}
+
+void ViewCanvas::paintWipe(QPainter& painter, const QRect& exposed) const {
+  const double x = dividerX();
+  const QRect right = QRect(static_cast<int>(x), 0, width(), height()) & exposed;
+  painter.save();
+  painter.setClipRect(right);
+  painter.fillRect(right, theme::kCanvas);
+  paintPicture(painter, right, wipe_overlay_);
+  painter.restore();
+  draw_haloed_line(painter, {x, 0.0, x, height() * 1.0}, Qt::white);
+  // A grip in the middle: two arrow heads.
+  const QPointF middle(x, height() / 2.0);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(0, 0, 0, 120), 1));
+  painter.setBrush(Qt::white);
+  painter.drawRoundedRect(QRectF(middle.x() - 9, middle.y() - 14, 18, 28), 5, 5);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(0x30, 0x34, 0x38));
+  for (const double side : {-1.0, 1.0}) {
+    painter.drawPolygon(QPolygonF({middle + QPointF(side * 6, 0), middle + QPointF(side * 2, -5),
+                                   middle + QPointF(side * 2, 5)}));
+  }
+  painter.restore();
 }
 
 void ViewCanvas::paintPixelTexts(QPainter& painter, const QRect& exposed) const {
@@ -78,6 +105,8 @@ void ViewCanvas::paintPixelTexts(QPainter& painter, const QRect& exposed) const 
   painter.setFont(font);
   for (int y = pixels.top(); y <= pixels.bottom(); ++y) {
     for (int x = pixels.left(); x <= pixels.right(); ++x) {
+      // Right of a divider, the values of the other side would have to stand.
+      if (wipe_position_ && positionOf({y, x}).x() > dividerX()) continue;
       const QStringList lines = pixel_text_(y, x);
       if (lines.isEmpty()) continue;
       // What is on screen decides between dark and light letters.
@@ -115,7 +144,13 @@ void ViewCanvas::paintCrossHair(QPainter& painter) const {
 }
 
 void ViewCanvas::paintCaption(QPainter& painter) const {
-  draw_plate(painter, rect(), Qt::AlignLeft | Qt::AlignTop, caption_, theme::kCanvasText);
+  QRectF left = rect();
+  if (wipe_position_) {
+    left.setWidth(width() / 2.0);
+    draw_plate(painter, left.translated(left.width(), 0), Qt::AlignRight | Qt::AlignTop,
+               wipe_caption_, theme::kCanvasText, Side::B);
+  }
+  draw_plate(painter, left, Qt::AlignLeft | Qt::AlignTop, caption_, theme::kCanvasText, side_);
   const double percent = 100 * transform_.scale * devicePixelRatioF();
   draw_plate(painter, rect(), Qt::AlignRight | Qt::AlignBottom,
              tr("%1 %").arg(percent, 0, 'f', percent < 10 ? 1 : 0), theme::kCanvasMuted);

@@ -3,20 +3,17 @@
 
 #include "app/gui/action_table.h"
 #include "app/gui/browse_actions.h"
+#include "app/gui/compare_actions.h"
 #include "app/gui/estimate_controller.h"
 #include "app/gui/export_controller.h"
 #include "app/gui/main_window.h"
 #include "app/gui/open_controller.h"
-#include "app/gui/overlay_controller.h"
-#include "app/session/session.h"
 
 #include <QAction>
 #include <QTabWidget>
 
 namespace episcope {
 namespace {
-
-using render::Quantity;
 
 QString tr(const char* source) {
   return MainWindow::tr(source);
@@ -140,83 +137,7 @@ void add_estimate_actions(ActionTable& table, MainWindow& window) {
              .run = [&estimate] { estimate.removeShown(); }});
 }
 
-void add_overlay(ActionTable& table, OverlayController& overlay, const QString& id,
-                 const QString& text, const QString& tip, Quantity quantity) {
-  table.add({.id = id,
-             .menu = tr("Compare"),
-             .text = text,
-             .tip = tip,
-             .icon = "",
-             .keys = {},
-             .run = [&overlay, quantity] { overlay.setQuantity(quantity); },
-             .is_checkable = true});
-}
-
-void add_overlay_actions(ActionTable& table, MainWindow& window) {
-  OverlayController& overlay = window.overlay();
-  const auto add = [&](const char* id, const QString& text, const QString& tip, Quantity quantity) {
-    add_overlay(table, overlay, id, text, tip, quantity);
-  };
-  add("overlay.none", tr("None"), tr("Shows the view alone"), Quantity::View);
-  add("overlay.disparity", tr("Disparity"), tr("Shows the disparity of the result over the view"),
-      Quantity::Disparity);
-  add("overlay.confidence", tr("Confidence"), tr("Shows how sure the method is, from 0 to 1"),
-      Quantity::Confidence);
-  add("overlay.truth", tr("Truth"), tr("Shows the true disparity"), Quantity::Truth);
-  add("overlay.signed_error", tr("Error"),
-      tr("Shows truth − estimate: blue is too near, red too far"), Quantity::SignedError);
-  add("overlay.absolute_error", tr("|Error|"), tr("Shows the size of the error"),
-      Quantity::AbsoluteError);
-  add("overlay.bad_pixels", tr("Bad"), tr("Shows the pixels that are off by more than 0.07 px"),
-      Quantity::BadPixels);
-  add("overlay.labels", tr("Labels"), tr("Shows the true object labels"), Quantity::Labels);
-}
-
-void add_compare_actions(ActionTable& table, MainWindow& window) {
-  OverlayController& overlay = window.overlay();
-  const QString menu = tr("Compare");
-  table.add({.id = "compare.next_map",
-             .menu = menu,
-             .text = tr("Next map"),
-             .tip = tr("Shows the next map over the view"),
-             .icon = "",
-             .keys = {Qt::Key_M},
-             .run = [&overlay] { overlay.selectNextQuantity(); },
-             .begins_group = true});
-  table.add({.id = "compare.difference",
-             .menu = menu,
-             .text = tr("Difference of two results"),
-             .tip = tr("Shows the shown result minus the one shown before"),
-             .icon = "",
-             .keys = {Qt::Key_D},
-             .run = [&overlay] { overlay.setDifference(!overlay.showsDifference()); },
-             .is_checkable = true});
-  table.add({.id = "compare.swap",
-             .menu = menu,
-             .text = tr("Flip to the other result"),
-             .tip = tr("Shows the result shown before; Tab held in the view flips meanwhile"),
-             .icon = "",
-             .keys = {Qt::Key_QuoteLeft},
-             .run = [&window] {
-               if (const EstimateEntry* other = window.session().compared()) {
-                 window.session().show_estimate(other->id);
-               }
-             }});
-  table.add({.id = "compare.auto_range",
-             .menu = menu,
-             .text = tr("Automatic range"),
-             .tip = tr("Stretches the colours over the values of this map"),
-             .icon = "auto",
-             .keys = {Qt::Key_A},
-             .run = [&overlay] { overlay.useAutomaticRange(); },
-             .begins_group = true});
-  table.add({.id = "compare.own_range",
-             .menu = menu,
-             .text = tr("Own range"),
-             .tip = tr("Back to the range that belongs to the quantity"),
-             .icon = "reset",
-             .keys = {Qt::Key_R},
-             .run = [&overlay] { overlay.useOwnRange(); }});
+void add_tab_actions(ActionTable& table, MainWindow& window) {
   const char* tabs[] = {"estimate", "compare", "cloud"};
   const QString texts[] = {tr("Estimate tab"), tr("Compare tab"), tr("3D tab")};
   const QString tips[] = {tr("Shows methods and results"), tr("Shows the table of metrics"),
@@ -264,22 +185,9 @@ void add_actions(ActionTable& table, MainWindow& window) {
   add_file_actions(table, window);
   add_browse_actions(table, window);
   add_estimate_actions(table, window);
-  add_overlay_actions(table, window);
   add_compare_actions(table, window);
+  add_tab_actions(table, window);
   add_help_actions(table, window);
-}
-
-const std::vector<std::pair<QString, Quantity>>& overlay_actions() {
-  static const std::vector<std::pair<QString, Quantity>> actions = {
-      {"overlay.none", Quantity::View},
-      {"overlay.disparity", Quantity::Disparity},
-      {"overlay.confidence", Quantity::Confidence},
-      {"overlay.truth", Quantity::Truth},
-      {"overlay.signed_error", Quantity::SignedError},
-      {"overlay.absolute_error", Quantity::AbsoluteError},
-      {"overlay.bad_pixels", Quantity::BadPixels},
-      {"overlay.labels", Quantity::Labels}};
-  return actions;
 }
 
 }  // namespace episcope

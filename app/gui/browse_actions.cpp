@@ -3,6 +3,7 @@
 
 #include "app/gui/action_table.h"
 #include "app/gui/browse_controller.h"
+#include "app/gui/compare_controller.h"
 #include "app/gui/main_window.h"
 #include "widgets/view_canvas.h"
 
@@ -65,7 +66,7 @@ void add_walk_actions(ActionTable& table, MainWindow& window) {
 }
 
 void add_zoom_actions(ActionTable& table, MainWindow& window) {
-  ViewCanvas* canvas = window.panels().canvas;
+  CompareController& compare = window.compare();
   const QString menu = tr("View");
   table.add({.id = "view.zoom_in",
              .menu = menu,
@@ -73,7 +74,7 @@ void add_zoom_actions(ActionTable& table, MainWindow& window) {
              .tip = tr("Shows the picture larger"),
              .icon = "",
              .keys = {Qt::Key_Plus, Qt::Key_Equal, tr("Ctrl++")},
-             .run = [canvas] { canvas->zoomIn(); },
+             .run = [&compare] { compare.activeCanvas()->zoomIn(); },
              .begins_group = true});
   table.add({.id = "view.zoom_out",
              .menu = menu,
@@ -81,21 +82,21 @@ void add_zoom_actions(ActionTable& table, MainWindow& window) {
              .tip = tr("Shows the picture smaller"),
              .icon = "",
              .keys = {Qt::Key_Minus, tr("Ctrl+-")},
-             .run = [canvas] { canvas->zoomOut(); }});
+             .run = [&compare] { compare.activeCanvas()->zoomOut(); }});
   table.add({.id = "view.fit",
              .menu = menu,
              .text = tr("Fit"),
              .tip = tr("Shows the whole picture"),
              .icon = "fit",
              .keys = {Qt::Key_K},
-             .run = [canvas] { canvas->zoomToFit(); }});
+             .run = [&compare] { compare.activeCanvas()->zoomToFit(); }});
   table.add({.id = "view.actual_size",
              .menu = menu,
              .text = tr("100 %"),
              .tip = tr("Shows one image pixel on one pixel of the screen"),
              .icon = "",
              .keys = {tr("Ctrl+0")},
-             .run = [canvas] { canvas->zoomToActualSize(); }});
+             .run = [&compare] { compare.activeCanvas()->zoomToActualSize(); }});
 }
 
 void add_focus_actions(ActionTable& table, MainWindow& window) {

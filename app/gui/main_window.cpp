@@ -6,6 +6,8 @@
 #include "app/gui/browse_controller.h"
 #include "app/gui/cloud_controller.h"
 #include "app/gui/command_palette.h"
+#include "app/gui/compare_actions.h"
+#include "app/gui/compare_controller.h"
 #include "app/gui/estimate_controller.h"
 #include "app/gui/export_controller.h"
 #include "app/gui/jobs.h"
@@ -55,6 +57,7 @@ MainWindow::MainWindow(QWidget* parent)
   jobs_ = new Jobs(this);
   browse_ = new BrowseController(*session_, panels_, this);
   overlay_ = new OverlayController(*session_, panels_, this);
+  compare_ = new CompareController(*session_, *overlay_, panels_, this);
   values_ = new ValueController(*session_, *overlay_, panels_, this);
   estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
@@ -83,7 +86,8 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, opener_, metrics_, estimate_, values_, overlay_, browse_, jobs_}) {
+           cloud_, exporter_, opener_, metrics_, estimate_, values_, compare_, overlay_, browse_,
+           jobs_}) {
     delete each;
   }
 }
@@ -146,6 +150,8 @@ void MainWindow::connectControllers() {
   connect(estimate_, &EstimateController::exportRequested, exporter_,
           &ExportController::exportResultDialog);
   connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);
+  connect(compare_, &CompareController::modeChanged, this, &MainWindow::updateActions);
+  connect(opener_, &OpenController::previewing, compare_, &CompareController::leave);
   connect(opener_, &OpenController::previewing, overlay_, &OverlayController::setSuspended);
   connect(opener_, &OpenController::recentInputsChanged, this, &MainWindow::fillRecentMenu);
   connect(opener_, &OpenController::reopenableChanged, this, &MainWindow::updateActions);
@@ -175,6 +181,13 @@ void MainWindow::updateActions() {
     if (overlay_->quantity() == quantity) action->setChecked(true);
   }
   actions_->find("compare.difference")->setChecked(overlay_->showsDifference());
+  for (const auto& [id, mode] : std::initializer_list<std::pair<const char*, CompareMode>>{
+           {"compare.wipe", CompareMode::Wipe},
+           {"compare.sides", CompareMode::Sides},
+           {"compare.tiles", CompareMode::Wall}}) {
+    actions_->find(id)->setEnabled(compare_->isAvailable(mode));
+    actions_->find(id)->setChecked(compare_->mode() == mode);
+  }
   for (const char* id : {"compare.difference", "compare.swap"}) {
     actions_->find(id)->setEnabled(session_->compared() != nullptr);
   }
@@ -226,7 +239,7 @@ void MainWindow::showAbout() {
 }
 
 void MainWindow::escape() {
-  if (browse_->endWhatIsInHand()) return;
+  if (browse_->endWhatIsInHand() || compare_->leave()) return;
   if (const quint64 job = jobs_->newest()) {
     jobs_->cancel(job);
   } else {

@@ -15,6 +15,7 @@ class ActionTable;
 class BrowseController;
 class CloudController;
 class CommandPalette;
+class CompareController;
 class EstimateController;
 class ExportController;
 class Jobs;
@@ -43,6 +44,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] ActionTable& actions() { return *actions_; }
   [[nodiscard]] BrowseController& browse() { return *browse_; }
   [[nodiscard]] OverlayController& overlay() { return *overlay_; }
+  [[nodiscard]] CompareController& compare() { return *compare_; }
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
@@ -72,6 +74,7 @@ class MainWindow : public QMainWindow {
   Jobs* jobs_;
   BrowseController* browse_;
   OverlayController* overlay_;
+  CompareController* compare_;
   ValueController* values_;
   EstimateController* estimate_;
   MetricController* metrics_;

@@ -135,16 +135,21 @@ void OverlayController::setSuspended(bool is_suspended) {
 }
 
 OverlayChoice OverlayController::choice() const {
-  const EstimateEntry* shown = session_.shown();
+  if (is_flipped_) return choiceB();
   const EstimateEntry* compared = session_.compared();
-  const int shown_id = shown ? shown->id : 0;
-  if (shows_difference_ && !is_flipped_ && compared) {
-    return {Quantity::Disparity, shown_id, compared->id};
-  }
-  if (!is_flipped_) return {quantity_, shown_id, 0};
-  if (compared) return {quantity_, compared->id, 0};
+  if (!shows_difference_ || !compared) return choiceA();
+  return {Quantity::Disparity, session_.shown()->id, compared->id};
+}
+
+OverlayChoice OverlayController::choiceA() const {
+  const EstimateEntry* shown = session_.shown();
+  return {quantity_, shown ? shown->id : 0, 0};
+}
+
+OverlayChoice OverlayController::choiceB() const {
+  if (const EstimateEntry* compared = session_.compared()) return {quantity_, compared->id, 0};
   const bool shows_truth = quantity_ == Quantity::Disparity && isAvailable(Quantity::Truth);
-  return {shows_truth ? Quantity::Truth : Quantity::View, shown_id, 0};
+  return {shows_truth ? Quantity::Truth : Quantity::View, choiceA().estimate, 0};
 }
 
 render::Shading OverlayController::shadingOf(const OverlayChoice& choice) const {
@@ -163,32 +168,27 @@ render::Shading OverlayController::shadingOf(Quantity quantity) const {
 
 void OverlayController::draw() {
   if (is_suspended_) return;
-  const OverlayChoice drawn = choice();
-  if (!session_.scene()) {
-    map_ = nullptr;
-    picture_ = {};
-  } else if (drawn.quantity == Quantity::Labels) {
-    map_ = nullptr;
-    const auto& labels = session_.scene()->truth->labels;
-    picture_ = labels.contains(session_.view())
-                   ? to_qimage(render::shade_labels(labels.view(session_.view())))
-                   : QImage();
-  } else {
-    drawMap(drawn);
-  }
+  const OverlayChoice drawn_choice = choice();
+  drawMap(drawn_choice);
   panels_.canvas->setOverlay(picture_);
-  const bool has_scale =
-      session_.scene() && drawn.quantity != Quantity::View && drawn.quantity != Quantity::Labels;
+  const bool has_scale = session_.scene() && drawn_choice.quantity != Quantity::View &&
+                         drawn_choice.quantity != Quantity::Labels;
   panels_.color_bar->setVisible(has_scale);
   if (has_scale) {
     panels_.color_bar->setShading(
-        drawn.subtracted != 0 ? tr("difference") : quantity_label(drawn.quantity),
-        is_in_px(drawn.quantity) ? tr("px") : QString(), shadingOf(drawn));
+        drawn_choice.subtracted != 0 ? tr("difference") : quantity_label(drawn_choice.quantity),
+        is_in_px(drawn_choice.quantity) ? tr("px") : QString(), shadingOf(drawn_choice));
   }
-  if (session_.scene()) showCaption(drawn);
+  if (session_.scene()) showCaption(drawn_choice);
+  emit drawn();
 }
 
 void OverlayController::drawMap(const OverlayChoice& choice) {
+  if (!session_.scene() || choice.quantity == Quantity::Labels) {
+    map_ = nullptr;
+    picture_ = pictureOf(choice);
+    return;
+  }
   auto map = overlay_map(session_, choice, session_.view());
   // While the errors of a view are computed, what was drawn stays: a few milliseconds.
   if (!map && choice.quantity != Quantity::View && session_.is_evaluating()) return;
@@ -196,23 +196,40 @@ void OverlayController::drawMap(const OverlayChoice& choice) {
   picture_ = map_ ? to_qimage(shade_overlay(*map_, shadingOf(choice))) : QImage();
 }
 
-void OverlayController::showCaption(const OverlayChoice& choice) const {
-  const ViewIndex view = session_.view();
-  QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
+QImage OverlayController::pictureOf(const OverlayChoice& choice) const {
+  if (!session_.scene()) return {};
+  if (choice.quantity == Quantity::Labels) {
+    const auto& labels = session_.scene()->truth->labels;
+    return labels.contains(session_.view())
+               ? to_qimage(render::shade_labels(labels.view(session_.view())))
+               : QImage();
+  }
+  const auto map = overlay_map(session_, choice, session_.view());
+  return map ? to_qimage(shade_overlay(*map, shadingOf(choice))) : QImage();
+}
+
+QString OverlayController::describe(const OverlayChoice& choice) const {
   const EstimateEntry* entry = session_.find_estimate(choice.estimate);
   const EstimateEntry* other = session_.find_estimate(choice.subtracted);
   const auto name = [](const EstimateEntry* each) { return QString::fromStdString(each->name); };
-  if (entry && other) {
-    caption += tr(" · %1 − %2").arg(name(entry), name(other));
-  } else if (choice.quantity == Quantity::Truth || choice.quantity == Quantity::Labels) {
-    caption += tr(" · %1").arg(quantity_label(choice.quantity));
-  } else if (choice.quantity != Quantity::View && entry) {
-    caption += tr(" · %1 of %2").arg(quantity_label(choice.quantity), name(entry));
+  if (entry && other) return tr("%1 − %2").arg(name(entry), name(other));
+  if (choice.quantity == Quantity::View) return tr("view");
+  if (!entry || choice.quantity == Quantity::Truth || choice.quantity == Quantity::Labels) {
+    return quantity_label(choice.quantity);
   }
+  return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
+}
+
+void OverlayController::showCaption(const OverlayChoice& choice) const {
+  const ViewIndex view = session_.view();
+  QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
+  if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
   if (choice.quantity != Quantity::View && picture_.isNull() && !session_.is_evaluating()) {
     caption += tr(" · not known for this view");
   }
-  panels_.canvas->setCaption(caption);
+  const bool has_sides = choice.subtracted == 0 && (is_flipped_ || session_.compared());
+  panels_.canvas->setCaption(
+      caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
 }
 
 void OverlayController::setRange(std::optional<Interval> range) {
@@ -236,10 +253,7 @@ void OverlayController::useOwnRange() {
 }
 
 std::optional<double> OverlayController::valueAt(PixelIndex pixel) const {
-  if (!map_ || pixel.y >= map_->map.height || pixel.x >= map_->map.width) return std::nullopt;
-  if (!map_->inside.empty() && map_->inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
-  if (!DisparityView{map_->map, map_->valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
-  return map_->map.at(pixel.y, pixel.x);
+  return map_ ? map_->value_at(pixel) : std::nullopt;
 }
 
 }  // namespace episcope

@@ -33,6 +33,20 @@ class OverlayController : public QObject {
   /// Shows the other result (or the truth, or no overlay) instead of the shown one.
   void setFlipped(bool is_flipped);
 
+  [[nodiscard]] bool isFlipped() const { return is_flipped_; }
+
+  /// What is drawn: A, the difference, or B while flipped.
+  [[nodiscard]] OverlayChoice choice() const;
+  /// The quantity of the shown result.
+  [[nodiscard]] OverlayChoice choiceA() const;
+  /// The same of what it is compared with: the other result, else the truth, else the view alone.
+  [[nodiscard]] OverlayChoice choiceB() const;
+  /// "error of EPI_L", "truth"; "view" without an overlay.
+  [[nodiscard]] QString describe(const OverlayChoice& choice) const;
+  [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
+  /// Picture of a choice in the current view; null if there is none (yet).
+  [[nodiscard]] QImage pictureOf(const OverlayChoice& choice) const;
+
   void useAutomaticRange();
   void useOwnRange();
 
@@ -49,11 +63,11 @@ class OverlayController : public QObject {
  signals:
   /// Quantity, difference, or what is available changed.
   void choiceChanged();
+  /// What is over the view, or its colours, changed.
+  void drawn();
 
  private:
   void update(Parts parts);
-  [[nodiscard]] OverlayChoice choice() const;
-  [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
   void showAvailable();
   void draw();
   void drawMap(const OverlayChoice& choice);

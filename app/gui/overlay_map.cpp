@@ -3,6 +3,8 @@
 
 #include "engine/evaluation/error_maps.h"
 
+#include <utility>
+
 namespace episcope {
 namespace {
 
@@ -22,7 +24,6 @@ Result borrowed(const DisparityView& view, std::shared_ptr<const void> owner) {
 }
 
 Result error_overlay(const EvaluationPtr& evaluation, Quantity quantity) {
-  if (!evaluation) return nullptr;
   auto overlay = std::make_shared<OverlayMap>();
   if (quantity == Quantity::SignedError) {
     overlay->map = evaluation->signed_error;
@@ -46,7 +47,6 @@ Result error_overlay(const EvaluationPtr& evaluation, Quantity quantity) {
 }
 
 Result difference(const EstimatePtr& a, const EstimatePtr& b, ViewIndex view) {
-  if (!a->contains(view) || !b->contains(view)) return nullptr;
   const DisparityView left = a->field.view(view);
   const DisparityView right = b->field.view(view);
   auto overlay = std::make_shared<OverlayMap>();
@@ -64,37 +64,67 @@ Result difference(const EstimatePtr& a, const EstimatePtr& b, ViewIndex view) {
   return overlay;
 }
 
-Result estimate_overlay(Session& session, const OverlayChoice& choice, ViewIndex view) {
-  const EstimateEntry* entry = session.find_estimate(choice.estimate);
-  if (!entry || !entry->estimate->contains(view)) return nullptr;
-  const EstimatePtr& estimate = entry->estimate;
-  if (const EstimateEntry* other = session.find_estimate(choice.subtracted)) {
-    return difference(estimate, other->estimate, view);
+bool needs_evaluation(Quantity quantity) {
+  return quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError ||
+         quantity == Quantity::BadPixels;
+}
+
+std::optional<OverlaySource> estimate_source(Session& session, OverlaySource source) {
+  const EstimateEntry* entry = session.find_estimate(source.choice.estimate);
+  if (!entry || !entry->estimate->contains(source.view)) return std::nullopt;
+  source.estimate = entry->estimate;
+  if (const EstimateEntry* other = session.find_estimate(source.choice.subtracted)) {
+    source.subtracted = other->estimate;
+    if (!other->estimate->contains(source.view)) return std::nullopt;
+  } else if (source.choice.quantity == Quantity::Confidence) {
+    if (!entry->estimate->confidence.contains(source.view)) return std::nullopt;
+  } else if (needs_evaluation(source.choice.quantity)) {
+    source.evaluation = session.evaluation({entry->id, source.view, Protocol::Vmv2013});
+    if (!source.evaluation) return std::nullopt;
   }
-  if (choice.quantity == Quantity::Disparity) return borrowed(estimate->field.view(view), estimate);
-  if (choice.quantity == Quantity::Confidence) {
-    if (!estimate->confidence.contains(view)) return nullptr;
-    return borrowed({estimate->confidence.view(view), {}}, estimate);
-  }
-  return error_overlay(session.evaluation({entry->id, view, Protocol::Vmv2013}), choice.quantity);
+  return source;
 }
 
 }  // namespace
 
-std::shared_ptr<const OverlayMap> overlay_map(Session& session, const OverlayChoice& choice,
-                                              ViewIndex view) {
-  if (!session.scene()) return nullptr;
+std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoice& choice,
+                                            ViewIndex view) {
+  if (!session.scene()) return std::nullopt;
+  OverlaySource source{choice, view, {}, {}, {}, {}};
   switch (choice.quantity) {
     case Quantity::View:
     case Quantity::Labels:
-      return nullptr;
-    case Quantity::Truth: {
-      const GroundTruthPtr truth = session.scene()->truth;
-      return truth->field.contains(view) ? borrowed(truth->field.view(view), truth) : nullptr;
-    }
+      return std::nullopt;
+    case Quantity::Truth:
+      source.truth = session.scene()->truth;
+      if (!source.truth->field.contains(view)) return std::nullopt;
+      return source;
     default:
-      return estimate_overlay(session, choice, view);
+      return estimate_source(session, std::move(source));
   }
+}
+
+std::shared_ptr<const OverlayMap> make_overlay_map(const OverlaySource& source) {
+  if (source.truth) return borrowed(source.truth->field.view(source.view), source.truth);
+  if (source.subtracted) return difference(source.estimate, source.subtracted, source.view);
+  if (source.evaluation) return error_overlay(source.evaluation, source.choice.quantity);
+  if (source.choice.quantity == Quantity::Confidence) {
+    return borrowed({source.estimate->confidence.view(source.view), {}}, source.estimate);
+  }
+  return borrowed(source.estimate->field.view(source.view), source.estimate);
+}
+
+std::shared_ptr<const OverlayMap> overlay_map(Session& session, const OverlayChoice& choice,
+                                              ViewIndex view) {
+  const auto source = overlay_source(session, choice, view);
+  return source ? make_overlay_map(*source) : nullptr;
+}
+
+std::optional<double> OverlayMap::value_at(PixelIndex pixel) const {
+  if (pixel.y >= map.height || pixel.x >= map.width) return std::nullopt;
+  if (!inside.empty() && inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
+  if (!DisparityView{map, valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
+  return map.at(pixel.y, pixel.x);
 }
 
 Image<std::uint8_t> shade_overlay(const OverlayMap& overlay, const render::Shading& shading) {

@@ -25,9 +25,30 @@ struct OverlayMap {
   Image<float> computed;
   Image<std::uint8_t> computed_valid;
   std::shared_ptr<const void> owners[2];
+
+  /// Nothing outside the map and where there is no value.
+  [[nodiscard]] std::optional<double> value_at(PixelIndex pixel) const;
 };
 
-/// Null if there is no such map for the view, or not yet: Session::evaluation is asked for it.
+/// All that a map is made from, held; makes it on any thread.
+struct OverlaySource {
+  OverlayChoice choice;
+  ViewIndex view;
+  EstimatePtr estimate;
+  EstimatePtr subtracted;
+  GroundTruthPtr truth;
+  EvaluationPtr evaluation;
+  friend bool operator==(const OverlaySource&, const OverlaySource&) = default;
+};
+
+/// Looks up what a map needs. Nothing if there is no such map for the view, or not yet:
+/// Session::evaluation is asked for it.
+[[nodiscard]] std::optional<OverlaySource> overlay_source(Session& session,
+                                                          const OverlayChoice& choice,
+                                                          ViewIndex view);
+
+[[nodiscard]] std::shared_ptr<const OverlayMap> make_overlay_map(const OverlaySource& source);
+/// Both at once; null if there is nothing (yet).
 [[nodiscard]] std::shared_ptr<const OverlayMap> overlay_map(Session& session,
                                                             const OverlayChoice& choice,
                                                             ViewIndex view);

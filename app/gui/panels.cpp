@@ -11,6 +11,7 @@
 #include "widgets/overlay_bar.h"
 #include "widgets/result_list.h"
 #include "widgets/theme.h"
+#include "widgets/tile_wall.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
 #include "widgets/view_grid.h"
@@ -40,6 +41,8 @@ QString text(const char* source) {
 QWidget* make_stage(Panels& panels, QWidget* parent) {
   auto* stage = new QWidget(parent);
   panels.canvas = new ViewCanvas(stage);
+  panels.wall = new TileWall(stage);
+  panels.wall->hide();
   panels.horizontal_epi = new EpiPane(Qt::Horizontal, stage);
   panels.vertical_epi = new EpiPane(Qt::Vertical, stage);
   panels.color_bar = new ColorBar(stage);
@@ -59,6 +62,7 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
   layout->addWidget(panels.canvas, 0, 0);
+  layout->addWidget(panels.wall, 0, 0, 2, 1);
   layout->addWidget(panels.vertical_epi, 0, 1);
   layout->addWidget(panels.horizontal_epi, 1, 0);
   layout->addWidget(legend, 1, 1);

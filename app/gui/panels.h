@@ -16,6 +16,7 @@ class MethodPanel;
 class MetricTable;
 class OverlayBar;
 class ResultList;
+class TileWall;
 class ValueBar;
 class ViewCanvas;
 class ViewGrid;
@@ -26,6 +27,7 @@ struct Panels {
   OverlayBar* overlay_bar = nullptr;
   QWidget* viewer = nullptr;  ///< Holds canvas, EPIs, legend and view grid.
   ViewCanvas* canvas = nullptr;
+  TileWall* wall = nullptr;  ///< In the place of canvas and EPIs; hidden at first.
   EpiPane* horizontal_epi = nullptr;
   EpiPane* vertical_epi = nullptr;
   ColorBar* color_bar = nullptr;

@@ -46,7 +46,8 @@ void Session::close() {
   scene_.reset();
   input_.clear();
   conventions_ = {};
-  shown_ = shown_before_ = 0;
+  shown_ = compared_ = 0;
+  is_compared_chosen_ = false;
   known_range_ = {};
   focus_px_ = 0;
   ++generation_;
@@ -90,13 +91,14 @@ void Session::remove_estimate(int id) {
   const auto next = estimates_.erase(found);
   judge_.forget(id);
   changed(Part::Estimates);
-  if (shown_before_ == id) shown_before_ = 0;
-  if (shown_ != id) return;
-  if (!estimates_.empty()) {
-    shown_ = (next == estimates_.end() ? std::prev(next) : next)->id;
-    if (shown_before_ == shown_) shown_before_ = 0;
-  } else {
-    shown_ = 0;
+  if (shown_ == id) {
+    shown_ = estimates_.empty() ? 0 : (next == estimates_.end() ? std::prev(next) : next)->id;
+  } else if (compared_ != id) {
+    return;
+  }
+  if (compared_ == id || compared_ == shown_) {
+    compared_ = 0;
+    is_compared_chosen_ = false;
   }
   changed(Part::Shown);
 }
@@ -109,13 +111,27 @@ const EstimateEntry* Session::find_estimate(int id) const {
 
 void Session::show_estimate(int id) {
   if (id == shown_ || !find_estimate(id)) return;
-  shown_before_ = shown_;
+  if (const EstimateEntry* other = compared(); !is_compared_chosen_ || (other && other->id == id)) {
+    compared_ = shown_;
+  }
   shown_ = id;
   changed(Part::Shown);
 }
 
+void Session::compare_with(int id) {
+  if (!find_estimate(id)) return;
+  if (id == shown_) {
+    const EstimateEntry* other = compared();
+    if (!other) return;
+    shown_ = other->id;
+  }
+  compared_ = id;
+  is_compared_chosen_ = true;
+  changed(Part::Shown);
+}
+
 const EstimateEntry* Session::compared() const {
-  if (const EstimateEntry* before = find_estimate(shown_before_)) return before;
+  if (const EstimateEntry* chosen = find_estimate(compared_)) return chosen;
   for (const EstimateEntry& entry : estimates_) {
     if (entry.id != shown_) return &entry;
   }

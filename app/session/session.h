@@ -55,11 +55,15 @@ class Session {
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return estimates_; }
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
 
-  /// Unknown ids are ignored.
+  /// Unknown ids are ignored. Showing the compared estimate swaps the two.
   void show_estimate(int id);
   /// The shown estimate, else null.
   [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(shown_); }
-  /// The estimate shown before, to compare with; null if there is no other.
+  /// Chooses what the shown estimate is compared with; it stays until another one is chosen, it is
+  /// shown itself or removed. Unknown ids are ignored. Comparing the shown one swaps the two.
+  void compare_with(int id);
+  /// The estimate to compare with: the one chosen, else the one shown before, else any other; null
+  /// if there is no other.
   [[nodiscard]] const EstimateEntry* compared() const;
 
   /// The evaluation if it is there; else null, and it is begun in the background if there is truth
@@ -97,7 +101,8 @@ class Session {
   std::vector<EstimateEntry> estimates_;
   int last_id_ = 0;
   int shown_ = 0;
-  int shown_before_ = 0;
+  int compared_ = 0;
+  bool is_compared_chosen_ = false;
   ViewIndex view_;
   PixelIndex cross_hair_;
   double focus_px_ = 0;

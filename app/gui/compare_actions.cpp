@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare_actions.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/compare_controller.h"
+#include "app/gui/main_window.h"
+#include "app/gui/overlay_controller.h"
+#include "app/session/session.h"
+
+#include <QAction>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+
+QString tr(const char* source) {
+  return MainWindow::tr(source);
+}
+
+void add_overlay(ActionTable& table, OverlayController& overlay, const QString& id,
+                 const QString& text, const QString& tip, Quantity quantity) {
+  table.add({.id = id,
+             .menu = tr("Compare"),
+             .text = text,
+             .tip = tip,
+             .icon = "",
+             .keys = {},
+             .run = [&overlay, quantity] { overlay.setQuantity(quantity); },
+             .is_checkable = true});
+}
+
+void add_overlay_actions(ActionTable& table, MainWindow& window) {
+  OverlayController& overlay = window.overlay();
+  const auto add = [&](const char* id, const QString& text, const QString& tip, Quantity quantity) {
+    add_overlay(table, overlay, id, text, tip, quantity);
+  };
+  add("overlay.none", tr("None"), tr("Shows the view alone"), Quantity::View);
+  add("overlay.disparity", tr("Disparity"), tr("Shows the disparity of the result over the view"),
+      Quantity::Disparity);
+  add("overlay.confidence", tr("Confidence"), tr("Shows how sure the method is, from 0 to 1"),
+      Quantity::Confidence);
+  add("overlay.truth", tr("Truth"), tr("Shows the true disparity"), Quantity::Truth);
+  add("overlay.signed_error", tr("Error"),
+      tr("Shows truth − estimate: blue is too near, red too far"), Quantity::SignedError);
+  add("overlay.absolute_error", tr("|Error|"), tr("Shows the size of the error"),
+      Quantity::AbsoluteError);
+  add("overlay.bad_pixels", tr("Bad"), tr("Shows the pixels that are off by more than 0.07 px"),
+      Quantity::BadPixels);
+  add("overlay.labels", tr("Labels"), tr("Shows the true object labels"), Quantity::Labels);
+}
+
+void add_mode(ActionTable& table, CompareController& compare, const Command& command,
+              CompareMode mode) {
+  Command made = command;
+  made.menu = tr("Compare");
+  made.run = [&compare, mode] { compare.toggleMode(mode); };
+  made.is_checkable = true;
+  table.add(made);
+}
+
+void add_mode_actions(ActionTable& table, MainWindow& window) {
+  CompareController& compare = window.compare();
+  add_mode(table, compare,
+           {.id = "compare.wipe",
+            .menu = {},
+            .text = tr("Wipe"),
+            .tip = tr("Shows A left and B right of a line that can be dragged"),
+            .icon = "wipe",
+            .keys = {Qt::Key_W},
+            .run = {},
+            .begins_group = true},
+           CompareMode::Wipe);
+  add_mode(table, compare,
+           {.id = "compare.sides",
+            .menu = {},
+            .text = tr("Side by side"),
+            .tip = tr("Shows A beside B"),
+            .icon = "sides",
+            .keys = {Qt::Key_H},
+            .run = {}},
+           CompareMode::Sides);
+  add_mode(table, compare,
+           {.id = "compare.tiles",
+            .menu = {},
+            .text = tr("Tiles"),
+            .tip = tr("Shows the view, the truth and every result"),
+            .icon = "tiles",
+            .keys = {Qt::Key_G},
+            .run = {}},
+           CompareMode::Wall);
+}
+
+void add_choice_actions(ActionTable& table, MainWindow& window) {
+  OverlayController& overlay = window.overlay();
+  const QString menu = tr("Compare");
+  table.add({.id = "compare.next_map",
+             .menu = menu,
+             .text = tr("Next map"),
+             .tip = tr("Shows the next map over the view"),
+             .icon = "",
+             .keys = {Qt::Key_M},
+             .run = [&overlay] { overlay.selectNextQuantity(); },
+             .begins_group = true});
+  table.add({.id = "compare.difference",
+             .menu = menu,
+             .text = tr("Difference A − B"),
+             .tip = tr("Shows the shown result minus the compared one"),
+             .icon = "difference",
+             .keys = {Qt::Key_D},
+             .run = [&window] { window.compare().toggleDifference(); },
+             .is_checkable = true});
+  table.add({.id = "compare.swap",
+             .menu = menu,
+             .text = tr("Swap A and B"),
+             .tip = tr("Shows the compared result and compares with the one shown now"),
+             .icon = "",
+             .keys = {Qt::Key_QuoteLeft},
+             .run = [&window] {
+               if (const EstimateEntry* other = window.session().compared()) {
+                 window.session().show_estimate(other->id);
+               }
+             }});
+  table.add({.id = "compare.auto_range",
+             .menu = menu,
+             .text = tr("Automatic range"),
+             .tip = tr("Stretches the colours over the values of this map"),
+             .icon = "auto",
+             .keys = {Qt::Key_A},
+             .run = [&overlay] { overlay.useAutomaticRange(); },
+             .begins_group = true});
+  table.add({.id = "compare.own_range",
+             .menu = menu,
+             .text = tr("Own range"),
+             .tip = tr("Back to the range that belongs to the quantity"),
+             .icon = "reset",
+             .keys = {Qt::Key_R},
+             .run = [&overlay] { overlay.useOwnRange(); }});
+}
+
+}  // namespace
+
+void add_compare_actions(ActionTable& table, MainWindow& window) {
+  add_overlay_actions(table, window);
+  add_choice_actions(table, window);
+  add_mode_actions(table, window);
+}
+
+const std::vector<std::pair<QString, Quantity>>& overlay_actions() {
+  static const std::vector<std::pair<QString, Quantity>> actions = {
+      {"overlay.none", Quantity::View},
+      {"overlay.disparity", Quantity::Disparity},
+      {"overlay.confidence", Quantity::Confidence},
+      {"overlay.truth", Quantity::Truth},
+      {"overlay.signed_error", Quantity::SignedError},
+      {"overlay.absolute_error", Quantity::AbsoluteError},
+      {"overlay.bad_pixels", Quantity::BadPixels},
+      {"overlay.labels", Quantity::Labels}};
+  return actions;
+}
+
+}  // namespace episcope
