@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/metric_table.h"
 
+#include "engine/core/text_table.h"
+#include "widgets/icon.h"
+#include "widgets/side.h"
+#include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
+#include <QAction>
 #include <QClipboard>
 #include <QGuiApplication>
 #include <QHBoxLayout>
@@ -15,6 +20,8 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 namespace episcope {
 namespace {
@@ -23,8 +30,13 @@ constexpr int kValueRole = Qt::UserRole;
 constexpr int kIdRole = Qt::UserRole + 1;
 constexpr double kHeaderScale = 0.88;
 constexpr int kSortArrowWidth = 14;
-constexpr int kColumnPadding = 9;
-constexpr int kWidestText = 130;
+constexpr int kColumnPadding = 7;
+constexpr int kWidestText = 150;
+constexpr int kSideWidth = 18;
+
+bool is_absent(const QVariant& value) {
+  return !value.isValid() || (value.typeId() == QMetaType::Double && std::isnan(value.toDouble()));
+}
 
 /// Sorts numbers as numbers, texts as people sort them, and what is absent to the end, whichever
 /// way is up.
@@ -35,10 +47,10 @@ class MetricItem : public QTableWidgetItem {
   bool operator<(const QTableWidgetItem& other) const override {
     const QVariant mine = data(kValueRole);
     const QVariant theirs = other.data(kValueRole);
-    if (!mine.isValid() || !theirs.isValid()) {
+    if (is_absent(mine) || is_absent(theirs)) {
       const auto order = tableWidget()->horizontalHeader()->sortIndicatorOrder();
-      const bool mine_first = mine.isValid() && !theirs.isValid();
-      const bool theirs_first = !mine.isValid() && theirs.isValid();
+      const bool mine_first = !is_absent(mine) && is_absent(theirs);
+      const bool theirs_first = is_absent(mine) && !is_absent(theirs);
       return order == Qt::AscendingOrder ? mine_first : theirs_first;
     }
     const bool are_numbers = mine.typeId() != QMetaType::QString;
@@ -47,28 +59,8 @@ class MetricItem : public QTableWidgetItem {
   }
 };
 
-QString csv_field(QString text) {
-  if (!text.contains(',') && !text.contains('"') && !text.contains('\n')) return text;
-  return '"' + text.replace('"', "\"\"") + '"';
-}
-
-QString latex_text(const QString& text) {
-  QString escaped;
-  for (const QChar c : text) {
-    if (QStringLiteral("&%$#_{}").contains(c)) escaped += '\\';
-    if (c == u'×') {
-      escaped += "$\\times$";
-    } else if (c == '\\') {
-      escaped += "\\textbackslash{}";
-    } else {
-      escaped += c;
-    }
-  }
-  return escaped;
-}
-
 QString full_text(const QVariant& value) {
-  if (!value.isValid()) return {};
+  if (is_absent(value)) return {};
   if (value.typeId() == QMetaType::QString) return value.toString();
   return QString::number(value.toDouble(), 'g', QLocale::FloatingPointShortest);
 }
@@ -80,7 +72,7 @@ MetricTable::MetricTable(QWidget* parent)
       table_(new QTableWidget(this)),
       empty_(
           new QLabel(tr("Metrics appear here once there is a result and a ground truth."), this)),
-      copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV"), tr("CSV")}, this)),
+      copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV (Ctrl+C)"), tr("CSV")}, this)),
       copy_latex_(
           make_tool_button({"metrics.copyLatex", "copy", tr("Copy as LaTeX"), tr("LaTeX")}, this)),
       save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save")},
@@ -118,6 +110,7 @@ void MetricTable::setUpTable() {
   table_->setAlternatingRowColors(true);
   table_->setShowGrid(false);
   table_->setWordWrap(false);
+  table_->setIconSize({14, 14});
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
   table_->horizontalHeader()->setHighlightSections(false);
@@ -126,6 +119,13 @@ void MetricTable::setUpTable() {
   QFont small = font();
   small.setPointSizeF(small.pointSizeF() * kHeaderScale);
   table_->horizontalHeader()->setFont(small);
+  table_->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(table_, &QTableWidget::customContextMenuRequested, this, &MetricTable::showMenu);
+  auto* copy = new QAction(tr("Copy"), this);
+  copy->setShortcut(QKeySequence::Copy);
+  copy->setShortcutContext(Qt::WidgetWithChildrenShortcut);
+  connect(copy, &QAction::triggered, this, &MetricTable::copyCsv);
+  addAction(copy);
   connect(table_->horizontalHeader(), &QHeaderView::sortIndicatorChanged, this,
           &MetricTable::fitColumns);
   table_->horizontalHeader()->setSortIndicatorClearable(true);
@@ -152,6 +152,7 @@ void MetricTable::setTable(const std::vector<MetricColumn>& columns,
     table_->setHorizontalHeaderItem(static_cast<int>(i), header);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) fillRow(static_cast<int>(i), rows[i]);
+  stressBest();
   table_->horizontalHeader()->setSortIndicator(is_same_shape ? sort_column : -1, order);
   table_->setSortingEnabled(true);
   fitColumns();
@@ -172,7 +173,9 @@ void MetricTable::fitColumns() {
     for (int row = 0; row < table_->rowCount(); ++row) {
       const auto* item = table_->item(row, column);
       if (!item) continue;  // the table is being filled
-      const int text_width = table_->fontMetrics().horizontalAdvance(item->text());
+      const int icon_width = item->icon().isNull() ? 0 : kSideWidth;
+      const int text_width =
+          QFontMetrics(item->font()).horizontalAdvance(item->text()) + icon_width;
       width = std::max(width, std::min(text_width, kWidestText));
     }
     table_->setColumnWidth(column, width + kColumnPadding);
@@ -184,7 +187,7 @@ void MetricTable::fillRow(int row, const MetricRow& values) {
     const QVariant value = i < values.values.size() ? values.values[i] : QVariant();
     auto* item = new MetricItem;
     const bool is_text = value.typeId() == QMetaType::QString;
-    item->setText(!value.isValid() ? QString("–")
+    item->setText(is_absent(value) ? QString("–")
                   : is_text        ? value.toString()
                                    : QString::number(value.toDouble(), 'f', columns_[i].decimals));
     item->setTextAlignment((is_text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
@@ -199,44 +202,86 @@ void MetricTable::setEmptyText(const QString& text) {
   empty_->setText(text);
 }
 
-void MetricTable::setCurrent(quint64 id) {
+void MetricTable::setSides(quint64 a, quint64 b) {
   for (int row = 0; row < table_->rowCount(); ++row) {
-    if (table_->item(row, 0)->data(kIdRole).toULongLong() == id) table_->selectRow(row);
+    QTableWidgetItem* item = table_->item(row, 0);
+    const quint64 id = item->data(kIdRole).toULongLong();
+    if (id == a) table_->selectRow(row);
+    item->setIcon(side_icon(b == 0 ? Side::None : id == a ? Side::A : id == b ? Side::B : Side::None));
   }
+  fitColumns();
+}
+
+// Ties are all stressed; a value that stands alone is no best one.
+void MetricTable::stressBest() {
+  for (int column = 0; column < table_->columnCount(); ++column) {
+    const BestValue best = columns_[static_cast<std::size_t>(column)].best;
+    std::vector<QTableWidgetItem*> known;
+    for (int row = 0; row < table_->rowCount(); ++row) {
+      QTableWidgetItem* item = table_->item(row, column);
+      if (!is_absent(item->data(kValueRole))) known.push_back(item);
+    }
+    if (best == BestValue::None || known.size() < 2) continue;
+    const auto value = [](const QTableWidgetItem* item) {
+      return item->data(kValueRole).toDouble();
+    };
+    const auto [least, greatest] =
+        std::minmax_element(known.begin(), known.end(),
+                            [&](const auto* a, const auto* b) { return value(a) < value(b); });
+    const QString winner = (best == BestValue::Least ? *least : *greatest)->text();
+    for (QTableWidgetItem* item : known) {
+      if (item->text() != winner) continue;
+      QFont font = table_->font();
+      font.setBold(true);
+      item->setFont(font);
+      item->setForeground(theme::success_text(palette()));
+      item->setToolTip(tr("Best of this column"));
+    }
+  }
+}
+
+void MetricTable::showMenu(const QPoint& position) {
+  auto* menu = new QMenu(this);
+  menu->setObjectName("metrics.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(themed_icon("copy"), tr("Copy as CSV"), this, &MetricTable::copyCsv);
+  menu->addAction(themed_icon("copy"), tr("Copy as LaTeX"), this, &MetricTable::copyLatex);
+  const auto* item = table_->itemAt(position);
+  if (item) {
+    const quint64 id = item->data(kIdRole).toULongLong();
+    menu->addSeparator();
+    menu->addAction(side_icon(Side::A), tr("Show"), this, [this, id] { emit rowClicked(id); });
+    menu->addAction(side_icon(Side::B), tr("Compare with"), this,
+                    [this, id] { emit compareRequested(id); });
+  }
+  menu->popup(table_->viewport()->mapToGlobal(position));
 }
 
 QString MetricTable::toCsv() const {
-  QStringList header;
-  for (const auto& column : columns_) header << csv_field(column.key);
-  QString text = header.join(',') + '\n';
+  TextTable text;
+  for (const auto& column : columns_) text.header.push_back(column.key.toStdString());
   for (int row = 0; row < table_->rowCount(); ++row) {
-    QStringList fields;
+    auto& cells = text.rows.emplace_back();
     for (int column = 0; column < table_->columnCount(); ++column) {
-      fields << csv_field(full_text(table_->item(row, column)->data(kValueRole)));
+      cells.push_back(full_text(table_->item(row, column)->data(kValueRole)).toStdString());
     }
-    text += fields.join(',') + '\n';
   }
-  return text;
+  return QString::fromStdString(table_to_csv(text));
 }
 
 QString MetricTable::toLatex() const {
-  QStringList header;
-  QString alignment;
-  for (std::size_t i = 0; i < columns_.size(); ++i) {
-    header << latex_text(columns_[i].label);
-    alignment += i == 0 ? 'l' : 'r';
+  TextTable text;
+  for (const auto& column : columns_) {
+    text.header.push_back(QString(column.label).replace('\n', ' ').toStdString());
   }
-  QString text =
-      "\\begin{tabular}{" + alignment + "}\n\\hline\n" + header.join(" & ") + " \\\\\n\\hline\n";
   for (int row = 0; row < table_->rowCount(); ++row) {
-    QStringList cells;
+    auto& cells = text.rows.emplace_back();
     for (int column = 0; column < table_->columnCount(); ++column) {
       const auto* item = table_->item(row, column);
-      cells << (item->data(kValueRole).isValid() ? latex_text(item->text()) : QString("--"));
+      cells.push_back(is_absent(item->data(kValueRole)) ? "--" : item->text().toStdString());
     }
-    text += cells.join(" & ") + " \\\\\n";
   }
-  return text + "\\hline\n\\end{tabular}\n";
+  return QString::fromStdString(table_to_latex(text));
 }
 
 void MetricTable::copyCsv() {

@@ -14,11 +14,15 @@ class QToolButton;
 
 namespace episcope {
 
+/// Which value of a column is the best one.
+enum class BestValue { None, Least, Greatest };
+
 struct MetricColumn {
   QString key;    ///< Of the CSV header, e.g. "mse_100".
   QString label;  ///< Of the table header.
   QString help;   ///< Tool tip.
   int decimals = 3;
+  BestValue best = BestValue::None;
 };
 
 struct MetricRow {
@@ -27,8 +31,9 @@ struct MetricRow {
   std::vector<QVariant> values;
 };
 
-/// Metrics of all results, sortable by any column (numbers as numbers, absent ones last), copied or
-/// saved as CSV or LaTeX in the order shown.
+/// Metrics of all results, sortable by any column (numbers as numbers, absent ones and NaN last),
+/// the best of each column stressed, copied or saved as CSV or LaTeX in the order shown. Ctrl+C
+/// copies the table as CSV.
 class MetricTable : public QWidget {
   Q_OBJECT
 
@@ -38,12 +43,12 @@ class MetricTable : public QWidget {
   void setTable(const std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows);
   /// Says why the table is empty, e.g. that there is no ground truth.
   void setEmptyText(const QString& text);
-  /// Marks the row of the result on screen.
-  void setCurrent(quint64 id);
+  /// Marks the rows of the result on screen and of the one it is compared with; 0 = none.
+  void setSides(quint64 a, quint64 b);
 
-  /// RFC 4180, full precision, decimal point, keys as header.
+  /// RFC 4180, full precision, decimal point, keys as header; absent values are empty.
   [[nodiscard]] QString toCsv() const;
-  /// A `tabular` with the decimals shown.
+  /// A `tabular` with the decimals shown; absent values are "--".
   [[nodiscard]] QString toLatex() const;
 
  public slots:
@@ -52,6 +57,7 @@ class MetricTable : public QWidget {
 
  signals:
   void rowClicked(quint64 id);
+  void compareRequested(quint64 id);
   /// "csv" or "tex" with the text to be written by the host.
   void saveRequested(const QString& suffix, const QString& text);
 
@@ -59,6 +65,8 @@ class MetricTable : public QWidget {
   void setUpTable();
   void fillRow(int row, const MetricRow& values);
   void fitColumns();
+  void stressBest();
+  void showMenu(const QPoint& position);
 
   std::vector<MetricColumn> columns_;
   QTableWidget* table_;

@@ -2,6 +2,7 @@
 #include "widgets/result_list.h"
 
 #include "widgets/icon.h"
+#include "widgets/side.h"
 #include "widgets/tool_button.h"
 
 #include <QAction>
@@ -9,6 +10,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QMenu>
+#include <QMouseEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -74,6 +76,7 @@ ResultList::ResultList(QWidget* parent)
 
 void ResultList::setUpTree() {
   tree_->setObjectName("results.tree");
+  tree_->viewport()->installEventFilter(this);
   tree_->setColumnCount(kColumnCount);
   tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
   tree_->headerItem()->setToolTip(kMse, tr("Mean squared error ×100 against the truth, px²"));
@@ -130,21 +133,45 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
   }
   tree_->setVisible(!results.empty());
   hint_->setVisible(results.empty());
-  setShown(shown_);
+  setShown(shown_, compared_);
   updateButtons();
 }
 
-void ResultList::setShown(std::optional<quint64> id) {
+void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> compared) {
   shown_ = id;
+  compared_ = compared;
   for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
     auto* item = tree_->topLevelItem(i);
     const bool is_shown = shown_ == id_of(item);
-    item->setIcon(kMark, is_shown ? themed_icon("eye") : QIcon());
+    if (compared_) {
+      item->setIcon(kMark, side_icon(is_shown                   ? Side::A
+                                     : compared_ == id_of(item) ? Side::B
+                                                                : Side::None));
+    } else {
+      item->setIcon(kMark, is_shown ? themed_icon("eye") : QIcon());
+    }
+    item->setToolTip(kMark, is_shown ? tr("A: this result is shown")
+                                     : tr("Click here to compare with this result (B)"));
     QFont font = tree_->font();
     font.setBold(is_shown);
     item->setFont(kMethod, font);
   }
   updateButtons();
+}
+
+// A click on the mark chooses B; the selection, which is what is shown, stays.
+bool ResultList::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonPress) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    const QPoint position = mouse->position().toPoint();
+    const auto* item = tree_->itemAt(position);
+    const bool is_on_mark = tree_->header()->logicalIndexAt(position.x()) == kMark;
+    if (item && is_on_mark && mouse->button() == Qt::LeftButton && id_of(item) != shown_) {
+      emit compareRequested(id_of(item));
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 std::optional<quint64> ResultList::selectedId() const {
@@ -173,6 +200,8 @@ void ResultList::showMenu(const QPoint& position) {
     menu->addAction(themed_icon(icon), text, this, [this, id, intent] { emit(this->*intent)(id); });
   };
   add("eye", tr("Show"), &ResultList::selected);
+  menu->addAction(side_icon(Side::B), tr("Compare with"), this,
+                  [this, id] { emit compareRequested(id); });
   add("reuse", tr("Reuse parameters"), &ResultList::reuseRequested);
   add("copy", tr("Copy as command"), &ResultList::copyCommandRequested);
   menu->addSeparator();

@@ -23,8 +23,9 @@ struct ResultRow {
   QString detail;  ///< Further tool tip: source, notes.
 };
 
-/// Results of this light field, newest last, with the shown one marked. Choosing a row is an intent
-/// to show it; remove, export and the rest are in buttons and in the context menu.
+/// Results of this light field, newest last, with the shown one (A) and the compared one (B)
+/// marked. Choosing a row is an intent to show it, a click on its mark to compare with it; remove,
+/// export and the rest are in buttons and in the context menu.
 class ResultList : public QWidget {
   Q_OBJECT
 
@@ -32,18 +33,22 @@ class ResultList : public QWidget {
   explicit ResultList(QWidget* parent = nullptr);
 
   void setResults(const std::vector<ResultRow>& results);
-  /// Marks the row whose picture is on screen; none = no mark.
-  void setShown(std::optional<quint64> id);
+  /// Marks the row whose picture is on screen and the one it is compared with; none = no mark.
+  void setShown(std::optional<quint64> id, std::optional<quint64> compared = std::nullopt);
 
   [[nodiscard]] std::optional<quint64> selectedId() const;
 
  signals:
   void selected(quint64 id);
+  void compareRequested(quint64 id);
   void removeRequested(quint64 id);
   void exportRequested(quint64 id);
   void copyCommandRequested(quint64 id);
   /// Bring its parameters back into the form.
   void reuseRequested(quint64 id);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   void setUpTree();
@@ -58,6 +63,7 @@ class ResultList : public QWidget {
   QToolButton* remove_;
   QToolButton* reuse_;
   std::optional<quint64> shown_;
+  std::optional<quint64> compared_;
 };
 
 }  // namespace episcope

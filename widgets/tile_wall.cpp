@@ -50,7 +50,7 @@ TileWall::TileWall(QWidget* parent) : QScrollArea(parent), wall_(new QWidget) {
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setWidget(wall_);
-  setFocusPolicy(Qt::NoFocus);
+  setFocusPolicy(Qt::StrongFocus);
 }
 
 ViewCanvas* TileWall::addTile() {

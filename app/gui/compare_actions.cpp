@@ -114,7 +114,7 @@ void add_choice_actions(ActionTable& table, MainWindow& window) {
              .menu = menu,
              .text = tr("Swap A and B"),
              .tip = tr("Shows the compared result and compares with the one shown now"),
-             .icon = "",
+             .icon = "swap",
              .keys = {Qt::Key_QuoteLeft},
              .run = [&window] {
                if (const EstimateEntry* other = window.session().compared()) {

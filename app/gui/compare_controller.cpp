@@ -2,6 +2,7 @@
 #include "app/gui/compare_controller.h"
 
 #include "app/gui/estimate_controller.h"
+#include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/tile_wall.h"
@@ -42,6 +43,12 @@ CompareController::CompareController(Session& session, OverlayController& overla
     wipe_position_ = position;
     showWipe();
   });
+  connect(panels_.compare, &CompareBar::aChosen, this,
+          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(panels_.compare, &CompareBar::bChosen, this,
+          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
+  connect(&overlay_, &OverlayController::choiceChanged, this, &CompareController::listChoices);
+  listChoices();
   session_.on_changed([this](Parts parts) { update(parts); });
 }
 
@@ -73,6 +80,18 @@ void CompareController::update(Parts parts) {
   }
 }
 
+void CompareController::listChoices() {
+  std::vector<CompareBar::Choice> choices;
+  for (const EstimateEntry& entry : session_.estimates()) {
+    choices.push_back({static_cast<quint64>(entry.id), QString::fromStdString(entry.name)});
+  }
+  const EstimateEntry* shown = session_.shown();
+  const EstimateEntry* compared = session_.compared();
+  panels_.compare->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
+                              compared ? static_cast<quint64>(compared->id) : 0,
+                              overlay_.describe(overlay_.choiceB()));
+}
+
 bool CompareController::isAvailable(CompareMode mode) const {
   if (mode == CompareMode::Single) return true;
   if (!session_.scene()) return false;
@@ -85,9 +104,8 @@ void CompareController::toggleMode(CompareMode mode) {
 
 void CompareController::setMode(CompareMode mode) {
   if (mode == mode_ || !isAvailable(mode)) return;
-  const bool had_wall = panels_.wall->isVisibleTo(panels_.viewer);
-  const bool has_focus = had_wall ? panels_.wall->isAncestorOf(QApplication::focusWidget())
-                                  : panels_.canvas->hasFocus();
+  const bool has_focus = panels_.canvas->hasFocus() || panels_.wall->hasFocus() ||
+                         panels_.wall->isAncestorOf(QApplication::focusWidget());
   mode_ = mode;
   const bool has_wall = mode == CompareMode::Sides || mode == CompareMode::Wall;
   if (mode != CompareMode::Wipe) panels_.canvas->endWipe();
@@ -95,18 +113,17 @@ void CompareController::setMode(CompareMode mode) {
   if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
     overlay_.setQuantity(session_.shown() ? Quantity::Disparity : Quantity::Truth);
   }
-  for (QWidget* each : std::initializer_list<QWidget*>{panels_.canvas, panels_.horizontal_epi,
-                                                       panels_.vertical_epi}) {
-    each->setVisible(!has_wall);
-  }
   panels_.wall->setVisible(has_wall);
+  if (has_focus && has_wall) panels_.wall->setFocus();
+  panels_.canvas->setVisible(!has_wall);
+  panels_.vertical_epi->setVisible(!has_wall);
+  if (has_focus && !has_wall) panels_.canvas->setFocus();
   if (!has_wall) {
     entries_.clear();
     tile_job_.drop();
     panels_.wall->setTiles({});
   }
   showMode();
-  if (has_focus && activeCanvas()) activeCanvas()->setFocus();
   emit modeChanged();
 }
 

@@ -57,6 +57,7 @@ class CompareController : public QObject {
 
   void connectWall();
   void update(Parts parts);
+  void listChoices();
   void showMode();
   void showWipe();
   void showTiles();

@@ -76,6 +76,8 @@ EstimateController::EstimateController(Session& session, Jobs& jobs, const Panel
   ResultList* results = panels_.results;
   connect(results, &ResultList::selected, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(results, &ResultList::compareRequested, this,
+          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
   connect(results, &ResultList::removeRequested, this,
           [this](quint64 id) { session_.remove_estimate(static_cast<int>(id)); });
   connect(results, &ResultList::exportRequested, this,
@@ -140,7 +142,11 @@ void EstimateController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
     const EstimateEntry* shown = session_.shown();
-    panels_.results->setShown(shown ? std::optional<quint64>(shown->id) : std::nullopt);
+    const EstimateEntry* compared = session_.compared();
+    const auto id_of = [](const EstimateEntry* entry) {
+      return entry ? std::optional<quint64>(entry->id) : std::nullopt;
+    };
+    panels_.results->setShown(id_of(shown), id_of(compared));
   }
 }
 

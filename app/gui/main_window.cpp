@@ -21,6 +21,7 @@
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
 #include "engine/core/version.h"
+#include "widgets/compare_bar.h"
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
 #include "widgets/message_bar.h"
@@ -117,6 +118,13 @@ void MainWindow::buildBars() {
     overlays->addAction(actions_->find(id));
     bar->addAction(actions_->find(id));
   }
+  bar->addSeparator();
+  for (const char* id : {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference",
+                         "compare.swap"}) {
+    panels_.compare->addAction(actions_->find(id), QString("button.%1").arg(id));
+  }
+  bar->addAction(actions_->find("compare.tiles"));
+  bar->addAction(actions_->find("compare.difference"));
   bar->addSeparator();
   bar->addWidget(panels_.overlay_bar);
   bar->addAction(actions_->find("help.keys"));

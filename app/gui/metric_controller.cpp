@@ -60,6 +60,8 @@ MetricController::MetricController(Session& session, Jobs& jobs, const Panels& p
     : QObject(parent), session_(session), jobs_(jobs), panels_(panels) {
   connect(panels_.metrics, &MetricTable::rowClicked, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(panels_.metrics, &MetricTable::compareRequested, this,
+          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
   connect(panels_.metrics, &MetricTable::saveRequested, this, &MetricController::save);
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
@@ -69,7 +71,9 @@ void MetricController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations)) fillTable();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
     const EstimateEntry* shown = session_.shown();
-    panels_.metrics->setCurrent(shown ? static_cast<quint64>(shown->id) : 0);
+    const EstimateEntry* compared = session_.compared();
+    panels_.metrics->setSides(shown ? static_cast<quint64>(shown->id) : 0,
+                              compared ? static_cast<quint64>(compared->id) : 0);
   }
 }
 
@@ -85,9 +89,10 @@ void MetricController::fillTable() {
   panels_.metrics->setEmptyText(tr("Run a method: its errors against the truth appear here."));
   const std::vector<Judged> judged = judgeAll();
   const std::vector<Place> places = places_of(judged);
-  std::vector<MetricColumn> columns = {{"method", tr("Result"), tr("Name of the result"), 0}};
+  std::vector<MetricColumn> columns = {{"method", tr("Result"), tr("Name of the result"), 0,
+                                        BestValue::None}};
   for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
-  columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2});
+  columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
   std::vector<MetricRow> rows;
   for (const Judged& each : judged) rows.push_back(row_of(each, places));
   panels_.metrics->setTable(columns, rows);

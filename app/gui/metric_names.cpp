@@ -81,7 +81,8 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
                                   "view");
   const QString help = is_known ? text(found->help) : QString();
   return {full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
-          is_known ? found->decimals : 3};
+          is_known ? found->decimals : 3,
+          key == "density" ? BestValue::Greatest : BestValue::Least};
 }
 
 }  // namespace episcope

@@ -2,6 +2,7 @@
 #include "app/gui/panels.h"
 
 #include "widgets/color_bar.h"
+#include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
@@ -62,7 +63,7 @@ QWidget* make_stage(Panels& panels, QWidget* parent) {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
   layout->addWidget(panels.canvas, 0, 0);
-  layout->addWidget(panels.wall, 0, 0, 2, 1);
+  layout->addWidget(panels.wall, 0, 0, 1, 2);
   layout->addWidget(panels.vertical_epi, 0, 1);
   layout->addWidget(panels.horizontal_epi, 1, 0);
   layout->addWidget(legend, 1, 1);
@@ -99,14 +100,24 @@ QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
   return tab;
 }
 
+QWidget* make_compare_tab(Panels& panels, QWidget* parent) {
+  auto* tab = new QWidget(parent);
+  panels.compare = new CompareBar(tab);
+  panels.metrics = new MetricTable(tab);
+  auto* layout = new QVBoxLayout(tab);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(panels.compare);
+  layout->addWidget(panels.metrics, 1);
+  return tab;
+}
+
 QWidget* make_right(Panels& panels, QWidget* parent) {
   auto* right = new QWidget(parent);
   panels.tabs = new QTabWidget(right);
   panels.tabs->setObjectName("tabs");
   panels.tabs->setDocumentMode(true);
   panels.tabs->addTab(make_estimate_tab(panels, panels.tabs), text("Estimate"));
-  panels.metrics = new MetricTable(panels.tabs);
-  panels.tabs->addTab(panels.metrics, text("Compare"));
+  panels.tabs->addTab(make_compare_tab(panels, panels.tabs), text("Compare"));
   panels.cloud_tab = new QWidget(panels.tabs);
   panels.tabs->addTab(panels.cloud_tab, text("3D"));
   panels.jobs = new JobPanel(right);

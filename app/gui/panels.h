@@ -8,6 +8,7 @@ class QWidget;
 namespace episcope {
 
 class ColorBar;
+class CompareBar;
 class EpiPane;
 class InfoPanel;
 class JobPanel;
@@ -27,7 +28,7 @@ struct Panels {
   OverlayBar* overlay_bar = nullptr;
   QWidget* viewer = nullptr;  ///< Holds canvas, EPIs, legend and view grid.
   ViewCanvas* canvas = nullptr;
-  TileWall* wall = nullptr;  ///< In the place of canvas and EPIs; hidden at first.
+  TileWall* wall = nullptr;  ///< In the place of canvas and vertical EPI; hidden at first.
   EpiPane* horizontal_epi = nullptr;
   EpiPane* vertical_epi = nullptr;
   ColorBar* color_bar = nullptr;
@@ -36,6 +37,7 @@ struct Panels {
   QTabWidget* tabs = nullptr;
   MethodPanel* method = nullptr;
   ResultList* results = nullptr;
+  CompareBar* compare = nullptr;
   MetricTable* metrics = nullptr;
   QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
   JobPanel* jobs = nullptr;
