@@ -32,7 +32,7 @@ constexpr double kHeaderScale = 0.88;
 constexpr int kSortArrowWidth = 14;
 constexpr int kColumnPadding = 7;
 constexpr int kWidestText = 150;
-constexpr int kSideWidth = 18;
+constexpr int kSideWidth = 26;
 
 bool is_absent(const QVariant& value) {
   return !value.isValid() || (value.typeId() == QMetaType::Double && std::isnan(value.toDouble()));
