@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
+#include "engine/disparity/epi_two_layer.h"
 
 namespace episcope {
 
@@ -11,6 +12,7 @@ std::vector<Estimator> registered_estimators() {
   return {
       epi_l_estimator(),
       epi_s_estimator(),
+      epi_two_layer_estimator(),
   };
 }
 
