@@ -86,8 +86,8 @@ Schema<EpiSParameters> epi_s_schema() {
              "The denoising stops early once the duality gap is this share of the energy"},
             {1e-6, 0.1, true});
   add_epi_l_parameters(schema);
-  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
-      .search("weight_power", {0, 2, 8})
+  schema.search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
+      .search("weight_power", {0, 2, 8, 16})
       .search("edge_strength", {0, 10, 30});
   return schema;
 }
