@@ -115,6 +115,12 @@ void Arguments::required_option(const std::string& names, std::string& value,
       ->required();
 }
 
+void Arguments::list_option(const std::string& names, std::vector<std::string>& values,
+                            const std::string& value_name, const std::string& help) {
+  state_->declare(state_->app.add_option(names, values, help), names, true)
+      ->option_text(value_name);
+}
+
 void Arguments::choice(const std::string& names, std::string& value,
                        const std::vector<std::string>& choices, const std::string& help) {
   std::string list;

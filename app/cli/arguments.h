@@ -34,6 +34,9 @@ class Arguments {
               const std::string& help);
   void required_option(const std::string& names, std::string& value, const std::string& value_name,
                        const std::string& help);
+  /// An option with one or more values, which may be given several times.
+  void list_option(const std::string& names, std::vector<std::string>& values,
+                   const std::string& value_name, const std::string& help);
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help);
   /// Options declared from here on stand under this heading in the help.

@@ -81,6 +81,14 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
   return parser.parse(arguments);
 }
 
+void check_input(const std::string& input) {
+  const std::string builtin = builtin_scene_id(input);
+  std::error_code ignored;
+  if (!builtin.empty()) return check_builtin_scene(builtin);
+  if (std::filesystem::exists(input, ignored)) return;
+  throw IoError(input, "there is no such file or folder; check the path");
+}
+
 Scene load_input(const std::string& input, const ReadOptions& options, const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
   if (!builtin.empty()) check_builtin_scene(builtin);

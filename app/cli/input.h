@@ -25,6 +25,10 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 [[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
                                  JobOptions& job, ReadOptions& read);
 
+/// Refuses an INPUT that cannot be there, before anything is done. Throws UsageError for an unknown
+/// built-in scene, IoError for a path that does not exist.
+void check_input(const std::string& input);
+
 /// Opens an INPUT of the command line. Built-in scenes are kept in the user's cache folder.
 /// Throws UsageError for an unknown built-in scene, IoError, Cancelled.
 [[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/parameter.h"
+#include "engine/disparity/estimator.h"
+#include "engine/evaluation/benchmark_result.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What is run: a method with parameters, judged for the tables or as a point of a search.
+struct BenchmarkRun {
+  bool is_search = false;
+  std::string method;
+  int revision = 1;         ///< EstimatorInfo::revision.
+  ParameterSet parameters;  ///< All of the method.
+  ViewSelection views = ViewSelection::Center;
+};
+
+/// `point` over the defaults of the method.
+[[nodiscard]] BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point,
+                                    ViewSelection views, bool is_search);
+
+/// Names the result of a run on a scene with this fingerprint, by all that it depends on, the
+/// version of the program included.
+[[nodiscard]] std::string record_key(const BenchmarkRun& run, const std::string& fingerprint);
+
+/// One finished run, a line of the log.
+struct BenchmarkRecord {
+  std::string key;
+  std::string input;  ///< The scene as it was asked for.
+  BenchmarkRun run;
+  BenchmarkResult result;
+  std::vector<std::string> files;  ///< Written by the run, below the folder of the benchmark.
+};
+
+/// One line of JSON, without its end.
+[[nodiscard]] std::string record_to_json(const BenchmarkRecord& record);
+/// Empty for a line that is no record.
+[[nodiscard]] std::optional<BenchmarkRecord> record_from_json(const std::string& line);
+
+}  // namespace episcope

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/indices.h"
+#include "engine/evaluation/benchmark_result.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A light field of a benchmark.
+struct BenchmarkScene {
+  std::string name;   ///< Unique in the benchmark; also that of its folder below `scenes`.
+  std::string input;  ///< As it was asked for.
+  std::string shape;  ///< "9×9 views of 512×512 px".
+  Interval range;     ///< Disparities at the ends of the colour map; {0, 0} if each has its own.
+  bool has_truth_picture = false;
+  std::string problem;  ///< Why nothing was run on it; empty = it could be read.
+};
+
+/// All that a benchmark found out; files with pictures and maps lie in `scenes/<scene>/`.
+struct BenchmarkReport {
+  std::vector<BenchmarkScene> scenes;
+  std::vector<BenchmarkResult> results;  ///< By scene, then by entry.
+  std::vector<SearchResult> searched;    ///< By scene, method and point; empty without a search.
+  int reused = 0;                        ///< Runs and points that were taken from an earlier call.
+
+  /// Sentences for what failed: scenes that cannot be read, methods, submissions, points.
+  [[nodiscard]] std::vector<std::string> failures() const {
+    std::vector<std::string> sentences;
+    for (const auto& scene : scenes) {
+      if (!scene.problem.empty()) sentences.push_back(scene.problem);
+    }
+    for (const auto& result : results) {
+      if (result.has_failed) {
+        sentences.push_back(result.entry + " on " + result.scene + ": " + result.problem);
+      }
+    }
+    for (const auto& point : searched) {
+      if (!point.problem.empty()) {
+        sentences.push_back("search of " + point.method + " on " + point.scene + ": " +
+                            point.problem);
+      }
+    }
+    return sentences;
+  }
+};
+
+}  // namespace episcope
