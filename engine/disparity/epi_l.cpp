@@ -62,8 +62,18 @@ void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSe
   });
 }
 
+StructureTensor::Sink store_column_into(const Maps& maps, int u) {
+  return [&maps, u](int v, PixelIndex begin, int count, const float* disparity,
+                    const float* coherence) {
+    store_into(maps, v)(u, begin, count, disparity, coherence);
+  };
+}
+
+// What becomes of the estimates of a column u of cameras.
+using ColumnSink = std::function<StructureTensor::Sink(int u)>;
+
 void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
-                  int power, const Progress& progress) {
+                  const ColumnSink& sink_of, const Progress& progress) {
   const LightField& lf = maps.light_field;
   const StructureTensor sizes(lf, StructureTensor::Direction::Vertical, scales, search);
   const int width = sizes.max_width();
@@ -83,7 +93,7 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
                               std::min(width, lf.width() - x),
                               first.v,
                               first.v + maps.grid().v};
-        tensor->estimate(task, merge_into(maps, power, u));
+        tensor->estimate(task, sink_of(u));
       }
     };
   });
@@ -91,6 +101,32 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
 
 void clear(ViewStack<float>& stack) {
   std::fill_n(stack.data(), stack.size(), 0.0F);
+}
+
+void check_views(const LightField& lf) {
+  if (lf.grid().count() == 1) {
+    throw InvalidInput("disparity needs at least 2 views, but this light field has only 1");
+  }
+}
+
+// Maps of the right shape, not yet filled.
+Estimate unknown_maps(const LightField& lf, ViewSelection views, Interval range) {
+  const bool all = views == ViewSelection::All;
+  const GridShape grid = all ? lf.grid() : GridShape{1, 1};
+  const ViewIndex first = all ? ViewIndex{} : lf.center();
+  Estimate estimate;
+  estimate.range = range;
+  estimate.field.disparity = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  estimate.confidence = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  return estimate;
+}
+
+TensorScales scales_of(const EpiLParameters& p) {
+  return {p.inner_scale, p.outer_scale, p.view_scale, p.cross_scale, p.contrast, p.noise};
+}
+
+TensorSearch search_of(const EpiLParameters& p, Interval range) {
+  return cover_range(range, std::max(1, static_cast<int>(std::lround(2 * p.shear_step))));
 }
 
 }  // namespace
@@ -125,21 +161,12 @@ void clamp_to_range(Estimate& estimate, const Progress& progress) {
 
 Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,
                                ViewSelection views, const Progress& progress) {
-  if (lf.grid().count() == 1) {
-    throw InvalidInput("disparity needs at least 2 views, but this light field has only 1");
-  }
-  Estimate estimate;
-  estimate.range = search_range(lf, parameters.range, progress.part(0, 0.05));
-  const bool all = views == ViewSelection::All;
-  const GridShape grid = all ? lf.grid() : GridShape{1, 1};
-  const ViewIndex first = all ? ViewIndex{} : lf.center();
-  estimate.field.disparity = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
-  estimate.confidence = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  check_views(lf);
+  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
+  Estimate estimate = unknown_maps(lf, views, range);
   const Maps maps{lf, estimate.field.disparity, estimate.confidence};
-  const TensorScales scales{parameters.inner_scale, parameters.outer_scale, parameters.view_scale,
-                            parameters.cross_scale, parameters.contrast,    parameters.noise};
-  const TensorSearch search = cover_range(
-      estimate.range, std::max(1, static_cast<int>(std::lround(2 * parameters.shear_step))));
+  const TensorScales scales = scales_of(parameters);
+  const TensorSearch search = search_of(parameters, range);
   // Where the vertical EPIs begin.
   const double half = lf.grid().v == 1 ? 1 : lf.grid().u == 1 ? 0.05 : 0.5;
   if (lf.grid().u > 1) {
@@ -151,9 +178,36 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
   }
   if (lf.grid().v > 1) {
     progress.step("vertical EPIs");
-    run_vertical(maps, scales, search, parameters.fusion_power, progress.part(half, 1));
+    const auto merge = [&](int u) { return merge_into(maps, parameters.fusion_power, u); };
+    run_vertical(maps, scales, search, merge, progress.part(half, 1));
   }
   return estimate;
+}
+
+DirectionalOrientations estimate_directions(const LightField& lf, const EpiLParameters& parameters,
+                                            const Progress& progress) {
+  check_views(lf);
+  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.1));
+  DirectionalOrientations directions{unknown_maps(lf, ViewSelection::Center, range),
+                                     unknown_maps(lf, ViewSelection::Center, range)};
+  const TensorScales scales = scales_of(parameters);
+  const TensorSearch search = search_of(parameters, range);
+  const auto maps_of = [&lf](Estimate& estimate) {
+    clear(estimate.field.disparity);
+    clear(estimate.confidence);
+    return Maps{lf, estimate.field.disparity, estimate.confidence};
+  };
+  const Maps horizontal = maps_of(directions.horizontal), vertical = maps_of(directions.vertical);
+  if (lf.grid().u > 1) {
+    progress.step("horizontal EPIs");
+    run_horizontal(horizontal, scales, search, progress.part(0.1, 0.55));
+  }
+  if (lf.grid().v > 1) {
+    progress.step("vertical EPIs");
+    const auto store = [&](int u) { return store_column_into(vertical, u); };
+    run_vertical(vertical, scales, search, store, progress.part(0.55, 1));
+  }
+  return directions;
 }
 
 Estimator epi_l_estimator() {

@@ -41,6 +41,16 @@ void add_epi_l_parameters(Schema<P>& schema);
                                              const EpiLParameters& parameters, ViewSelection views,
                                              const Progress& progress);
 
+/// What the two directions say of the centre view, each for itself.
+struct DirectionalOrientations {
+  Estimate horizontal, vertical;  ///< Confidence 0 everywhere if the grid has no such direction.
+};
+
+/// As `estimate_orientations`, before the directions are merged.
+[[nodiscard]] DirectionalOrientations estimate_directions(const LightField& light_field,
+                                                          const EpiLParameters& parameters,
+                                                          const Progress& progress);
+
 /// Clamps every disparity to `estimate.range`.
 void clamp_to_range(Estimate& estimate, const Progress& progress);
 

@@ -2,6 +2,7 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/epi_g.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
@@ -13,6 +14,7 @@ std::vector<Estimator> registered_estimators() {
       epi_l_estimator(),
       epi_s_estimator(),
       epi_two_layer_estimator(),
+      epi_g_estimator(),
   };
 }
 

@@ -263,8 +263,7 @@ void Lifting::measure(LiftedResult& result, const Progress& progress) {
   parallel_for(height_, progress, [&](int y) {
     int* labels[kLiftedCuts];
     for (int k = 0; k < kLiftedCuts; ++k) labels[k] = cuts_[k].row(y);
-    bounds[y] =
-        kernel_.bound(shape_, problem_.cost.row(y, 0), duals(y), duals_above(y));
+    bounds[y] = kernel_.bound(shape_, problem_.cost.row(y, 0), duals(y), duals_above(y));
     kernel_.cut(shape_, phi(y), labels);
   });
   parallel_for(height_, progress, [&](int y) {

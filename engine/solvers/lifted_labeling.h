@@ -17,14 +17,14 @@ namespace episcope {
 /// (1 − 1/√2)·(|u_across − u| + |u_right − u_down|), times g(x, y); at the image's border, where
 /// diagonals are missing, the sides count their share too. A straight boundary costs its Euclidean
 /// length if it runs along the axes or diagonals, and at most 8 % more in between.
-/// Why not √(|u_right − u|² + |u_down − u|²): its relaxation is not tight. Rounded optima were 0.1 to
-/// 1 % above the lower bound (real costs, small to large Λ), and a diagonal boundary costs 1 or √2
-/// times its length, as it falls or rises. With differences of pairs every threshold of an optimum
-/// is an optimal labeling, and the gap closes.
+/// Why not √(|u_right − u|² + |u_down − u|²): its relaxation is not tight. Rounded optima were 0.1
+/// to 1 % above the lower bound (real costs, small to large Λ), and a diagonal boundary costs 1 or
+/// √2 times its length, as it falls or rises. With differences of pairs every threshold of an
+/// optimum is an optimal labeling, and the gap closes.
 struct LiftedProblem {
   VolumeView<const float> cost;  ///< ρ, `[y][label][x]`, finite, any scale.
   ImageView<const float> g;      ///< `[y][x]` ≥ 0, one channel. Empty = 1.
-  double smoothness = 0;         ///< Λ ≥ 0: cost of one label of jump along one pixel of boundary.
+  double smoothness = 0;  ///< Λ ≥ 0: cost of one label of jump along one pixel of boundary.
 };
 
 struct LiftedOptions {
@@ -60,7 +60,7 @@ struct LiftedResult {
 /// Takes 5 floats for each pixel and label besides the costs. The result depends neither on the
 /// number of threads nor on constants added to all costs of a pixel (up to rounding).
 /// Stops at `progress.finish_requested()` with the best labeling so far. Throws InvalidInput on
-/// wrong shapes, a negative Λ or more than 256 labels, Cancelled on a stop request.
+/// wrong shapes, a negative Λ or more than 512 labels, Cancelled on a stop request.
 [[nodiscard]] LiftedResult solve_lifted_labeling(const LiftedProblem& problem,
                                                  const LiftedOptions& options,
                                                  const Progress& progress, Isa isa = best_isa());

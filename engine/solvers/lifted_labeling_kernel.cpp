@@ -184,8 +184,8 @@ double bound(const LiftedShape& shape, const float* cost, const LiftedDuals& her
         const Vec sum =
             load(gathered + x - begin) + limited_divergence(here, above, l * shape.pitch + x, x);
         store(gathered + x - begin, sum);
-        store(least_cost + x - begin, least(load(least_cost + x - begin),
-                                            load_first(upper + x, shape.width - x) - sum));
+        store(least_cost + x - begin,
+              least(load(least_cost + x - begin), load_first(upper + x, shape.width - x) - sum));
       }
     }
     for (int x = begin; x < end && x < shape.width; ++x) {
@@ -207,8 +207,7 @@ void cut(const LiftedShape& shape, const float* phi, int* const labels[kLiftedCu
         const Vec value = load(phi + l * shape.pitch + x);
         for (int k = 0; k < kLiftedCuts; ++k) {
           float* const count = counts[k] + x - begin;
-          store(count,
-                load(count) + choose(value >= kLiftedThresholds[k], splat(1), splat(0)));
+          store(count, load(count) + choose(value >= kLiftedThresholds[k], splat(1), splat(0)));
         }
       }
     }

@@ -5,7 +5,7 @@ namespace episcope {
 
 /// Floats that a row is padded to, the widest vector.
 inline constexpr int kLiftedRowUnit = 16;
-inline constexpr int kLiftedMostLayers = 256;
+inline constexpr int kLiftedMostLayers = 512;
 /// Pairs of neighbours of a pixel's cell: right, down, down-right, and its right with its lower
 /// neighbour.
 inline constexpr int kLiftedPairs = 4;

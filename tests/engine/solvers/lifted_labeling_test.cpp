@@ -126,9 +126,8 @@ void LiftedLabelingTest::solve_findsTheLeastOfAllLabelings() {
     const LiftedResult result = solve(labeling.problem(), 2000, 1e-6);
 
     const double least = least_energy(labeling.problem());
-    QVERIFY2(result.energy <= least * (1 + 1e-5), qPrintable(QString("%1 and not %2")
-                                                                 .arg(result.energy)
-                                                                 .arg(least)));
+    QVERIFY2(result.energy <= least * (1 + 1e-5),
+             qPrintable(QString("%1 and not %2").arg(result.energy).arg(least)));
     QVERIFY(result.bound <= least * (1 + 1e-5));
     QVERIFY(std::fabs(labeling_energy(labeling.problem(), result.labels) - result.energy) < 1e-5);
   }
@@ -162,8 +161,8 @@ void LiftedLabelingTest::solve_agreesWithTvL2OnConvexCosts() {
   Image<float> f(kHeight, kWidth), u(kHeight, kWidth);
   std::mt19937 random(2);
   std::normal_distribution<float> noise(0.0F, 2.0F);
-  Labeling labeling{Volume<float>(kHeight, kLabels, kWidth),
-                    Image<float>(kHeight, kWidth, 1, 1.0F), kLambda};
+  Labeling labeling{Volume<float>(kHeight, kLabels, kWidth), Image<float>(kHeight, kWidth, 1, 1.0F),
+                    kLambda};
   for (int x = 0; x < kWidth; ++x) {
     const float value = (x < kWidth / 2 ? 6.0F : 24.0F) + noise(random);
     for (int y = 0; y < kHeight; ++y) {

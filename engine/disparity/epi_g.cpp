@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi_g.h"
+
+#include "engine/core/parallel.h"
+#include "engine/disparity/matching_cost.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+// No pixel is given up entirely when it is placed between labels.
+constexpr float kLeastWeight = 0.01F;
+
+// One direction's disparities and weights of the view.
+struct Direction {
+  Image<float> disparity, weight;
+
+  Direction(const Estimate& estimate, ViewIndex view, double power) {
+    const auto d = estimate.field.disparity.view(view), r = estimate.confidence.view(view);
+    disparity = Image<float>(d.height, d.width);
+    weight = Image<float>(d.height, d.width);
+    std::copy_n(d.data, disparity.size(), disparity.data());
+    std::transform(r.data, r.data + weight.size(), weight.data(), [power](float coherence) {
+      return std::pow(coherence, static_cast<float>(power));
+    });
+  }
+};
+
+class DirectionalData {
+ public:
+  DirectionalData(const DirectionalOrientations& orientations, ViewIndex view, double power)
+      : directions_{Direction(orientations.horizontal, view, power),
+                    Direction(orientations.vertical, view, power)} {}
+
+  [[nodiscard]] Volume<float> costs(const std::vector<float>& labels, double truncation,
+                                    const Progress& progress) const {
+    const Image<float>& shape = directions_[0].disparity;
+    Volume<float> volume(shape.height(), static_cast<int>(labels.size()), shape.width());
+    const auto most = static_cast<float>(truncation);
+    parallel_for(shape.height(), progress, [&](int y) {
+      for (std::size_t l = 0; l < labels.size(); ++l) {
+        float* const cost = volume.view().row(y, static_cast<int>(l));
+        std::fill_n(cost, shape.width(), 0.0F);
+        for (const Direction& direction : directions_) {
+          const float* const d = direction.disparity.row(y);
+          const float* const w = direction.weight.row(y);
+          for (int x = 0; x < shape.width(); ++x) {
+            cost[x] += w[x] * std::min(std::fabs(labels[l] - d[x]), most);
+          }
+        }
+      }
+    });
+    return volume;
+  }
+
+  // The mean of the directions that agree with the label.
+  [[nodiscard]] Placement place(int y, int x, float label, float step) const {
+    float sum = kLeastWeight * label, weight = kLeastWeight;
+    for (const Direction& direction : directions_) {
+      const float d = direction.disparity.at(y, x);
+      if (std::fabs(d - label) > step) continue;
+      sum += direction.weight.at(y, x) * d;
+      weight += direction.weight.at(y, x);
+    }
+    return {sum / weight, std::min(weight, 1.0F)};
+  }
+
+ private:
+  Direction directions_[2];
+};
+
+}  // namespace
+
+Schema<EpiGParameters> epi_g_schema() {
+  using P = EpiGParameters;
+  Schema<P> schema;
+  add_global_labeling_parameters(schema);
+  schema.integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+      .real("truncation", &P::truncation,
+            {"Truncation κ", "An estimate that is further off is an outlier", "px"},
+            {0.01, 5, true})
+      .real("weight_power", &P::weight_power,
+            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16});
+  add_epi_l_parameters(schema);
+  return schema;
+}
+
+Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
+                        const Progress& progress) {
+  const DirectionalOrientations directions =
+      estimate_directions(lf, parameters, progress.part(0, 0.1));
+  const ViewIndex view = lf.center();
+  Estimate estimate;
+  estimate.range = directions.horizontal.range;
+  estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, view);
+  const float* const r_h = directions.horizontal.confidence.data();
+  std::transform(r_h, r_h + estimate.confidence.size(), directions.vertical.confidence.data(),
+                 estimate.confidence.data(), [](float a, float b) { return std::max(a, b); });
+  const DirectionalData data(directions, view, parameters.weight_power);
+  const std::vector<float> labels = equidistant_labels(estimate.range, parameters.labels);
+  const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
+  const float step = labels[1] - labels[0];
+  const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
+  label_globally(lf, {view, labels, costs.view(), 1, place}, parameters, estimate,
+                 progress.part(0.12, 1));
+  return estimate;
+}
+
+Estimator epi_g_estimator() {
+  return make_estimator<EpiGParameters>(
+      {"epi_g", "EPI_G", "Globally optimal labeling of what the epipolar plane images say",
+       "Wanner and Goldluecke 2012 [WG12]", false},
+      epi_g_schema(),
+      [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
+         const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });
+}
+
+}  // namespace episcope

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi_g.h"
+
+#include "engine/disparity/epi_s.h"
+#include "tests/engine/disparity/light_fields.h"
+
+#include <QtTest>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace {
+
+EpiGParameters parameters() {
+  EpiGParameters p;
+  p.range = Interval{-1.2, 1.2};
+  p.labels = 32;
+  return p;
+}
+
+double mse(const Scene& scene, const Estimate& estimate) {
+  const ViewIndex view = scene.light_field->center();
+  return errors(estimate.field.disparity.view(view), scene.truth->field.view(view), 5).mse_100;
+}
+
+}  // namespace
+
+class EpiGTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void directions_agreeWithTheirMerger();
+  void directions_areUnknownWithoutViews();
+  void edges_areBetterThanDenoised();
+  void slant_isPlacedBetweenLabels();
+  void smoothness_doesNotDependOnLabelCount();
+  void settlingZero_keepsLabels();
+  void note_tellsGapAndEnergy();
+  void finishing_givesAnEstimate();
+};
+
+void EpiGTest::directions_agreeWithTheirMerger() {
+  const Scene scene = render("slant", 40, 48, {5, 5});
+  const ViewIndex view = scene.light_field->center();
+
+  const DirectionalOrientations both =
+      estimate_directions(*scene.light_field, parameters(), Progress());
+  const Estimate merged =
+      estimate_orientations(*scene.light_field, parameters(), ViewSelection::Center, Progress());
+
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      const auto at = [&](const Estimate& e) { return e.field.disparity.view(view).at(y, x); };
+      const auto trust = [&](const Estimate& e) { return e.confidence.view(view).at(y, x); };
+      const auto [low, high] = std::minmax({at(both.horizontal), at(both.vertical)});
+      QVERIFY(at(merged) >= low - 1e-5F && at(merged) <= high + 1e-5F);
+      QVERIFY(trust(merged) == std::max(trust(both.horizontal), trust(both.vertical)));
+    }
+  }
+}
+
+void EpiGTest::directions_areUnknownWithoutViews() {
+  const Scene scene = render("slant", 24, 28, {1, 5});
+
+  const DirectionalOrientations both =
+      estimate_directions(*scene.light_field, parameters(), Progress());
+
+  QVERIFY(mean(both.horizontal.confidence.view({0, 2})) > 0.5);
+  QCOMPARE(mean(both.vertical.confidence.view({0, 2})), 0.0);
+}
+
+void EpiGTest::edges_areBetterThanDenoised() {
+  const Scene scene = render("edge", 96, 96, {9, 9});
+  EpiSParameters denoised;
+  denoised.range = parameters().range;
+
+  const double global = mse(scene, estimate_epi_g(*scene.light_field, parameters(), Progress()));
+  const double smooth =
+      mse(scene, estimate_epi_s(*scene.light_field, denoised, ViewSelection::Center, Progress()));
+
+  QVERIFY2(global < 0.5 * smooth, qPrintable(QString("%1, EPI_S %2").arg(global).arg(smooth)));
+}
+
+// Labels alone would leave step²/12 = 0.05 (MSE × 100).
+void EpiGTest::slant_isPlacedBetweenLabels() {
+  const Scene scene = render("slant", 80, 80, {9, 9});
+
+  const double error = mse(scene, estimate_epi_g(*scene.light_field, parameters(), Progress()));
+
+  QVERIFY2(error < 0.02, qPrintable(QString::number(error)));
+}
+
+void EpiGTest::smoothness_doesNotDependOnLabelCount() {
+  const Scene scene = render("objects", 64, 72, {7, 7});
+  EpiGParameters few = parameters(), many = parameters();
+  few.settling = many.settling = 0;
+  few.labels = 25;
+  many.labels = 97;
+  const ViewIndex view = scene.light_field->center();
+
+  const Estimate rough = estimate_epi_g(*scene.light_field, few, Progress());
+  const Estimate fine = estimate_epi_g(*scene.light_field, many, Progress());
+
+  int apart = 0;
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 72; ++x) {
+      const float difference =
+          rough.field.disparity.view(view).at(y, x) - fine.field.disparity.view(view).at(y, x);
+      apart += std::fabs(difference) > 0.11F ? 1 : 0;  // a step of the few
+    }
+  }
+  QVERIFY2(apart < 64 * 72 / 50, qPrintable(QString::number(apart)));
+}
+
+void EpiGTest::settlingZero_keepsLabels() {
+  const Scene scene = render("slant", 40, 40, {5, 5});
+  EpiGParameters p = parameters();
+  p.settling = 0;
+
+  const Estimate estimate = estimate_epi_g(*scene.light_field, p, Progress());
+
+  const float* const map = estimate.field.disparity.data();
+  const std::set<float> values(map, map + estimate.field.disparity.size());
+  QVERIFY(values.size() > 5 && values.size() <= 32);
+}
+
+void EpiGTest::note_tellsGapAndEnergy() {
+  const Scene scene = render("edge", 40, 40, {5, 5});
+
+  const Estimate estimate = estimate_epi_g(*scene.light_field, parameters(), Progress());
+
+  const QString note = QString::fromStdString(estimate.notes.back());
+  const auto match =
+      QRegularExpression("energy ([0-9.e+]+), gap ([0-9.e+-]+) after ([0-9]+)").match(note);
+  QVERIFY2(match.hasMatch(), qPrintable(note));
+  QVERIFY(match.captured(2).toDouble() <= parameters().gap);
+}
+
+void EpiGTest::finishing_givesAnEstimate() {
+  const Scene scene = render("edge", 40, 40, {5, 5});
+  std::stop_source finish;
+  finish.request_stop();
+  EpiGParameters p = parameters();
+  p.gap = 1e-6;
+
+  const Estimate estimate =
+      estimate_epi_g(*scene.light_field, p, Progress({}, finish.get_token(), {}));
+
+  QVERIFY(all_finite(estimate.field.disparity));
+  QVERIFY(QString::fromStdString(estimate.notes.back()).contains("ended early"));
+}
+
+QTEST_APPLESS_MAIN(EpiGTest)
+#include "epi_g_test.moc"
