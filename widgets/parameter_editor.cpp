@@ -278,6 +278,64 @@ class IntervalEditor : public ParameterEditor {
   QDoubleSpinBox* max_;
 };
 
+/// "auto", or row and column of a view.
+class ViewEditor : public ParameterEditor {
+ public:
+  ViewEditor(const ParameterDescription& description, QWidget* parent)
+      : ParameterEditor(parent),
+        automatic_(new QCheckBox(tr("auto"), this)),
+        v_(make_place(description, "v", tr("Row of the view"))),
+        u_(make_place(description, "u", tr("Column of the view"))) {
+    automatic_->setObjectName(control_name(description, "auto"));
+    auto* row = make_row(this);
+    row->addWidget(automatic_);
+    row->addWidget(v_, 1);
+    row->addWidget(new QLabel(",", this));
+    row->addWidget(u_, 1);
+    ViewEditor::setValue(description.default_value);
+    connect(automatic_, &QCheckBox::toggled, this, [this](bool checked) {
+      v_->setEnabled(!checked);
+      u_->setEnabled(!checked);
+      emit edited();
+    });
+    for (auto* place : {v_, u_}) {
+      connect(place, &QSpinBox::valueChanged, this, &ParameterEditor::edited);
+    }
+  }
+
+  [[nodiscard]] ParameterValue value() const override {
+    if (automatic_->isChecked()) return ViewOrAuto{};
+    return ViewOrAuto(ViewIndex{v_->value(), u_->value()});
+  }
+
+  void setValue(const ParameterValue& value) override {
+    const auto* view = std::get_if<ViewOrAuto>(&value);
+    if (!view) return;
+    const QSignalBlocker blockers[] = {QSignalBlocker(automatic_), QSignalBlocker(v_),
+                                       QSignalBlocker(u_)};
+    automatic_->setChecked(!*view);
+    v_->setEnabled(view->has_value());
+    u_->setEnabled(view->has_value());
+    if (!*view) return;
+    v_->setValue((*view)->v);
+    u_->setValue((*view)->u);
+  }
+
+ private:
+  QSpinBox* make_place(const ParameterDescription& description, const char* name,
+                       const QString& tip) {
+    auto* place = new QSpinBox(this);
+    place->setObjectName(control_name(description, name));
+    place->setToolTip(tip);
+    place->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    return place;
+  }
+
+  QCheckBox* automatic_;
+  QSpinBox* v_;
+  QSpinBox* u_;
+};
+
 }  // namespace
 
 ParameterEditor* make_parameter_editor(const ParameterDescription& description, QWidget* parent) {
@@ -295,6 +353,9 @@ ParameterEditor* make_parameter_editor(const ParameterDescription& description, 
     }
     ParameterEditor* operator()(const IntervalOrAuto&) const {
       return new IntervalEditor(description, parent);
+    }
+    ParameterEditor* operator()(const ViewOrAuto&) const {
+      return new ViewEditor(description, parent);
     }
   };
   ParameterEditor* editor = std::visit(Maker{description, parent}, description.default_value);

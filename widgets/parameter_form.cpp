@@ -20,7 +20,8 @@ QString with_unit(const std::string& number, const std::string& unit) {
 
 QString domain_text(const ParameterDescription& d) {
   if (!d.choices.empty() || std::holds_alternative<bool>(d.default_value) ||
-      std::holds_alternative<std::string>(d.default_value)) {
+      std::holds_alternative<std::string>(d.default_value) ||
+      std::holds_alternative<ViewOrAuto>(d.default_value)) {
     return {};
   }
   return ParameterForm::tr("Range %1 … %2")

@@ -10,6 +10,9 @@ Json value_json(const ParameterValue& value) {
     Json operator()(const IntervalOrAuto& interval) const {
       return interval ? interval_json(*interval) : Json("auto");
     }
+    Json operator()(const ViewOrAuto& view) const {
+      return view ? Json{view->v, view->u} : Json("auto");
+    }
     Json operator()(const std::string& text) const { return text; }
     Json operator()(bool flag) const { return flag; }
     Json operator()(int number) const { return number; }

@@ -30,7 +30,8 @@ ParameterSet ParameterOptions::values(const Estimator& estimator) const {
 
 bool has_numeric_domain(const ParameterDescription& parameter) {
   return !std::holds_alternative<bool>(parameter.default_value) &&
-         !std::holds_alternative<std::string>(parameter.default_value);
+         !std::holds_alternative<std::string>(parameter.default_value) &&
+         !std::holds_alternative<ViewOrAuto>(parameter.default_value);
 }
 
 std::string domain_text(const ParameterDescription& parameter) {
@@ -40,6 +41,7 @@ std::string domain_text(const ParameterDescription& parameter) {
     for (const auto& choice : parameter.choices) list += (list.empty() ? "" : "|") + choice;
     return list;
   }
+  if (std::holds_alternative<ViewOrAuto>(parameter.default_value)) return "auto|V,U";
   if (!has_numeric_domain(parameter)) return "TEXT";
   const std::string ends = to_text(parameter.min) + " … " + to_text(parameter.max) +
                            (parameter.unit.empty() ? "" : " " + parameter.unit);

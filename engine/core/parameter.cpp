@@ -66,6 +66,11 @@ struct Checker {
       refuse(description, to_text(interval), "auto or A,B with A < B");
     }
   }
+  void operator()(const ViewOrAuto& view) const {
+    if (view && (view->v < 0 || view->u < 0)) {
+      refuse(description, view_text(*view), "auto or V,U, counted from 0");
+    }
+  }
 };
 
 struct Parser {
@@ -96,6 +101,15 @@ struct Parser {
     }
     refuse(description, "'" + text + "'", "auto or two numbers A,B");
   }
+  ParameterValue operator()(const ViewOrAuto&) const {
+    if (text == "auto") return ViewOrAuto{};
+    if (const auto comma = text.find(','); comma != std::string::npos) {
+      const auto v = parse_number<int>(std::string_view(text).substr(0, comma));
+      const auto u = parse_number<int>(std::string_view(text).substr(comma + 1));
+      if (v && u) return ViewOrAuto(ViewIndex{*v, *u});
+    }
+    refuse(description, "'" + text + "'", "auto or V,U, row and column of a view");
+  }
 };
 
 }  // namespace
@@ -109,6 +123,9 @@ std::string to_text(const ParameterValue& value) {
     std::string operator()(const IntervalOrAuto& interval) const {
       return interval ? number_text(interval->min) + "," + number_text(interval->max) : "auto";
     }
+    std::string operator()(const ViewOrAuto& view) const {
+      return view ? view_text(*view) : "auto";
+    }
   };
   return std::visit(Writer{}, value);
 }
@@ -121,8 +138,8 @@ ParameterValue parse_parameter(const ParameterDescription& description, const st
 
 void check_parameter(const ParameterDescription& description, const ParameterValue& value) {
   if (value.index() != description.default_value.index()) {
-    refuse(description, to_text(value), "of the type of its default " +
-                                            to_text(description.default_value));
+    refuse(description, to_text(value),
+           "of the type of its default " + to_text(description.default_value));
   }
   std::visit(Checker{description}, value);
 }

@@ -14,8 +14,11 @@ namespace episcope {
 /// An interval, or empty for "auto": found from the data.
 using IntervalOrAuto = std::optional<Interval>;
 
+/// A view of the camera grid, or empty for "auto": the centre.
+using ViewOrAuto = std::optional<ViewIndex>;
+
 /// Value of one parameter.
-using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAuto>;
+using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAuto, ViewOrAuto>;
 
 /// Values by key, in the order of the schema.
 using ParameterSet = std::vector<std::pair<std::string, ParameterValue>>;
@@ -29,12 +32,12 @@ struct ParameterDescription {
   ParameterValue default_value;
   double min = 0;  ///< Closed domain of numbers and of the ends of intervals.
   double max = 0;
-  bool logarithmic = false;          ///< A slider should move in powers.
-  std::vector<std::string> choices;  ///< For strings: the only values allowed.
+  bool logarithmic = false;              ///< A slider should move in powers.
+  std::vector<std::string> choices;      ///< For strings: the only values allowed.
   std::vector<ParameterValue> searched;  ///< Values that a parameter search tries; empty = none.
 };
 
-/// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`.
+/// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`, `4,4`.
 [[nodiscard]] std::string to_text(const ParameterValue& value);
 
 /// Reads a value of the type of `description.default_value` and checks its domain.

@@ -47,6 +47,16 @@ class Schema {
   Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
     return add(key, member, text, domain);
   }
+  Schema& view(const char* key, ViewOrAuto P::*member, Text text) {
+    return add(key, member, text, {0, 0});
+  }
+
+  /// What else must hold of parameters: `complete` is called on all that `parse` returns, and may
+  /// change some by others.
+  Schema& completed_by(std::function<void(P&)> complete) {
+    complete_ = std::move(complete);
+    return *this;
+  }
 
   /// Names the values that a search for the best parameters tries for a number or flag (0, 1), in
   /// place of those named before; the grid of a method is the product over its parameters. Throws
@@ -75,6 +85,7 @@ class Schema {
       check_parameter(descriptions_[index], value);
       write_[index](parameters, value);
     }
+    if (complete_) complete_(parameters);
     return parameters;
   }
 
@@ -90,8 +101,16 @@ class Schema {
  private:
   template <class T>
   Schema& add(const char* key, T P::*member, Text text, Domain domain) {
-    descriptions_.push_back({key, text.label, text.help, text.unit, P{}.*member, domain.min,
-                             domain.max, domain.logarithmic, {}, {}});
+    descriptions_.push_back({key,
+                             text.label,
+                             text.help,
+                             text.unit,
+                             P{}.*member,
+                             domain.min,
+                             domain.max,
+                             domain.logarithmic,
+                             {},
+                             {}});
     read_.push_back([member](const P& p) { return ParameterValue(p.*member); });
     write_.push_back([member](P& p, const ParameterValue& v) { p.*member = std::get<T>(v); });
     return *this;
@@ -125,6 +144,7 @@ class Schema {
   std::vector<ParameterDescription> descriptions_;
   std::vector<std::function<ParameterValue(const P&)>> read_;
   std::vector<std::function<void(P&, const ParameterValue&)>> write_;
+  std::function<void(P&)> complete_;
 };
 
 }  // namespace episcope

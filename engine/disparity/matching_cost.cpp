@@ -64,14 +64,7 @@ AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
 
 void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
            const std::vector<float>& labels) {
-  if (!lf.grid().contains(reference)) {
-    throw InvalidInput("there is no view " + std::to_string(reference.v) + "," +
-                       std::to_string(reference.u) + ": the grid has " +
-                       std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u) + " views");
-  }
-  if (lf.grid().count() == 1) {
-    throw InvalidInput("stereo needs at least 2 views, but this light field has only 1");
-  }
+  check_matching(lf, reference);
   if (labels.empty()) throw InvalidInput("stereo needs at least one label");
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
 }
@@ -101,6 +94,17 @@ std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, 
 }
 
 }  // namespace
+
+void check_matching(const LightField& lf, ViewIndex reference) {
+  if (!lf.grid().contains(reference)) {
+    throw InvalidInput("there is no view " + view_text(reference) + ": the grid has " +
+                       std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u) +
+                       " views, counted from 0,0");
+  }
+  if (lf.grid().count() == 1) {
+    throw InvalidInput("stereo needs at least 2 views, but this light field has only 1");
+  }
+}
 
 struct MatchingCostRows::State {
   // The part of the reference view that is worked on.

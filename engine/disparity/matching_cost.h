@@ -27,12 +27,14 @@ struct MatchingCost {
   double cap = std::numeric_limits<double>::infinity();
 };
 
+/// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.
+void check_matching(const LightField& light_field, ViewIndex reference);
+
 /// Computes matching costs for some rows of a reference view, for whoever does not want to hold the
 /// whole volume. Not thread-safe: one object for each thread.
 class MatchingCostRows {
  public:
-  /// Throws InvalidInput if the view is not in the grid, there is no other view to compare it with,
-  /// there is no label or the cap is not positive.
+  /// Throws InvalidInput as `check_matching`, or if there is no label or the cap is not positive.
   MatchingCostRows(const LightField& light_field, ViewIndex reference, const MatchingCost& cost,
                    const std::vector<float>& labels);
   ~MatchingCostRows();

@@ -15,6 +15,8 @@ Json to_json(const ParameterValue& value) {
       []<class T>(const T& held) -> Json {
         if constexpr (std::is_same_v<T, IntervalOrAuto>) {
           return held ? Json::array({held->min, held->max}) : Json();
+        } else if constexpr (std::is_same_v<T, ViewOrAuto>) {
+          return held ? Json::array({held->v, held->u}) : Json();
         } else {
           return held;
         }
@@ -28,7 +30,11 @@ ParameterValue from_json(const Json& value) {
   if (value.is_number()) return value.get<double>();
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return IntervalOrAuto{};
-  if (value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number()) {
+  const bool is_pair = value.is_array() && value.size() == 2;
+  if (is_pair && value[0].is_number_integer() && value[1].is_number_integer()) {
+    return ViewOrAuto(ViewIndex{value[0].get<int>(), value[1].get<int>()});
+  }
+  if (is_pair && value[0].is_number() && value[1].is_number()) {
     return IntervalOrAuto(Interval{value[0].get<double>(), value[1].get<double>()});
   }
   return value.dump();

@@ -198,6 +198,9 @@ void EstimatorTest::everyParameterAtItsEnds_runs() {
   if (std::holds_alternative<std::string>(sample)) {
     value = largest ? parameter->choices.back() : parameter->choices.front();
   }
+  if (std::holds_alternative<ViewOrAuto>(sample)) {
+    value = ViewOrAuto(largest ? ViewIndex{4, 4} : ViewIndex{0, 0});
+  }
   if (std::holds_alternative<IntervalOrAuto>(sample)) {
     // The widest interval that begins or ends there.
     value = IntervalOrAuto(largest ? Interval{0, end} : Interval{end, 0});
