@@ -81,7 +81,11 @@ ViewSelection selected_views(const Request& request, const Estimator& estimator)
   if (request.views == "center") return ViewSelection::Center;
   if (estimator.info.all_views) return ViewSelection::All;
   if (request.views.empty()) return ViewSelection::Center;
-  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center");
+  const auto& parameters = estimator.parameters;
+  const bool chooses = std::any_of(parameters.begin(), parameters.end(),
+                                   [](const auto& one) { return one.key == "view"; });
+  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
+                     (chooses ? ", or --view V,U for another" : ""));
 }
 
 /// The light field alone: truth and labels of all views would double the memory that is held.
@@ -93,19 +97,30 @@ LightFieldPtr load_light_field(const Request& request, Job& job) {
   return scene.light_field;
 }
 
-void print_answer(const Request& request, const Estimate& estimate) {
-  const bool is_one_view = estimate.field.disparity.grid().count() == 1;
+/// "all", "center" or row and column of the only view.
+std::string covered_views(const Estimate& estimate, ViewIndex center) {
+  const ViewStack<float>& stack = estimate.field.disparity;
+  if (stack.grid().count() > 1) return "all";
+  return stack.first() == center ? "center" : view_text(stack.first());
+}
+
+std::string covered_views_text(const std::string& views) {
+  if (views == "all") return "all views";
+  return views == "center" ? "the centre view" : "view " + views;
+}
+
+void print_answer(const Request& request, const Estimate& estimate, ViewIndex center) {
+  const std::string views = covered_views(estimate, center);
   if (!request.is_json) {
-    std::cout << request.output << ": " << estimate.method << " of "
-              << (is_one_view ? "the centre view" : "all views") << std::fixed
-              << std::setprecision(2) << " in " << estimate.seconds << " s, disparity "
-              << estimate.range.min << " … " << estimate.range.max << " px, "
+    std::cout << request.output << ": " << estimate.method << " of " << covered_views_text(views)
+              << std::fixed << std::setprecision(2) << " in " << estimate.seconds
+              << " s, disparity " << estimate.range.min << " … " << estimate.range.max << " px, "
               << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
     return;
   }
   Json json;
   json["method"] = estimate.method;
-  json["views"] = is_one_view ? "center" : "all";
+  json["views"] = views;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
@@ -153,7 +168,7 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   io::write_result(request.output, estimate, progress.part(0.9, 1));
   for (const auto& note : estimate.notes) job.note(note);
   job.finish();
-  print_answer(request, estimate);
+  print_answer(request, estimate, light_field->center());
 }
 
 }  // namespace episcope::cli

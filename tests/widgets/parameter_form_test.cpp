@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QSlider>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
 
@@ -27,6 +28,7 @@ struct Parameters {
   std::string fusion = "weighted";
   std::string note = "none";
   IntervalOrAuto range;
+  ViewOrAuto view;
 };
 
 Schema<Parameters> schema() {
@@ -37,6 +39,7 @@ Schema<Parameters> schema() {
       .flag("edges", &Parameters::edges, {"Edges", "Stop at edges."})
       .choice("fusion", &Parameters::fusion, {"Fusion", "How."}, {"weighted", "best"});
   s.interval("range", &Parameters::range, {"Range", "Searched.", "px"}, {-8, 8});
+  s.view("view", &Parameters::view, {"View", "Which."});
   return s;
 }
 
@@ -85,6 +88,7 @@ class ParameterFormTest : public QObject {
     parameters.edges = false;
     parameters.fusion = "best";
     parameters.range = Interval{-1.25, 3.5};
+    parameters.view = ViewIndex{2, 7};
 
     form_.setValues(schema().values(parameters));
     const Parameters back = schema().parse(form_.values());
@@ -95,7 +99,8 @@ class ParameterFormTest : public QObject {
     QCOMPARE(back.edges, false);
     QCOMPARE(back.fusion, parameters.fusion);
     QVERIFY(back.range == parameters.range);
-    QCOMPARE(int(form_.modifiedValues().size()), 6);
+    QVERIFY(back.view == parameters.view);
+    QCOMPARE(int(form_.modifiedValues().size()), 7);
   }
 
   void setValues_clampsAndIgnoresWhatDoesNotFit() {
@@ -186,6 +191,20 @@ class ParameterFormTest : public QObject {
     QVERIFY(range && range->min < range->max);
     control<QCheckBox>("range.auto")->click();
     QVERIFY(!get<IntervalOrAuto>(form_, "range"));
+  }
+
+  void view_isChosenByRowAndColumn() {
+    auto* v = control<QSpinBox>("view.v");
+    QVERIFY(!v->isEnabled());
+
+    control<QCheckBox>("view.auto")->click();
+    v->setValue(3);
+    control<QSpinBox>("view.u")->setValue(5);
+
+    QVERIFY(get<ViewOrAuto>(form_, "view") == (ViewIndex{3, 5}));
+    QVERIFY(is_accepted());
+    control<QCheckBox>("view.auto")->click();
+    QVERIFY(!get<ViewOrAuto>(form_, "view"));
   }
 
   void modifiedParameter_isMarkedAndReset() {

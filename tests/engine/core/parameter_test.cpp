@@ -29,6 +29,7 @@ ParameterDescription description_of(const QString& type) {
   if (type == "integer") return described(3);
   if (type == "real") return described(0.5);
   if (type == "choice") return with_choices();
+  if (type == "view") return described(ViewOrAuto{});
   return described(IntervalOrAuto{}, -10, 10);
 }
 
@@ -75,6 +76,12 @@ class ParameterTest : public QObject {
     QTest::newRow("interval") << "interval"
                               << "-1.5,2"
                               << "-1.5,2";
+    QTest::newRow("view") << "view"
+                          << "4,12"
+                          << "4,12";
+    QTest::newRow("view, auto") << "view"
+                                << "auto"
+                                << "auto";
   }
   void text_roundTrips() {
     QFETCH(QString, type);
@@ -134,6 +141,15 @@ class ParameterTest : public QObject {
     QTest::newRow("interval, far") << "interval"
                                    << "-11,1"
                                    << "from -10 to 10";
+    QTest::newRow("view, one") << "view"
+                               << "4"
+                               << "V,U";
+    QTest::newRow("view, broken") << "view"
+                                  << "4,1.5"
+                                  << "V,U";
+    QTest::newRow("view, below") << "view"
+                                 << "-1,4"
+                                 << "from 0";
   }
   void badText_isRefusedWithKeyValueAndDomain() {
     QFETCH(QString, type);

@@ -98,6 +98,16 @@ class SchemaTest : public QObject {
         error_of({{"range", ParameterValue(IntervalOrAuto(Interval{3, 2}))}}).contains("A < B"));
   }
 
+  void completion_seesWhatWasParsed() {
+    Schema<Tuning> completed = schema();
+    completed.completed_by([](Tuning& tuning) {
+      if (tuning.fusion == "best") tuning.rounds = 1;
+    });
+
+    QCOMPARE(completed.parse({{"rounds", 5}}).rounds, 5);
+    QCOMPARE(completed.parse({{"rounds", 5}, {"fusion", std::string("best")}}).rounds, 1);
+  }
+
   void searchedValues_haveTheTypeOfTheParameter() {
     Schema<Tuning> searched = schema();
 

@@ -100,7 +100,8 @@ class ResultTest : public QObject {
                            {"fast", true},
                            {"kind", std::string("größer")},
                            {"range", IntervalOrAuto(Interval{-1.5, 2})},
-                           {"window", IntervalOrAuto{}}};
+                           {"window", IntervalOrAuto{}},
+                           {"view", ViewOrAuto(ViewIndex{3, 5})}};
     estimate.range = {-1.5, 2};
     estimate.seconds = 1.25;
     estimate.source = "/somewhere/lf.h5";
