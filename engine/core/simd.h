@@ -49,6 +49,23 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   return root;
 }
 
+/// Whether any lane of a comparison holds.
+[[maybe_unused]] inline bool any(IntVec mask) {
+#if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  const auto lanes = reinterpret_cast<__m512i>(mask);
+  return _mm512_test_epi32_mask(lanes, lanes) != 0;
+#elif defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  return _mm256_movemask_ps(reinterpret_cast<__m256>(mask)) != 0;
+#elif defined(__SSE2__) && EPISCOPE_VECTOR_BYTES == 16
+  return _mm_movemask_ps(reinterpret_cast<__m128>(mask)) != 0;
+#else
+  for (int i = 0; i < kLanes; ++i) {
+    if (mask[i] != 0) return true;
+  }
+  return false;
+#endif
+}
+
 /// 1/value to about 22 bits, value > 0: a quarter of the time of a division.
 [[maybe_unused]] inline Vec reciprocal(Vec value) {
 #if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64

@@ -20,8 +20,9 @@ constexpr float kCoherent = 0.95F;
 constexpr double kTail = 0.002;
 // Added to both ends: what the tails and the histogram leave out.
 constexpr double kMargin = 0.1;
-// EPIs looked at in each direction.
+// EPIs looked at in each direction, and how many vertical ones stand side by side.
 constexpr int kLines = 48;
+constexpr int kColumns = 32;
 
 using Histogram = std::vector<double>;
 
@@ -47,9 +48,9 @@ std::vector<Histogram> collect(const LightField& lf, StructureTensor::Direction 
   const ViewIndex center = lf.center();
   const TensorSearch search = cover_range({-limit, limit}, 2);
   const Histogram empty(static_cast<std::size_t>(2 * limit / kCell) + 1, 0.0);
-  const StructureTensor sizes(lf, direction, coarse_scales(), search);
+  const TensorExtent largest = StructureTensor::largest_task(lf, direction, coarse_scales());
   const int extent = horizontal ? lf.height() : lf.width();
-  const int thickness = horizontal ? 1 : sizes.max_width();
+  const int thickness = horizontal ? 1 : std::min(kColumns, largest.width);
   const int step = std::max(thickness, extent * thickness / (kLines * (horizontal ? 1 : 2)));
   const int count = (extent + step - 1) / step;
   std::vector<Histogram> histograms(count, empty);
@@ -72,9 +73,9 @@ std::vector<Histogram> collect(const LightField& lf, StructureTensor::Direction 
         return;
       }
       task.width = std::min(thickness, lf.width() - i * step);
-      for (int y = 0; y < lf.height(); y += tensor->max_height()) {
+      for (int y = 0; y < lf.height(); y += largest.height) {
         task.begin = {y, i * step};
-        task.height = std::min(tensor->max_height(), lf.height() - y);
+        task.height = std::min(largest.height, lf.height() - y);
         tensor->estimate(task, add);
       }
     };

@@ -34,9 +34,20 @@ StructureTensor::Sink store_into(const Maps& maps, int v) {
   };
 }
 
+// The hardware does not foresee steps of a whole image row.
+void prefetch_run(const ViewStack<float>& stack, ViewIndex view, PixelIndex begin, int count) {
+  constexpr int kRowsAhead = 4;
+  constexpr int kCacheLine = 64 / sizeof(float);
+  const int row = std::min(begin.y + kRowsAhead, stack.height() - 1);
+  const float* first = stack.view(view).row(row) + begin.x;
+  for (int i = 0; i < count; i += kCacheLine) __builtin_prefetch(first + i, 1);
+}
+
 StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
   return [&maps, power, u](int v, PixelIndex begin, int count, const float* disparity,
                            const float* coherence) {
+    prefetch_run(maps.disparity, {v, u}, begin, count);
+    prefetch_run(maps.confidence, {v, u}, begin, count);
     merge_orientations(disparity, coherence, count, power,
                        maps.disparity.view({v, u}).row(begin.y) + begin.x,
                        maps.confidence.view({v, u}).row(begin.y) + begin.x);
@@ -75,26 +86,24 @@ using ColumnSink = std::function<StructureTensor::Sink(int u)>;
 void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                   const ColumnSink& sink_of, const Progress& progress) {
   const LightField& lf = maps.light_field;
-  const StructureTensor sizes(lf, StructureTensor::Direction::Vertical, scales, search);
-  const int width = sizes.max_width();
-  const int height = sizes.max_height();
-  const int blocks = (lf.width() + width - 1) / width;
+  const auto [height, width] =
+      StructureTensor::largest_task(lf, StructureTensor::Direction::Vertical, scales);
+  const int across = (lf.width() + width - 1) / width;
+  const int blocks = across * ((lf.height() + height - 1) / height);
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().u * blocks, progress, [&]() -> std::function<void(int)> {
     auto tensor =
         std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical, scales, search);
     return [&, tensor](int i) {
       const int u = first.u + i / blocks;
-      const int x = i % blocks * width;
-      for (int y = 0; y < lf.height(); y += height) {
-        const TensorTask task{u,
-                              {y, x},
-                              std::min(height, lf.height() - y),
-                              std::min(width, lf.width() - x),
-                              first.v,
-                              first.v + maps.grid().v};
-        tensor->estimate(task, sink_of(u));
-      }
+      const PixelIndex begin{i % blocks / across * height, i % blocks % across * width};
+      const TensorTask task{u,
+                            begin,
+                            std::min(height, lf.height() - begin.y),
+                            std::min(width, lf.width() - begin.x),
+                            first.v,
+                            first.v + maps.grid().v};
+      tensor->estimate(task, sink_of(u));
     };
   });
 }

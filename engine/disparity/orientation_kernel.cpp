@@ -46,11 +46,12 @@ void select_row(const float* const* tensor, int stride, const float* taps, float
     const Vec difference = xx - ss;
     const Vec twice = -2.0F * xs;
     const Vec whole = xx + ss + (noise_energy + 1e-20F);
-    const Vec coherence =
-        (difference * difference + twice * twice) * reciprocal(whole * whole);
+    const Vec coherence = (difference * difference + twice * twice) * reciprocal(whole * whole);
     const Vec so_far = load(best[3] + n);
     const IntVec better = (difference > 0.0F) & (twice >= bounds.below * difference) &
                           (twice <= bounds.above * difference) & (coherence > so_far);
+    // A shear far from the disparities here: mostly no lane is better.
+    if (!any(better)) continue;
     // Back to unsheared coordinates: ∂s = ∂s' − k ∂x.
     const Vec unsheared_xs = xs - upright * xx;
     const Vec unsheared_ss = ss - upright * (xs + unsheared_xs);

@@ -18,10 +18,26 @@ namespace {
 // Lanes that a kernel may read or write beyond what it is asked for.
 constexpr int kSlack = 128;
 constexpr int kMaxRows = 32;
+// Of the widest instruction set: rows begin at whole vectors, where strides allow it.
+constexpr int kVectorLanes = 16;
 
 // How far beyond the range noisy estimates are followed, in px: cut off at the range itself, noise
 // about a disparity near its end would no longer average out.
 constexpr double kOvershoot = 0.35;
+
+int rounded(int lanes) {
+  return (lanes + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+}
+
+// A vertical block: whole vectors wide, so that shears move it by whole vectors.
+constexpr int kBlockColumns = 4 * kVectorLanes;
+
+// The views are cut into blocks of about equal height.
+int block_height(const LightField& lf) {
+  constexpr int kMostRows = 128;
+  const int blocks = (lf.height() + kMostRows - 1) / kMostRows;
+  return (lf.height() + blocks - 1) / blocks;
+}
 
 int views_along(const LightField& lf, StructureTensor::Direction direction) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
@@ -59,8 +75,8 @@ struct StructureTensor::State {
   const TensorFilters& filters = set.filters;
   const Taps& across = set.across;
   TensorBlock block;
-  int columns = 0;         // Lanes of a pixel row of a vertical block, with the neighbours across.
-  int payload_pixels = 0;  // Along the EPI, at most.
+  int columns = kBlockColumns;  // Lanes of a pixel row of a vertical block, neighbours included.
+  int payload_pixels = 0;       // Along the EPI, at most.
   bool with_half = false;
   std::vector<float> memory;
   SamplePlanes planes;
@@ -95,12 +111,8 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
 }
 
 void StructureTensor::State::size_block() {
-  // Rows of a vertical block: its planes stay in the L2 cache.
-  constexpr int kBand = 128;
-  constexpr int kPayloadColumns = 32;
-  columns = kPayloadColumns + 2 * across.radius;
   block.stride = horizontal() ? 1 : columns;
-  payload_pixels = horizontal() ? light_field.width() : std::min(light_field.height(), kBand);
+  payload_pixels = horizontal() ? light_field.width() : block_height(light_field);
   int largest = 0;
   for (const int shear : search.half_step_shears) {
     largest = std::max(largest, std::abs(shear));
@@ -111,11 +123,10 @@ void StructureTensor::State::size_block() {
   const int reach = (set.view_reach * largest + 1) / 2 + filters.integrate.radius + 3;
   block.margin = (reach + filters.smooth.radius + 4) * block.stride;
   block.tensor_margin =
-      (largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack;
+      rounded((largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack);
 }
 
 void StructureTensor::State::allocate() {
-  const auto rounded = [](int lanes) { return (lanes + 15) / 16 * 16; };
   const int payload = payload_pixels * block.stride;
   block.pitch = rounded(2 * block.margin + payload + kSlack);
   block.tensor_pitch = rounded(2 * block.tensor_margin + payload + kSlack);
@@ -126,9 +137,10 @@ void StructureTensor::State::allocate() {
   const std::size_t best = 4 * rows * block.best_pitch;
   const std::size_t slot_count = horizontal() ? 2 * across.radius + 1 : 1;
   memory.assign(image * (with_half ? 5 : 3) + 2 * block.pitch + 3 * tensor + slot_count * best +
-                    2 * block.best_pitch + 2 * kSlack,
+                    2 * block.best_pitch + 2 * kSlack + kVectorLanes,
                 0.0F);
-  float* next = memory.data() + kSlack;
+  const auto misaligned = reinterpret_cast<std::uintptr_t>(memory.data()) / sizeof(float);
+  float* next = memory.data() + kSlack + (kVectorLanes - misaligned % kVectorLanes) % kVectorLanes;
   const auto take = [&next](std::size_t count) { return std::exchange(next, next + count); };
   block.samples = take(image);
   for (int half = 0; half < (with_half ? 2 : 1); ++half) {
@@ -155,8 +167,7 @@ void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const
   const int row = std::min(y + kRowsAhead, light_field.height() - 1);
   const std::uint8_t* first =
       light_field.view<std::uint8_t>(view).row(row) + static_cast<std::size_t>(x) * block.channels;
-  __builtin_prefetch(first);
-  __builtin_prefetch(first + kCacheLine);
+  for (int i = 0; i < columns * block.channels; i += kCacheLine) __builtin_prefetch(first + i);
 }
 
 void StructureTensor::State::gather_horizontal(const TensorTask& task, int y) {
@@ -279,13 +290,10 @@ StructureTensor::StructureTensor(const LightField& light_field, Direction direct
 StructureTensor::~StructureTensor() = default;
 StructureTensor::StructureTensor(StructureTensor&&) noexcept = default;
 
-int StructureTensor::max_height() const {
-  return state_->horizontal() ? state_->light_field.height() : state_->payload_pixels;
-}
-
-int StructureTensor::max_width() const {
-  return state_->horizontal() ? state_->payload_pixels
-                              : state_->columns - 2 * state_->across.radius;
+TensorExtent StructureTensor::largest_task(const LightField& lf, Direction direction,
+                                           const TensorScales& scales) {
+  if (direction == Direction::Horizontal) return {lf.height(), lf.width()};
+  return {block_height(lf), kBlockColumns - 2 * gaussian_radius(scales.across)};
 }
 
 void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {

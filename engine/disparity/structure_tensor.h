@@ -31,6 +31,12 @@ struct TensorTask {
   int first_view = 0, last_view = 0;  ///< Wanted views [first, last) of that line: u or v.
 };
 
+/// Size of a rectangle of image pixels.
+struct TensorExtent {
+  int height = 0;
+  int width = 0;
+};
+
 /// Disparity and coherence of the views of an EPI by the structure tensor: smoothing with σ_i,
 /// derivatives (central difference along, Scharr's [3,10,3]/16 across), products summed over
 /// colour channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² +
@@ -47,7 +53,7 @@ struct TensorTask {
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
 /// out right.
 ///
-/// Not thread-safe: one object for each thread. Takes 2 to 6 MB.
+/// Not thread-safe: one object for each thread. Takes 2 to 10 MB.
 class StructureTensor {
  public:
   enum class Direction { Horizontal, Vertical };
@@ -64,8 +70,8 @@ class StructureTensor {
   StructureTensor(StructureTensor&&) noexcept;
 
   /// Largest rectangle of one task: narrow blocks for vertical EPIs, whole rows for horizontal.
-  [[nodiscard]] int max_height() const;
-  [[nodiscard]] int max_width() const;
+  [[nodiscard]] static TensorExtent largest_task(const LightField& light_field, Direction direction,
+                                                 const TensorScales& scales);
 
   void estimate(const TensorTask& task, const Sink& sink);
 

@@ -100,9 +100,11 @@ RowSource source_of(const TensorBlock& block, const Shear& shear, int row) {
 
 constexpr int kMaxChannels = 3;
 
-struct RowPointers {
-  const float* along[kMaxChannels][kMaxTaps];
-  const float* across[kMaxChannels][kMaxTaps];
+// The rows that a filter along the views takes in, with their taps; zero taps are left out.
+struct RowSources {
+  int count = 0;
+  float taps[kMaxTaps];
+  const float* rows[kMaxChannels][kMaxTaps];
 };
 
 // Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
@@ -120,16 +122,13 @@ inline void multiply_add(Group& sum, float tap, const float* from) {
 
 // Products of the gradient at a group of lanes, all channels summed, toned down and stored.
 template <int kChannels>
-inline void products_group(const RowPointers& rows, const RowTaps& smooth,
-                           const RowTaps& derivative, float contrast, int n,
-                           float* __restrict const* out) {
+inline void products_group(const RowSources& along, const RowSources& across, float contrast,
+                           long n, float* __restrict const* out) {
   Group xx{}, xs{}, ss{};
   for (int c = 0; c < kChannels; ++c) {
     Group gx{}, gs{};
-    for (int i = 0; i < smooth.count; ++i) {
-      multiply_add(gx, smooth.values[i], rows.along[c][i] + n);
-      multiply_add(gs, derivative.values[i], rows.across[c][i] + n);
-    }
+    for (int i = 0; i < along.count; ++i) multiply_add(gx, along.taps[i], along.rows[c][i] + n);
+    for (int i = 0; i < across.count; ++i) multiply_add(gs, across.taps[i], across.rows[c][i] + n);
     for (int k = 0; k < kGroup; ++k) {
       xx.at[k] += gx.at[k] * gx.at[k];
       xs.at[k] += gx.at[k] * gs.at[k];
@@ -139,32 +138,28 @@ inline void products_group(const RowPointers& rows, const RowTaps& smooth,
   for (int k = 0; k < kGroup; ++k) {
     // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
     const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
-    store(out[0] + n + k * kLanes, weight * xx.at[k]);
-    store(out[1] + n + k * kLanes, weight * xs.at[k]);
-    store(out[2] + n + k * kLanes, weight * ss.at[k]);
-  }
-}
-
-template <int kChannels>
-void products_row(const RowPointers& rows, const RowTaps& smooth, const RowTaps& derivative,
-                  float contrast, int begin, int end, float* const* out) {
-  for (int n = begin; n < end; n += kGroupLanes) {
-    products_group<kChannels>(rows, smooth, derivative, contrast, n, out);
+    store(out[0] + k * kLanes, weight * xx.at[k]);
+    store(out[1] + k * kLanes, weight * xs.at[k]);
+    store(out[2] + k * kLanes, weight * ss.at[k]);
   }
 }
 
 // The widest grid axis whose products of a chunk are kept on the stack.
 constexpr int kMaxRows = 32;
 
-void fill_pointers(const TensorBlock& block, const Shear& shear, const RowTaps& taps, int chunk,
-                   RowPointers& rows) {
+// Pointers to lane 0 of the sheared coordinates.
+void find_sources(const TensorBlock& block, const Shear& shear, float* const* planes,
+                  const RowTaps& taps, RowSources& sources) {
   const long plane = static_cast<long>(block.rows) * block.pitch;
+  sources.count = 0;
   for (int i = 0; i < taps.count; ++i) {
+    if (taps.values[i] == 0) continue;
     const RowSource source = source_of(block, shear, taps.first + i);
+    sources.taps[sources.count] = taps.values[i];
     for (int c = 0; c < block.channels; ++c) {
-      rows.along[c][i] = block.along[source.half] + c * plane + source.offset + chunk;
-      rows.across[c][i] = block.across[source.half] + c * plane + source.offset + chunk;
+      sources.rows[c][sources.count] = planes[source.half] + c * plane + source.offset;
     }
+    ++sources.count;
   }
 }
 
@@ -215,7 +210,7 @@ void integrate_rows(const float (*products)[kChunk + kGroupLanes], const RowTaps
 Window clip(Window window, int chunk) {
   const int begin = window.begin - chunk;
   const int end = window.end - chunk;
-  return {begin < 0 ? 0 : begin, end > kChunk ? kChunk : end};
+  return {begin < 0 ? 0 : begin & ~(kLanes - 1), end > kChunk ? kChunk : end};
 }
 
 struct ChunkProducts {
@@ -223,32 +218,40 @@ struct ChunkProducts {
   alignas(64) float values[3][kMaxRows][kChunk + kGroupLanes];
 };
 
-void fill_products(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
-                   int row, int chunk, Window window, ChunkProducts& products) {
-  RowPointers rows;
-  const RowTaps& smooth = filters.row_smooth[row];
-  fill_pointers(block, shear, smooth, chunk, rows);
-  float* const out[3] = {products.values[0][row], products.values[1][row], products.values[2][row]};
-  const auto run = block.channels == 1 ? products_row<1> : products_row<3>;
-  run(rows, smooth, filters.row_derivative[row], filters.contrast_energy, window.begin, window.end,
-      out);
+// What one row contributes under a shear, and where that is needed.
+struct RowWork {
+  RowSources along, across;
+  Window window;
+};
+
+template <int kChannels>
+void fill_products(const RowWork& work, float contrast, int row, int chunk,
+                   ChunkProducts& products) {
+  const Window window = clip(work.window, chunk);
+  for (int n = window.begin; n < window.end; n += kGroupLanes) {
+    float* const out[3] = {products.values[0][row] + n, products.values[1][row] + n,
+                           products.values[2][row] + n};
+    products_group<kChannels>(work.along, work.across, contrast, chunk + n, out);
+  }
 }
 
 void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
   ChunkProducts products;
-  Window sources[kMaxRows];
+  RowWork work[kMaxRows];
   Window whole{0, 0};
   for (int r = 0; r < block.rows; ++r) {
-    sources[r] = source_window(block, filters, shear, r);
-    if (sources[r].begin < whole.begin) whole.begin = sources[r].begin;
-    if (sources[r].end > whole.end) whole.end = sources[r].end;
+    find_sources(block, shear, block.along, filters.row_smooth[r], work[r].along);
+    find_sources(block, shear, block.across, filters.row_derivative[r], work[r].across);
+    work[r].window = source_window(block, filters, shear, r);
+    if (work[r].window.begin < whole.begin) whole.begin = work[r].window.begin;
+    if (work[r].window.end > whole.end) whole.end = work[r].window.end;
   }
-  for (int chunk = whole.begin; chunk < whole.end; chunk += kChunk) {
+  const auto fill = block.channels == 1 ? fill_products<1> : fill_products<3>;
+  // Chunks begin at whole vectors of the planes.
+  const int first = whole.begin / kLanes * kLanes - kLanes;
+  for (int chunk = first; chunk < whole.end; chunk += kChunk) {
     for (int r = 0; r < block.rows; ++r) {
-      const Window window = clip(sources[r], chunk);
-      if (window.begin < window.end) {
-        fill_products(block, filters, shear, r, chunk, window, products);
-      }
+      fill(work[r], filters.contrast_energy, r, chunk, products);
     }
     for (int r = block.first_row; r < block.last_row; ++r) {
       const Window window = clip(target_window(block, filters, shear, r), chunk);

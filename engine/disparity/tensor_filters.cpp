@@ -8,11 +8,6 @@
 namespace episcope {
 namespace {
 
-// Cut at 2σ, where the Gaussian has fallen to 13 %.
-int gaussian_radius(double sigma) {
-  return static_cast<int>(std::ceil(2 * sigma));
-}
-
 double gaussian(double sigma, int offset) {
   return sigma > 0 ? std::exp(-0.5 * offset * offset / (sigma * sigma)) : (offset == 0 ? 1 : 0);
 }
@@ -110,6 +105,11 @@ int reach_of(const std::vector<RowTaps>& filter) {
 }
 
 }  // namespace
+
+// Cut at 2σ, where the Gaussian has fallen to 13 %.
+int gaussian_radius(double sigma) {
+  return static_cast<int>(std::ceil(2 * sigma));
+}
 
 TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& scales) {
   const int inner = gaussian_radius(scales.inner);

@@ -25,6 +25,9 @@ struct TensorFilterSet {
   std::vector<RowTaps> row_smooth, row_derivative, row_integrate;
 };
 
+/// Half the length of the Gaussian of that σ.
+[[nodiscard]] int gaussian_radius(double sigma);
+
 /// Gaussians cut at 2σ and normalised; along the views truncated at the first and last and
 /// renormalised. σ = 0 leaves a filter out.
 [[nodiscard]] TensorFilterSet make_tensor_filters(int rows, int channels,
