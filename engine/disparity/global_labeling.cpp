@@ -54,18 +54,19 @@ void label_globally(const LightField& light_field, const GlobalLabelingData& dat
   progress.step("labeling");
   const LiftedResult result = solve_lifted_labeling(
       problem, {.max_iterations = parameters.max_iterations, .gap = parameters.gap},
-      progress.part(0, 0.95));
+      progress.part(0, 0.85));
   estimate.notes.push_back(labeling_note(result));
   estimate.field.disparity =
       ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, data.view);
   const ImageView<float> disparity = estimate.field.disparity.view(data.view);
   if (parameters.settling > 0) {
     progress.step("settling between labels");
-    settle(data, result.labels, g, parameters.settling, disparity, progress.part(0.95, 1));
-    return;
+    settle(data, result.labels, g, parameters.settling, disparity, progress.part(0.85, 1));
+  } else {
+    std::transform(result.labels.begin(), result.labels.end(), disparity.data,
+                   [&](int label) { return data.labels[label]; });
   }
-  std::transform(result.labels.begin(), result.labels.end(), disparity.data,
-                 [&](int label) { return data.labels[label]; });
+  progress.report(1);
 }
 
 }  // namespace episcope

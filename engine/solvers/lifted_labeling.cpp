@@ -306,12 +306,15 @@ LiftedResult cheapest_labels(const LiftedProblem& problem) {
   return result;
 }
 
-// How far the solver has come: the gap falls about geometrically.
-double done_share(double gap, const LiftedOptions& options, int iterations) {
+// How far the solver has come, as far as can be told between two looks at the gap; and by the gap,
+// which falls about geometrically.
+double share_by_iterations(int iterations) {
+  return std::min(0.7, 1 - std::exp2(-iterations / 6.0));
+}
+double share_by_gap(double gap, double wanted) {
   constexpr double first_gap = 0.3;
-  const double by_gap = std::log(std::max(gap, 1e-12) / first_gap) /
-                        std::log(std::clamp(options.gap, 1e-9, first_gap / 2) / first_gap);
-  return std::max(by_gap, static_cast<double>(iterations) / options.max_iterations);
+  return std::log(std::max(gap, 1e-12) / first_gap) /
+         std::log(std::clamp(wanted, 1e-9, first_gap / 2) / first_gap);
 }
 
 }  // namespace
@@ -334,13 +337,15 @@ LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOpt
     const Progress quiet = progress.part(done, done);
     lifting.iterate(quiet);
     ++result.iterations;
+    done = std::max(done, share_by_iterations(result.iterations));
+    progress.report(done);
     last = result.iterations >= options.max_iterations || progress.finish_requested();
     if (!last && result.iterations % check_every != 0) continue;
     lifting.measure(result, quiet);
     const double gap = result.relative_gap();
     result.converged = gap <= options.gap;
     last = last || result.converged;
-    done = std::clamp(done_share(gap, options, result.iterations), done, 1.0);
+    done = std::clamp(share_by_gap(gap, options.gap), done, 1.0);
     progress.report(done);
     progress.step(gap_text(gap));
   }
