@@ -34,7 +34,7 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// "Averages are over 2 of 3 scenes, those that every entry has; missing: cotton (epi_c)."
+/// "Averages and ranks are over 2 of 3 scenes, …. Left out for a gap: cotton (epi_c)."
 std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
   if (ranking.missing.empty()) return {};
   std::vector<std::string> gaps;
@@ -42,16 +42,15 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
     std::vector<std::string> lacking;
     for (std::size_t entry = 0; entry < matrix.entries.size(); ++entry) {
       const auto& scores = matrix.scores[entry];
-      const bool takes_part = std::any_of(scores.begin(), scores.end(),
-                                          [](const auto& score) { return score.has_value(); });
-      if (takes_part && !scores[scene]) lacking.push_back(matrix.entries[entry]);
+      if (has_score(scores) && !scores[scene]) lacking.push_back(matrix.entries[entry]);
     }
     gaps.push_back(matrix.scenes[scene] + " (" + listed(lacking) + ")");
   }
   const std::size_t total = ranking.scenes.size() + ranking.missing.size();
   const std::string left_out = "Left out for a gap: " + listed(gaps) + ".";
-  if (ranking.scenes.empty())
+  if (ranking.scenes.empty()) {
     return "No scene has a score of every entry, so nobody is ranked. " + left_out;
+  }
   return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
          std::to_string(total) + " scenes, those that every entry has. " + left_out;
 }
@@ -137,10 +136,12 @@ ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol p
 }
 
 TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) {
-  const Ranking ranking = rank_entries(matrix, kScoreDigits);
+  Ranking ranking = rank_entries(matrix, kScoreDigits);
+  std::erase_if(ranking.order, [&](std::size_t entry) { return !has_score(matrix.scores[entry]); });
   TitledTable titled{title, gap_note(matrix, ranking), {{"scene"}, {}}, {}};
-  for (const std::size_t entry : ranking.order)
+  for (const std::size_t entry : ranking.order) {
     titled.table.header.push_back(matrix.entries[entry]);
+  }
   const auto in_order = [&](const auto& value_of) {
     std::vector<std::optional<double>> values;
     for (const std::size_t entry : ranking.order) values.push_back(value_of(entry));

@@ -10,10 +10,6 @@ namespace {
 
 using Scores = std::vector<std::optional<double>>;
 
-bool has_score(const Scores& scores) {
-  return std::any_of(scores.begin(), scores.end(), [](const auto& score) { return score; });
-}
-
 void divide_scenes(const ScoreMatrix& matrix, Ranking& ranking) {
   for (std::size_t scene = 0; scene < matrix.scenes.size(); ++scene) {
     bool is_scored = false;
@@ -34,6 +30,11 @@ std::optional<double> average(const Scores& scores, const std::vector<std::size_
 }
 
 }  // namespace
+
+bool has_score(const Scores& scores) {
+  return std::any_of(scores.begin(), scores.end(),
+                     [](const auto& score) { return score.has_value(); });
+}
 
 Ranking rank_entries(const ScoreMatrix& matrix, int digits) {
   Ranking ranking;

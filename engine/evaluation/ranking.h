@@ -24,6 +24,9 @@ struct Ranking {
   std::vector<std::size_t> order;               ///< Entries, best first, those not ranked last.
 };
 
+/// Whether any of the scores of an entry is there.
+[[nodiscard]] bool has_score(const std::vector<std::optional<double>>& scores);
+
 /// Ranks by the average over the scenes that all ranked entries have, so that nobody gains by
 /// leaving out a hard scene. Entries without any score are not ranked; a scene without any score is
 /// neither averaged nor missing. Averages that agree when rounded to `digits` share the better

@@ -138,6 +138,10 @@ class RankingTest : public QObject {
     const auto tables = benchmark_tables({result("a", "x", 2)});
 
     QCOMPARE(tables.size(), std::size_t{2});  // no second protocol, no layers
+    const auto with_another =
+        benchmark_tables({result("a", "x", 2), result("b", "x", std::nullopt)});
+    QCOMPARE(with_another[1].table.header, (std::vector<std::string>{"scene", "a"}));
+    QCOMPARE(with_another[0].table.rows[1][1], std::string("–"));  // the overview tells of it
     QCOMPARE(results_table({result("a", "x", 2)}).rows[0],
              (std::vector<std::string>{"a", "x", "1.000", "yes", "2.000000", ""}));
   }
