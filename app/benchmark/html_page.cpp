@@ -30,7 +30,8 @@ th { font-weight: 600; border-bottom-width: 2px; cursor: pointer; }
 tbody tr:nth-child(even) { background: var(--band); }
 td.best { font-weight: 700; color: var(--best); }
 .tiles { display: grid; grid-template-columns: repeat(auto-fill, minmax(200px, 1fr)); gap: 14px; }
-.entry { display: grid; grid-template-columns: 1fr 1fr; gap: 4px; }
+.entry { display: grid; grid-template-columns: 1fr 1fr; gap: 4px; align-content: start; }
+tfoot tr:first-child td { border-top: 2px solid var(--line); }
 .entry, .tile { break-inside: avoid; margin: 0; }
 .entries { display: grid; grid-template-columns: repeat(auto-fill, minmax(330px, 1fr)); gap: 18px;
   margin-top: 14px; }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/submission.h"
 
+#include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
 #include "engine/core/text_table.h"
 #include "engine/io/parse_number.h"
-#include "engine/io/result_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -119,9 +119,13 @@ std::optional<Estimate> read_submission(const fs::path& folder, const LightField
     throw IoError(folder, "holds several maps of " + scene + ", " + maps[0].filename().string() +
                               " and " + maps[1].filename().string() + "; leave one");
   }
-  Estimate estimate = io::read_result(maps.front(), light_field.grid(), scene);
+  Estimate estimate = read_result_of(light_field, maps.front());
   check_fits(estimate, light_field, maps.front().string());
   check_values(maps.front(), light_field.center(), estimate);
+  if (estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash()) {
+    estimate.notes.push_back(maps.front().filename().string() +
+                             ": it was estimated from other samples than those of this scene");
+  }
   if (!(estimate.seconds > 0)) estimate.seconds = seconds_of(folder, scene);
   return estimate;
 }

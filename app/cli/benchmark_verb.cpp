@@ -85,7 +85,9 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
   if (failures.empty()) return;
   const std::string more =
       failures.size() == 1 ? "" : " (and " + std::to_string(failures.size() - 1) + " more)";
-  throw Error(failures.front() + more + "; the tables of the others are in " + folder);
+  std::string first = failures.front();
+  if (first.ends_with('.')) first.pop_back();
+  throw Error(first + more + "; the tables of the others are in " + folder);
 }
 
 void print_answer(const Request& request, const BenchmarkReport& report) {

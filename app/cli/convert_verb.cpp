@@ -5,6 +5,7 @@
 #include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
+#include "app/session/read_result.h"
 #include "engine/io/image_file.h"
 #include "engine/io/pfm.h"
 #include "engine/io/ply.h"

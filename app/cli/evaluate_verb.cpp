@@ -8,6 +8,7 @@
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "app/session/judgement.h"
+#include "app/session/read_result.h"
 #include "engine/core/text_table.h"
 #include "engine/io/image_file.h"
 

@@ -3,6 +3,7 @@
 
 #include "app/cli/output.h"
 #include "app/session/load_scene.h"
+#include "app/session/read_result.h"
 #include "engine/core/error.h"
 #include "engine/io/hdf5_file.h"
 #include "engine/io/result_file.h"
@@ -19,18 +20,12 @@ bool is_map(const io::Hdf5Dataset& dataset) {
          (dataset.shape.size() == 2 || dataset.shape.size() == 4);
 }
 
-/// Whether an HDF5 file holds what only comes with a light field.
-bool holds_light_field(const io::Hdf5Input& file) {
-  return file.has("LF") || file.has("GT_DEPTH") || file.has("GT_DEPTH_FOREGROUND") ||
-         file.has("GT_DEPTH_BACKGROUND");
-}
-
 /// An HDF5 file of another program with at least one map. Which one is meant is told on reading.
 bool is_foreign_hdf5_result(const fs::path& path) {
   if (!io::has_hdf5_signature(path)) return false;
   const io::Hdf5Input file(path);
   const auto datasets = file.datasets();
-  return !holds_light_field(file) && std::any_of(datasets.begin(), datasets.end(), is_map);
+  return !holds_light_field(path) && std::any_of(datasets.begin(), datasets.end(), is_map);
 }
 
 /// The views that a map from elsewhere covers.
@@ -53,16 +48,6 @@ bool names_result(const std::string& argument) {
   const std::string suffix = suffix_of(argument);
   return suffix == ".pfm" || suffix == ".tif" || suffix == ".tiff" ||
          io::is_result_file(argument) || is_foreign_hdf5_result(argument);
-}
-
-Estimate read_result_of(const LightField& light_field, const fs::path& path) {
-  std::error_code ignored;
-  if (fs::is_regular_file(path, ignored) && io::has_hdf5_signature(path) &&
-      !io::is_result_file(path) && holds_light_field(io::Hdf5Input(path))) {
-    throw IoError(path,
-                  "holds a light field or true depth and no estimated disparity; name a result");
-  }
-  return io::read_result(path, light_field.grid(), light_field.info().name);
 }
 
 Estimate read_result_alone(const fs::path& path) {

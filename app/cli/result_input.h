@@ -14,11 +14,6 @@ namespace episcope::cli {
 /// field, a PFM, a TIFF.
 [[nodiscard]] bool names_result(const std::string& argument);
 
-/// Reads a result of this light field. Throws IoError, also for a file that holds a light field or
-/// depth, which would else be judged as disparity.
-[[nodiscard]] Estimate read_result_of(const LightField& light_field,
-                                      const std::filesystem::path& path);
-
 /// Reads a result without its light field: a result file knows the places of its views; a map from
 /// elsewhere becomes view 0,0. Throws IoError.
 [[nodiscard]] Estimate read_result_alone(const std::filesystem::path& path);

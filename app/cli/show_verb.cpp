@@ -7,6 +7,7 @@
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "app/session/judgement.h"
+#include "app/session/read_result.h"
 #include "engine/io/image_file.h"
 #include "engine/render/color_map.h"
 

@@ -52,7 +52,7 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
     return "No scene has a score of every entry, so nobody is ranked. " + left_out;
   }
   return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
-         std::to_string(total) + " scenes, those that every entry has. " + left_out;
+         std::to_string(total) + " scenes, those that every ranked entry has. " + left_out;
 }
 
 bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
