@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/flood_fill.h"
+#include "engine/core/error.h"
+
+#include <QtTest>
+
+#include <cmath>
+#include <random>
+
+using namespace episcope;
+
+namespace {
+
+Image<std::uint8_t> drawn(const PixelRegion& region, int height, int width) {
+  Image<std::uint8_t> picture(height, width);
+  for (const PixelSpan& span : region) {
+    for (int x = span.x0; x < span.x1; ++x) ++picture.at(span.y, x);
+  }
+  return picture;
+}
+
+// The plainest flood fill: spreads from pixel to pixel until nothing changes.
+Image<std::uint8_t> spread(const Image<std::int32_t>& map, PixelIndex seed) {
+  Image<std::uint8_t> reached(map.height(), map.width());
+  reached.at(seed.y, seed.x) = 1;
+  for (bool is_growing = true; is_growing;) {
+    is_growing = false;
+    for (int y = 0; y < map.height(); ++y) {
+      for (int x = 0; x < map.width(); ++x) {
+        if (reached.at(y, x) != 0 || map.at(y, x) != map.at(seed.y, seed.x)) continue;
+        const bool touches = (y > 0 && reached.at(y - 1, x) != 0) ||
+                             (y + 1 < map.height() && reached.at(y + 1, x) != 0) ||
+                             (x > 0 && reached.at(y, x - 1) != 0) ||
+                             (x + 1 < map.width() && reached.at(y, x + 1) != 0);
+        if (!touches) continue;
+        reached.at(y, x) = 1;
+        is_growing = true;
+      }
+    }
+  }
+  return reached;
+}
+
+}  // namespace
+
+class FloodFillTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void segment_isWhatSpreadingReaches() {
+    std::mt19937 random(2);
+    for (int i = 0; i < 40; ++i) {
+      Image<std::int32_t> map(23, 31);
+      // Two labels near the percolation threshold: long, winding segments.
+      for (std::int32_t& label : map) label = random() % 100 < 59 ? 1 : 2;
+      const PixelIndex seed{static_cast<int>(random() % 23), static_cast<int>(random() % 31)};
+
+      const auto filled = drawn(region_of_segment(map.view(), seed), 23, 31);
+
+      const auto expected = spread(map, seed);
+      QVERIFY(std::equal(filled.begin(), filled.end(), expected.begin()));
+    }
+  }
+
+  void fill_stopsAtEdges() {
+    Image<float> picture(20, 30, 3, 0.2F);
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 15; x < 30; ++x) picture.at(y, x, 1) = 0.5F;  // in one channel only
+    }
+
+    const auto filled = drawn(region_within_edges(picture.view(), {10, 5}, 0.1), 20, 30);
+
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 30; ++x) QCOMPARE(int{filled.at(y, x)}, x < 14 ? 1 : 0);
+    }
+    QVERIFY(region_within_edges(picture.view(), {10, 15}, 0.1).empty());
+  }
+
+  void fill_isHeldByALineOfOnePixel() {
+    Image<float> picture(20, 30, 1, 0.2F);
+    for (int y = 0; y < 20; ++y) picture.at(y, 15) = 0.9F;
+
+    const auto filled = drawn(region_within_edges(picture.view(), {10, 5}, 0.1), 20, 30);
+
+    QCOMPARE(int{filled.at(10, 13)}, 1);
+    QCOMPARE(int{filled.at(10, 25)}, 0);
+  }
+
+  void fill_crossesSlowChanges() {
+    Image<float> picture(4, 100);
+    for (int y = 0; y < 4; ++y) {
+      for (int x = 0; x < 100; ++x) picture.at(y, x) = 0.009F * static_cast<float>(x);
+    }
+
+    QCOMPARE(region_within_edges(picture.view(), {0, 0}, 0.01).size(), std::size_t{4});
+    QVERIFY(region_within_edges(picture.view(), {0, 0}, 0.008).empty());
+    QVERIFY_EXCEPTION_THROWN((void)region_within_edges(picture.view(), {0, 0}, -1), InvalidInput);
+  }
+
+  void seedsOutside_fillNothing() {
+    const Image<float> picture(4, 5);
+    const Image<std::int32_t> map(4, 5);
+
+    QVERIFY(region_within_edges(picture.view(), {4, 0}, 1).empty());
+    QVERIFY(region_of_segment(map.view(), {0, -1}).empty());
+  }
+};
+
+QTEST_APPLESS_MAIN(FloodFillTest)
+#include "flood_fill_test.moc"
