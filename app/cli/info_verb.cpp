@@ -36,7 +36,12 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
     json["labels"] = {{"views", summary.label_views}, {"ids", summary.label_ids}};
   }
   if (summary.painted_percent > 0) {
-    json["scribbles"] = {{"view", {scene.scribbles.view.v, scene.scribbles.view.u}},
+    Json views = Json::array();
+    for (const ViewScribbles& one : scene.scribbles.views) {
+      views.push_back({one.view.v, one.view.u});
+    }
+    json["scribbles"] = {{"view", views.front()},
+                         {"views", views},
                          {"painted_percent", summary.painted_percent},
                          {"ids", summary.scribble_ids}};
   }
@@ -138,8 +143,8 @@ void print_truth(const Scene& scene, const SceneSummary& summary) {
   if (summary.painted_percent > 0) {
     std::ostringstream painted;
     painted.precision(3);
-    painted << summary.painted_percent << " % of view " << view_text(scene.scribbles.view)
-            << ", labels " << ids_text(summary.scribble_ids);
+    painted << summary.painted_percent << " % of view " << summary.painted_views << ", labels "
+            << ids_text(summary.scribble_ids);
     print_line("scribbles", painted.str());
   }
   std::string regions;

@@ -53,9 +53,9 @@ SceneSummary::Truth summarize_truth(const DisparityField& field, const LightFiel
           center.interval(), all.interval()};
 }
 
-/// Label ids above 0, and how many samples carry one.
+/// Adds label ids above 0 to `ids`; returns how many samples carry one.
 std::size_t collect_ids(const std::int32_t* labels, std::size_t count, std::vector<int>& ids) {
-  std::set<int> found;
+  std::set<int> found(ids.begin(), ids.end());
   std::size_t painted = 0;
   int last = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -91,11 +91,15 @@ SceneSummary summarize(const Scene& scene) {
     summary.label_views = covered_views(truth.labels, *scene.light_field);
     collect_ids(truth.labels.data(), truth.labels.size(), summary.label_ids);
   }
-  if (const auto& scribbles = scene.scribbles.labels; !scribbles.empty()) {
-    const std::size_t painted =
-        collect_ids(scribbles.data(), scribbles.size(), summary.scribble_ids);
-    summary.painted_percent =
-        100.0 * static_cast<double>(painted) / static_cast<double>(scribbles.size());
+  std::size_t painted = 0;
+  std::size_t pixels = 0;
+  for (const auto& [view, labels] : scene.scribbles.views) {
+    painted += collect_ids(labels.data(), labels.size(), summary.scribble_ids);
+    pixels += labels.size();
+    summary.painted_views += (summary.painted_views.empty() ? "" : " ") + view_text(view);
+  }
+  if (pixels > 0) {
+    summary.painted_percent = 100.0 * static_cast<double>(painted) / static_cast<double>(pixels);
   }
   return summary;
 }

@@ -22,7 +22,8 @@ struct SceneSummary {
   bool has_layers = false;
   std::string label_views;     ///< As Truth::views.
   std::vector<int> label_ids;  ///< Ascending.
-  double painted_percent = 0;  ///< Of the scribbled view.
+  std::string painted_views;   ///< "4,4 4,5".
+  double painted_percent = 0;  ///< Of the pixels of these.
   std::vector<int> scribble_ids;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/ground_truth.h"
+#include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
 
 #include <cstdint>
@@ -13,19 +14,27 @@ namespace episcope {
 
 /// Which conversion to the house convention a reader made, and how it was checked.
 struct ConventionReport {
-  std::string format;  ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
-  std::string order;   ///< "as stored", "u reversed (file h axis)", …
+  std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;        ///< "as stored", "u reversed (file h axis)", …
   std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
   std::string units;        ///< How depth was turned into disparity, and what spoke for it.
   std::vector<std::string> warnings;  ///< A sentence each.
-  bool reversed_u = false;  ///< Whether stored columns of views were reversed, for companions,
-  bool reversed_v = false;  ///< and rows.
+  bool reversed_u = false;     ///< Whether stored columns of views were reversed, for companions,
+  bool reversed_v = false;     ///< and rows.
+  bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.
 };
 
-/// Scribbles of one view: 0 = unpainted, else a label id.
-struct Scribbles {
+/// What is painted on one view: 0 = unpainted, else a label id.
+struct ViewScribbles {
   ViewIndex view;
   Image<std::int32_t> labels;
+};
+
+/// What is painted on a light field.
+struct Scribbles {
+  std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
+  std::vector<LabelInfo> labels;     ///< As far as names and colours are known, by id.
+  [[nodiscard]] bool empty() const { return views.empty(); }
 };
 
 /// A large companion file found beside the light field, read when it is needed.
@@ -39,7 +48,7 @@ struct Companion {
 struct Scene {
   LightFieldPtr light_field;
   GroundTruthPtr truth;  ///< Never null; its parts may be missing.
-  Scribbles scribbles;   ///< `labels` empty if there are none.
+  Scribbles scribbles;
   std::vector<Companion> companions;
   ConventionReport convention;
 };

@@ -9,6 +9,7 @@
 #include "engine/io/float_samples.h"
 #include "engine/io/order_check.h"
 #include "engine/io/scene_name.h"
+#include "engine/io/scribble_dataset.h"
 
 #include <algorithm>
 #include <cmath>
@@ -195,10 +196,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   put_in_order(samples, truth, expected_order(file), options.flip, report, progress);
   zero_odd_samples(samples, report);
   scene.scribbles = std::move(labels.scribbles);
-  if (!scene.scribbles.labels.empty()) {
-    scene.scribbles.view =
-        flipped(scene.scribbles.view, grid, {report.reversed_u, report.reversed_v});
-  }
+  put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
   info.camera = depth.camera;
   scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));

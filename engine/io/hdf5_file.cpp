@@ -2,14 +2,12 @@
 #include "engine/io/hdf5_file.h"
 
 #include "engine/core/error.h"
+#include "engine/io/hdf5_handle.h"
 #include "engine/io/system_error.h"
-
-#include <hdf5.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
-#include <mutex>
 #include <utility>
 
 namespace episcope::io {
@@ -18,37 +16,6 @@ namespace {
 static_assert(sizeof(hid_t) == sizeof(std::int64_t));
 
 constexpr std::size_t kChunkCacheLimit = std::size_t{256} << 20;
-
-std::recursive_mutex& hdf5_mutex() {
-  static std::recursive_mutex mutex;
-  return mutex;
-}
-
-/// Holds the lock of the library.
-class Session {
- public:
-  Session() : lock_(hdf5_mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
- private:
-  std::scoped_lock<std::recursive_mutex> lock_;
-};
-
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-  [[nodiscard]] bool ok() const { return id_ >= 0; }
-  [[nodiscard]] hid_t release() { return std::exchange(id_, -1); }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 template <class T>
 hid_t native_type() {
@@ -78,18 +45,18 @@ Hdf5Shape shape_of(hid_t space) {
 }
 
 Hdf5Dataset describe(hid_t dataset, const std::string& name) {
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   return {name, shape_of(space), type_of(type)};
 }
 
 /// Room for all chunks that the views of one row of chunks share: else a file whose chunks span
 /// several views would be decompressed once for every view.
 std::size_t chunk_cache_bytes(hid_t dataset) {
-  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
   if (!creation.ok() || H5Pget_layout(creation) != H5D_CHUNKED) return 0;
-  const Handle space(H5Dget_space(dataset), H5Sclose);
-  const Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   const Hdf5Shape shape = shape_of(space);
   std::vector<hsize_t> chunk(shape.size());
   if (shape.size() < 4 ||
@@ -105,11 +72,11 @@ std::size_t chunk_cache_bytes(hid_t dataset) {
 }
 
 hid_t open_with_cache(hid_t file, const std::string& name) {
-  Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   if (!plain.ok()) return -1;
   const std::size_t bytes = chunk_cache_bytes(plain);
   if (bytes == 0) return plain.release();
-  const Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 100003, bytes, 1.0);
   return H5Dopen2(file, name.c_str(), access);
 }
@@ -146,7 +113,7 @@ herr_t list_object(hid_t group, const char* name, const H5L_info_t*, void* listi
 Listing list_group(hid_t file, const std::string& name) {
   Listing listing;
   hsize_t next = 0;
-  const Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+  const Hdf5Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
   if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &next, list_object, &listing);
   return listing;
 }
@@ -196,8 +163,8 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   if (!has_hdf5_signature(path)) {
     throw IoError(path, "this is not an HDF5 file, whatever its name says; choose another file");
   }
-  const Session session;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Hdf5Session session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
@@ -209,18 +176,18 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
 }
 
 Hdf5Input::~Hdf5Input() {
-  const Session session;
+  const Hdf5Session session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 bool Hdf5Input::has(const std::string& name) const {
-  const Session session;
+  const Hdf5Session session;
   return path_exists(file_, name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
-  const Session session;
+  const Hdf5Session session;
   const Listing root = list_group(file_, "/");
   std::vector<std::string> names = root.datasets;
   for (const std::string& group : root.groups) {
@@ -230,7 +197,7 @@ std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   }
   std::vector<Hdf5Dataset> found;
   for (const std::string& name : names) {
-    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (dataset.ok()) found.push_back(describe(dataset, name));
   }
   return found;
@@ -243,7 +210,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all" : held) + "; choose another file");
   }
-  const Session session;
+  const Hdf5Session session;
   if (is_group(file_, name)) {
     throw IoError(path_, name +
                              " is a group in this file, but must be a dataset; store the samples "
@@ -266,11 +233,11 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
 
 template <class T>
 void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
-  const Session session;
+  const Hdf5Session session;
   const hid_t id = open_dataset(name);
-  const Handle space(H5Dget_space(id), H5Sclose);
-  const Handle memory(memory_space(block), H5Sclose);
-  const Handle stored(H5Dget_type(id), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
+  const Hdf5Handle stored(H5Dget_type(id), H5Tclose);
   // A boolean of other programs is an enumeration, which HDF5 does not convert.
   const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
   const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
@@ -288,8 +255,8 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) cons
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
 
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
-  const Session session;
-  return Handle(open_attribute(file_, object, name), H5Aclose).ok();
+  const Hdf5Session session;
+  return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();
 }
 
 std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
@@ -298,11 +265,11 @@ std::optional<double> Hdf5Input::number(const std::string& object, const std::st
 }
 
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
-  const Session session;
-  const Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  const Hdf5Session session;
+  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
-  const Handle type(H5Aget_type(attribute), H5Tclose);
-  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   const H5T_class_t kind = H5Tget_class(type);
   if (count < 1 || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return {};
@@ -313,11 +280,11 @@ std::vector<double> Hdf5Input::numbers(const std::string& object, const std::str
 
 std::optional<std::string> Hdf5Input::text(const std::string& object,
                                            const std::string& name) const {
-  const Session session;
-  const Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  const Hdf5Session session;
+  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
-  const Handle type(H5Aget_type(attribute), H5Tclose);
-  const Handle space(H5Aget_space(attribute), H5Sclose);
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
   if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
   if (H5Tis_variable_str(type) > 0) {
     char* value = nullptr;
@@ -332,8 +299,8 @@ std::optional<std::string> Hdf5Input::text(const std::string& object,
 }
 
 Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
-  const Session session;
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const Hdf5Session session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   use_logging_write_driver(access, log_);
@@ -342,15 +309,15 @@ Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
 }
 
 Hdf5Output::~Hdf5Output() {
-  const Session session;
+  const Hdf5Session session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 void Hdf5Output::add_group(const std::string& name) {
-  const Session session;
-  const Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                     H5Gclose);
+  const Hdf5Session session;
+  const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose);
   require(group.ok());
 }
 
@@ -358,11 +325,11 @@ template <class T>
 void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
                              const std::string& axes, const std::string& units) {
   {
-    const Session session;
+    const Hdf5Session session;
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
-    const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
-                       H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(
+        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
     const hid_t id = H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation,
                                 H5P_DEFAULT);
@@ -375,10 +342,10 @@ void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
 
 template <class T>
 void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T* in) {
-  const Session session;
+  const Hdf5Session session;
   const hid_t id = datasets_.at(name);
-  const Handle space(H5Dget_space(id), H5Sclose);
-  const Handle memory(memory_space(block), H5Sclose);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
   require(select(space, block) &&
           H5Dwrite(id, native_type<T>(), memory, space, H5P_DEFAULT, in) >= 0);
 }
@@ -414,8 +381,8 @@ void Hdf5Output::set_numbers(const std::string& object, const std::string& name,
 
 void Hdf5Output::set_text(const std::string& object, const std::string& name,
                           const std::string& value) {
-  const Session session;
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  const Hdf5Session session;
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, value.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);
   set_attribute(object, name, type, {}, value.c_str());
@@ -423,19 +390,19 @@ void Hdf5Output::set_text(const std::string& object, const std::string& name,
 
 void Hdf5Output::set_attribute(const std::string& object, const std::string& name,
                                std::int64_t type, const Hdf5Shape& shape, const void* value) {
-  const Session session;
+  const Hdf5Session session;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  const Handle space(
+  const Hdf5Handle space(
       extent.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, extent.data(), nullptr),
       H5Sclose);
-  const Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
-                                           H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+  const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
+                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
   require(attribute.ok() && H5Awrite(attribute, type, value) >= 0);
 }
 
 void Hdf5Output::close() {
-  const Session session;
+  const Hdf5Session session;
   bool is_done = true;
   for (const auto& [name, id] : datasets_) is_done &= H5Dclose(id) >= 0;
   datasets_.clear();

@@ -71,6 +71,8 @@ class Hdf5Input {
                                                 const std::string& name) const;
 
  private:
+  friend class Hdf5Output;  // Copies from here.
+
   [[nodiscard]] std::int64_t open_dataset(const std::string& name) const;
 
   std::filesystem::path path_;
@@ -88,6 +90,8 @@ class Hdf5Output {
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
 
+  /// Copies every object and attribute of the root group as stored, but those named.
+  void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
   void add_group(const std::string& name);
   /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
   template <class T>

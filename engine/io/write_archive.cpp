@@ -3,6 +3,7 @@
 #include "engine/io/atomic_file.h"
 #include "engine/io/hdf5_file.h"
 #include "engine/io/map_writer.h"
+#include "engine/io/scribble_dataset.h"
 #include "engine/io/write_scene.h"
 
 #include <algorithm>
@@ -151,16 +152,14 @@ void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress
   if (!scene.truth->labels.empty()) {
     write_stack(file, "GT_LABELS", scene.truth->labels, "", progress);
   }
-  const Image<std::int32_t>& painted = scene.scribbles.labels;
-  if (painted.empty()) return;
-  const Hdf5Shape shape = map_shape({1, 1}, painted.height(), painted.width());
-  file.add_dataset<std::int32_t>("SCRIBBLES", shape, "y,x", "");
-  file.write("SCRIBBLES", {{0, 0}, shape}, painted.data());
-  file.set_integers("/", "scribble_view", {scene.scribbles.view.v, scene.scribbles.view.u});
+  if (scene.scribbles.empty()) return;
+  const LightField& field = *scene.light_field;
+  add_scribbles(file, scene.scribbles, {{field.grid(), field.height(), field.width()}, {}, false},
+                progress);
 }
 
 bool has_labels(const Scene& scene) {
-  return !scene.truth->labels.empty() || !scene.scribbles.labels.empty();
+  return !scene.truth->labels.empty() || !scene.scribbles.empty();
 }
 
 /// Whether labels.h5 may be written: there is none, or it is ours of the same light field. Labels
@@ -221,7 +220,11 @@ std::uintmax_t scene_bytes(const Scene& scene) {
 
 std::uintmax_t label_bytes(const Scene& scene) {
   const std::size_t labels = scene.truth->labels.empty() ? 0 : scene.truth->labels.size();
-  return 4 * (labels + scene.scribbles.labels.size()) + (1 << 16);
+  const LightField& field = *scene.light_field;
+  const std::size_t views = scene.scribbles.views.size();
+  const std::size_t painted = (views > 1 ? static_cast<std::size_t>(field.grid().count()) : views) *
+                              field.height() * field.width();
+  return 4 * (labels + painted) + (1 << 16);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));
   if (recipe.has_scribbles) {
     const ViewIndex center = options.grid.center();
-    scene.scribbles = {center, scribble(cast.truth.labels.view(center))};
+    scene.scribbles.views.push_back({center, scribble(cast.truth.labels.view(center))});
   }
   scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
   scene.convention.format = "built-in scene";

@@ -48,9 +48,10 @@ class ArchiveTest : public QObject {
     QCOMPARE(std::memcmp(read.truth->labels.data(), scene.truth->labels.data(),
                          scene.truth->labels.size() * 4),
              0);
-    QCOMPARE(read.scribbles.view, scene.scribbles.view);
-    QVERIFY(std::equal(read.scribbles.labels.begin(), read.scribbles.labels.end(),
-                       scene.scribbles.labels.begin()));
+    QCOMPARE(read.scribbles.views.at(0).view, scene.scribbles.views.at(0).view);
+    QVERIFY(std::equal(read.scribbles.views.at(0).labels.begin(),
+                       read.scribbles.views.at(0).labels.end(),
+                       scene.scribbles.views.at(0).labels.begin()));
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
   }
 
@@ -235,9 +236,9 @@ class ArchiveTest : public QObject {
 
     QCOMPARE(read.truth->labels.view({0, 4}).at(0, 0), 9);
     QCOMPARE(read.truth->labels.view({0, 0}).at(0, 0), 3);
-    QCOMPARE(read.scribbles.view, (ViewIndex{1, 4}));
-    QCOMPARE(read.scribbles.labels.at(0, 17), 4);
-    QCOMPARE(read.scribbles.labels.at(0, 16), 0);
+    QCOMPARE(read.scribbles.views.at(0).view, (ViewIndex{1, 4}));
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 17), 4);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 16), 0);
   }
 
   void scribbles_acceptEveryNone_data() {
@@ -259,9 +260,9 @@ class ArchiveTest : public QObject {
 
     const Scribbles scribbles = open(path("lf.h5")).scribbles;
 
-    QCOMPARE(scribbles.view, (ViewIndex{2, 2}));
-    QCOMPARE(scribbles.labels.at(1, 2), 6);
-    QCOMPARE(scribbles.labels.at(0, 0), 0);
+    QCOMPARE(scribbles.views.at(0).view, (ViewIndex{2, 2}));
+    QCOMPARE(scribbles.views.at(0).labels.at(1, 2), 6);
+    QCOMPARE(scribbles.views.at(0).labels.at(0, 0), 0);
   }
 
   void labelZero_isRaisedWhereNoneIsMarkedOtherwise() {
@@ -280,9 +281,9 @@ class ArchiveTest : public QObject {
 
     const Scene read = open(path("lf.h5"));
 
-    QCOMPARE(read.scribbles.labels.at(0, 5), 1);
-    QCOMPARE(read.scribbles.labels.at(0, 6), 2);
-    QCOMPARE(read.scribbles.labels.at(0, 7), 0);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 5), 1);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 6), 2);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 7), 0);
     QCOMPARE(read.truth->labels.view({0, 0}).at(0, 0), 1);
     QVERIFY(QString::fromStdString(describe(read.convention)).contains("raised by one"));
   }

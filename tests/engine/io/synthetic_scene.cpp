@@ -50,10 +50,10 @@ Scene plane_scene(const PlaneOptions& options) {
   info.camera.cam_distance = 12;
   scene.light_field = std::make_shared<LightField>(std::move(views), std::move(info));
   scene.truth = std::make_shared<GroundTruth>(std::move(truth));
-  scene.scribbles.view = center;
-  scene.scribbles.labels = Image<std::int32_t>(options.height, options.width);
-  scene.scribbles.labels.at(3, 4) = 1;
-  scene.scribbles.labels.at(3, options.width - 4) = 2;
+  Image<std::int32_t> painted(options.height, options.width);
+  painted.at(3, 4) = 1;
+  painted.at(3, options.width - 4) = 2;
+  scene.scribbles.views.push_back({center, std::move(painted)});
   return scene;
 }
 

@@ -117,7 +117,7 @@ class BuiltinTest : public QObject {
     QVERIFY(scene.light_field->sample_type() == SampleType::UInt8);
     QCOMPARE(scene.truth->field.disparity.grid(), (GridShape{2, 5}));
     QCOMPARE(scene.truth->labels.height(), 40);
-    QCOMPARE(scene.scribbles.labels.width(), 57);
+    QCOMPARE(scene.scribbles.views.at(0).labels.width(), 57);
   }
 
   void renderBuiltin_fillsEveryPixelWithTruth_data() { add_every_scene(); }
@@ -320,16 +320,16 @@ class BuiltinTest : public QObject {
     const Scene scene = render(id.toStdString());
 
     std::set<int> painted;
-    const auto truth = scene.truth->labels.view(scene.scribbles.view);
+    const auto truth = scene.truth->labels.view(scene.scribbles.views.at(0).view);
     for (int y = 0; y < kSize; ++y) {
       for (int x = 0; x < kSize; ++x) {
-        const int label = scene.scribbles.labels.at(y, x);
+        const int label = scene.scribbles.views.at(0).labels.at(y, x);
         if (label == 0) continue;
         painted.insert(label);
         QCOMPARE(label, truth.at(y, x));
       }
     }
-    QCOMPARE(scene.scribbles.view, (ViewIndex{1, 1}));
+    QCOMPARE(scene.scribbles.views.at(0).view, (ViewIndex{1, 1}));
     QCOMPARE(static_cast<int>(painted.size()), labels);
   }
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/document.h"
+#include "engine/core/scene.h"
+
+namespace episcope {
+
+/// The painted views and the labels of a document, as they are written to files.
+[[nodiscard]] Scribbles scribbles_of(const AnnotationDocument& document);
+
+/// A document that begins with scribbles read from a file. Painted ids without a name get a default
+/// one and a colour of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or
+/// views that do not fit.
+[[nodiscard]] AnnotationDocument document_from(
+    const Scribbles& scribbles, GridShape grid, int height, int width,
+    std::size_t history_bytes = AnnotationDocument::kHistoryBytes);
+
+}  // namespace episcope

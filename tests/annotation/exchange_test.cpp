@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/exchange.h"
+#include "engine/core/error.h"
+#include "tests/annotation/random_edits.h"
+
+#include <QtTest>
+
+using namespace episcope;
+
+class ExchangeTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void documents_comeBack() {
+    AnnotationDocument document({3, 2}, 30, 40);
+    test::RandomEdits edits(6);
+    for (int i = 0; i < 60; ++i) edits.make_one(document);
+
+    const AnnotationDocument copy = document_from(scribbles_of(document), {3, 2}, 30, 40);
+
+    QVERIFY(copy.scribbles() == document.scribbles());
+    QVERIFY(copy.labels().labels() == document.labels().labels());
+    QVERIFY(!copy.has_unsaved_changes());
+    QVERIFY(!copy.history().next_undo());
+  }
+
+  void idsWithoutNames_getDefaults() {
+    Scribbles scribbles;
+    scribbles.views.push_back({{0, 1}, Image<std::int32_t>(4, 5)});
+    scribbles.views[0].labels.at(2, 3) = 7;
+    scribbles.labels = {{2, "known", {9, 9, 9}}};
+
+    const AnnotationDocument document = document_from(scribbles, {1, 2}, 4, 5);
+
+    QVERIFY(document.labels().labels() ==
+            (std::vector<LabelInfo>{{2, "known", {9, 9, 9}}, {7, "label 7", label_color(7)}}));
+    QCOMPARE(document.scribbles().label_at({0, 1}, {2, 3}), 7);
+  }
+
+  void misfits_areRefused() {
+    Scribbles scribbles;
+    scribbles.views.push_back({{0, 0}, Image<std::int32_t>(4, 5)});
+
+    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 5, 5), InvalidInput);
+    scribbles.views[0].labels.at(0, 0) = 256;
+    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 4, 5), InvalidInput);
+    scribbles.views[0].view = {1, 0};
+    QVERIFY_EXCEPTION_THROWN((void)document_from(scribbles, {1, 1}, 4, 5), InvalidInput);
+  }
+};
+
+QTEST_APPLESS_MAIN(ExchangeTest)
+#include "exchange_test.moc"
