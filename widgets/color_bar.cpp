@@ -6,6 +6,7 @@
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
+#include <QAction>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -46,8 +48,8 @@ ColorBar::ColorBar(QWidget* parent)
           {"colorBar.lock", "unlock", tr("Lock the range: it stays when the result changes")},
           this)),
       automatic_(make_tool_button(
-          {"colorBar.automatic", "auto", tr("Automatic range of this map (A)")}, this)),
-      own_(make_tool_button({"colorBar.own", "reset", tr("The quantity's own range (R)")}, this)) {
+          {"colorBar.automatic", "auto", tr("Automatic range of what is in sight")}, this)),
+      own_(make_tool_button({"colorBar.own", "reset", tr("The quantity's own range")}, this)) {
   setObjectName("colorBar");
   title_->setObjectName("colorBar.title");
   title_->setTextInteractionFlags(Qt::NoTextInteraction);
@@ -116,6 +118,14 @@ void ColorBar::setRangeLocked(bool locked) {
   const QSignalBlocker blocker(lock_);
   lock_->setChecked(locked);
   lock_->setIcon(themed_icon(locked ? "lock" : "unlock"));
+}
+
+void ColorBar::followTips(const QAction* automatic, const QAction* own) {
+  for (const auto& [button, action] : {std::pair{automatic_, automatic}, std::pair{own_, own}}) {
+    const auto follow = [button, action] { button->setToolTip(action->toolTip()); };
+    connect(action, &QAction::changed, button, follow);
+    follow();
+  }
 }
 
 Interval ColorBar::range() const {

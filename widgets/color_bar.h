@@ -6,6 +6,7 @@
 #include <QString>
 #include <QWidget>
 
+class QAction;
 class QDoubleSpinBox;
 class QLabel;
 class QToolButton;
@@ -26,6 +27,9 @@ class ColorBar : public QWidget {
   /// Marks a value on the ramp, e.g. at the cursor; NaN = none.
   void setMarker(double value);
   void setRangeLocked(bool locked);
+
+  /// The buttons take the tool tips of what they do, with the keys in them.
+  void followTips(const QAction* automatic, const QAction* own);
 
   [[nodiscard]] Interval range() const;
   [[nodiscard]] bool isRangeLocked() const;

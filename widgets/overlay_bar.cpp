@@ -54,6 +54,12 @@ QString quantity_label(Quantity quantity) {
   return {};
 }
 
+QString quantity_unit(Quantity quantity) {
+  const bool is_in_px = quantity == Quantity::Disparity || quantity == Quantity::Truth ||
+                        quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError;
+  return is_in_px ? OverlayBar::tr("px") : QString();
+}
+
 OverlayBar::OverlayBar(QWidget* parent)
     : QWidget(parent),
       title_(new QLabel(tr("Overlay"), this)),

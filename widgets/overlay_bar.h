@@ -17,6 +17,8 @@ namespace episcope {
 
 /// Name of a quantity for users; "none" for Quantity::View.
 [[nodiscard]] QString quantity_label(render::Quantity quantity);
+/// "px", or nothing where numbers have no unit.
+[[nodiscard]] QString quantity_unit(render::Quantity quantity);
 
 /// One row of controls above the canvas: which overlay, how opaque, and the focus plane (shear).
 /// Setters never emit.

@@ -6,15 +6,16 @@
 #include <QAction>
 #include <QMenu>
 #include <QMenuBar>
+#include <QSettings>
 #include <QWidget>
+
+#include <algorithm>
 
 namespace episcope {
 namespace {
 
-QString tool_tip(const Command& command) {
-  if (command.keys.isEmpty()) return command.tip;
-  return QStringLiteral("%1 (%2)").arg(command.tip,
-                                       command.keys.front().toString(QKeySequence::NativeText));
+QString settings_key(const QString& id) {
+  return "keys/" + id;
 }
 
 }  // namespace
@@ -25,9 +26,7 @@ ActionTable::ActionTable(QWidget* window, QWidget* viewer)
 QAction* ActionTable::add(const Command& command) {
   auto* action = new QAction(command.text, this);
   action->setObjectName(command.id);
-  action->setToolTip(tool_tip(command));
   action->setStatusTip(command.tip);
-  action->setShortcuts(command.keys);
   action->setCheckable(command.is_checkable);
   if (!command.icon.isEmpty()) action->setIcon(themed_icon(command.icon));
   const bool is_viewer = command.scope == KeyScope::Viewer;
@@ -36,12 +35,87 @@ QAction* ActionTable::add(const Command& command) {
   if (command.run) connect(action, &QAction::triggered, this, [run = command.run] { run(); });
   commands_.push_back(command);
   actions_[command.id] = action;
+  const QSettings settings;
+  QList<QKeySequence> keys = command.keys;
+  if (settings.contains(settings_key(command.id))) {
+    keys.clear();
+    for (const QString& key : settings.value(settings_key(command.id)).toStringList()) {
+      keys << QKeySequence(key, QKeySequence::PortableText);
+    }
+  }
+  apply(command, keys);
   return action;
+}
+
+void ActionTable::apply(const Command& command, const QList<QKeySequence>& keys) {
+  keys_[command.id] = keys;
+  QAction* action = find(command.id);
+  // Of a held key, press and release are heard by who needs them.
+  if (command.scope != KeyScope::Held) action->setShortcuts(keys);
+  action->setToolTip(keys.isEmpty() ? command.tip
+                                    : QStringLiteral("%1 (%2)").arg(
+                                          command.tip,
+                                          keys.front().toString(QKeySequence::NativeText)));
 }
 
 QAction* ActionTable::find(const QString& id) const {
   const auto found = actions_.find(id);
   return found == actions_.end() ? nullptr : found->second;
+}
+
+const Command* ActionTable::command(const QString& id) const {
+  const auto found = std::find_if(commands_.begin(), commands_.end(),
+                                  [&](const Command& each) { return each.id == id; });
+  return found == commands_.end() ? nullptr : &*found;
+}
+
+QList<QKeySequence> ActionTable::keys(const QString& id) const {
+  const auto found = keys_.find(id);
+  return found == keys_.end() ? QList<QKeySequence>() : found->second;
+}
+
+bool ActionTable::hasOwnKeys(const QString& id) const {
+  const Command* found = command(id);
+  return found && keys(id) != found->keys;
+}
+
+QString ActionTable::userOf(const QKeySequence& key) const {
+  for (const auto& [id, keys] : keys_) {
+    if (keys.contains(key)) return id;
+  }
+  return {};
+}
+
+void ActionTable::setKeys(const QString& id, const QList<QKeySequence>& keys) {
+  const Command* found = command(id);
+  if (!found) return;
+  QStringList texts;
+  for (const QKeySequence& key : keys) texts << key.toString(QKeySequence::PortableText);
+  if (keys == found->keys) {
+    QSettings().remove(settings_key(id));
+  } else {
+    QSettings().setValue(settings_key(id), texts);
+  }
+  apply(*found, keys);
+  emit keysChanged();
+}
+
+void ActionTable::resetKeys(const QString& id) {
+  const Command* found = command(id);
+  if (!found) return;
+  // Keys that another command was given meanwhile stay with it.
+  QList<QKeySequence> free;
+  for (const QKeySequence& key : found->keys) {
+    const QString user = userOf(key);
+    if (user.isEmpty() || user == id) free << key;
+  }
+  setKeys(id, free);
+}
+
+void ActionTable::resetAllKeys() {
+  QSettings().remove("keys");
+  for (const Command& each : commands_) apply(each, each.keys);
+  emit keysChanged();
 }
 
 void ActionTable::fillMenus(QMenuBar& bar) const {

@@ -5,6 +5,7 @@
 #include "app/gui/compare_controller.h"
 #include "app/gui/main_window.h"
 #include "app/gui/overlay_controller.h"
+#include "app/gui/statistics_controller.h"
 #include "app/session/session.h"
 
 #include <QAction>
@@ -110,6 +111,14 @@ void add_choice_actions(ActionTable& table, MainWindow& window) {
              .keys = {Qt::Key_D},
              .run = [&window] { window.compare().toggleDifference(); },
              .is_checkable = true});
+  table.add({.id = "compare.flip",
+             .menu = menu,
+             .text = tr("Flip to B"),
+             .tip = tr("Shows B, the compared result, while the key is held in the view"),
+             .icon = "",
+             .keys = {Qt::Key_Tab},
+             .run = [&overlay] { overlay.setFlipped(!overlay.isFlipped()); },
+             .scope = KeyScope::Held});
   table.add({.id = "compare.swap",
              .menu = menu,
              .text = tr("Swap A and B"),
@@ -124,10 +133,10 @@ void add_choice_actions(ActionTable& table, MainWindow& window) {
   table.add({.id = "compare.auto_range",
              .menu = menu,
              .text = tr("Automatic range"),
-             .tip = tr("Stretches the colours over the values of this map"),
+             .tip = tr("Stretches the colours over the values in sight"),
              .icon = "auto",
              .keys = {Qt::Key_A},
-             .run = [&overlay] { overlay.useAutomaticRange(); },
+             .run = [&window] { window.statistics().useAutomaticRange(); },
              .begins_group = true});
   table.add({.id = "compare.own_range",
              .menu = menu,

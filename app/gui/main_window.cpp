@@ -17,10 +17,12 @@
 #include "app/gui/queued_post.h"
 #include "app/gui/scene_info.h"
 #include "app/gui/shortcut_window.h"
+#include "app/gui/statistics_controller.h"
 #include "app/gui/value_controller.h"
 #include "app/session/load_scene.h"
 #include "app/session/session.h"
 #include "engine/core/version.h"
+#include "widgets/color_bar.h"
 #include "widgets/compare_bar.h"
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
@@ -59,6 +61,7 @@ MainWindow::MainWindow(QWidget* parent)
   browse_ = new BrowseController(*session_, panels_, this);
   overlay_ = new OverlayController(*session_, panels_, this);
   compare_ = new CompareController(*session_, *overlay_, panels_, this);
+  statistics_ = new StatisticsController(*session_, *overlay_, panels_, this);
   values_ = new ValueController(*session_, *overlay_, panels_, this);
   estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
@@ -67,6 +70,8 @@ MainWindow::MainWindow(QWidget* parent)
   cloud_ = new CloudController(*session_, *overlay_, panels_, this);
   actions_ = new ActionTable(this, panels_.viewer);
   add_actions(*actions_, *this);
+  panels_.color_bar->followTips(actions_->find("compare.auto_range"),
+                                actions_->find("compare.own_range"));
   palette_ = new CommandPalette(*actions_, this);
   buildBars();
   connectJobs();
@@ -87,7 +92,7 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, opener_, metrics_, estimate_, values_, compare_, overlay_, browse_,
+           cloud_, exporter_, opener_, metrics_, estimate_, values_, statistics_, compare_, overlay_, browse_,
            jobs_}) {
     delete each;
   }
@@ -158,6 +163,8 @@ void MainWindow::connectControllers() {
   connect(estimate_, &EstimateController::exportRequested, exporter_,
           &ExportController::exportResultDialog);
   connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);
+  connect(panels_.color_bar, &ColorBar::automaticRangeRequested, statistics_,
+          &StatisticsController::useAutomaticRange);
   connect(compare_, &CompareController::modeChanged, this, &MainWindow::updateActions);
   connect(opener_, &OpenController::previewing, compare_, &CompareController::leave);
   connect(opener_, &OpenController::previewing, overlay_, &OverlayController::setSuspended);
@@ -196,6 +203,7 @@ void MainWindow::updateActions() {
     actions_->find(id)->setEnabled(compare_->isAvailable(mode));
     actions_->find(id)->setChecked(compare_->mode() == mode);
   }
+  actions_->find("compare.flip")->setEnabled(has_result);
   for (const char* id : {"compare.difference", "compare.swap"}) {
     actions_->find(id)->setEnabled(session_->compared() != nullptr);
   }
@@ -256,11 +264,17 @@ void MainWindow::escape() {
 }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-  const bool is_key = event->type() == QEvent::KeyPress || event->type() == QEvent::KeyRelease;
-  if (watched == panels_.canvas && is_key) {
+  const bool is_press = event->type() == QEvent::KeyPress;
+  if (watched == panels_.canvas && (is_press || event->type() == QEvent::KeyRelease)) {
     const auto* key = static_cast<QKeyEvent*>(event);
-    if (key->key() == Qt::Key_Tab && key->modifiers() == Qt::NoModifier) {
-      if (!key->isAutoRepeat()) overlay_->setFlipped(event->type() == QEvent::KeyPress);
+    for (const QKeySequence& flip : actions_->keys("compare.flip")) {
+      // Modifiers may be let go before the key.
+      const bool is_flip = is_press ? QKeySequence(key->keyCombination()) == flip
+                                    : key->key() == flip[0].key() && overlay_->isFlipped();
+      if (!is_flip) continue;
+      if (!key->isAutoRepeat() && compare_->mode() == CompareMode::Single) {
+        overlay_->setFlipped(is_press);
+      }
       return true;
     }
   }

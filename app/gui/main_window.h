@@ -24,6 +24,7 @@ class OpenController;
 class OverlayController;
 class Session;
 class ShortcutWindow;
+class StatisticsController;
 class ValueController;
 
 /// Joins the session, the panels and the controllers; does nothing itself.
@@ -45,6 +46,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] BrowseController& browse() { return *browse_; }
   [[nodiscard]] OverlayController& overlay() { return *overlay_; }
   [[nodiscard]] CompareController& compare() { return *compare_; }
+  [[nodiscard]] StatisticsController& statistics() { return *statistics_; }
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
@@ -75,6 +77,7 @@ class MainWindow : public QMainWindow {
   BrowseController* browse_;
   OverlayController* overlay_;
   CompareController* compare_;
+  StatisticsController* statistics_;
   ValueController* values_;
   EstimateController* estimate_;
   MetricController* metrics_;

@@ -6,6 +6,7 @@
 #include "widgets/picture.h"
 #include "widgets/view_canvas.h"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -18,10 +19,7 @@ constexpr Quantity kQuantities[] = {
     Quantity::Disparity,     Quantity::Confidence, Quantity::Truth, Quantity::SignedError,
     Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
 
-bool is_in_px(Quantity quantity) {
-  return quantity == Quantity::Disparity || quantity == Quantity::Truth ||
-         quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError;
-}
+constexpr std::size_t kKeptPictures = 4;
 
 // The range belongs to the quantity: disparity and truth share one, a difference has its own.
 int range_key(const OverlayChoice& choice) {
@@ -40,8 +38,6 @@ OverlayController::OverlayController(Session& session, const Panels& panels, QOb
           &ViewCanvas::setOverlayOpacity);
   connect(panels_.color_bar, &ColorBar::rangeEdited, this,
           [this](Interval range) { setRange(range); });
-  connect(panels_.color_bar, &ColorBar::automaticRangeRequested, this,
-          &OverlayController::useAutomaticRange);
   connect(panels_.color_bar, &ColorBar::ownRangeRequested, this, &OverlayController::useOwnRange);
   connect(panels_.canvas, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
     const auto value = pixel ? valueAt(*pixel) : std::nullopt;
@@ -57,6 +53,7 @@ void OverlayController::update(Parts parts) {
   if (parts.has(Part::Scene)) {
     is_suspended_ = is_flipped_ = shows_difference_ = false;
     known_estimates_ = 0;
+    shaded_.clear();
     if (!panels_.color_bar->isRangeLocked()) edited_ranges_.clear();
   }
   if (parts.has_any(Part::Scene | Part::Estimates)) {
@@ -177,7 +174,7 @@ void OverlayController::draw() {
   if (has_scale) {
     panels_.color_bar->setShading(
         drawn_choice.subtracted != 0 ? tr("difference") : quantity_label(drawn_choice.quantity),
-        is_in_px(drawn_choice.quantity) ? tr("px") : QString(), shadingOf(drawn_choice));
+        quantity_unit(drawn_choice.quantity), shadingOf(drawn_choice));
   }
   if (session_.scene()) showCaption(drawn_choice);
   emit drawn();
@@ -189,14 +186,35 @@ void OverlayController::drawMap(const OverlayChoice& choice) {
     picture_ = pictureOf(choice);
     return;
   }
-  auto map = overlay_map(session_, choice, session_.view());
+  const Shaded* found = shaded(choice);
   // While the errors of a view are computed, what was drawn stays: a few milliseconds.
-  if (!map && choice.quantity != Quantity::View && session_.is_evaluating()) return;
-  map_ = std::move(map);
-  picture_ = map_ ? to_qimage(shade_overlay(*map_, shadingOf(choice))) : QImage();
+  if (!found && choice.quantity != Quantity::View && session_.is_evaluating()) return;
+  map_ = found ? found->map : nullptr;
+  picture_ = found ? found->picture : QImage();
 }
 
-QImage OverlayController::pictureOf(const OverlayChoice& choice) const {
+const OverlayController::Shaded* OverlayController::shaded(const OverlayChoice& choice) {
+  auto source = overlay_source(session_, choice, session_.view());
+  if (!source) return nullptr;
+  const render::Shading shading = shadingOf(choice);
+  const auto is_same_map = [&](const Shaded& each) { return each.source == *source; };
+  const auto found = std::find_if(shaded_.begin(), shaded_.end(), [&](const Shaded& each) {
+    return is_same_map(each) && render::is_same(each.shading, shading);
+  });
+  if (found != shaded_.end()) {
+    shaded_.splice(shaded_.begin(), shaded_, found);
+    return &shaded_.front();
+  }
+  const auto known = std::find_if(shaded_.begin(), shaded_.end(), is_same_map);
+  auto map = known != shaded_.end() ? known->map : make_overlay_map(*source);
+  QImage picture = to_qimage(shade_overlay(*map, shading));
+  if (known != shaded_.end()) shaded_.erase(known);  // a former range
+  shaded_.push_front({std::move(*source), shading, std::move(map), std::move(picture)});
+  if (shaded_.size() > kKeptPictures) shaded_.pop_back();
+  return &shaded_.front();
+}
+
+QImage OverlayController::pictureOf(const OverlayChoice& choice) {
   if (!session_.scene()) return {};
   if (choice.quantity == Quantity::Labels) {
     const auto& labels = session_.scene()->truth->labels;
@@ -204,8 +222,8 @@ QImage OverlayController::pictureOf(const OverlayChoice& choice) const {
                ? to_qimage(render::shade_labels(labels.view(session_.view())))
                : QImage();
   }
-  const auto map = overlay_map(session_, choice, session_.view());
-  return map ? to_qimage(shade_overlay(*map, shadingOf(choice))) : QImage();
+  const Shaded* found = shaded(choice);
+  return found ? found->picture : QImage();
 }
 
 QString OverlayController::describe(const OverlayChoice& choice) const {
@@ -240,12 +258,6 @@ void OverlayController::setRange(std::optional<Interval> range) {
     edited_ranges_.erase(key);
   }
   draw();
-}
-
-void OverlayController::useAutomaticRange() {
-  if (!map_) return;
-  const Interval range = render::robust_range(map_->map, map_->valid);
-  if (range.length() > 0) setRange(range);
 }
 
 void OverlayController::useOwnRange() {

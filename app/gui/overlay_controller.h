@@ -8,6 +8,7 @@
 #include <QImage>
 #include <QObject>
 
+#include <list>
 #include <map>
 #include <optional>
 
@@ -45,10 +46,13 @@ class OverlayController : public QObject {
   [[nodiscard]] QString describe(const OverlayChoice& choice) const;
   [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
   /// Picture of a choice in the current view; null if there is none (yet).
-  [[nodiscard]] QImage pictureOf(const OverlayChoice& choice) const;
+  [[nodiscard]] QImage pictureOf(const OverlayChoice& choice);
 
-  void useAutomaticRange();
+  /// Range of what is drawn; none = the quantity's own one.
+  void setRange(std::optional<Interval> range);
   void useOwnRange();
+  /// What is drawn; null without a map.
+  [[nodiscard]] const std::shared_ptr<const OverlayMap>& map() const { return map_; }
 
   /// While suspended, something else than the session is on the canvas.
   void setSuspended(bool is_suspended);
@@ -68,11 +72,17 @@ class OverlayController : public QObject {
 
  private:
   void update(Parts parts);
+  struct Shaded {
+    OverlaySource source;
+    render::Shading shading;
+    std::shared_ptr<const OverlayMap> map;
+    QImage picture;
+  };
+  [[nodiscard]] const Shaded* shaded(const OverlayChoice& choice);
   void showAvailable();
   void draw();
   void drawMap(const OverlayChoice& choice);
   void showCaption(const OverlayChoice& choice) const;
-  void setRange(std::optional<Interval> range);
 
   Session& session_;
   Panels panels_;
@@ -82,6 +92,7 @@ class OverlayController : public QObject {
   bool is_suspended_ = false;
   std::size_t known_estimates_ = 0;
   std::map<int, Interval> edited_ranges_;  // by range_key
+  std::list<Shaded> shaded_;  // the newest used comes first: flips and wipes go to and fro
   std::shared_ptr<const OverlayMap> map_;
   QImage picture_;
 };

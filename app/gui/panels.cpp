@@ -11,6 +11,7 @@
 #include "widgets/metric_table.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/result_list.h"
+#include "widgets/statistics_panel.h"
 #include "widgets/theme.h"
 #include "widgets/tile_wall.h"
 #include "widgets/value_bar.h"
@@ -103,10 +104,12 @@ QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
 QWidget* make_compare_tab(Panels& panels, QWidget* parent) {
   auto* tab = new QWidget(parent);
   panels.compare = new CompareBar(tab);
+  panels.statistics = new StatisticsPanel(tab);
   panels.metrics = new MetricTable(tab);
   auto* layout = new QVBoxLayout(tab);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panels.compare);
+  layout->addWidget(panels.statistics);
   layout->addWidget(panels.metrics, 1);
   return tab;
 }

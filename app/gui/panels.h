@@ -17,6 +17,7 @@ class MethodPanel;
 class MetricTable;
 class OverlayBar;
 class ResultList;
+class StatisticsPanel;
 class TileWall;
 class ValueBar;
 class ViewCanvas;
@@ -38,6 +39,7 @@ struct Panels {
   MethodPanel* method = nullptr;
   ResultList* results = nullptr;
   CompareBar* compare = nullptr;
+  StatisticsPanel* statistics = nullptr;
   MetricTable* metrics = nullptr;
   QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
   JobPanel* jobs = nullptr;

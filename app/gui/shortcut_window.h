@@ -2,17 +2,44 @@
 #pragma once
 
 #include <QDialog>
+#include <QKeySequence>
+#include <QString>
+
+class QKeySequenceEdit;
+class QLabel;
+class QPushButton;
+class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace episcope {
 
 class ActionTable;
 
-/// Every key and mouse gesture, from the table of commands; blocks nothing.
+/// Every key and mouse gesture, from the table of commands. Keys can be changed here: choose a
+/// command, press the new key, set it; a key that another command has is named and taken from it
+/// only when asked to. Blocks nothing.
 class ShortcutWindow : public QDialog {
   Q_OBJECT
 
  public:
-  ShortcutWindow(const ActionTable& table, QWidget* parent);
+  ShortcutWindow(ActionTable& table, QWidget* parent);
+
+ private:
+  void fillGestures();
+  void fillCommands();
+  QWidget* makeEditor();
+  void showKeys();
+  /// Of the selected row; empty on gestures.
+  [[nodiscard]] QString command() const;
+  void updateEditor();
+  void setKey();
+
+  ActionTable& table_;
+  QTreeWidget* tree_;
+  QKeySequenceEdit* edit_ = nullptr;
+  QLabel* hint_ = nullptr;
+  QPushButton* set_ = nullptr;
+  QPushButton* reset_ = nullptr;
 };
 
 }  // namespace episcope

@@ -29,8 +29,7 @@ QImage blend(const Image<std::uint8_t>& under, const Image<std::uint8_t>& over, 
 
 bool is_same(const TileRequest& a, const TileRequest& b) {
   return a.light_field == b.light_field && a.view == b.view && a.source == b.source &&
-         a.shading.map.name == b.shading.map.name && a.shading.range == b.shading.range &&
-         a.opacity == b.opacity;
+         render::is_same(a.shading, b.shading) && a.opacity == b.opacity;
 }
 
 std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requests,

@@ -28,6 +28,11 @@ struct Shading {
   Interval range;
 };
 
+/// Whether two shadings give the same colours; maps are told apart by name.
+[[nodiscard]] inline bool is_same(const Shading& a, const Shading& b) {
+  return a.map.name == b.map.name && a.range == b.range;
+}
+
 /// Colour map and range of a quantity; disparities span `disparity_range`. The map of bad pixels is
 /// for values of 0.2 (good) and 1 (bad), as `bad_pixel_map` gives them.
 [[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);

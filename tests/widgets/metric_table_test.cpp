@@ -10,6 +10,8 @@
 #include <QTest>
 #include <QToolButton>
 
+#include <limits>
+
 using namespace episcope;
 
 namespace {
@@ -96,6 +98,55 @@ class MetricTableTest : public QObject {
     QVERIFY(latex.contains("EPI\\_L & 10.500 & plain \\\\"));
     QVERIFY(latex.contains("foreign & -- & 50 \\% of it"));
     QVERIFY(latex.trimmed().endsWith("\\end{tabular}"));
+  }
+
+  void nan_isSortedLastAndShownAsAbsent() {
+    MetricTable table;
+    table.resize(500, 300);
+    auto values = rows();
+    values.push_back({16, {QString("broken"), std::numeric_limits<double>::quiet_NaN()}});
+    table.setTable(columns(), values);
+    table.show();
+
+    for (int clicks = 0; clicks < 2; ++clicks) {
+      click_header(table, 1);
+      const QStringList order = first_column(table);
+      const QStringList last = {order[order.size() - 2], order.back()};
+      QVERIFY2(last.contains("broken") && last.contains("foreign"), qPrintable(order.join(' ')));
+    }
+    QVERIFY(table.toCsv().contains("broken,,\n"));
+    QVERIFY(table.toLatex().contains("broken & -- & --"));
+  }
+
+  void bestOfAColumn_isStressed() {
+    MetricTable table;
+    auto names = columns();
+    names[1].best = BestValue::Least;
+
+    table.setTable(names, rows());
+
+    const auto* inner = table.findChild<QTableWidget*>();
+    QStringList bold;
+    for (int row = 0; row < inner->rowCount(); ++row) {
+      if (inner->item(row, 1)->font().bold()) bold << inner->item(row, 0)->text();
+    }
+    QCOMPARE(bold, QStringList("stereo"));
+  }
+
+  void sides_areMarked() {
+    MetricTable table;
+    table.setTable(columns(), rows());
+
+    table.setSides(12, 11);
+
+    const auto* inner = table.findChild<QTableWidget*>();
+    int marked = 0;
+    for (int row = 0; row < inner->rowCount(); ++row) {
+      marked += inner->item(row, 0)->icon().isNull() ? 0 : 1;
+    }
+    QCOMPARE(marked, 2);
+    table.setSides(12, 0);  // nothing to compare with: no marks
+    QVERIFY(inner->item(1, 0)->icon().isNull());
   }
 
   void copyButton_fillsTheClipboard() {

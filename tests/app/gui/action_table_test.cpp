@@ -5,11 +5,15 @@
 #include "widgets/view_canvas.h"
 
 #include <QAction>
+#include <QKeySequenceEdit>
+#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QSet>
+#include <QSettings>
 #include <QTest>
 #include <QTreeWidget>
 
@@ -25,6 +29,9 @@ class ActionTableTest : public QObject {
   void everyCommand_isInAMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
   void palette_findsAndRunsACommand();
+  void changedKey_worksIsShownAndRemembered();
+  void keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked();
+  void defaults_comeBack();
 };
 
 void ActionTableTest::ids_areUnique() {
@@ -103,6 +110,80 @@ void ActionTableTest::palette_findsAndRunsACommand() {
 
   auto* canvas = f.window.panels().canvas;
   QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(), 30000);
+}
+
+namespace {
+
+// The window of keys with the row of a command chosen.
+QWidget* choose(WindowFixture& f, const QString& id) {
+  f.window.actions().find("help.keys")->trigger();
+  auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
+  auto* tree = dialog->findChild<QTreeWidget*>("keys.tree");
+  const QString tip = f.window.actions().find(id)->statusTip();
+  tree->setCurrentItem(tree->findItems(tip, Qt::MatchExactly | Qt::MatchRecursive, 1).front());
+  return dialog;
+}
+
+void press(QWidget* dialog, const QKeySequence& key) {
+  dialog->findChild<QKeySequenceEdit*>("keys.edit")->setKeySequence(key);
+}
+
+void click(QWidget* dialog, const char* name) {
+  auto* button = dialog->findChild<QPushButton*>(name);
+  QVERIFY2(button->isEnabled(), name);
+  QTest::mouseClick(button, Qt::LeftButton);
+}
+
+}  // namespace
+
+void ActionTableTest::changedKey_worksIsShownAndRemembered() {
+  WindowFixture f;
+  f.openSmall();
+  QWidget* dialog = choose(f, "view.fit");
+  press(dialog, QKeySequence("Ctrl+Alt+J"));
+  click(dialog, "keys.set");
+  dialog->hide();
+
+  const QAction* action = f.window.actions().find("view.fit");
+  QCOMPARE(action->shortcut(), QKeySequence("Ctrl+Alt+J"));
+  QVERIFY2(action->toolTip().contains("Ctrl+Alt+J"), qPrintable(action->toolTip()));
+  auto* canvas = f.window.panels().canvas;
+  canvas->zoomIn();
+  f.window.activateWindow();
+  QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
+  QTRY_VERIFY(canvas->isFitted());
+  MainWindow next;
+  QCOMPARE(next.actions().find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
+}
+
+void ActionTableTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
+  WindowFixture f;
+  const ActionTable& table = f.window.actions();
+  QWidget* dialog = choose(f, "view.fit");
+
+  press(dialog, QKeySequence("G"));
+
+  const QString hint = dialog->findChild<QLabel*>("keys.hint")->text();
+  QVERIFY2(hint.contains(table.find("compare.tiles")->text()), qPrintable(hint));
+  QCOMPARE(table.find("compare.tiles")->shortcut(), QKeySequence("G"));
+  click(dialog, "keys.set");
+  QCOMPARE(table.find("view.fit")->shortcut(), QKeySequence("G"));
+  QVERIFY(table.find("compare.tiles")->shortcut().isEmpty());
+}
+
+void ActionTableTest::defaults_comeBack() {
+  WindowFixture f;
+  const ActionTable& table = f.window.actions();
+  QWidget* dialog = choose(f, "view.fit");
+  press(dialog, QKeySequence("G"));
+  click(dialog, "keys.set");
+
+  click(dialog, "keys.reset");
+  QCOMPARE(table.find("view.fit")->shortcut(), QKeySequence("K"));
+  QVERIFY(table.find("compare.tiles")->shortcut().isEmpty());
+  click(dialog, "keys.resetAll");
+  QCOMPARE(table.find("compare.tiles")->shortcut(), QKeySequence("G"));
+  QVERIFY(!QSettings().contains("keys/view.fit"));
 }
 
 QTEST_MAIN(ActionTableTest)

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window may be closed at any moment; whatever runs ends with it.
+#include "app/gui/action_table.h"
+#include "app/gui/compare_controller.h"
+#include "app/gui/jobs.h"
+#include "app/session/session.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QTest>
+
+#include <memory>
+
+using namespace episcope;
+
+class ClosingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void whileASceneLoads_data();
+  void whileASceneLoads();
+  void whileTheNextSceneLoads();
+  void whileAMethodRuns();
+  void whileTilesAreMade();
+};
+
+namespace {
+
+scenes::RenderOptions mediumOptions() {
+  scenes::RenderOptions options;
+  options.height = options.width = 256;
+  return options;
+}
+
+}  // namespace
+
+// At several moments: before the file is read, in its midst, at the preview.
+void ClosingTest::whileASceneLoads_data() {
+  QTest::addColumn<int>("turns");
+  for (const int turns : {0, 1, 2, 5, 20, 100}) QTest::addRow("turns %d", turns) << turns;
+}
+
+void ClosingTest::whileASceneLoads() {
+  QFETCH(int, turns);
+  auto f = std::make_unique<WindowFixture>();
+  f->window.open(f->writeScene("slant", mediumOptions()));
+  QCOMPARE(f->window.jobs().count(), 1);
+
+  for (int i = 0; i < turns && f->window.jobs().count() > 0; ++i) {
+    QCoreApplication::processEvents(QEventLoop::AllEvents);
+  }
+  f->window.close();
+  f.reset();
+
+  // What the loading thread had posted finds nobody, and harms nobody.
+  QCoreApplication::processEvents(QEventLoop::AllEvents);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+}
+
+void ClosingTest::whileTheNextSceneLoads() {
+  auto f = std::make_unique<WindowFixture>();
+  f->openSmall();
+  f->window.open(f->writeScene("slant", mediumOptions()));
+
+  // The preview of the next scene over the former one.
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.panels().canvas->picture().width() == 256, 30000);
+  f.reset();
+  QCoreApplication::processEvents(QEventLoop::AllEvents);
+}
+
+void ClosingTest::whileAMethodRuns() {
+  auto f = std::make_unique<WindowFixture>();
+  f->openSmall();
+  f->window.actions().find("estimate.run")->trigger();
+  QVERIFY(f->window.jobs().count() > 0);
+
+  f.reset();
+  QCoreApplication::processEvents(QEventLoop::AllEvents);
+}
+
+void ClosingTest::whileTilesAreMade() {
+  auto f = std::make_unique<WindowFixture>();
+  f->openSmall();
+  f->runAndWait();
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.actions().find("compare.tiles")->isEnabled(), 30000);
+
+  f->window.compare().setMode(CompareMode::Wall);
+  f.reset();
+  QCoreApplication::processEvents(QEventLoop::AllEvents);
+}
+
+QTEST_MAIN(ClosingTest)
+#include "closing_test.moc"

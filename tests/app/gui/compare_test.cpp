@@ -1,0 +1,382 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare_controller.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/statistics_controller.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/color_bar.h"
+#include "widgets/histogram_view.h"
+#include "widgets/statistics_panel.h"
+#include "widgets/tile_wall.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QComboBox>
+#include <QHeaderView>
+#include <QSignalSpy>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QTest>
+#include <QTreeWidget>
+
+#include <cmath>
+#include <limits>
+
+using namespace episcope;
+
+namespace {
+
+// The window with a scene and results that are off the truth by known amounts.
+class Compared : public WindowFixture {
+ public:
+  explicit Compared(std::vector<float> offsets) {
+    openSmall();
+    for (const float offset : offsets) add(offset);
+    // The session tells the window of them one turn later.
+    const auto* tree = window.findChild<QTreeWidget*>("results.tree");
+    [&] {
+      QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), static_cast<int>(offsets.size()), 30000);
+    }();
+    window.panels().canvas->setFocus();
+  }
+
+  int add(float offset) {
+    const auto& truth = window.session().scene()->truth->field.disparity;
+    auto estimate = std::make_shared<Estimate>();
+    estimate->method = "off";
+    estimate->field.disparity = truth.clone();
+    float* values = estimate->field.disparity.data();
+    for (std::size_t i = 0; i < truth.size(); ++i) values[i] += offset;
+    values[0] = std::numeric_limits<float>::quiet_NaN();
+    ids.push_back(window.session().add_estimate(estimate, {-1, 1}, window.session().generation()));
+    return ids.back();
+  }
+
+  Session& session() { return window.session(); }
+  ViewCanvas* canvas() { return window.panels().canvas; }
+  TileWall* wall() { return window.panels().wall; }
+  void trigger(const char* id) {
+    QAction* action = window.actions().find(id);
+    QVERIFY2(action->isEnabled(), id);
+    action->trigger();
+  }
+  void key(Qt::Key key) {
+    window.activateWindow();
+    QTest::keyClick(QApplication::focusWidget() ? QApplication::focusWidget() : canvas(), key);
+  }
+
+  std::vector<int> ids;
+};
+
+void click_pixel(ViewCanvas* canvas, PixelIndex pixel) {
+  QTest::mouseClick(canvas, Qt::LeftButton, {}, canvas->positionOf(pixel).toPoint());
+}
+
+// Middle of the mark of a row in the list of results.
+QPoint mark_of(const QTreeWidget& tree, int row) {
+  const QRect item = tree.visualItemRect(tree.topLevelItem(row));
+  return {tree.header()->sectionSize(0) / 2, item.center().y()};
+}
+
+}  // namespace
+
+class CompareTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void keyG_showsTheViewTheTruthAndEveryResult();
+  void tiles_keepTheRegionInSight();
+  void clickOnATile_showsItsResultAndMovesTheCrossHair();
+  void tilesOfErrors_differByResult();
+  void newResult_joinsTheTiles();
+  void escape_leavesTheTiles();
+  void wipe_showsBRightOfADividerThatCanBeDragged();
+  void sideBySide_showsAAndB();
+  void flip_marksWhichOneIsSeen();
+  void difference_isOfAAndB();
+  void clickOnAMark_choosesB();
+  void chosenB_staysWhenAnotherIsShown();
+  void rowOfTheMetricTable_showsItsResult();
+  void metricTable_isCopiedByKey();
+  void statistics_areOfWhatIsInSight();
+  void automaticRange_isThatOfWhatIsInSight();
+  void draggedHandle_changesTheColours();
+  void withoutResults_nothingCanBeCompared();
+  void closedScene_leavesEveryMode();
+};
+
+void CompareTest::keyG_showsTheViewTheTruthAndEveryResult() {
+  Compared f({0.1F, 0.2F});
+  QTRY_VERIFY(f.window.actions().find("compare.tiles")->isEnabled());
+
+  f.key(Qt::Key_G);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+  QVERIFY(f.wall()->isVisible());
+  QVERIFY(!f.canvas()->isVisible());
+  QVERIFY(f.window.actions().find("compare.tiles")->isChecked());
+  for (int i = 0; i < 4; ++i) QCOMPARE(f.wall()->tile(i)->picture().size(), QSize(96, 96));
+
+  f.key(Qt::Key_G);
+  QTRY_VERIFY(f.canvas()->isVisible());
+  QVERIFY(!f.wall()->isVisible());
+}
+
+void CompareTest::tiles_keepTheRegionInSight() {
+  Compared f({0.1F});
+  f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 4, {30, 40}});
+
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+  QCOMPARE(f.wall()->zoom().center, QPointF(30, 40));
+  QVERIFY(std::abs(f.wall()->zoom().relative_scale - 4) < 1e-6);
+
+  f.trigger("view.zoom_in");
+  f.trigger("compare.tiles");
+  QVERIFY(std::abs(zoom_of(*f.canvas()).relative_scale - 4 * kCanvasZoomStep) < 1e-6);
+}
+
+void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
+  Compared f({0.1F, 0.2F, 0.3F});
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 5, 30000);
+
+  click_pixel(f.wall()->tile(2), {20, 33});  // after the view and the truth
+
+  QCOMPARE(f.session().shown()->id, f.ids[0]);
+  QVERIFY(f.session().cross_hair() == (PixelIndex{20, 33}));
+  QTRY_VERIFY(f.wall()->tile(4)->crossHair() == (PixelIndex{20, 33}));
+
+  QTest::mouseDClick(f.wall()->tile(3), Qt::LeftButton);
+  QCOMPARE(f.session().shown()->id, f.ids[1]);
+  QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+}
+
+void CompareTest::tilesOfErrors_differByResult() {
+  Compared f({0.0F, 0.15F});
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+
+  f.window.overlay().setQuantity(render::Quantity::SignedError);
+
+  // White is no error, red is too far: the second result is redder in the middle of the picture.
+  const auto color = [&f](int tile) { return f.wall()->tile(tile)->picture().pixelColor(48, 48); };
+  QTRY_VERIFY_WITH_TIMEOUT(color(2) != color(3), 30000);
+  QCOMPARE(f.wall()->tile(0)->picture(), f.canvas()->picture().convertToFormat(QImage::Format_RGB32));
+}
+
+void CompareTest::newResult_joinsTheTiles() {
+  Compared f({0.1F});
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+
+  f.add(0.2F);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+  f.session().remove_estimate(f.ids[0]);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+}
+
+void CompareTest::escape_leavesTheTiles() {
+  Compared f({0.1F});
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+
+  f.key(Qt::Key_Escape);
+
+  QTRY_VERIFY(f.canvas()->isVisible());
+}
+
+void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
+  Compared f({0.0F, 0.5F});
+  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  f.trigger("compare.wipe");
+  QVERIFY(f.canvas()->wipePosition().has_value());
+  const int width = f.canvas()->width();
+  const QPoint place = f.canvas()->positionOf({20, 40}).toPoint();  // left of the middle
+  const auto color = [&] { return f.canvas()->grab().toImage().pixelColor(place); };
+  const QColor of_a = color();
+  const QPoint divider(static_cast<int>(*f.canvas()->wipePosition() * width), 40);
+
+  QTest::mousePress(f.canvas(), Qt::LeftButton, {}, divider);
+  QTest::mouseMove(f.canvas(), {width / 4, 40});
+  QTest::mouseRelease(f.canvas(), Qt::LeftButton, {}, {width / 4, 40});
+
+  QVERIFY(std::abs(*f.canvas()->wipePosition() - 0.25) < 0.01);
+  QVERIFY(color() != of_a);
+  QVERIFY(f.session().view() == (ViewIndex{4, 4}));  // it was no parallax
+  f.trigger("compare.wipe");
+  QVERIFY(!f.canvas()->wipePosition());
+  QCOMPARE(color(), of_a);
+}
+
+void CompareTest::sideBySide_showsAAndB() {
+  Compared f({0.0F, 0.5F});
+  QTRY_VERIFY(f.window.actions().find("compare.sides")->isEnabled());
+
+  f.key(Qt::Key_H);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 2, 30000);
+  QVERIFY(f.wall()->tile(0)->picture() != f.wall()->tile(1)->picture());
+  const int shown = f.session().shown()->id;
+  click_pixel(f.wall()->tile(1), {20, 33});
+  QCOMPARE(f.session().shown()->id, shown);
+}
+
+void CompareTest::flip_marksWhichOneIsSeen() {
+  Compared f({0.0F, 0.5F});
+  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  const QImage of_a = f.canvas()->grab().toImage();
+  const QRect badge(0, 0, 26, 26);
+
+  QTest::keyPress(f.canvas(), Qt::Key_Tab);
+  const QImage of_b = f.canvas()->grab().toImage();
+  QVERIFY(f.window.overlay().isFlipped());
+  QTest::keyRelease(f.canvas(), Qt::Key_Tab);
+
+  QVERIFY(of_a.copy(badge) != of_b.copy(badge));
+  QCOMPARE(f.canvas()->grab().toImage(), of_a);
+}
+
+void CompareTest::difference_isOfAAndB() {
+  Compared f({0.0F, 0.5F, 0.75F});
+  f.session().compare_with(f.ids[0]);
+  QTRY_VERIFY(f.window.actions().find("compare.difference")->isEnabled());
+
+  f.key(Qt::Key_D);
+
+  QTRY_VERIFY(f.window.overlay().valueAt({48, 48}).has_value());
+  QVERIFY(std::abs(*f.window.overlay().valueAt({48, 48}) - 0.75) < 1e-5);
+  QVERIFY(f.window.panels().color_bar->range() == (Interval{-0.2, 0.2}));  // a range of its own
+}
+
+void CompareTest::clickOnAMark_choosesB() {
+  Compared f({0.1F, 0.2F, 0.3F});
+  auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QTRY_COMPARE(tree->topLevelItemCount(), 3);
+
+  QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, mark_of(*tree, 0));
+
+  QCOMPARE(f.session().shown()->id, f.ids[2]);
+  QCOMPARE(f.session().compared()->id, f.ids[0]);
+  const auto* b = f.window.findChild<QComboBox*>("compare.b");
+  QTRY_COMPARE(b->currentData().toInt(), f.ids[0]);
+}
+
+void CompareTest::chosenB_staysWhenAnotherIsShown() {
+  Compared f({0.1F, 0.2F, 0.3F});
+  f.session().compare_with(f.ids[0]);
+
+  f.session().show_estimate(f.ids[1]);
+  QCOMPARE(f.session().compared()->id, f.ids[0]);
+  f.session().show_estimate(f.ids[0]);  // showing B swaps the two
+
+  QCOMPARE(f.session().shown()->id, f.ids[0]);
+  QCOMPARE(f.session().compared()->id, f.ids[1]);
+}
+
+void CompareTest::rowOfTheMetricTable_showsItsResult() {
+  Compared f({0.1F, 0.2F});
+  f.window.panels().tabs->setCurrentIndex(1);
+  auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, 30000);
+
+  QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                    table->visualItemRect(table->item(0, 0)).center());
+
+  QCOMPARE(f.session().shown()->id, f.ids[0]);
+  QVERIFY(table->item(0, 1)->font().bold());  // off by less: the best MSE
+  QVERIFY(!table->item(1, 1)->font().bold());
+}
+
+void CompareTest::metricTable_isCopiedByKey() {
+  Compared f({0.1F, 0.2F});
+  f.window.panels().tabs->setCurrentIndex(1);
+  auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, 30000);
+  f.window.activateWindow();
+  table->setFocus();
+
+  QTest::keyClick(table, Qt::Key_C, Qt::ControlModifier);
+
+  const QString text = QGuiApplication::clipboard()->text();
+  QVERIFY2(text.startsWith("method,vmv2013.mse_100,"), qPrintable(text));
+  QCOMPARE(text.count('\n'), 3);
+}
+
+void CompareTest::statistics_areOfWhatIsInSight() {
+  Compared f({0.25F});
+  f.window.overlay().setQuantity(render::Quantity::SignedError);
+  const auto& known = f.window.statistics().statistics();
+  QTRY_VERIFY_WITH_TIMEOUT(known && known->count + known->invalid == 96U * 96U, 30000);
+  QVERIFY(std::abs(known->median - -0.25) < 1e-5);
+  QTRY_VERIFY2(f.window.panels().statistics->text().contains("bad 100.00 %"),
+               qPrintable(f.window.panels().statistics->text()));
+
+  f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 6, {48, 48}});
+
+  const QRect seen = f.canvas()->visiblePixels();
+  QVERIFY(seen.width() < 40);
+  QTRY_VERIFY_WITH_TIMEOUT(
+      known && known->count == static_cast<std::size_t>(seen.width() * seen.height()), 30000);
+}
+
+void CompareTest::automaticRange_isThatOfWhatIsInSight() {
+  Compared f({0.25F});
+  f.window.overlay().setQuantity(render::Quantity::SignedError);
+  const Interval own = f.window.panels().color_bar->range();
+
+  f.key(Qt::Key_A);
+
+  const ColorBar* bar = f.window.panels().color_bar;
+  // Zero stays in the middle.
+  QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, 30000);
+  QVERIFY(std::abs(bar->range().min - -0.25) < 0.01);
+  f.key(Qt::Key_R);
+  QTRY_VERIFY(bar->range() == own);
+}
+
+void CompareTest::draggedHandle_changesTheColours() {
+  Compared f({0.25F});
+  f.window.panels().tabs->setCurrentIndex(1);
+  auto* view = f.window.findChild<HistogramView*>();
+  QTRY_VERIFY_WITH_TIMEOUT(!view->histogram().counts.empty() && view->isVisible(), 30000);
+  const QImage before = f.window.overlay().picture();
+  const Interval range = view->range();
+  const QPoint from(static_cast<int>(view->xOf(range.max)), view->height() / 2);
+
+  QTest::mousePress(view, Qt::LeftButton, {}, from);
+  QTest::mouseMove(view, from - QPoint(60, 0));
+  QTest::mouseRelease(view, Qt::LeftButton, {}, from - QPoint(60, 0));
+
+  QVERIFY(view->range().max < range.max);
+  QCOMPARE(view->range().min, range.min);
+  QTRY_VERIFY(f.window.overlay().picture() != before);
+}
+
+void CompareTest::withoutResults_nothingCanBeCompared() {
+  WindowFixture f;
+  for (const char* id : {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference"}) {
+    QVERIFY2(!f.window.actions().find(id)->isEnabled(), id);
+  }
+  f.window.compare().setMode(CompareMode::Wall);
+  QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+}
+
+void CompareTest::closedScene_leavesEveryMode() {
+  for (const char* id : {"compare.tiles", "compare.sides", "compare.wipe"}) {
+    Compared f({0.1F, 0.2F});
+    QTRY_VERIFY(f.window.actions().find(id)->isEnabled());
+    f.trigger(id);
+
+    f.trigger("file.close");
+
+    QTRY_COMPARE(f.canvas()->state(), ViewCanvas::State::Empty);
+    QVERIFY2(f.canvas()->isVisible(), id);
+    QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+  }
+}
+
+QTEST_MAIN(CompareTest)
+#include "compare_test.moc"
