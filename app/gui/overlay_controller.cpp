@@ -181,6 +181,7 @@ void OverlayController::draw() {
 }
 
 void OverlayController::drawMap(const OverlayChoice& choice) {
+  is_up_to_date_ = true;
   if (!session_.scene() || choice.quantity == Quantity::Labels) {
     map_ = nullptr;
     picture_ = pictureOf(choice);
@@ -188,7 +189,8 @@ void OverlayController::drawMap(const OverlayChoice& choice) {
   }
   const Shaded* found = shaded(choice);
   // While the errors of a view are computed, what was drawn stays: a few milliseconds.
-  if (!found && choice.quantity != Quantity::View && session_.is_evaluating()) return;
+  is_up_to_date_ = found || choice.quantity == Quantity::View || !session_.is_evaluating();
+  if (!is_up_to_date_) return;
   map_ = found ? found->map : nullptr;
   picture_ = found ? found->picture : QImage();
 }

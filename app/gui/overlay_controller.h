@@ -51,6 +51,8 @@ class OverlayController : public QObject {
   /// Range of what is drawn; none = the quantity's own one.
   void setRange(std::optional<Interval> range);
   void useOwnRange();
+  /// Whether what is drawn is what was chosen last, and not what stays until that is there.
+  [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
   /// What is drawn; null without a map.
   [[nodiscard]] const std::shared_ptr<const OverlayMap>& map() const { return map_; }
 
@@ -90,6 +92,7 @@ class OverlayController : public QObject {
   bool shows_difference_ = false;
   bool is_flipped_ = false;
   bool is_suspended_ = false;
+  bool is_up_to_date_ = true;
   std::size_t known_estimates_ = 0;
   std::map<int, Interval> edited_ranges_;  // by range_key
   std::list<Shaded> shaded_;  // the newest used comes first: flips and wipes go to and fro

@@ -49,6 +49,11 @@ StatisticsController::StatisticsController(Session& session, OverlayController& 
 }
 
 void StatisticsController::begin() {
+  if (!overlay_.isUpToDate()) {
+    job_.drop();
+    statistics_.reset();
+    return;
+  }
   const bool has_wall = panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active();
   const QRect seen = (has_wall ? panels_.wall->active() : panels_.canvas)->visiblePixels();
   const PixelRegion region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};

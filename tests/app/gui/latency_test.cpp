@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/action_table.h"
+#include "app/gui/compare_controller.h"
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
+#include "tests/widgets/pictures.h"
+#include "widgets/tile_wall.h"
 #include "widgets/view_canvas.h"
 
 #include <QAction>
@@ -62,6 +65,43 @@ std::vector<double> latencies_during_run(MainWindow& window) {
   return ages;
 }
 
+QString told(const std::vector<double>& ms) {
+  return QString("median %1 ms, 95 % %2 ms, 99 % %3 ms, longest %4 ms, %5 events")
+      .arg(percentile(ms, 0.5), 0, 'f', 2)
+      .arg(percentile(ms, 0.95), 0, 'f', 2)
+      .arg(percentile(ms, 0.99), 0, 'f', 2)
+      .arg(percentile(ms, 1), 0, 'f', 2)
+      .arg(ms.size());
+}
+
+// Results of the centre view that are off the truth by more and more.
+void add_results(Session& session, int count) {
+  const LightField& light_field = *session.light_field();
+  for (int i = 0; i < count; ++i) {
+    auto estimate = std::make_shared<Estimate>();
+    estimate->method = "off";
+    estimate->field.disparity =
+        ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, light_field.center());
+    const DisparityView truth = session.scene()->truth->field.view(light_field.center());
+    auto values = estimate->field.disparity.view(light_field.center());
+    for (int y = 0; y < values.height; ++y) {
+      for (int x = 0; x < values.width; ++x) {
+        values.at(y, x) = truth.disparity.at(y, x) + 0.01F * static_cast<float>(i);
+      }
+    }
+    session.add_estimate(estimate, {-1, 1}, session.generation());
+  }
+}
+
+// Zooms in and out, pans, moves mouse and cross-hair over a tile.
+void give_tile_input(ViewCanvas* tile, Session& session, int number) {
+  const QPointF at(20 + number * 7 % 150, 20 + number * 11 % 120);
+  if (number % 2 == 0) test::turn_wheel(*tile, at, number % 40 < 20 ? 1 : -1);
+  if (number % 3 == 0) session.set_cross_hair({number % 500, number * 7 % 500});
+  tile->setCanvasTransform(tile->canvasTransform().panned({number % 5 - 2.0, number % 7 - 3.0}));
+  QTest::mouseMove(tile, at.toPoint());
+}
+
 }  // namespace
 
 class LatencyTest : public QObject {
@@ -69,6 +109,7 @@ class LatencyTest : public QObject {
 
  private slots:
   void window_answersWhileAMethodRuns();
+  void tiles_followInputWithinAFrame();
 };
 
 void LatencyTest::window_answersWhileAMethodRuns() {
@@ -81,15 +122,30 @@ void LatencyTest::window_answersWhileAMethodRuns() {
 
   QVERIFY2(ages.size() > 50, "the run was too short to measure");
   QVERIFY(!f.window.session().estimates().empty());
-  const QString told = QString("median %1 ms, 95 % %2 ms, 99 % %3 ms, longest %4 ms, %5 events")
-                           .arg(percentile(ages, 0.5), 0, 'f', 2)
-                           .arg(percentile(ages, 0.95), 0, 'f', 2)
-                           .arg(percentile(ages, 0.99), 0, 'f', 2)
-                           .arg(percentile(ages, 1), 0, 'f', 2)
-                           .arg(ages.size());
-  qInfo("event latency during EPI_L: %s", qPrintable(told));
+  qInfo("event latency during EPI_L: %s", qPrintable(told(ages)));
   // 95 %: other programs on the machine may take the processor from the window as well.
-  QVERIFY2(percentile(ages, 0.95) < 16, qPrintable(told));
+  QVERIFY2(percentile(ages, 0.95) < 16, qPrintable(told(ages)));
+}
+
+void LatencyTest::tiles_followInputWithinAFrame() {
+  WindowFixture f;
+  f.window.open(f.writeScene("edge", scenes::RenderOptions()));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
+  add_results(f.window.session(), 10);
+  TileWall* wall = f.window.panels().wall;
+  f.window.compare().setMode(CompareMode::Wall);
+  QTRY_COMPARE_WITH_TIMEOUT(wall->count(), 12, 60'000);
+
+  std::vector<double> ms;
+  for (int number = 0; number < 200; ++number) {
+    const auto begin = Clock::now();
+    give_tile_input(wall->tile(number % 12), f.window.session(), number);
+    QCoreApplication::processEvents();  // paints all tiles
+    ms.push_back(Milliseconds(Clock::now() - begin).count());
+  }
+
+  qInfo("12 tiles of 512x512 pixels: %s", qPrintable(told(ms)));
+  QVERIFY2(percentile(ms, 0.95) < 16, qPrintable(told(ms)));
 }
 
 QTEST_MAIN(LatencyTest)
