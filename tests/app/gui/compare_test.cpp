@@ -62,7 +62,8 @@ class Compared : public WindowFixture {
     action->trigger();
   }
   void key(Qt::Key key) {
-    window.activateWindow();
+    window.activateWindow();  // shortcuts are heard in the active window only
+    QVERIFY(QTest::qWaitForWindowActive(&window));
     QTest::keyClick(QApplication::focusWidget() ? QApplication::focusWidget() : canvas(), key);
   }
 
