@@ -16,10 +16,14 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
 constexpr int kRowPadding = 6;
+constexpr int kWidestMethod = 150;
+constexpr int kMethodPadding = 14;
 
 enum Column { kMark, kMethod, kMse, kSeconds, kParameters, kColumnCount };
 
@@ -91,7 +95,7 @@ void ResultList::setUpTree() {
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->header()->setMinimumSectionSize(22);
   tree_->header()->setStretchLastSection(true);
-  for (const int column : {kMark, kMethod, kMse, kSeconds}) {
+  for (const int column : {kMark, kMse, kSeconds}) {
     tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
   }
   auto* remove = new QAction(tr("Remove"), tree_);
@@ -131,6 +135,7 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     }
     if (kept == result.id) tree_->setCurrentItem(item);
   }
+  fitMethods();
   tree_->setVisible(!results.empty());
   hint_->setVisible(results.empty());
   setShown(shown_, compared_);
@@ -157,6 +162,18 @@ void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> comp
     item->setFont(kMethod, font);
   }
   updateButtons();
+}
+
+// A long name does not push the numbers out of sight.
+void ResultList::fitMethods() {
+  QFont bold = tree_->font();
+  bold.setBold(true);
+  int width = tree_->fontMetrics().horizontalAdvance(tree_->headerItem()->text(kMethod));
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    const QString name = tree_->topLevelItem(i)->text(kMethod);
+    width = std::max(width, QFontMetrics(bold).horizontalAdvance(name));
+  }
+  tree_->setColumnWidth(kMethod, std::min(width, kWidestMethod) + kMethodPadding);
 }
 
 // A click on the mark chooses B; the selection, which is what is shown, stays.

@@ -52,6 +52,7 @@ class ResultList : public QWidget {
 
  private:
   void setUpTree();
+  void fitMethods();
   void showMenu(const QPoint& position);
   /// What the buttons act on: the selected result, else the shown one.
   [[nodiscard]] std::optional<quint64> target() const;
