@@ -6,8 +6,10 @@
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/st_av_g.h"
 #include "engine/disparity/st_av_l.h"
 #include "engine/disparity/st_av_s.h"
+#include "engine/disparity/st_ch_g.h"
 #include "engine/disparity/st_ch_l.h"
 #include "engine/disparity/st_ch_s.h"
 
@@ -15,14 +17,9 @@ namespace episcope {
 
 std::vector<Estimator> registered_estimators() {
   return {
-      epi_l_estimator(),
-      epi_s_estimator(),
-      st_av_l_estimator(),
-      st_av_s_estimator(),
-      st_ch_l_estimator(),
-      st_ch_s_estimator(),
-      epi_two_layer_estimator(),
-      epi_g_estimator(),
+      epi_l_estimator(),   epi_s_estimator(),         epi_g_estimator(),   st_av_l_estimator(),
+      st_av_s_estimator(), st_av_g_estimator(),       st_ch_l_estimator(), st_ch_s_estimator(),
+      st_ch_g_estimator(), epi_two_layer_estimator(),
   };
 }
 

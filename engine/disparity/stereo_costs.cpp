@@ -5,6 +5,7 @@
 #include "engine/disparity/disparity_range.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 
 namespace episcope {
@@ -120,6 +121,13 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
         };
       });
   return volume;
+}
+
+std::string cap_note(const StereoCosts& costs) {
+  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
+  char text[60];
+  std::snprintf(text, sizeof text, "matching cost capped at ε = %.3f", costs.matching.cap);
+  return text;
 }
 
 }  // namespace episcope

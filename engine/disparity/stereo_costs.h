@@ -51,6 +51,9 @@ struct StereoCosts {
                                          const StereoCostParameters& parameters,
                                          const Progress& progress);
 
+/// For the notes of an estimate: which cap was used.
+[[nodiscard]] std::string cap_note(const StereoCosts& costs);
+
 /// The costs of some rows, aggregated. Not thread-safe: one object for each thread.
 class StereoCostRows {
  public:

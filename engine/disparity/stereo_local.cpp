@@ -2,29 +2,14 @@
 #include "engine/disparity/stereo_local.h"
 
 #include "engine/core/parallel.h"
+#include "engine/disparity/sub_label.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 #include <limits>
 
 namespace episcope {
 namespace {
-
-enum class Refinement { None, Parabola, Equiangular };
-
-Refinement refinement_of(const std::string& name) {
-  if (name == "parabola") return Refinement::Parabola;
-  return name == "equiangular" ? Refinement::Equiangular : Refinement::None;
-}
-
-// Where the cost is least between the neighbours of the best label, in labels from it.
-float offset(float before, float best, float after, Refinement refinement) {
-  const float bend = refinement == Refinement::Parabola ? before - 2 * best + after
-                                                        : std::max(before, after) - best;
-  if (refinement == Refinement::None || !(bend > 0)) return 0;
-  return std::clamp(0.5F * (before - after) / bend, -0.5F, 0.5F);
-}
 
 // Chooses labels row by row.
 class Winners {
@@ -44,8 +29,8 @@ class Winners {
       const int label = best_[x];
       float place = static_cast<float>(label);
       if (label > 0 && label + 1 < costs.layers) {
-        place +=
-            offset(costs.at(y, label - 1, x), least_[x], costs.at(y, label + 1, x), refinement_);
+        place += sub_label_offset(costs.at(y, label - 1, x), least_[x], costs.at(y, label + 1, x),
+                                  refinement_);
       }
       disparity[x] = first_ + place * step_;
       const float mean = sum_[x] / layers;
@@ -84,13 +69,6 @@ void add_stereo_local_parameters(Schema<P>& schema) {
               {"parabola", "equiangular", "none"})
       .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
       .search("aggregation", {0, 2});
-}
-
-std::string cap_note(double cap) {
-  if (cap >= kUncapped) return "matching cost uncapped";
-  char text[60];
-  std::snprintf(text, sizeof text, "matching cost capped at ε = %.3f", cap);
-  return text;
 }
 
 }  // namespace
@@ -145,7 +123,7 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
       }
     };
   });
-  estimate.notes.push_back(cap_note(costs.matching.cap));
+  estimate.notes.push_back(cap_note(costs));
   return estimate;
 }
 

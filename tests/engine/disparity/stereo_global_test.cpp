@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo_global.h"
+
+#include "engine/disparity/stereo_local.h"
+#include "tests/engine/disparity/light_fields.h"
+
+#include <QtTest>
+
+#include <set>
+
+using namespace episcope;
+using namespace episcope::test;
+
+namespace {
+
+StereoGlobalParameters parameters() {
+  StereoGlobalParameters p;
+  p.range = Interval{-1.9, 1.9};
+  return p;
+}
+
+double mse(const Scene& scene, const Estimate& estimate) {
+  const ViewIndex view = scene.light_field->center();
+  return errors(estimate.field.disparity.view(view), scene.truth->field.view(view), 5).mse_100;
+}
+
+void add_views() {
+  QTest::addColumn<bool>("all");
+  QTest::newRow("all views") << true;
+  QTest::newRow("cross-hair") << false;
+}
+
+MatchedViews fetched() {
+  QFETCH(bool, all);
+  return all ? MatchedViews::All : MatchedViews::CrossHair;
+}
+
+}  // namespace
+
+class StereoGlobalTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void noisyScene_isBetterThanLocal_data() { add_views(); }
+  void noisyScene_isBetterThanLocal();
+  void slant_isPlacedBetweenLabels_data() { add_views(); }
+  void slant_isPlacedBetweenLabels();
+  void paperProfile_keepsLabels_data() { add_views(); }
+  void paperProfile_keepsLabels();
+  void anyView_isEstimated();
+  void threads_changeNothing();
+};
+
+void StereoGlobalTest::noisyScene_isBetterThanLocal() {
+  const Scene scene = render("objects", 80, 96, {5, 5}, 1, 5);
+  StereoLocalParameters local;
+  local.range = parameters().range;
+
+  const double global =
+      mse(scene, estimate_stereo_global(*scene.light_field, fetched(), parameters(), Progress()));
+  const double without =
+      mse(scene, estimate_stereo_local(*scene.light_field, fetched(), local, Progress()));
+
+  QVERIFY2(global < 0.6 * without, qPrintable(QString("%1, local %2").arg(global).arg(without)));
+}
+
+// Labels alone would leave step²/12 = 0.03 (MSE × 100).
+void StereoGlobalTest::slant_isPlacedBetweenLabels() {
+  const Scene scene = render("slant", 64, 64, {5, 5});
+
+  const double error =
+      mse(scene, estimate_stereo_global(*scene.light_field, fetched(), parameters(), Progress()));
+
+  QVERIFY2(error < 0.015, qPrintable(QString::number(error)));
+}
+
+void StereoGlobalTest::paperProfile_keepsLabels() {
+  const Scene scene = render("edge", 40, 48, {5, 5});
+  const Schema<StereoGlobalParameters> schema = stereo_global_schema(fetched());
+  const StereoGlobalParameters paper =
+      schema.parse({{"profile", std::string("paper")}, {"labels", 16}});
+
+  const Estimate estimate =
+      estimate_stereo_global(*scene.light_field, fetched(), paper, Progress());
+
+  const float* const map = estimate.field.disparity.data();
+  const std::set<float> values(map, map + estimate.field.disparity.size());
+  QVERIFY(values.size() > 1 && values.size() <= 16);
+}
+
+void StereoGlobalTest::anyView_isEstimated() {
+  const Scene scene = render("edge", 48, 56, {5, 5});
+  StereoGlobalParameters p = parameters();
+  const ViewIndex corner{0, 4};
+  p.view = corner;
+
+  const Estimate estimate =
+      estimate_stereo_global(*scene.light_field, MatchedViews::All, p, Progress());
+
+  QVERIFY(estimate.field.contains(corner));
+  QVERIFY(
+      errors(estimate.field.disparity.view(corner), scene.truth->field.view(corner), 8).mse_100 <
+      1);
+}
+
+void StereoGlobalTest::threads_changeNothing() {
+  const Scene scene = render("objects", 70, 60, {5, 5});
+
+  const Estimate one = estimate_stereo_global(*scene.light_field, MatchedViews::CrossHair,
+                                              parameters(), Progress(1));
+  const Estimate four = estimate_stereo_global(*scene.light_field, MatchedViews::CrossHair,
+                                               parameters(), Progress(4));
+
+  QVERIFY(same_bytes(one.field.disparity, four.field.disparity));
+  QVERIFY(same_bytes(one.confidence, four.confidence));
+}
+
+QTEST_APPLESS_MAIN(StereoGlobalTest)
+#include "stereo_global_test.moc"
