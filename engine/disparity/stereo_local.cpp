@@ -11,6 +11,9 @@
 namespace episcope {
 namespace {
 
+// Mean costs as small as this tell nothing: a twentieth of the step of 8-bit samples.
+constexpr float kFlat = 2e-4F;
+
 // Chooses labels row by row.
 class Winners {
  public:
@@ -34,7 +37,7 @@ class Winners {
       }
       disparity[x] = first_ + place * step_;
       const float mean = sum_[x] / layers;
-      confidence[x] = mean > 0 ? std::clamp(1 - least_[x] / mean, 0.0F, 1.0F) : 0;
+      confidence[x] = std::clamp((mean - least_[x]) / (mean + kFlat), 0.0F, 1.0F);
     }
   }
 
@@ -90,6 +93,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
   Schema<StereoSmoothParameters> schema;
   add_denoise_parameters(schema);
   add_stereo_local_parameters(schema);
+  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4}).search("weight_power", {0, 2});
   schema.completed_by([views](StereoSmoothParameters& p) {
     apply_local_profile(p, views);
     if (p.profile != "paper") return;

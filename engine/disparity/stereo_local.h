@@ -14,10 +14,7 @@ struct StereoLocalParameters : StereoCostParameters {
 
 /// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
 struct StereoSmoothParameters : StereoLocalParameters, DenoiseParameters {
-  StereoSmoothParameters() {
-    lambda = 0.2;
-    edge_strength = 20;
-  }
+  StereoSmoothParameters() { edge_strength = 20; }
 };
 
 /// Overwrites what the profile `paper` prescribes: no cap for the cross-hair, ε = 1 for all views,
@@ -31,7 +28,7 @@ void apply_local_profile(StereoLocalParameters& parameters, MatchedViews views);
 /// none, a parabola through the costs of the label and its neighbours, or two lines of equal slope
 /// (equiangular), by half a label at most. Costs are computed band by band and never held.
 ///
-/// Confidence: 1 − least cost / mean cost over the labels. It is 0 where all labels are alike and
+/// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike and
 /// falls with noise, since noise raises the least cost; as weight of the denoising it did better
 /// than the ratio to the second best label or the curvature.
 /// The ε used is in the notes. Throws InvalidInput as `prepare_stereo`, Cancelled.

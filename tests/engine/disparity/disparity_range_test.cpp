@@ -75,6 +75,8 @@ void DisparityRangeTest::foundRange_holdsTheTruth_data() {
   }
   QTest::newRow("slant 1, noisy") << "slant" << 1.0 << 2.0;
   QTest::newRow("edge 2, noisy") << "edge" << 2.0 << 2.0;
+  QTest::newRow("slant 1, very noisy") << "slant" << 1.0 << 10.0;
+  QTest::newRow("edge 2, very noisy") << "edge" << 2.0 << 10.0;
 }
 
 void DisparityRangeTest::foundRange_holdsTheTruth() {

@@ -4,6 +4,7 @@
 #include "engine/core/isa.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
+#include "engine/disparity/stereo_local.h"
 #include "tests/engine/disparity/light_fields.h"
 
 #include <QtTest>
@@ -16,18 +17,26 @@ using namespace episcope::test;
 
 namespace {
 
-// Maps of EPI_L, their confidence and the maps of EPI_S, one behind the other.
+constexpr int kHeight = 61;
+constexpr int kWidth = 75;
+
+// Maps of EPI_L, their confidence and the maps of EPI_S, one behind the other; then that of
+// ST_AV_S.
 QByteArray computed_maps() {
-  const Scene scene = render("objects", 61, 75, {5, 7});
+  const Scene scene = render("objects", kHeight, kWidth, {5, 7});
   EpiSParameters parameters;
   parameters.range = Interval{-2, 2};
   const Estimate local =
       estimate_epi_l(*scene.light_field, parameters, ViewSelection::All, Progress());
   const Estimate smooth =
       estimate_epi_s(*scene.light_field, parameters, ViewSelection::All, Progress());
+  StereoSmoothParameters stereo;
+  stereo.range = parameters.range;
+  const Estimate matched =
+      estimate_stereo_smooth(*scene.light_field, MatchedViews::All, stereo, Progress());
   QByteArray bytes;
-  for (const ViewStack<float>* stack :
-       {&local.field.disparity, &local.confidence, &smooth.field.disparity}) {
+  for (const ViewStack<float>* stack : {&local.field.disparity, &local.confidence,
+                                        &smooth.field.disparity, &matched.field.disparity}) {
     bytes.append(reinterpret_cast<const char*>(stack->data()),
                  static_cast<qsizetype>(stack->size() * sizeof(float)));
   }
@@ -80,7 +89,9 @@ void IsaTest::everyInstructionSet_givesTheSameMaps() {
   static const std::vector<float> best = as_floats(computed_maps());
   const std::vector<float> other = as_floats(maps_under(isa.toLatin1().constData()));
   QCOMPARE(other.size(), best.size());
-  const std::size_t third = best.size() / 3;
+  const std::size_t pixels = std::size_t{kHeight} * kWidth;
+  const std::size_t end = best.size() - pixels;
+  const std::size_t third = end / 3;
   std::size_t differ = 0;
   for (std::size_t i = 0; i < 2 * third; ++i) {
     QVERIFY(std::isfinite(other[i]));
@@ -91,9 +102,13 @@ void IsaTest::everyInstructionSet_givesTheSameMaps() {
   }
   QVERIFY2(differ < third / 1000, qPrintable(QString("EPI_L: %1 of %2").arg(differ).arg(third)));
   double sum = 0;
-  for (std::size_t i = 2 * third; i < best.size(); ++i) sum += std::fabs(best[i] - other[i]);
+  for (std::size_t i = 2 * third; i < end; ++i) sum += std::fabs(best[i] - other[i]);
   const double mean_difference = sum / static_cast<double>(third);
   QVERIFY2(mean_difference < 1e-3, qPrintable(QString("EPI_S: %1").arg(mean_difference)));
+  double stereo_sum = 0;
+  for (std::size_t i = end; i < best.size(); ++i) stereo_sum += std::fabs(best[i] - other[i]);
+  const double stereo_mean = stereo_sum / static_cast<double>(pixels);
+  QVERIFY2(stereo_mean < 1e-3, qPrintable(QString("ST_AV_S: %1").arg(stereo_mean)));
 }
 
 int main(int argc, char** argv) {
