@@ -10,9 +10,9 @@ namespace episcope {
 
 /// Parameters of the denoising that the methods EPI_S and ST_*_S share; defaults are each method's.
 struct DenoiseParameters {
-  double lambda = 0.1;
-  double weight_power = 2;
-  double edge_strength = 30;
+  double lambda = 0.2;
+  double weight_power = 6;
+  double edge_strength = 20;
   int max_iterations = 30;
   double gap = 1e-4;
 };

@@ -14,7 +14,10 @@ struct StereoLocalParameters : StereoCostParameters {
 
 /// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
 struct StereoSmoothParameters : StereoLocalParameters, DenoiseParameters {
-  StereoSmoothParameters() { edge_strength = 20; }
+  StereoSmoothParameters() {
+    lambda = 0.1;
+    weight_power = 2;
+  }
 };
 
 /// Overwrites what the profile `paper` prescribes: no cap for the cross-hair, ε = 1 for all views,
