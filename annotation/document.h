@@ -68,6 +68,8 @@ class AnnotationDocument {
   [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
   /// Notes that the present state was written to a file.
   void mark_saved();
+  /// Notes that no state of this document is the one in the file.
+  void forget_saved() { saved_state_ = kNoState; }
 
   /// Called after each step, before the call that made it returns; an exception of the observer
   /// reaches that caller, while the step stands. One observer; an empty function for none.
@@ -76,6 +78,7 @@ class AnnotationDocument {
 
  private:
   friend class PendingEdit;
+  static constexpr std::uint64_t kNoState = UINT64_MAX;
 
   void require_idle() const;
   void require_fitting(const Edit& edit) const;

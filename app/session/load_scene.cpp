@@ -4,7 +4,6 @@
 #include "app/session/scene_cache.h"
 #include "engine/scenes/builtin.h"
 
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -89,17 +88,6 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
 }
 
 }  // namespace
-
-std::filesystem::path default_cache_folder() {
-  const char* cache = std::getenv("XDG_CACHE_HOME");
-  // The specification has relative paths ignored.
-  if (cache && std::filesystem::path(cache).is_absolute()) {
-    return std::filesystem::path(cache) / "episcope";
-  }
-  const char* home = std::getenv("HOME");
-  return home && *home ? std::filesystem::path(home) / ".cache" / "episcope"
-                       : std::filesystem::path();
-}
 
 std::string builtin_scene_id(const std::string& input) {
   const std::string prefix = std::string(kDemo) + ":";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/user_folders.h"
 #include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/io/open.h"
@@ -18,9 +19,6 @@ struct LoadOptions {
   /// the memory; other inputs may need their truth to settle the order of views.
   bool needs_truth = true;
 };
-
-/// `$XDG_CACHE_HOME/episcope`, else `~/.cache/episcope`; empty if neither is known.
-[[nodiscard]] std::filesystem::path default_cache_folder();
 
 /// The id of a built-in scene if `input` is `demo` or `demo:<scene>`, else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);

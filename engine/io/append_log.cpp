@@ -2,39 +2,21 @@
 #include "engine/io/append_log.h"
 
 #include "engine/core/error.h"
+#include "engine/io/file_descriptor.h"
 #include "engine/io/system_error.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <array>
 #include <cerrno>
 #include <cstring>
-#include <string_view>
+#include <span>
 
 namespace episcope::io {
 namespace {
 
-std::string read_all(int descriptor, const std::filesystem::path& path) {
-  std::string text;
-  std::array<char, 1 << 16> block{};
-  for (;;) {
-    const ssize_t count = ::read(descriptor, block.data(), block.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) throw IoError(path, std::string("cannot be read: ") + std::strerror(errno));
-    if (count == 0) return text;
-    text.append(block.data(), static_cast<std::size_t>(count));
-  }
-}
-
-bool write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = ::write(descriptor, text.data(), text.size());
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(count));
-  }
-  return true;
+std::span<const std::uint8_t> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 }  // namespace
@@ -59,7 +41,11 @@ AppendLog::~AppendLog() {
 }
 
 void AppendLog::read_lines() {
-  const std::string text = read_all(descriptor_, path_);
+  std::vector<std::uint8_t> bytes;
+  if (!read_all(descriptor_, bytes)) {
+    throw IoError(path_, std::string("cannot be read: ") + std::strerror(errno));
+  }
+  const std::string text(bytes.begin(), bytes.end());
   std::size_t begin = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
     lines_.push_back(text.substr(begin, end - begin));
@@ -73,7 +59,8 @@ void AppendLog::read_lines() {
 void AppendLog::append(const std::string& line) {
   const off_t size = ::lseek(descriptor_, 0, SEEK_END);
   errno = 0;
-  if (size >= 0 && write_all(descriptor_, line + "\n") && ::fsync(descriptor_) == 0) return;
+  if (size >= 0 && write_all(descriptor_, bytes_of(line + "\n")) && ::fsync(descriptor_) == 0)
+    return;
   const IoError error = write_error(path_);
   // What cannot be taken back now is dropped when the log is opened again.
   [[maybe_unused]] const int ignored = size < 0 ? -1 : ::ftruncate(descriptor_, size);

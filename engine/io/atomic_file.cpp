@@ -2,6 +2,7 @@
 #include "engine/io/atomic_file.h"
 
 #include "engine/core/error.h"
+#include "engine/io/file_descriptor.h"
 #include "engine/io/system_error.h"
 
 #include <fcntl.h>
@@ -14,22 +15,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Descriptor {
- public:
-  Descriptor(const fs::path& path, int flags)
-      : id_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
-  ~Descriptor() {
-    if (id_ >= 0) ::close(id_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] bool ok() const { return id_ >= 0; }
-  [[nodiscard]] int id() const { return id_; }
-
- private:
-  int id_;
-};
 
 std::string temporary_name(const fs::path& target) {
   static std::atomic<unsigned> next{0};
@@ -50,7 +35,7 @@ fs::path resolve_link(const fs::path& named) {
 }
 
 bool flush_to_disk(const fs::path& path, int flags) {
-  const Descriptor file(path, flags);
+  const FileDescriptor file(path, flags);
   return file.ok() && ::fsync(file.id()) == 0;
 }
 
@@ -83,7 +68,7 @@ AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
   require_space(named_, folder_of(target_), bytes);
   temporary_ = folder_of(target_) / temporary_name(target_);
   errno = 0;
-  const Descriptor file(temporary_, O_CREAT | O_EXCL | O_WRONLY);
+  const FileDescriptor file(temporary_, O_CREAT | O_EXCL | O_WRONLY);
   if (!file.ok()) {
     temporary_.clear();
     throw write_error(named_);
@@ -108,14 +93,9 @@ void AtomicFile::commit() {
 void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {
   AtomicFile file(target, bytes.size());
   {
-    const Descriptor out(file.temporary(), O_WRONLY);
+    const FileDescriptor out(file.temporary(), O_WRONLY);
     if (!out.ok()) throw write_error(target);
-    while (!bytes.empty()) {
-      const ssize_t written = ::write(out.id(), bytes.data(), bytes.size());
-      if (written < 0 && errno == EINTR) continue;
-      if (written <= 0) throw write_error(target);
-      bytes = bytes.subspan(static_cast<std::size_t>(written));
-    }
+    if (!write_all(out.id(), bytes)) throw write_error(target);
   }
   file.commit();
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/png_check.h"
 
+#include "engine/io/checksum.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -15,25 +17,6 @@ namespace {
 
 constexpr std::array<std::uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t kFrame = 12;  ///< Length, type and checksum of a chunk.
-
-constexpr std::array<std::uint32_t, 256> checksum_table() {
-  std::array<std::uint32_t, 256> table{};
-  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
-    std::uint32_t value = byte;
-    for (int bit = 0; bit < 8; ++bit)
-      value = (value & 1U) != 0 ? 0xEDB88320U ^ (value >> 1) : value >> 1;
-    table[byte] = value;
-  }
-  return table;
-}
-
-/// CRC-32 as PNG has it (ISO 3309).
-std::uint32_t checksum(std::span<const std::uint8_t> bytes) {
-  static constexpr std::array<std::uint32_t, 256> table = checksum_table();
-  std::uint32_t value = 0xFFFFFFFFU;
-  for (const std::uint8_t byte : bytes) value = table[(value ^ byte) & 0xFFU] ^ (value >> 8);
-  return ~value;
-}
 
 std::uint32_t big_endian(const std::uint8_t* bytes) {
   return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |

@@ -72,6 +72,9 @@ void LoadSceneTest::cacheFolder_followsTheEnvironment() {
   qputenv("XDG_CACHE_HOME", "relative");
   qputenv("HOME", "/home/user");
   QCOMPARE(default_cache_folder().string(), std::string("/home/user/.cache/episcope"));
+  qunsetenv("XDG_STATE_HOME");
+  QCOMPARE(default_journal_folder().string(),
+           std::string("/home/user/.local/state/episcope/journals"));
 }
 
 void LoadSceneTest::keptScene_readsBackTheSame() {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/document.h"
+#include "engine/io/record_log.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Which light field a journal belongs to.
+struct JournalOwner {
+  std::string name;               ///< Short, for the question whether to recover.
+  std::string source;             ///< What opens the light field again.
+  std::uint64_t sample_hash = 0;  ///< LightField::sample_hash.
+  friend bool operator==(const JournalOwner&, const JournalOwner&) = default;
+};
+
+/// Keeps every step of a document in a file of `folder`, so that what was painted outlives a crash:
+/// a step is in the file when the call that made it returns, and on the disk soon after. The file
+/// stays when the journal is destroyed; `finish` removes it. At most two times the size of the
+/// document with its history and kSlackBytes are kept.
+class AnnotationJournal {
+ public:
+  static constexpr std::uintmax_t kSlackBytes = std::uintmax_t{4} << 20;
+
+  /// Begins a journal with the document as it is, and observes it from now on: no other observer
+  /// may be set. The document must outlive the journal. Makes the folder. Throws IoError.
+  AnnotationJournal(const std::filesystem::path& folder, JournalOwner owner,
+                    AnnotationDocument& document);
+  ~AnnotationJournal();
+  AnnotationJournal(const AnnotationJournal&) = delete;
+  AnnotationJournal& operator=(const AnnotationJournal&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
+  /// Waits until everything is on the disk. Throws IoError.
+  void flush() { log_->flush(); }
+  /// Ends the journal and removes the file: the session ended as it should.
+  void finish();
+
+ private:
+  void record(const DocumentEvent& event);
+  void rewrite();
+
+  std::filesystem::path path_;
+  JournalOwner owner_;
+  AnnotationDocument* document_;
+  std::optional<io::RecordLog> log_;
+  std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
+};
+
+/// What a session that died left.
+struct RecoveredAnnotation {
+  JournalOwner owner;
+  AnnotationDocument document;  ///< With its history.
+};
+
+/// Reads a journal: the document after the last step that is whole. Throws IoError if not even the
+/// document that it began with can be read.
+[[nodiscard]] RecoveredAnnotation read_journal(const std::filesystem::path& path);
+
+struct LeftJournal {
+  std::filesystem::path path;
+  JournalOwner owner;
+  std::filesystem::file_time_type last_change;
+};
+
+/// Journals in `folder` whose session died with unsaved changes, the latest first. Those of living
+/// sessions are passed over, and those that hold nothing unsaved or nothing readable are removed.
+[[nodiscard]] std::vector<LeftJournal> left_journals(const std::filesystem::path& folder);
+
+/// Removes a journal that the user does not want or that was recovered.
+void discard_journal(const std::filesystem::path& path);
+
+}  // namespace episcope
