@@ -68,6 +68,7 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
     auto orientation =
         std::make_shared<DoubleOrientation>(lf, direction, measurement.scales, measurement.search);
     return [&, orientation](int i) {
+      if (i % measurement.search.every_tile != 0) return;
       const int line = (horizontal ? first.v : first.u) + i / tiles;
       const PixelIndex begin{i % tiles / columns * tile.y, i % tiles % columns * tile.x};
       const int first_view = horizontal ? first.u : first.v;

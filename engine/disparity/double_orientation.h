@@ -13,6 +13,7 @@ namespace episcope {
 struct DoubleSearch {
   Interval accepted;            ///< Of each of the two, px per view step.
   double least_distance = 0.2;  ///< Between the two: nearer ones cannot be told apart.
+  int every_tile = 1;  ///< measure_double_layers: only one of so many tiles, for a rough look.
 };
 
 /// Two superimposed orientations on the epipolar plane images of transparent or reflecting

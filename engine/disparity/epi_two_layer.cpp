@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_two_layer.h"
 
-#include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "engine/disparity/double_layers.h"
 #include "engine/disparity/edge_weights.h"
+#include "engine/disparity/layer_decision.h"
+#include "engine/disparity/layer_range.h"
 #include "engine/solvers/segmentation.h"
 
 #include <algorithm>
@@ -18,14 +19,10 @@ namespace {
 
 // No pixel is given up entirely: the solution stays unique.
 constexpr float kLeastWeight = 0.01F;
-// How far a window beside a silhouette may lie that fits one orientation, px.
-constexpr int kReach = 2;
-// Misfit that says nothing: of two windows that both fit all but perfectly neither is right.
-constexpr float kLeastMisfit = 0.03F;
 // Variation of the surface across the border of its region, and of either layer at least.
 constexpr float kBorderWeight = 0.02F;
 // The region must be right to a pixel, not to a thousandth.
-constexpr int kRegionIterations = 20;
+constexpr int kRegionIterations = 10;
 constexpr double kRegionGap = 1e-3;
 
 // What one thread needs to solve a view.
@@ -58,7 +55,6 @@ class ViewSolver {
   double solve(ViewIndex index, const LayeredView& view);
 
  private:
-  void spread_coherence(ImageView<const float> coherence);
   void find_region(const LayeredView& view);
   double solve_background(const Image<float>& edges, const LayeredView& view);
   double solve_foreground(const Image<float>& edges, const LayeredView& view);
@@ -81,34 +77,13 @@ float ViewSolver::raised(float trust) const {
   return std::max(exponent == 2 ? trust * trust : std::pow(trust, exponent), kLeastWeight);
 }
 
-// The largest coherence within kReach, rows first.
-void ViewSolver::spread_coherence(ImageView<const float> coherence) {
-  const int height = coherence.height, width = coherence.width;
-  Image<float>& rows = space_.data;
-  for (int y = 0; y < height; ++y) {
-    const float* from = coherence.row(y);
-    for (int x = 0; x < width; ++x) {
-      const int begin = std::max(0, x - kReach), end = std::min(width, x + kReach + 1);
-      rows.row(y)[x] = *std::max_element(from + begin, from + end);
-    }
-  }
-  for (int y = 0; y < height; ++y) {
-    float* to = space_.coherence.row(y);
-    std::copy_n(rows.row(y), width, to);
-    for (int j = std::max(0, y - kReach); j < std::min(height, y + kReach + 1); ++j) {
-      const float* from = rows.row(j);
-      for (int x = 0; x < width; ++x) to[x] = std::max(to[x], from[x]);
-    }
-  }
-}
-
 void ViewSolver::find_region(const LayeredView& view) {
-  spread_coherence(view.coherence);
+  spread_coherence(view.coherence, space_.data, space_.coherence);
   const auto decision = static_cast<float>(parameters_.decision);
   for (std::size_t i = 0; i < space_.data.size(); ++i) {
     const float r = space_.coherence.data()[i];
     const float c = confidence(view, i);
-    const float share = (1 - r) / (2 - r - c + kLeastMisfit);
+    const float share = single_misfit_share(r, c);
     space_.data.data()[i] =
         share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
     const float trust = std::max(r, c);
@@ -291,18 +266,19 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
 
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                 ViewSelection views, const Progress& progress) {
-  require_double_grid(lf);
-  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.15));
-  const ViewStack<float>& single = estimate.field.disparity;
   const TensorScales scales{parameters.double_inner_scale, parameters.double_outer_scale,
                             parameters.view_scale,         parameters.cross_scale,
                             parameters.double_contrast,    parameters.noise};
+  EpiLParameters searched = parameters;
+  searched.range = search_layer_range(lf, parameters, scales, progress.part(0, 0.1));
+  Estimate estimate = estimate_orientations(lf, searched, views, progress.part(0.1, 0.2));
+  const ViewStack<float>& single = estimate.field.disparity;
   // Cut off at the range itself, noise about its ends would no longer average out.
   constexpr double kOvershoot = 0.3;
   const DoubleSearch search{{estimate.range.min - kOvershoot, estimate.range.max + kOvershoot},
                             parameters.least_distance};
   DoubleLayers layers = measure_double_layers(lf, scales, search, single.grid(), single.first(),
-                                              progress.part(0.15, 0.4));
+                                              progress.part(0.2, 0.4));
   estimate.layered.foreground.disparity = std::move(layers.near);
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);

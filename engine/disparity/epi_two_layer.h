@@ -11,7 +11,7 @@ struct EpiTwoLayerParameters : EpiLParameters {
   double double_outer_scale = 2;
   double double_contrast = 10;
   double least_distance = 0.2;
-  double decision = 0.25;
+  double decision = 0.15;
   double region_smoothness = 4;
   double lambda = 0.1;
   double layer_smoothness = 3;
@@ -29,8 +29,9 @@ struct EpiTwoLayerParameters : EpiLParameters {
 ///    near ≥ far with its confidence c (DoubleOrientation), on horizontal and vertical EPIs; where
 ///    both directions agree their mean with weights c^8, else the more confident one.
 /// 2. Single or double: the misfit of one orientation as share of both misfits,
-///    e = (1 − r)/(2 − r − c), with r the best within 2 px, so that a silhouette, beside which a
-///    window fits one orientation, is not taken for two layers. e above `decision` speaks for two.
+///    e = `single_misfit_share(r, c)`, with r the best within 2 px, so that a silhouette, beside
+///    which a window fits one orientation, is not taken for two layers. e above `decision` speaks
+///    for two.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r,
 /// c)²
 ///    (`segment`).
