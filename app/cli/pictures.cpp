@@ -60,6 +60,13 @@ ViewIndex shown_view(const ViewStack<T>& stack, const PictureOptions& options) {
   return view;
 }
 
+const DisparityField& chosen_layer(const PictureOptions& options, const DisparityField& first,
+                                   const DisparityField& foreground,
+                                   const DisparityField& background) {
+  if (options.layer.empty()) return first;
+  return options.layer == "background" ? background : foreground;
+}
+
 int checked_line(const char* name, int line, int count) {
   if (line >= 0 && line < count) return line;
   throw InvalidInput(std::string("there is no image ") + name + " " + std::to_string(line) +
@@ -109,7 +116,8 @@ Picture epi_picture(const Scene& scene, const PictureOptions& options) {
 Picture truth_picture(const Scene& scene, const PictureOptions& options) {
   const GroundTruth& truth = *scene.truth;
   const ViewIndex view = view_of(scene, options);
-  const DisparityField& field = truth.has_disparity() ? truth.field : truth.foreground;
+  const DisparityField& first = truth.has_disparity() ? truth.field : truth.foreground;
+  const DisparityField& field = chosen_layer(options, first, truth.foreground, truth.background);
   if (!field.contains(view)) throw lacks(scene, "true disparity in view " + view_text(view));
   const DisparityView map = field.view(view);
   const Interval range = shown_range(&scene, render::robust_range(map.disparity, map.valid));
@@ -148,7 +156,12 @@ Picture probability_picture(const Scene& scene, const PictureOptions& options) {
 
 Picture disparity_picture(const Estimate& estimate, const Scene* scene,
                           const PictureOptions& options) {
-  const DisparityView map = estimate.field.view(shown_view(estimate.field.disparity, options));
+  const DisparityField& field = chosen_layer(options, estimate.field, estimate.layered.foreground,
+                                             estimate.layered.background);
+  if (field.empty()) {
+    throw InvalidInput("the result of " + estimate.method + " has no " + options.layer);
+  }
+  const DisparityView map = field.view(shown_view(field.disparity, options));
   const Interval range = shown_range(scene, render::robust_range(map.disparity, map.valid));
   return render::shade(map.disparity, map.valid, shading(Quantity::Disparity, range, options));
 }

@@ -18,7 +18,8 @@ struct PictureOptions {
   std::optional<int> column;
   std::optional<Interval> range;
   std::string color_map;
-  int label = 1;  ///< For probabilities: which label, from 1.
+  int label = 1;      ///< For probabilities: which label, from 1.
+  std::string layer;  ///< Of two layers "foreground" or "background"; empty = the first there is.
 };
 
 using Picture = Image<std::uint8_t>;

@@ -38,6 +38,7 @@ struct Texts {
   std::string column;
   std::string range;
   std::string label = "1";
+  std::string layer;
 };
 
 PictureOptions picture_options(const Texts& texts, const std::string& color_map) {
@@ -48,6 +49,7 @@ PictureOptions picture_options(const Texts& texts, const std::string& color_map)
   if (!texts.column.empty()) options.column = parse_integer("--column", texts.column, 0, most);
   if (!texts.range.empty()) options.range = parse_interval("--range", texts.range);
   options.label = parse_integer("--label", texts.label, 1, most);
+  options.layer = texts.layer;
   options.color_map = color_map;
   if (options.row && options.column) {
     throw UsageError("show: --row and --column exclude each other");
@@ -73,6 +75,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.choice("--colormap", color_map, render::color_map_names(), "Colour map");
   parser.option("--truth", request.truth, "INPUT",
                 "Light field of a RESULT; by default the one that its file names");
+  parser.choice("--layer", texts.layer, {"foreground", "background"},
+                "Which disparity of a light field or result in two layers");
   parser.option("--label", texts.label, "N", "Label whose probability is shown, from 1");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.picture = picture_options(texts, color_map);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/judge.h"
 
+#include "app/session/judgement.h"
+
 #include <algorithm>
 
 namespace episcope {
@@ -9,9 +11,18 @@ namespace {
 // An evaluation of 512×512 pixels takes 1.5 MB.
 constexpr std::size_t kKept = 48;
 
+bool has_both_layers(const Estimate& estimate, const GroundTruth& truth, ViewIndex view) {
+  return truth.has_layers() && truth.foreground.contains(view) &&
+         estimate.layered.foreground.contains(view) && estimate.layered.background.contains(view);
+}
+
 EvaluationPtr evaluate_view(const Estimate& estimate, const Scene& scene, ViewIndex view,
                             Protocol protocol) {
   const GroundTruth& truth = *scene.truth;
+  if (has_both_layers(estimate, truth, view)) {
+    return std::make_shared<const Evaluation>(
+        judge(estimate, scene, {.protocol = protocol}, view).evaluation);
+  }
   // Region masks belong to the centre view.
   const bool is_center = view == scene.light_field->center();
   const std::map<std::string, Image<std::uint8_t>> no_regions;
@@ -33,7 +44,10 @@ std::list<Judge::Entry>::iterator Judge::find(const EvaluationKey& key) {
 EvaluationPtr Judge::find_or_begin(const EvaluationKey& key, const EstimatePtr& estimate,
                                    const std::shared_ptr<const Scene>& scene) {
   if (!estimate || !scene || !estimate->contains(key.view)) return nullptr;
-  if (!scene->truth->field.contains(key.view)) return nullptr;
+  if (!scene->truth->field.contains(key.view) &&
+      !has_both_layers(*estimate, *scene->truth, key.view)) {
+    return nullptr;
+  }
   if (const auto found = find(key); found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
     return found->evaluation;

@@ -25,10 +25,6 @@ void require_view(const DisparityField& estimate, ViewIndex view) {
                      ", which does not cover view " + view_text(view));
 }
 
-void append_prefixed(Metrics& metrics, const std::string& prefix, const Metrics& layer) {
-  for (const auto& [key, value] : layer) metrics.emplace_back(prefix + key, value);
-}
-
 }  // namespace
 
 Judgement judge(const Estimate& estimate, const Scene& scene, EvaluationOptions options,
@@ -39,10 +35,7 @@ Judgement judge(const Estimate& estimate, const Scene& scene, EvaluationOptions 
   if (truth.has_layers() && !estimate.layered.foreground.empty()) {
     const ViewIndex view = asked_view.value_or(view_of(truth.foreground, light_field));
     LayeredEvaluation layers = evaluate_layers(estimate.layered, truth, view, options);
-    Metrics metrics;
-    append_prefixed(metrics, "foreground_", layers.foreground.metrics);
-    append_prefixed(metrics, "background_", layers.background.metrics);
-    layers.foreground.metrics = std::move(metrics);
+    layers.foreground.metrics = layered_metrics(layers);
     return {view, std::move(layers.foreground)};
   }
   if (!truth.has_disparity()) {

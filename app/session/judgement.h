@@ -11,7 +11,7 @@
 namespace episcope {
 
 /// The error of a result in one view. Of a result in two layers against a truth in two layers, keys
-/// begin with "foreground_" and "background_", and the maps are those of the foreground.
+/// are those of `layered_metrics`, and the maps are those of the foreground.
 struct Judgement {
   ViewIndex view;
   Evaluation evaluation;

@@ -114,6 +114,29 @@ void require_comparable(const DisparityView& estimate, const DisparityView& trut
   }
 }
 
+// Whether a map has a value there; a map that is missing has none.
+bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
+  return field.contains(view) && field.view(view).is_valid(y, x);
+}
+
+std::optional<double> layers_right(const LayeredDisparity& estimate, const GroundTruth& truth,
+                                   ViewIndex view) {
+  if (estimate.layers.empty() || !estimate.layers.contains(view)) return std::nullopt;
+  const ImageView<const std::uint8_t> layers = estimate.layers.view(view);
+  double judged = 0, right = 0;
+  for (int y = 0; y < layers.height; ++y) {
+    for (int x = 0; x < layers.width; ++x) {
+      const bool near = has_value(truth.foreground, view, y, x);
+      const bool far = has_value(truth.background, view, y, x);
+      if (!near && !far && !has_value(truth.field, view, y, x)) continue;
+      judged += 1;
+      if (layers.at(y, x) == (near && far ? 2 : 1)) right += 1;
+    }
+  }
+  if (judged == 0) return std::nullopt;
+  return 100 * right / judged;
+}
+
 }  // namespace
 
 const char* protocol_name(Protocol protocol) {
@@ -171,8 +194,19 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
   }
   return {
       evaluate(estimate.foreground.view(view), truth.foreground.view(view), truth.regions, options),
-      evaluate(estimate.background.view(view), truth.background.view(view), truth.regions,
-               options)};
+      evaluate(estimate.background.view(view), truth.background.view(view), truth.regions, options),
+      layers_right(estimate, truth, view)};
+}
+
+Metrics layered_metrics(const LayeredEvaluation& evaluation) {
+  Metrics metrics;
+  const auto append_layer = [&metrics](const Metrics& layer, const char* suffix) {
+    for (const auto& [key, value] : layer) metrics.emplace_back(key + suffix, value);
+  };
+  append_layer(evaluation.foreground.metrics, "_foreground");
+  append_layer(evaluation.background.metrics, "_background");
+  append(metrics, "layers_right", evaluation.layers_right);
+  return metrics;
 }
 
 const char* runtime_class(double seconds) {

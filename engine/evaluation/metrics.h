@@ -78,7 +78,13 @@ struct Evaluation {
 struct LayeredEvaluation {
   Evaluation foreground;
   Evaluation background;
+  /// % of the pixels of any truth whose number of layers is right; two where both truths have a
+  /// value. None if the estimate does not tell the number.
+  std::optional<double> layers_right;
 };
+
+/// All numbers of both: keys end in "_foreground" and "_background"; then "layers_right".
+[[nodiscard]] Metrics layered_metrics(const LayeredEvaluation& evaluation);
 
 /// Throws InvalidInput if estimate or truth lacks a layer in `view`, and as `evaluate`.
 [[nodiscard]] LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate,

@@ -427,7 +427,12 @@ class MetricsTest : public QObject {
     GroundTruth truth;
     truth.foreground = field(1, true);
     truth.background = field(-1, false);
-    LayeredDisparity estimate{field(1.5, false), field(-1, false), {}};
+    LayeredDisparity estimate{field(1.5, false), field(-1, false),
+                              ViewStack<std::uint8_t>({1, 1}, 4, 4)};
+    // Two layers in the lower half, found in its last row alone and in one pixel too many.
+    std::fill_n(estimate.layers.data(), 16, std::uint8_t{1});
+    std::fill_n(estimate.layers.data() + 12, 4, std::uint8_t{2});
+    estimate.layers.data()[0] = 2;
 
     const auto evaluation = evaluate_layers(estimate, truth, {0, 0}, {});
 
@@ -435,6 +440,14 @@ class MetricsTest : public QObject {
     QCOMPARE(int{evaluation.foreground.judged.at(0, 0)}, 0);
     QCOMPARE(int{evaluation.foreground.judged.at(3, 0)}, 1);
     QCOMPARE(metric(evaluation.background, "mse_100"), 0.0);
+    QCOMPARE(evaluation.layers_right.value(), 100.0 * 11 / 16);
+    const Metrics metrics = layered_metrics(evaluation);
+    QCOMPARE(find_metric(metrics, "mse_100_foreground").value(), 25.0);
+    QCOMPARE(find_metric(metrics, "mse_100_background").value(), 0.0);
+    QVERIFY(find_metric(metrics, "layers_right") && !find_metric(metrics, "mse_100"));
+    estimate.layers = {};
+    QVERIFY(!find_metric(layered_metrics(evaluate_layers(estimate, truth, {0, 0}, {})),
+                         "layers_right"));
     QVERIFY_EXCEPTION_THROWN((void)evaluate_layers({}, truth, {0, 0}, {}), InvalidInput);
   }
 
