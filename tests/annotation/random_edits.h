@@ -10,7 +10,7 @@ namespace episcope::test {
 /// Edits of all kinds, the same for the same seed.
 class RandomEdits {
  public:
-  explicit RandomEdits(unsigned seed) : random_(seed) {}
+  explicit RandomEdits(unsigned seed, bool saves = true) : random_(seed), saves_(saves) {}
 
   /// A stroke, fill or change of labels; it may turn out to change nothing.
   void make_one(AnnotationDocument& document) {
@@ -40,7 +40,7 @@ class RandomEdits {
       document.undo();
     } else if (dice == 2) {
       document.redo();
-    } else if (dice == 3 && below(4) == 0) {
+    } else if (dice == 3 && saves_ && below(4) == 0) {
       document.mark_saved();
     } else {
       make_one(document);
@@ -67,6 +67,7 @@ class RandomEdits {
   }
 
   std::mt19937 random_;
+  bool saves_;
 };
 
 }  // namespace episcope::test

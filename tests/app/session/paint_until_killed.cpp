@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
   if (argc != 3) return 2;
   episcope::AnnotationDocument document({3, 3}, 200, 240);
   const episcope::AnnotationJournal journal(argv[1], {"scene", "demo", 42}, document);
-  episcope::test::RandomEdits edits(static_cast<unsigned>(std::atoi(argv[2])));
+  episcope::test::RandomEdits edits(static_cast<unsigned>(std::atoi(argv[2])), false);
   for (int done = 1;; ++done) {
     edits.step(document);
     std::printf("%d\n", done);
