@@ -50,6 +50,13 @@ void EpiPane::setSlopes(std::optional<double> estimate_px, std::optional<double>
   update();
 }
 
+void EpiPane::setBackgroundSlopes(std::optional<double> estimate_px,
+                                  std::optional<double> truth_px) {
+  background_estimate_px_ = estimate_px;
+  background_truth_px_ = truth_px;
+  update();
+}
+
 void EpiPane::setFocus(double focus_px) {
   if (focus_px == focus_px_) return;
   focus_px_ = focus_px;

@@ -31,6 +31,8 @@ class EpiPane : public QWidget {
   void setCrossHair(std::optional<int> pixel, int row);
   /// Disparities at the cross-hair, drawn as lines through it; none = not drawn.
   void setSlopes(std::optional<double> estimate_px, std::optional<double> truth_px);
+  /// Where two surfaces are seen: the same of the second one.
+  void setBackgroundSlopes(std::optional<double> estimate_px, std::optional<double> truth_px);
   /// Shear that the host applied to the picture, px per view step.
   void setFocus(double focus_px);
   void clearMeasurement();
@@ -80,6 +82,8 @@ class EpiPane : public QWidget {
   int cross_row_ = 0;
   std::optional<double> estimate_px_;
   std::optional<double> truth_px_;
+  std::optional<double> background_estimate_px_;
+  std::optional<double> background_truth_px_;
   double focus_px_ = 0;
 
   bool pressed_ = false;

@@ -101,12 +101,14 @@ void EpiPane::paintLines(QPainter& painter) const {
     painter.drawLine(through_view);
   }
   std::vector<Slope> slopes;
-  if (cross_pixel_ && truth_px_) {
-    slopes.push_back({slopeLine(*truth_px_), theme::kTruth, Qt::SolidLine});
-  }
-  if (cross_pixel_ && estimate_px_) {
-    slopes.push_back({slopeLine(*estimate_px_), theme::kEstimate, Qt::DashLine});
-  }
+  const auto add_slope = [&](std::optional<double> disparity_px, const QColor& color,
+                             Qt::PenStyle style) {
+    if (cross_pixel_ && disparity_px) slopes.push_back({slopeLine(*disparity_px), color, style});
+  };
+  add_slope(background_truth_px_, theme::kTruth, Qt::SolidLine);
+  add_slope(background_estimate_px_, theme::kEstimate, Qt::DashLine);
+  add_slope(truth_px_, theme::kTruth, Qt::SolidLine);
+  add_slope(estimate_px_, theme::kEstimate, Qt::DashLine);
   if (drawn_) {
     slopes.push_back(
         {{positionOf(drawn_->x1(), drawn_->y1()), positionOf(drawn_->x2(), drawn_->y2())},
@@ -129,7 +131,9 @@ void EpiPane::paintLabels(QPainter& painter) const {
     QColor color;
   };
   const Legend legends[] = {{measured_px_, tr("measured"), theme::kMeasured},
+                            {background_truth_px_, tr("truth behind"), theme::kTruth},
                             {truth_px_, tr("truth"), theme::kTruth},
+                            {background_estimate_px_, tr("estimate behind"), theme::kEstimate},
                             {estimate_px_, tr("estimate"), theme::kEstimate}};
   // From the lower right corner: leftwards in a wide pane, upwards in a tall one.
   QRectF free = rect();

@@ -22,8 +22,9 @@ namespace {
 using render::Quantity;
 
 constexpr Quantity kQuantities[] = {
-    Quantity::View,        Quantity::Disparity,     Quantity::Confidence, Quantity::Truth,
-    Quantity::SignedError, Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
+    Quantity::View,       Quantity::Disparity, Quantity::Background,  Quantity::Layers,
+    Quantity::Confidence, Quantity::Truth,     Quantity::SignedError, Quantity::AbsoluteError,
+    Quantity::BadPixels,  Quantity::Labels};
 constexpr double kFocusStep = 0.01;  // px a slider step.
 
 int slider_value(double focus_px) {
@@ -50,13 +51,18 @@ QString quantity_label(Quantity quantity) {
       return OverlayBar::tr("bad pixels");
     case Quantity::Labels:
       return OverlayBar::tr("labels");
+    case Quantity::Background:
+      return OverlayBar::tr("background");
+    case Quantity::Layers:
+      return OverlayBar::tr("layers");
   }
   return {};
 }
 
 QString quantity_unit(Quantity quantity) {
-  const bool is_in_px = quantity == Quantity::Disparity || quantity == Quantity::Truth ||
-                        quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError;
+  const bool is_in_px = quantity == Quantity::Disparity || quantity == Quantity::Background ||
+                        quantity == Quantity::Truth || quantity == Quantity::SignedError ||
+                        quantity == Quantity::AbsoluteError;
   return is_in_px ? OverlayBar::tr("px") : QString();
 }
 

@@ -24,11 +24,17 @@ QString signed_number(double value) {
   return text.startsWith(kMinus) ? text : '+' + text;
 }
 
+QString with_error(double disparity_px, std::optional<double> truth_px) {
+  const QString text = number(disparity_px);
+  return truth_px ? QString("%1 (%2)").arg(text, signed_number(disparity_px - *truth_px)) : text;
+}
+
 QString estimate_text(const EstimateReading& estimate, const PixelReading& reading) {
   if (!estimate.disparity_px) return ValueBar::tr("%1 invalid").arg(estimate.name);
-  QString text = estimate.name + ' ' + number(*estimate.disparity_px);
-  if (reading.truth_px) {
-    text += QString(" (%1)").arg(signed_number(*estimate.disparity_px - *reading.truth_px));
+  QString text = estimate.name + ' ' + with_error(*estimate.disparity_px, reading.truth_px);
+  if (estimate.background_px) {
+    text += ValueBar::tr(", behind %1")
+                .arg(with_error(*estimate.background_px, reading.background_truth_px));
   }
   return text;
 }
@@ -42,6 +48,9 @@ QString reading_text(const PixelReading& reading) {
   if (reading.has_truth) {
     parts << (reading.truth_px ? ValueBar::tr("truth %1").arg(number(*reading.truth_px))
                                : ValueBar::tr("no truth here"));
+    if (reading.background_truth_px) {
+      parts.back() += ValueBar::tr(", behind %1").arg(number(*reading.background_truth_px));
+    }
   }
   for (const auto& estimate : reading.estimates) parts << estimate_text(estimate, reading);
   return parts.join(" · ");

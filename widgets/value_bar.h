@@ -20,6 +20,8 @@ class ElidedLabel;
 struct EstimateReading {
   QString name;
   std::optional<double> disparity_px;  ///< None = invalid there.
+  /// Where two surfaces are seen: what lies behind the first.
+  std::optional<double> background_px = {};
 };
 
 /// All that is known about one pixel.
@@ -30,6 +32,7 @@ struct PixelReading {
   bool has_truth = false;          ///< The scene has truth for this view;
   std::optional<double> truth_px;  ///< none = invalid at this pixel.
   std::vector<EstimateReading> estimates;
+  std::optional<double> background_truth_px = {};  ///< Where two surfaces are seen: the second.
 };
 
 /// The line at the bottom: pixel, colour, truth, every estimate with its difference (estimate −

@@ -186,16 +186,18 @@ void BrowseController::showEpis() {
 }
 
 void BrowseController::showSlopes() {
-  std::optional<double> estimate;
-  std::optional<double> truth;
+  DisparityPair estimate;
+  DisparityPair truth;
   if (session_.scene()) {
-    truth = disparity_at(session_.scene()->truth->field, session_.view(), session_.cross_hair());
+    truth = disparities_at(*session_.scene()->truth, session_.view(), session_.cross_hair());
     if (const EstimateEntry* shown = session_.shown()) {
-      estimate = disparity_at(shown->estimate->field, session_.view(), session_.cross_hair());
+      estimate = disparities_at(*shown->estimate, session_.view(), session_.cross_hair());
     }
   }
-  panels_.horizontal_epi->setSlopes(estimate, truth);
-  panels_.vertical_epi->setSlopes(estimate, truth);
+  for (EpiPane* pane : {panels_.horizontal_epi, panels_.vertical_epi}) {
+    pane->setSlopes(estimate.front, truth.front);
+    pane->setBackgroundSlopes(estimate.behind, truth.behind);
+  }
 }
 
 void BrowseController::focusAt(PixelIndex pixel) {

@@ -39,6 +39,10 @@ void add_overlay_actions(ActionTable& table, MainWindow& window) {
   add("overlay.none", tr("None"), tr("Shows the view alone"), Quantity::View);
   add("overlay.disparity", tr("Disparity"), tr("Shows the disparity of the result over the view"),
       Quantity::Disparity);
+  add("overlay.background", tr("Background"),
+      tr("Shows the disparity of what is seen through a surface"), Quantity::Background);
+  add("overlay.layers", tr("Layers"), tr("Shows where one surface is seen and where two"),
+      Quantity::Layers);
   add("overlay.confidence", tr("Confidence"), tr("Shows how sure the method is, from 0 to 1"),
       Quantity::Confidence);
   add("overlay.truth", tr("Truth"), tr("Shows the true disparity"), Quantity::Truth);
@@ -159,6 +163,8 @@ const std::vector<std::pair<QString, Quantity>>& overlay_actions() {
   static const std::vector<std::pair<QString, Quantity>> actions = {
       {"overlay.none", Quantity::View},
       {"overlay.disparity", Quantity::Disparity},
+      {"overlay.background", Quantity::Background},
+      {"overlay.layers", Quantity::Layers},
       {"overlay.confidence", Quantity::Confidence},
       {"overlay.truth", Quantity::Truth},
       {"overlay.signed_error", Quantity::SignedError},

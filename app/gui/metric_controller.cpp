@@ -79,7 +79,7 @@ void MetricController::update(Parts parts) {
 
 void MetricController::fillTable() {
   const auto& scene = session_.scene();
-  if (!scene || !scene->truth->has_disparity()) {
+  if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
     panels_.metrics->setTable({}, {});
     panels_.metrics->setEmptyText(
         scene ? tr("This light field has no ground truth to judge results by.")
@@ -89,8 +89,8 @@ void MetricController::fillTable() {
   panels_.metrics->setEmptyText(tr("Run a method: its errors against the truth appear here."));
   const std::vector<Judged> judged = judgeAll();
   const std::vector<Place> places = places_of(judged);
-  std::vector<MetricColumn> columns = {{"method", tr("Result"), tr("Name of the result"), 0,
-                                        BestValue::None}};
+  std::vector<MetricColumn> columns = {
+      {"method", tr("Result"), tr("Name of the result"), 0, BestValue::None}};
   for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
   columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
   std::vector<MetricRow> rows;

@@ -53,36 +53,68 @@ constexpr MetricName kNames[] = {
                        "Pixels around fine structures that are too near by 0.15 px, in %")},
     {"fine_thinning_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinned"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels of fine structures that are too far by 0.15 px, in %")}};
+                       "Pixels of fine structures that are too far by 0.15 px, in %")},
+    {"layers_right", QT_TRANSLATE_NOOP("episcope::MetricTable", "layers"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels whose number of layers, one or two, is right, in %"),
+     1}};
 
 QString text(const char* source) {
   return QCoreApplication::translate("episcope::MetricTable", source);
 }
 
+// Numbers of a result in two layers carry the layer at the end of their key.
+struct LayerName {
+  const char* suffix;
+  const char* label;
+  const char* help;
+};
+constexpr LayerName kLayers[] = {
+    {"_foreground", QT_TRANSLATE_NOOP("episcope::MetricTable", "front"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
+    {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")}};
+
+const LayerName* layer_of(const std::string& key) {
+  const auto* found = std::find_if(std::begin(kLayers), std::end(kLayers),
+                                   [&](const auto& layer) { return key.ends_with(layer.suffix); });
+  return found == std::end(kLayers) ? nullptr : found;
+}
+
+const MetricName* name_of(const std::string& key) {
+  const LayerName* layer = layer_of(key);
+  const std::string of_both =
+      layer ? key.substr(0, key.size() - std::string(layer->suffix).size()) : key;
+  return std::find_if(std::begin(kNames), std::end(kNames),
+                      [&](const MetricName& name) { return name.key == of_both; });
+}
+
 }  // namespace
 
 int metric_rank(const std::string& key) {
-  return static_cast<int>(std::find_if(std::begin(kNames), std::end(kNames),
-                                       [&](const MetricName& name) { return name.key == key; }) -
-                          std::begin(kNames));
+  const auto layer = layer_of(key) ? layer_of(key) - kLayers + 1 : 0;
+  return static_cast<int>((std::size(kLayers) + 1) * (name_of(key) - std::begin(kNames)) + layer);
 }
 
 MetricColumn metric_column(Protocol protocol, const std::string& key) {
-  const auto* found = std::find_if(std::begin(kNames), std::end(kNames),
-                                   [&](const MetricName& name) { return name.key == key; });
+  const MetricName* found = name_of(key);
+  const LayerName* layer = layer_of(key);
   const bool is_known = found != std::end(kNames);
   const QString full_key = QString(protocol_name(protocol)) + '.' + QString::fromStdString(key);
-  const QString label = is_known ? text(found->label) : QString::fromStdString(key);
+  QString label = is_known ? text(found->label) : QString::fromStdString(key);
+  if (is_known && layer) label += ' ' + text(layer->label);
   const QString year = protocol == Protocol::Vmv2013 ? text("2013") : text("2016");
   const QString rules = protocol == Protocol::Vmv2013
                             ? text("Protocol vmv2013: all pixels with truth, centre view")
                             : text(
                                   "Protocol benchmark2016: without a border of 15 px, centre "
                                   "view");
-  const QString help = is_known ? text(found->help) : QString();
-  return {full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
-          is_known ? found->decimals : 3,
-          key == "density" ? BestValue::Greatest : BestValue::Least};
+  QString help = is_known ? text(found->help) : QString();
+  if (is_known && layer) help += '\n' + text(layer->help);
+  return {
+      full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
+      is_known ? found->decimals : 3,
+      key.starts_with("density") || key == "layers_right" ? BestValue::Greatest : BestValue::Least};
 }
 
 }  // namespace episcope

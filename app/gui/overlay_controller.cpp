@@ -16,7 +16,8 @@ namespace {
 using render::Quantity;
 
 constexpr Quantity kQuantities[] = {
-    Quantity::Disparity,     Quantity::Confidence, Quantity::Truth, Quantity::SignedError,
+    Quantity::Disparity,     Quantity::Background, Quantity::Layers,
+    Quantity::Confidence,    Quantity::Truth,      Quantity::SignedError,
     Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
 
 constexpr std::size_t kKeptPictures = 4;
@@ -24,8 +25,9 @@ constexpr std::size_t kKeptPictures = 4;
 // The range belongs to the quantity: disparity and truth share one, a difference has its own.
 int range_key(const OverlayChoice& choice) {
   if (choice.subtracted != 0) return -1;
-  return static_cast<int>(choice.quantity == Quantity::Truth ? Quantity::Disparity
-                                                             : choice.quantity);
+  const bool is_disparity =
+      choice.quantity == Quantity::Truth || choice.quantity == Quantity::Background;
+  return static_cast<int>(is_disparity ? Quantity::Disparity : choice.quantity);
 }
 
 }  // namespace
@@ -88,6 +90,10 @@ bool OverlayController::isAvailable(Quantity quantity) const {
       return scene->truth->has_disparity();
     case Quantity::Labels:
       return !scene->truth->labels.empty();
+    case Quantity::Background:
+      return shown && !shown->estimate->layered.background.empty();
+    case Quantity::Layers:
+      return shown && !shown->estimate->layered.layers.empty();
     default:
       return shown && scene->truth->has_disparity();
   }
@@ -248,8 +254,7 @@ void OverlayController::showCaption(const OverlayChoice& choice) const {
     caption += tr(" · not known for this view");
   }
   const bool has_sides = choice.subtracted == 0 && (is_flipped_ || session_.compared());
-  panels_.canvas->setCaption(
-      caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
+  panels_.canvas->setCaption(caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
 }
 
 void OverlayController::setRange(std::optional<Interval> range) {

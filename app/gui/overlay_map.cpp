@@ -3,6 +3,7 @@
 
 #include "engine/evaluation/error_maps.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -64,6 +65,15 @@ Result difference(const EstimatePtr& a, const EstimatePtr& b, ViewIndex view) {
   return overlay;
 }
 
+Result layer_count(const EstimatePtr& estimate, ViewIndex view) {
+  const ImageView<const std::uint8_t> layers = estimate->layered.layers.view(view);
+  auto overlay = std::make_shared<OverlayMap>();
+  overlay->computed = Image<float>(layers.height, layers.width);
+  std::copy_n(layers.data, layers.size(), overlay->computed.data());
+  overlay->map = overlay->computed;
+  return overlay;
+}
+
 bool needs_evaluation(Quantity quantity) {
   return quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError ||
          quantity == Quantity::BadPixels;
@@ -78,6 +88,11 @@ std::optional<OverlaySource> estimate_source(Session& session, OverlaySource sou
     if (!other->estimate->contains(source.view)) return std::nullopt;
   } else if (source.choice.quantity == Quantity::Confidence) {
     if (!entry->estimate->confidence.contains(source.view)) return std::nullopt;
+  } else if (source.choice.quantity == Quantity::Background) {
+    if (!entry->estimate->layered.background.contains(source.view)) return std::nullopt;
+  } else if (source.choice.quantity == Quantity::Layers) {
+    const auto& layers = entry->estimate->layered.layers;
+    if (layers.empty() || !layers.contains(source.view)) return std::nullopt;
   } else if (needs_evaluation(source.choice.quantity)) {
     source.evaluation = session.evaluation({entry->id, source.view, Protocol::Vmv2013});
     if (!source.evaluation) return std::nullopt;
@@ -111,6 +126,10 @@ std::shared_ptr<const OverlayMap> make_overlay_map(const OverlaySource& source) 
   if (source.choice.quantity == Quantity::Confidence) {
     return borrowed({source.estimate->confidence.view(source.view), {}}, source.estimate);
   }
+  if (source.choice.quantity == Quantity::Background) {
+    return borrowed(source.estimate->layered.background.view(source.view), source.estimate);
+  }
+  if (source.choice.quantity == Quantity::Layers) return layer_count(source.estimate, source.view);
   return borrowed(source.estimate->field.view(source.view), source.estimate);
 }
 

@@ -68,13 +68,15 @@ void ValueController::show() {
   reading.pixel = pixel;
   reading.samples = samples.texts.join(' ');
   reading.color = samples.color;
-  const DisparityField& truth = session_.scene()->truth->field;
-  reading.has_truth = truth.contains(view);
-  reading.truth_px = disparity_at(truth, view, pixel);
+  const GroundTruth& truth = *session_.scene()->truth;
+  const DisparityPair of_truth = disparities_at(truth, view, pixel);
+  reading.has_truth = truth.field.contains(view) || truth.foreground.contains(view);
+  reading.truth_px = of_truth.front;
+  reading.background_truth_px = of_truth.behind;
   for (const EstimateEntry& entry : session_.estimates()) {
     if (!entry.estimate->contains(view)) continue;
-    reading.estimates.push_back(
-        {QString::fromStdString(entry.name), disparity_at(entry.estimate->field, view, pixel)});
+    const DisparityPair found = disparities_at(*entry.estimate, view, pixel);
+    reading.estimates.push_back({QString::fromStdString(entry.name), found.front, found.behind});
   }
   panels_.values->setReading(reading);
 }

@@ -67,6 +67,7 @@ Shading default_shading(Quantity quantity, Interval disparity_range) {
   switch (quantity) {
     case Quantity::Disparity:
     case Quantity::Truth:
+    case Quantity::Background:
       return {color_map("viridis"), disparity_range};
     case Quantity::Confidence:
       return {color_map("magma"), {0, 1}};
@@ -76,6 +77,8 @@ Shading default_shading(Quantity quantity, Interval disparity_range) {
       return {color_map("ylorrd"), {0, 0.1}};
     case Quantity::BadPixels:
       return {color_map("rdylgn_r"), {0, 1}};
+    case Quantity::Layers:
+      return {color_map("magma"), {0, 3}};
     case Quantity::View:
     case Quantity::Labels:
       break;

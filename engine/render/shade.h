@@ -20,7 +20,9 @@ enum class Quantity {
   SignedError,
   AbsoluteError,
   BadPixels,
-  Labels
+  Labels,
+  Background,  ///< Disparity of what is seen through a surface.
+  Layers       ///< Number of surfaces, 1 or 2.
 };
 
 struct Shading {
