@@ -15,21 +15,6 @@
 namespace episcope {
 namespace {
 
-// No pixel is given up entirely: the solution stays unique.
-constexpr float kLeastWeight = 0.01F;
-
-void fill_weights(ImageView<const float> confidence, double power, Image<float>& weights) {
-  const auto exponent = static_cast<float>(power);
-  for (int y = 0; y < confidence.height; ++y) {
-    const float* r = confidence.row(y);
-    float* w = weights.row(y);
-    for (int x = 0; x < confidence.width; ++x) {
-      const float raised = exponent == 2 ? r[x] * r[x] : std::pow(r[x], exponent);
-      w[x] = std::max(raised, kLeastWeight);
-    }
-  }
-}
-
 std::string gap_note(const std::vector<double>& gaps) {
   char text[80];
   std::snprintf(text, sizeof text, "largest relative duality gap %.1e",
@@ -39,7 +24,8 @@ std::string gap_note(const std::vector<double>& gaps) {
 
 // Denoises every view of `estimate` in place; returns the relative gap of each.
 std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters& parameters,
-                                  Estimate& estimate, const Progress& progress) {
+                                  float least_weight, Estimate& estimate,
+                                  const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
   const ViewIndex first = disparity.first();
@@ -49,7 +35,8 @@ std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters&
     auto weights = std::make_shared<Image<float>>(lf.height(), lf.width());
     return [&, solver, weights](int i) {
       const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
-      fill_weights(estimate.confidence.view(view), parameters.weight_power, *weights);
+      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
+                        *weights);
       const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       const TvL2Result result =
@@ -63,10 +50,24 @@ std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters&
 
 }  // namespace
 
+void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
+                       Image<float>& weights) {
+  const auto exponent = static_cast<float>(weight.power);
+  for (int y = 0; y < confidence.height; ++y) {
+    const float* r = confidence.row(y);
+    float* w = weights.row(y);
+    for (int x = 0; x < confidence.width; ++x) {
+      const float raised = exponent == 2 ? r[x] * r[x] : std::pow(r[x], exponent);
+      w[x] = std::max(raised, weight.least);
+    }
+  }
+}
+
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress) {
+             const Progress& progress, float least_weight) {
   progress.step("denoising");
-  estimate.notes.push_back(gap_note(denoise_views(lf, parameters, estimate, progress)));
+  estimate.notes.push_back(
+      gap_note(denoise_views(lf, parameters, least_weight, estimate, progress)));
 }
 
 }  // namespace episcope

@@ -17,8 +17,16 @@ struct DenoiseParameters {
   double gap = 1e-4;
 };
 
+/// The weight of data w = max(r^power, least), from confidence r. No pixel is given up entirely:
+/// the solution stays unique.
+struct DataWeight {
+  double power = 2;
+  float least = 0.01F;
+};
+void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Image<float>& weights);
+
 /// Denoises every view of `estimate` by itself, in place: min Σ g |∇u| + 1/(2λ) Σ w (u − f)², with
-/// f its disparity, w = max(r^p, 0.01) from its confidence r, and g = exp(−β |∇I|) from the view
+/// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
 /// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
 ///
 /// The paper has w = g = 1 ("just performs a TV-L2 denoising"); the weights are ours, measured
@@ -26,7 +34,7 @@ struct DenoiseParameters {
 /// p = 0 and β = 0 give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress);
+             const Progress& progress, float least_weight = DataWeight{}.least);
 
 template <class P>
 void add_denoise_parameters(Schema<P>& schema) {

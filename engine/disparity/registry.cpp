@@ -2,6 +2,7 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/epi_c.h"
 #include "engine/disparity/epi_g.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
@@ -17,9 +18,9 @@ namespace episcope {
 
 std::vector<Estimator> registered_estimators() {
   return {
-      epi_l_estimator(),   epi_s_estimator(),         epi_g_estimator(),   st_av_l_estimator(),
-      st_av_s_estimator(), st_av_g_estimator(),       st_ch_l_estimator(), st_ch_s_estimator(),
-      st_ch_g_estimator(), epi_two_layer_estimator(),
+      epi_l_estimator(),   epi_s_estimator(),   epi_c_estimator(),         epi_g_estimator(),
+      st_av_l_estimator(), st_av_s_estimator(), st_av_g_estimator(),       st_ch_l_estimator(),
+      st_ch_s_estimator(), st_ch_g_estimator(), epi_two_layer_estimator(),
   };
 }
 

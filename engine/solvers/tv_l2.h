@@ -15,8 +15,8 @@ namespace episcope {
 struct TvL2Problem {
   ImageView<const float>
       f;  ///< Observation. Not finite = unknown: taken as 0 with the least weight.
-  ImageView<const float> w;  ///< Weight of the observation, in [1e-4, 1]; smaller ones are raised.
-                             ///< Empty = 1.
+  ImageView<const float> w;  ///< Weight of the observation, about 1; less than 1e-4 is raised to
+                             ///< that. Empty = 1.
   ImageView<const float> g;  ///< Weight of the variation, in (0, 1]. Empty = 1.
   double lambda = 0.1;       ///< Larger smooths more; > 0.
 };
