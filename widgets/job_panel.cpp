@@ -54,6 +54,10 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   auto* title_label = new ElidedLabel(row.widget);
   title_label->setObjectName(name + ".title");
   title_label->setFullText(title);
+  row.finish = make_tool_button(
+      {name + ".finish", "success", tr("Take the result so far, without waiting for the end")},
+      row.widget);
+  row.finish->hide();
   row.cancel = make_tool_button({name + ".cancel", "close", tr("Cancel this job")}, row.widget);
   row.bar = new QProgressBar(row.widget);
   row.bar->setObjectName(name + ".bar");
@@ -69,10 +73,12 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   grid->setHorizontalSpacing(theme::kSpacing);
   grid->setVerticalSpacing(2);
   grid->addWidget(title_label, 0, 0);
-  grid->addWidget(row.cancel, 0, 1, 3, 1, Qt::AlignVCenter);
+  grid->addWidget(row.finish, 0, 1, 3, 1, Qt::AlignVCenter);
+  grid->addWidget(row.cancel, 0, 2, 3, 1, Qt::AlignVCenter);
   grid->addWidget(row.bar, 1, 0);
   grid->addWidget(row.stage, 2, 0);
   layout_->addWidget(row.widget);
+  connect(row.finish, &QToolButton::clicked, this, [this, id] { emit finishRequested(id); });
   connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
   rows_.emplace(id, row);
   idle_->hide();
@@ -80,23 +86,41 @@ void JobPanel::addJob(quint64 id, const QString& title) {
 }
 
 void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
-  const auto found = rows_.find(id);
-  if (found == rows_.end()) return;
-  Row& row = found->second;
-  if (!row.clock.isValid()) row.clock.start();
-  row.bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
-  if (!row.cancel->isEnabled()) return;  // It says that it is being cancelled.
+  Row* row = find(id);
+  if (!row) return;
+  if (!row->clock.isValid()) row->clock.start();
+  row->bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
+  if (!row->finish->isEnabled()) return;  // It says how it is being ended.
   QStringList parts{stage, tr("%1 %").arg(std::lround(100 * fraction)),
-                    time_left_text(fraction, row.clock.elapsed() / 1000.0)};
+                    time_left_text(fraction, row->clock.elapsed() / 1000.0)};
   parts.removeAll({});
-  row.stage->setFullText(parts.join(" · "));
+  row->stage->setFullText(parts.join(" · "));
+}
+
+void JobPanel::setIterative(quint64 id) {
+  if (Row* row = find(id)) row->finish->show();
 }
 
 void JobPanel::setCancelling(quint64 id) {
+  end(id, tr("cancelling"), true);
+}
+
+void JobPanel::setFinishing(quint64 id) {
+  end(id, tr("finishing"), false);
+}
+
+// A job that finishes can still be cancelled.
+void JobPanel::end(quint64 id, const QString& stage, bool cancelled) {
+  Row* row = find(id);
+  if (!row) return;
+  row->finish->setEnabled(false);
+  if (cancelled) row->cancel->setEnabled(false);
+  row->stage->setFullText(stage);
+}
+
+JobPanel::Row* JobPanel::find(quint64 id) {
   const auto found = rows_.find(id);
-  if (found == rows_.end()) return;
-  found->second.cancel->setEnabled(false);
-  found->second.stage->setFullText(tr("cancelling"));
+  return found == rows_.end() ? nullptr : &found->second;
 }
 
 void JobPanel::removeJob(quint64 id) {

@@ -20,8 +20,8 @@ class ElidedLabel;
 /// nothing can be said.
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
 
-/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button. Shows a
-/// quiet line when there are none.
+/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job that
+/// can end early has a button for that beside it. Shows a quiet line when there are none.
 class JobPanel : public QWidget {
   Q_OBJECT
 
@@ -32,14 +32,18 @@ class JobPanel : public QWidget {
   void addJob(quint64 id, const QString& title);
   /// Ignored for an unknown id. The clock of a job starts with its first progress.
   void setProgress(quint64 id, double fraction, const QString& stage);
-  /// Cancelling: the row says so until it is removed.
+  /// Offers to take what an iterative job has so far.
+  void setIterative(quint64 id);
+  /// The row says so until it is removed.
   void setCancelling(quint64 id);
+  void setFinishing(quint64 id);
   void removeJob(quint64 id);
 
   [[nodiscard]] int jobCount() const { return static_cast<int>(rows_.size()); }
 
  signals:
   void cancelRequested(quint64 id);
+  void finishRequested(quint64 id);
 
  protected:
   void changeEvent(QEvent* event) override;
@@ -49,10 +53,13 @@ class JobPanel : public QWidget {
     QWidget* widget;
     ElidedLabel* stage;
     QProgressBar* bar;
+    QToolButton* finish;
     QToolButton* cancel;
     QElapsedTimer clock;
   };
 
+  [[nodiscard]] Row* find(quint64 id);
+  void end(quint64 id, const QString& stage, bool cancelled);
   void updateColors();
 
   QVBoxLayout* layout_;

@@ -3,6 +3,7 @@
 
 #include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
+#include "widgets/job_panel.h"
 #include "widgets/method_panel.h"
 #include "widgets/result_list.h"
 
@@ -105,8 +106,9 @@ void EstimateController::run(const EstimateRequest& request) {
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field) return;
   const std::uint64_t generation = session_.generation();
-  jobs_.start<FinishedEstimate>(
-      Lane::Estimate, QString::fromStdString(find_estimator(request.method).info.name),
+  const EstimatorInfo info = find_estimator(request.method).info;
+  const quint64 job = jobs_.start<FinishedEstimate>(
+      Lane::Estimate, QString::fromStdString(info.name),
       [light_field, request](const Progress& progress) {
         return run_estimator(*light_field, request, progress);
       },
@@ -114,6 +116,7 @@ void EstimateController::run(const EstimateRequest& request) {
         session_.add_estimate(finished.estimate, finished.display_range, generation);
       },
       [this] { panels_.method->setRunning(jobs_.count(Lane::Estimate) > 0); });
+  if (info.iterative) panels_.jobs->setIterative(job);
   panels_.method->setRunning(true);
 }
 

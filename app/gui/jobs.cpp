@@ -56,6 +56,13 @@ void Jobs::cancel(quint64 id) {
   emit cancelling(id);
 }
 
+void Jobs::finishEarly(quint64 id) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  runner(found->second.lane).finish(found->second.runner_id);
+  emit finishing(id);
+}
+
 void Jobs::cancelLane(Lane lane) {
   for (const auto& [id, job] : jobs_) {
     if (job.lane == lane) cancel(id);

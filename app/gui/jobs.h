@@ -50,6 +50,8 @@ class Jobs : public QObject {
   /// Ignored for an unknown id.
   void cancel(quint64 id);
   void cancelLane(Lane lane);
+  /// Asks a job for the best result so far (Progress::finish_requested); not all jobs have one.
+  void finishEarly(quint64 id);
   /// The job begun last, or 0.
   [[nodiscard]] quint64 newest() const;
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
@@ -59,6 +61,7 @@ class Jobs : public QObject {
   void added(quint64 id, const QString& title);
   void progressed(quint64 id, double fraction, const QString& stage);
   void cancelling(quint64 id);
+  void finishing(quint64 id);
   void removed(quint64 id);
   /// A sentence for the user.
   void failed(const QString& sentence);

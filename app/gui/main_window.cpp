@@ -141,8 +141,10 @@ void MainWindow::connectJobs() {
   connect(jobs_, &Jobs::added, panels_.jobs, &JobPanel::addJob);
   connect(jobs_, &Jobs::progressed, panels_.jobs, &JobPanel::setProgress);
   connect(jobs_, &Jobs::cancelling, panels_.jobs, &JobPanel::setCancelling);
+  connect(jobs_, &Jobs::finishing, panels_.jobs, &JobPanel::setFinishing);
   connect(jobs_, &Jobs::removed, panels_.jobs, &JobPanel::removeJob);
   connect(panels_.jobs, &JobPanel::cancelRequested, jobs_, &Jobs::cancel);
+  connect(panels_.jobs, &JobPanel::finishRequested, jobs_, &Jobs::finishEarly);
   connect(jobs_, &Jobs::added, this, &MainWindow::showStatus);
   connect(jobs_, &Jobs::removed, this, &MainWindow::showStatus);
   connect(jobs_, &Jobs::failed, this, [this](const QString& sentence) {

@@ -20,6 +20,7 @@ struct EstimatorInfo {
   std::string reference;  ///< Authors, year, key in resources/references.bib.
   bool all_views =
       false;  ///< Can estimate every view at once; else one view, the centre by default.
+  bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
   int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
 };
 

@@ -171,9 +171,10 @@ TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress&
   const int check_every = std::max(1, options.check_every);
   TvL2Result result;
   double gap_before = std::numeric_limits<double>::infinity();
-  while (result.iterations < options.max_iterations && !result.converged) {
+  bool is_last = false;
+  while (!is_last && !result.converged) {
     iterate(0, result.iterations++, progress);
-    const bool is_last = result.iterations == options.max_iterations;
+    is_last = result.iterations >= options.max_iterations || progress.finish_requested();
     if (!is_last && result.iterations % check_every != 0) continue;
     const TvL2Sums sums = kernel.measure(grids[0].level, rows.data());
     result.energy = sums.energy;

@@ -59,8 +59,8 @@ class TvL2Solver {
   TvL2Solver(TvL2Solver&&) noexcept;
 
   /// Writes the minimiser to `u`, whose content before the call is not used; `u` may be `f`.
-  /// Throws InvalidInput on a wrong shape or λ ≤ 0, Cancelled on a stop request (asked for every
-  /// few milliseconds).
+  /// Ends after the next iteration at `progress.finish_requested()`. Throws InvalidInput on a wrong
+  /// shape or λ ≤ 0, Cancelled on a stop request (asked for every few milliseconds).
   TvL2Result solve(const TvL2Problem& problem, const TvL2Options& options, const Progress& progress,
                    ImageView<float> u);
 

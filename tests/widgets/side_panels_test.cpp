@@ -55,6 +55,26 @@ class SidePanelsTest : public QObject {
     QCOMPARE(bar.text(), QString("second"));
   }
 
+  void iterativeJob_canEndEarly() {
+    JobPanel panel;
+    QSignalSpy finish(&panel, &JobPanel::finishRequested);
+    panel.addJob(7, "ST_CH_G");
+    auto* button = panel.findChild<QToolButton*>("job.7.finish");
+    QVERIFY(button->isHidden());
+
+    panel.setIterative(7);
+    panel.setProgress(7, 0.2, "labeling");
+    button->click();
+    panel.setFinishing(7);
+    panel.setProgress(7, 0.3, "labeling");
+
+    QCOMPARE(finish.size(), 1);
+    QCOMPARE(finish[0][0].toULongLong(), quint64(7));
+    QVERIFY(!button->isEnabled());
+    QVERIFY(panel.findChild<QToolButton*>("job.7.cancel")->isEnabled());
+    QCOMPARE(panel.findChild<ElidedLabel*>("job.7.stage")->fullText(), QString("finishing"));
+  }
+
   void jobs_showStageAndAskToCancel() {
     JobPanel panel;
     QSignalSpy cancel(&panel, &JobPanel::cancelRequested);
