@@ -77,6 +77,7 @@ class TvL2Test : public QObject {
   void gap_isPositiveAndFalls();
   void gap_boundsTheEnergy();
   void measure_usesAdjointOperators();
+  void solve_endsEarlyWhenAskedToFinish();
   void solve_stopsOnRequest();
   void solve_refusesBadInput();
 };
@@ -282,6 +283,20 @@ void TvL2Test::measure_usesAdjointOperators() {
   const TvL2Sums sums = baseline::kTvL2Kernel.measure(level, rows.data());
 
   QVERIFY(std::fabs(sums.dual - product) < 1e-5 * std::fabs(product));
+}
+
+void TvL2Test::solve_endsEarlyWhenAskedToFinish() {
+  const Images images = noisy_step(40, 50);
+  std::stop_source finish;
+  finish.request_stop();
+  Image<float> u(40, 50);
+
+  const TvL2Result result =
+      TvL2Solver(40, 50).solve(images.problem(), {100000, 0, 10},
+                               Progress({}, finish.get_token(), {}, 1), u.view());
+
+  QCOMPARE(result.iterations, 1);
+  QVERIFY(result.gap > 0);
 }
 
 void TvL2Test::solve_stopsOnRequest() {
