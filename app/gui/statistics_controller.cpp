@@ -95,7 +95,7 @@ void StatisticsController::show(const Counted& counted) {
 }
 
 void StatisticsController::useAutomaticRange() {
-  if (!map_) return;
+  if (!map_ && overlay_.isUpToDate()) return;  // There is none, and none is on its way.
   wants_range_ = true;
   if (statistics_) applyAutomaticRange();
 }

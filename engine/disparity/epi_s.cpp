@@ -8,8 +8,8 @@ Schema<EpiSParameters> epi_s_schema() {
   add_denoise_parameters(schema);
   add_epi_l_parameters(schema);
   schema.search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
-      .search("weight_power", {0, 2, 8, 16})
-      .search("edge_strength", {0, 10, 30});
+      .search("weight_power", {0, 2, 6, 12})
+      .search("edge_strength", {0, 10, 20});
   return schema;
 }
 

@@ -13,10 +13,10 @@ struct EpiTwoLayerParameters : EpiLParameters {
   double least_distance = 0.2;
   double decision = 0.15;
   double region_smoothness = 4;
-  double lambda = 0.1;
+  double lambda = 0.2;
   double layer_smoothness = 3;
-  double weight_power = 2;
-  double edge_strength = 30;
+  double weight_power = 6;
+  double edge_strength = 20;
   int max_iterations = 30;
   double gap = 1e-4;
 };
@@ -32,9 +32,8 @@ struct EpiTwoLayerParameters : EpiLParameters {
 ///    e = `single_misfit_share(r, c)`, with r the best within 2 px, so that a silhouette, beside
 ///    which a window fits one orientation, is not taken for two layers. e above `decision` speaks
 ///    for two.
-/// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r,
-/// c)²
-///    (`segment`).
+/// 3. The region of two layers in each view by TV segmentation of that score, weighted by
+///    max(r, c)² (`segment`).
 /// 4. Foreground and background of each view by TvL2Solver: in the region near and far with weights
 ///    c^p, outside the single estimate with weights r^p in both. The surface is an area, not a
 ///    texture: it is smoothed `layer_smoothness` times as much, ignores image edges and may jump

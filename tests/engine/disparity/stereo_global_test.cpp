@@ -52,7 +52,7 @@ class StereoGlobalTest : public QObject {
 };
 
 void StereoGlobalTest::noisyScene_isBetterThanLocal() {
-  const Scene scene = render("objects", 80, 96, {5, 5}, 1, 5);
+  const Scene scene = render("objects", 160, 192, {5, 5}, 1, 5);
   StereoLocalParameters local;
   local.range = parameters().range;
 
