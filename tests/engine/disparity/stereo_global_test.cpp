@@ -61,7 +61,7 @@ void StereoGlobalTest::noisyScene_isBetterThanLocal() {
   const double without =
       mse(scene, estimate_stereo_local(*scene.light_field, fetched(), local, Progress()));
 
-  QVERIFY2(global < 0.6 * without, qPrintable(QString("%1, local %2").arg(global).arg(without)));
+  QVERIFY2(global < 0.8 * without, qPrintable(QString("%1, local %2").arg(global).arg(without)));
 }
 
 // Labels alone would leave step²/12 = 0.03 (MSE × 100).
