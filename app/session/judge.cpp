@@ -54,6 +54,7 @@ EvaluationPtr Judge::find_or_begin(const EvaluationKey& key, const EstimatePtr& 
   }
   entries_.push_front({key, nullptr});
   trim();
+  ++pending_;
   runner_.start<EvaluationPtr>(
       [key, estimate, scene](const Progress& progress) {
         progress.check();
@@ -64,6 +65,7 @@ EvaluationPtr Judge::find_or_begin(const EvaluationKey& key, const EstimatePtr& 
 }
 
 void Judge::finish(const EvaluationKey& key, Outcome<EvaluationPtr> outcome) {
+  --pending_;
   const auto found = find(key);
   if (found != entries_.end() && outcome.value) found->evaluation = std::move(*outcome.value);
   on_evaluated_();

@@ -37,8 +37,8 @@ class Judge {
 
   /// Forgets all evaluations of an estimate; drops those that are under way.
   void forget(int estimate);
-  /// Evaluations under way.
-  [[nodiscard]] int pending() const { return runner_.pending(); }
+  /// Evaluations begun whose end was not told yet: the computation may be over.
+  [[nodiscard]] int pending() const { return pending_; }
 
  private:
   struct Entry {
@@ -51,6 +51,7 @@ class Judge {
 
   std::function<void()> on_evaluated_;
   std::list<Entry> entries_;  // the newest used comes first
+  int pending_ = 0;
   JobRunner runner_;
 };
 

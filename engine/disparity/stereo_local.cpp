@@ -93,7 +93,10 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
   Schema<StereoSmoothParameters> schema;
   add_denoise_parameters(schema);
   add_stereo_local_parameters(schema);
-  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4}).search("weight_power", {0, 2});
+  // Fewer caps than the local methods: smoothing takes what noise they leave.
+  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {0, 2})
+      .search("epsilon", {0, 0.02, kUncapped});
   schema.completed_by([views](StereoSmoothParameters& p) {
     apply_local_profile(p, views);
     if (p.profile != "paper") return;
