@@ -22,6 +22,20 @@ std::string gap_note(const std::vector<double>& gaps) {
   return text;
 }
 
+// r^power. Whole powers are multiplied out, which is vectorised: std::pow took a tenth of the time.
+void raise_row(const float* r, double power, int width, float* raised) {
+  const int whole = static_cast<int>(power);
+  if (whole != power) {
+    const auto exponent = static_cast<float>(power);
+    std::transform(r, r + width, raised, [=](float value) { return std::pow(value, exponent); });
+    return;
+  }
+  std::fill_n(raised, width, 1.0F);
+  for (int i = 0; i < whole; ++i) {
+    for (int x = 0; x < width; ++x) raised[x] *= r[x];
+  }
+}
+
 // Denoises every view of `estimate` in place; returns the relative gap of each.
 std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters& parameters,
                                   float least_weight, Estimate& estimate,
@@ -52,14 +66,10 @@ std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters&
 
 void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
                        Image<float>& weights) {
-  const auto exponent = static_cast<float>(weight.power);
   for (int y = 0; y < confidence.height; ++y) {
-    const float* r = confidence.row(y);
     float* w = weights.row(y);
-    for (int x = 0; x < confidence.width; ++x) {
-      const float raised = exponent == 2 ? r[x] * r[x] : std::pow(r[x], exponent);
-      w[x] = std::max(raised, weight.least);
-    }
+    raise_row(confidence.row(y), weight.power, confidence.width, w);
+    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.least);
   }
 }
 

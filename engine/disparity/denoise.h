@@ -13,7 +13,7 @@ struct DenoiseParameters {
   double lambda = 0.2;
   double weight_power = 6;
   double edge_strength = 20;
-  int max_iterations = 30;
+  int max_iterations = 24;
   double gap = 1e-4;
 };
 
