@@ -15,13 +15,6 @@
 namespace episcope {
 namespace {
 
-std::string gap_note(const std::vector<double>& gaps) {
-  char text[80];
-  std::snprintf(text, sizeof text, "largest relative duality gap %.1e",
-                *std::max_element(gaps.begin(), gaps.end()));
-  return text;
-}
-
 // r^power. Whole powers are multiplied out, which is vectorised: std::pow took a tenth of the time.
 void raise_row(const float* r, double power, int width, float* raised) {
   const int whole = static_cast<int>(power);
@@ -36,8 +29,8 @@ void raise_row(const float* r, double power, int width, float* raised) {
   }
 }
 
-// Denoises every view of `estimate` in place; returns the relative gap of each.
-std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters& parameters,
+// Denoises every view of `estimate` in place; returns the largest relative gap.
+double denoise_views(const LightField& lf, const DenoiseParameters& parameters,
                                   float least_weight, Estimate& estimate,
                                   const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
@@ -53,13 +46,13 @@ std::vector<double> denoise_views(const LightField& lf, const DenoiseParameters&
                         *weights);
       const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
-      const TvL2Result result =
-          solver->solve({map, *weights, edges, parameters.lambda},
-                        {parameters.max_iterations, parameters.gap}, progress, map);
-      gaps[i] = result.energy > 0 ? result.gap / result.energy : 0;
+      gaps[i] = solver
+                    ->solve({map, *weights, edges, parameters.lambda},
+                            {parameters.max_iterations, parameters.gap}, progress, map)
+                    .relative_gap();
     };
   });
-  return gaps;
+  return *std::max_element(gaps.begin(), gaps.end());
 }
 
 }  // namespace
@@ -71,6 +64,12 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
     raise_row(confidence.row(y), weight.power, confidence.width, w);
     for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.least);
   }
+}
+
+std::string gap_note(double largest) {
+  char text[80];
+  std::snprintf(text, sizeof text, "largest relative duality gap %.1e", largest);
+  return text;
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,

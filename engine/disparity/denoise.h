@@ -6,9 +6,12 @@
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
 
+#include <string>
+
 namespace episcope {
 
-/// Parameters of the denoising that the methods EPI_S and ST_*_S share; defaults are each method's.
+/// Parameters of the denoising that EPI_S, EPI_C, EPI_TWO_LAYER and ST_*_S share; defaults are
+/// each method's.
 struct DenoiseParameters {
   double lambda = 0.2;
   double weight_power = 6;
@@ -36,6 +39,22 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
              const Progress& progress, float least_weight = DataWeight{}.least);
 
+/// A note of the largest relative duality gap of some solutions.
+[[nodiscard]] std::string gap_note(double largest);
+
+/// When TvL2Solver stops.
+template <class P>
+void add_stop_parameters(Schema<P>& schema) {
+  schema
+      .integer("max_iterations", &P::max_iterations,
+               {"Iterations", "At most so many of the denoising, at full resolution"},
+               {1, 2000, true})
+      .real("gap", &P::gap,
+            {"Stop at gap",
+             "The denoising stops early once the duality gap is this share of the energy"},
+            {1e-6, 0.1, true});
+}
+
 template <class P>
 void add_denoise_parameters(Schema<P>& schema) {
   schema
@@ -50,14 +69,8 @@ void add_denoise_parameters(Schema<P>& schema) {
           {"Edge strength β",
            "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
            "in the paper"},
-          {0, 100})
-      .integer("max_iterations", &P::max_iterations,
-               {"Iterations", "At most so many of the denoising, at full resolution"},
-               {1, 2000, true})
-      .real("gap", &P::gap,
-            {"Stop at gap",
-             "The denoising stops early once the duality gap is this share of the energy"},
-            {1e-6, 0.1, true});
+          {0, 100});
+  add_stop_parameters(schema);
 }
 
 }  // namespace episcope

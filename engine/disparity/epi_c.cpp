@@ -62,10 +62,11 @@ class ViewStep {
     majorise(view);
     const Image<float> edges =
         edge_weights(work_.light_field, view, work_.parameters.edge_strength);
-    const TvL2Result result = solver_.solve({observed_, weights_, edges, work_.parameters.lambda},
-                                            {work_.parameters.max_iterations, work_.parameters.gap},
-                                            progress, work_.u.view(view));
-    return result.energy > 0 ? result.gap / result.energy : 0;
+    return solver_
+        .solve({observed_, weights_, edges, work_.parameters.lambda},
+               {work_.parameters.max_iterations, work_.parameters.gap}, progress,
+               work_.u.view(view))
+        .relative_gap();
   }
 
  private:
@@ -237,7 +238,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
   const double before = ordering_violations(u, progress.part(0.25, 0.26));
   if (parameters.sweeps > 0) {
     const double gap = order_views(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
-    estimate.notes = {text_of("largest relative duality gap %.1e", gap, 0)};
+    estimate.notes = {gap_note(gap)};
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98));
   estimate.notes.push_back(text_of("ordering violated by %.3f %% of the lines, %.3f %% before",

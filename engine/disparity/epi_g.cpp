@@ -2,6 +2,7 @@
 #include "engine/disparity/epi_g.h"
 
 #include "engine/core/parallel.h"
+#include "engine/disparity/denoise.h"
 #include "engine/disparity/matching_cost.h"
 
 #include <algorithm>
@@ -22,9 +23,7 @@ struct Direction {
     disparity = Image<float>(d.height, d.width);
     weight = Image<float>(d.height, d.width);
     std::copy_n(d.data, disparity.size(), disparity.data());
-    std::transform(r.data, r.data + weight.size(), weight.data(), [power](float coherence) {
-      return std::pow(coherence, static_cast<float>(power));
-    });
+    fill_data_weights(r, {power, 0}, weight);
   }
 };
 

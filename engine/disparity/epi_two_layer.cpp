@@ -9,7 +9,6 @@
 #include "engine/solvers/segmentation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <vector>
@@ -17,8 +16,6 @@
 namespace episcope {
 namespace {
 
-// No pixel is given up entirely: the solution stays unique.
-constexpr float kLeastWeight = 0.01F;
 // Variation of the surface across the border of its region, and of either layer at least.
 constexpr float kBorderWeight = 0.02F;
 // The region must be right to a pixel, not to a thousandth.
@@ -56,11 +53,11 @@ class ViewSolver {
 
  private:
   void find_region(const LayeredView& view);
+  void find_weights(const LayeredView& view);
   double solve_background(const Image<float>& edges, const LayeredView& view);
   double solve_foreground(const Image<float>& edges, const LayeredView& view);
   double solve_layer(double lambda, ImageView<float> result);
   void finish(const LayeredView& view);
-  [[nodiscard]] float raised(float trust) const;
   [[nodiscard]] float confidence(const LayeredView& view, std::size_t i) const {
     return static_cast<float>(view.layers.data[i]) / 255;
   }
@@ -72,11 +69,6 @@ class ViewSolver {
   Image<std::uint8_t> region_;
 };
 
-float ViewSolver::raised(float trust) const {
-  const auto exponent = static_cast<float>(parameters_.weight_power);
-  return std::max(exponent == 2 ? trust * trust : std::pow(trust, exponent), kLeastWeight);
-}
-
 void ViewSolver::find_region(const LayeredView& view) {
   spread_coherence(view.coherence, space_.data, space_.coherence);
   const auto decision = static_cast<float>(parameters_.decision);
@@ -87,24 +79,32 @@ void ViewSolver::find_region(const LayeredView& view) {
     space_.data.data()[i] =
         share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
     const float trust = std::max(r, c);
-    space_.weight.data()[i] = std::max(trust * trust, kLeastWeight);
+    space_.weight.data()[i] = std::max(trust * trust, DataWeight{}.least);
   }
   segment(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
           {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
 }
 
+// Of either layer's data.
+void ViewSolver::find_weights(const LayeredView& view) {
+  Image<float>& trust = space_.coherence;
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
+  }
+  fill_data_weights(trust, {.power = parameters_.weight_power}, space_.weight);
+}
+
 double ViewSolver::solve_layer(double lambda, ImageView<float> result) {
-  const TvL2Result solved =
-      space_.solver.solve({space_.data, space_.weight, space_.edge, lambda},
-                          {parameters_.max_iterations, parameters_.gap}, progress_, result);
-  return solved.energy > 0 ? solved.gap / solved.energy : 0;
+  return space_.solver
+      .solve({space_.data, space_.weight, space_.edge, lambda},
+             {parameters_.max_iterations, parameters_.gap}, progress_, result)
+      .relative_gap();
 }
 
 double ViewSolver::solve_background(const Image<float>& edges, const LayeredView& view) {
   for (std::size_t i = 0; i < region_.size(); ++i) {
     const bool is_double = region_.data()[i] != 0;
     space_.data.data()[i] = is_double ? view.far.data[i] : view.single.data[i];
-    space_.weight.data()[i] = raised(is_double ? confidence(view, i) : view.coherence.data[i]);
     // Image edges of the region are those of both layers: they tell of neither.
     space_.edge.data()[i] = is_double ? 1 : edges.data()[i];
   }
@@ -122,7 +122,6 @@ double ViewSolver::solve_foreground(const Image<float>& edges, const LayeredView
       const int right = std::min(x + 1, region_.width() - 1);
       const bool is_border = here[right] != here[x] || below[x] != here[x];
       space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
-      space_.weight.data()[i] = raised(is_double ? confidence(view, i) : view.coherence.data[i]);
       space_.edge.data()[i] = is_border ? kBorderWeight : is_double ? 1 : edges.data()[i] / factor;
     }
   }
@@ -148,6 +147,7 @@ void ViewSolver::finish(const LayeredView& view) {
 double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
   if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
   find_region(view);
+  find_weights(view);
   const Image<float> edges = edge_weights(lf_, index, parameters_.edge_strength);
   double gap = 0;
   // The background last: outside the region it is what both layers hold.
@@ -162,12 +162,10 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
 std::vector<std::string> notes_of(const std::vector<double>& gaps,
                                   const ViewStack<std::uint8_t>& layers) {
   const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
-  char share[80], gap[80];
+  char share[80];
   std::snprintf(share, sizeof share, "two layers in %.1f %% of the pixels",
                 100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size()));
-  std::snprintf(gap, sizeof gap, "largest relative duality gap %.1e",
-                *std::max_element(gaps.begin(), gaps.end()));
-  return {share, gap};
+  return {share, gap_note(*std::max_element(gaps.begin(), gaps.end()))};
 }
 
 // Replaces the raw maps in `estimate` by the results.
@@ -253,13 +251,8 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {0, 3})
       .real("double_contrast", &P::double_contrast,
             {"Contrast limit, two layers", "Second derivatives above it count less", "1/255"},
-            {0.1, 255, true})
-      .integer("max_iterations", &P::max_iterations,
-               {"Iterations", "At most so many of the smoothing, at full resolution"},
-               {1, 2000, true})
-      .real("gap", &P::gap,
-            {"Stop at gap", "Duality gap as share of the energy at which the smoothing stops"},
-            {1e-6, 0.1, true});
+            {0.1, 255, true});
+  add_stop_parameters(schema);
   add_epi_l_parameters(schema);
   return schema;
 }

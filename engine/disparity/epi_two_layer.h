@@ -1,24 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/disparity/denoise.h"
 #include "engine/disparity/epi_l.h"
 
 namespace episcope {
 
-/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, and of the two layers.
-struct EpiTwoLayerParameters : EpiLParameters {
+/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, of the denoising, and of the
+/// two layers.
+struct EpiTwoLayerParameters : EpiLParameters, DenoiseParameters {
+  EpiTwoLayerParameters() { max_iterations = 30; }
+
   double double_inner_scale = 0.8;
   double double_outer_scale = 2;
   double double_contrast = 10;
   double least_distance = 0.2;
   double decision = 0.15;
   double region_smoothness = 4;
-  double lambda = 0.2;
   double layer_smoothness = 3;
-  double weight_power = 6;
-  double edge_strength = 20;
-  int max_iterations = 30;
-  double gap = 1e-4;
 };
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();

@@ -32,6 +32,9 @@ struct TvL2Result {
   double energy = 0;   ///< P(u)
   double gap = 0;  ///< P(u) − D(p) ≥ 0 up to rounding. ½/λ Σ w (u − u*)² ≤ gap bounds the error.
   bool converged = false;
+
+  /// Gap as share of the energy; 0 without energy.
+  [[nodiscard]] double relative_gap() const { return energy > 0 ? gap / energy : 0; }
 };
 
 /// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: one
