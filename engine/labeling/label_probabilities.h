@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/indices.h"
+#include "engine/core/volume.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// How probable each label is for every pixel of one view: `[y][label][x]`, 0 … 255 for 0 … 1, so
+/// that 13 labels of 9×9×768×768 rays take 0.6 GB; labels in the order of `LabelProbabilities::ids`.
+using ProbabilityMap = Volume<std::uint8_t>;
+
+/// Label probabilities of a rectangle of views. Move-only.
+struct LabelProbabilities {
+  std::vector<std::int32_t> ids;  ///< The label of each layer, ascending.
+  GridShape grid;                 ///< Views covered,
+  ViewIndex first;                ///< beginning here: one view alone is a grid of 1×1.
+  std::vector<ProbabilityMap> views;  ///< `[v][u]`
+
+  [[nodiscard]] bool empty() const { return views.empty(); }
+  [[nodiscard]] bool contains(ViewIndex view) const {
+    return !empty() && grid.contains({view.v - first.v, view.u - first.u});
+  }
+  /// Precondition: `contains(view)`.
+  [[nodiscard]] const ProbabilityMap& view(ViewIndex view) const { return views[index(view)]; }
+  [[nodiscard]] ProbabilityMap& view(ViewIndex view) { return views[index(view)]; }
+
+ private:
+  [[nodiscard]] std::size_t index(ViewIndex view) const {
+    return static_cast<std::size_t>(view.v - first.v) * grid.u + (view.u - first.u);
+  }
+};
+
+/// The most probable label of each pixel, `[y][x]`; of equals the lowest id. `ids` names the layers.
+/// Throws InvalidInput unless there is one id for each layer.
+[[nodiscard]] Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
+                                                       const std::vector<std::int32_t>& ids);
+
+/// How undecided the labels of each pixel are, `[y][x]` in [0, 1]: the entropy of its probabilities
+/// over that of equal ones. 0 with a single label.
+[[nodiscard]] Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities);
+
+}  // namespace episcope
