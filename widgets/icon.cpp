@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/icon.h"
 
+#include "widgets/painted_icon_engine.h"
+
 #include <QFile>
 #include <QGuiApplication>
-#include <QIconEngine>
 #include <QPainter>
 #include <QPalette>
-#include <QPixmap>
 #include <QSvgRenderer>
 
 // Resources of a static library register themselves only when asked to, outside of any namespace.
@@ -18,7 +18,7 @@ namespace episcope {
 namespace {
 
 /// Draws an SVG whose `currentColor` is the palette's text colour at the time of drawing.
-class TintedSvgEngine : public QIconEngine {
+class TintedSvgEngine : public PaintedIconEngine {
  public:
   explicit TintedSvgEngine(QByteArray svg) : svg_(std::move(svg)) {}
 
@@ -26,13 +26,6 @@ class TintedSvgEngine : public QIconEngine {
     QByteArray tinted = svg_;
     QSvgRenderer renderer(tinted.replace("currentColor", color(mode).name().toLatin1()));
     renderer.render(painter, rect);
-  }
-  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
-    QPixmap pixmap(size);
-    pixmap.fill(Qt::transparent);
-    QPainter painter(&pixmap);
-    paint(&painter, {{0, 0}, size}, mode, state);
-    return pixmap;
   }
   [[nodiscard]] QIconEngine* clone() const override { return new TintedSvgEngine(svg_); }
 

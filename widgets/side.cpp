@@ -1,28 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/side.h"
 
-#include <QIconEngine>
+#include "widgets/painted_icon_engine.h"
+
 #include <QPainter>
-#include <QPixmap>
 
 #include <algorithm>
 
 namespace episcope {
 namespace {
 
-class SideIconEngine : public QIconEngine {
+class SideIconEngine : public PaintedIconEngine {
  public:
   explicit SideIconEngine(Side side) : side_(side) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode, QIcon::State) override {
     draw_side(*painter, rect, side_);
-  }
-  QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
-    QPixmap pixmap(size);
-    pixmap.fill(Qt::transparent);
-    QPainter painter(&pixmap);
-    paint(&painter, {{0, 0}, size}, mode, state);
-    return pixmap;
   }
   [[nodiscard]] QIconEngine* clone() const override { return new SideIconEngine(side_); }
 
