@@ -8,6 +8,7 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QProgressBar>
+#include <QScrollArea>
 #include <QToolButton>
 #include <QVBoxLayout>
 
@@ -18,6 +19,7 @@ namespace episcope {
 namespace {
 
 constexpr int kBarSteps = 1000;
+constexpr double kRowsInSight = 3.5;  // Half a row tells that there is more.
 
 }  // namespace
 
@@ -35,13 +37,26 @@ QString time_left_text(double fraction, double seconds) {
 
 JobPanel::JobPanel(QWidget* parent)
     : QWidget(parent),
-      layout_(new QVBoxLayout(this)),
+      scroll_(new QScrollArea(this)),
+      layout_(new QVBoxLayout),
       idle_(new QLabel(tr("No jobs running"), this)) {
   setObjectName("jobPanel");
   idle_->setObjectName("jobPanel.idle");
+  auto* rows = new QWidget(scroll_);
+  rows->setLayout(layout_);
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setSpacing(theme::kSpacing);
-  layout_->addWidget(idle_);
+  scroll_->setObjectName("jobPanel.scroll");
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->setFocusPolicy(Qt::NoFocus);
+  scroll_->setWidgetResizable(true);
+  scroll_->setWidget(rows);
+  scroll_->hide();
+  auto* all = new QVBoxLayout(this);
+  all->setContentsMargins(0, 0, 0, 0);
+  all->addWidget(idle_);
+  all->addWidget(scroll_);
   updateColors();
 }
 
@@ -49,7 +64,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   removeJob(id);
   const QString name = QString("job.%1").arg(id);
   Row row;
-  row.widget = new QWidget(this);
+  row.widget = new QWidget(scroll_->widget());
   row.widget->setObjectName(name);
   auto* title_label = new ElidedLabel(row.widget);
   title_label->setObjectName(name + ".title");
@@ -81,8 +96,8 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   connect(row.finish, &QToolButton::clicked, this, [this, id] { emit finishRequested(id); });
   connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
   rows_.emplace(id, row);
-  idle_->hide();
   updateColors();
+  fitHeight();
 }
 
 void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
@@ -129,7 +144,16 @@ void JobPanel::removeJob(quint64 id) {
   found->second.widget->deleteLater();
   found->second.widget->hide();
   rows_.erase(found);
+  fitHeight();
+}
+
+void JobPanel::fitHeight() {
   idle_->setVisible(rows_.empty());
+  scroll_->setVisible(!rows_.empty());
+  if (rows_.empty()) return;
+  const int row = rows_.begin()->second.widget->sizeHint().height() + layout_->spacing();
+  const double in_sight = std::min(kRowsInSight, static_cast<double>(rows_.size()));
+  scroll_->setFixedHeight(static_cast<int>(in_sight * row) - layout_->spacing());
 }
 
 void JobPanel::changeEvent(QEvent* event) {

@@ -9,6 +9,7 @@
 
 class QLabel;
 class QProgressBar;
+class QScrollArea;
 class QToolButton;
 class QVBoxLayout;
 
@@ -21,7 +22,8 @@ class ElidedLabel;
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
 
 /// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job that
-/// can end early has a button for that beside it. Shows a quiet line when there are none.
+/// can end early has a button for that beside it. Shows a quiet line when there are none. However
+/// many there are, it grows to a few rows only: the rest is scrolled to.
 class JobPanel : public QWidget {
   Q_OBJECT
 
@@ -61,8 +63,10 @@ class JobPanel : public QWidget {
   [[nodiscard]] Row* find(quint64 id);
   void end(quint64 id, const QString& stage, bool cancelled);
   void updateColors();
+  void fitHeight();
 
-  QVBoxLayout* layout_;
+  QScrollArea* scroll_;
+  QVBoxLayout* layout_;  // of the rows
   QLabel* idle_;
   std::map<quint64, Row> rows_;
 };

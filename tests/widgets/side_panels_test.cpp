@@ -11,6 +11,8 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalSpy>
 #include <QTest>
 #include <QToolButton>
@@ -97,6 +99,26 @@ class SidePanelsTest : public QObject {
     panel.removeJob(8);
     QCOMPARE(panel.jobCount(), 0);
     QVERIFY(!panel.findChild<QLabel*>("jobPanel.idle")->isHidden());
+  }
+
+  void manyJobs_areScrolledTo() {
+    JobPanel panel;
+    panel.resize(300, panel.sizeHint().height());
+    for (quint64 id = 1; id <= 3; ++id) panel.addJob(id, "EPI_L");
+    const int few = panel.sizeHint().height();
+    for (quint64 id = 4; id <= 12; ++id) panel.addJob(id, "EPI_L");
+    panel.resize(300, panel.sizeHint().height());
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    QVERIFY2(panel.minimumSizeHint().height() < 1.4 * few,
+             qPrintable(QString("%1, %2").arg(panel.minimumSizeHint().height()).arg(few)));
+    const auto* scroll = panel.findChild<QScrollArea*>("jobPanel.scroll");
+    QTRY_VERIFY(scroll->verticalScrollBar()->maximum() > 0);
+    const auto* first = panel.findChild<QToolButton*>("job.1.cancel");
+    QVERIFY(!first->visibleRegion().isEmpty());
+    for (quint64 id = 3; id <= 12; ++id) panel.removeJob(id);
+    QVERIFY(panel.sizeHint().height() < few);
   }
 
   void timeLeft_isTold_data() {
