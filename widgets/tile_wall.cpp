@@ -66,7 +66,7 @@ ViewCanvas* TileWall::addTile() {
   connect(tile, &ViewCanvas::centerRequested, this, [this, index] { emit opened(ids_[index]); });
   connect(tile, &ViewCanvas::focusRequested, this, &TileWall::focusRequested);
   connect(tile, &ViewCanvas::cursorMoved, this, &TileWall::cursorMoved);
-  connect(tile, &ViewCanvas::playToggled, this, &TileWall::playToggled);
+  connect(tile, &ViewCanvas::spaceTapped, this, &TileWall::spaceTapped);
   connect(tile, &ViewCanvas::focusStepped, this, &TileWall::focusStepped);
   tiles_.push_back(tile);
   return tile;

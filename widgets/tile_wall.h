@@ -54,7 +54,7 @@ class TileWall : public QScrollArea {
   void crossHairRequested(episcope::PixelIndex pixel);
   void focusRequested(episcope::PixelIndex pixel);
   void cursorMoved(std::optional<episcope::PixelIndex> pixel);
-  void playToggled();
+  void spaceTapped();
   void focusStepped(double steps);
 
  protected:

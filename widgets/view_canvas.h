@@ -17,9 +17,9 @@ namespace episcope {
 /// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
 /// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
 ///
-/// wheel, + and − zoom at the cursor; K fits; Ctrl+0 shows 100 %; middle drag or Space+drag pans;
-/// click moves the cross-hair; Shift+click focuses; drag is parallax while browsing; double click
-/// asks for the centre view. Arrow keys are left to the host.
+/// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
+/// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view. Keys
+/// are left to the host, whose commands call the slots.
 class ViewCanvas : public QWidget {
   Q_OBJECT
 
@@ -102,8 +102,8 @@ class ViewCanvas : public QWidget {
   void parallaxFinished();
   /// The divider was dragged to a part of the width.
   void wipeMoved(double position);
-  /// Space pressed and released without a drag: play or pause.
-  void playToggled();
+  /// Space pressed and released without a drag. Held, it pans: no shortcut hears it in the canvas.
+  void spaceTapped();
   /// Alt+wheel: steps of the focus plane, positive = nearer.
   void focusStepped(double steps);
 

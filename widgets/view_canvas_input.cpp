@@ -127,24 +127,14 @@ void ViewCanvas::followCursor(std::optional<QPointF> position) {
 }
 
 void ViewCanvas::keyPressEvent(QKeyEvent* event) {
-  const bool control = event->modifiers() & Qt::ControlModifier;
-  if (event->key() == Qt::Key_Space) {
-    if (!event->isAutoRepeat()) {
-      space_held_ = true;
-      space_used_ = false;
-      updateCursorShape();
-    }
-  } else if (event->key() == Qt::Key_Plus || event->key() == Qt::Key_Equal) {
-    zoomIn();
-  } else if (event->key() == Qt::Key_Minus) {
-    zoomOut();
-  } else if (event->key() == Qt::Key_K && !control) {
-    zoomToFit();
-  } else if (event->key() == Qt::Key_0 && control) {
-    zoomToActualSize();
-  } else {
+  if (event->key() != Qt::Key_Space) {
     QWidget::keyPressEvent(event);
+    return;
   }
+  if (event->isAutoRepeat()) return;
+  space_held_ = true;
+  space_used_ = false;
+  updateCursorShape();
 }
 
 void ViewCanvas::keyReleaseEvent(QKeyEvent* event) {
@@ -155,7 +145,7 @@ void ViewCanvas::keyReleaseEvent(QKeyEvent* event) {
   if (event->isAutoRepeat() || !space_held_) return;
   space_held_ = false;
   updateCursorShape();
-  if (!space_used_) emit playToggled();
+  if (!space_used_) emit spaceTapped();
 }
 
 void ViewCanvas::focusOutEvent(QFocusEvent* event) {

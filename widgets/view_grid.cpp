@@ -5,6 +5,7 @@
 #include "widgets/theme.h"
 #include "widgets/view_grid_cells.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -32,7 +33,7 @@ ViewGrid::ViewGrid(QWidget* parent)
   play_->setCheckable(true);
   play_->setAutoRaise(true);
   play_->setIcon(themed_icon("play"));
-  play_->setToolTip(tr("Play the views (Space)"));
+  play_->setToolTip(tr("Plays the views one after the other"));
   path_->setObjectName("viewGrid.path");
   path_->addItem(tr("circle"), static_cast<int>(PlayPath::Circle));
   path_->addItem(tr("snake"), static_cast<int>(PlayPath::Snake));
@@ -53,9 +54,6 @@ ViewGrid::ViewGrid(QWidget* parent)
   layout->addLayout(row);
 
   connect(cells_, &ViewGridCells::viewClicked, this, &ViewGrid::select);
-  connect(cells_, &ViewGridCells::stepRequested, this, &ViewGrid::step);
-  connect(cells_, &ViewGridCells::jumpRequested, this, &ViewGrid::jump);
-  connect(cells_, &ViewGridCells::centerRequested, this, &ViewGrid::goToCenter);
   connect(play_, &QToolButton::toggled, this, &ViewGrid::setPlaying);
   connect(path_, &QComboBox::currentIndexChanged, this, [this] {
     loop_ = play_path(grid(), static_cast<PlayPath>(path_->currentData().toInt()));
@@ -101,19 +99,10 @@ void ViewGrid::select(ViewIndex view) {
   emit viewSelected(view);
 }
 
-void ViewGrid::step(int dv, int du) {
-  select({current().v + dv, current().u + du});
-}
-
-void ViewGrid::jump(int dv, int du) {
-  const auto edge = [](int direction, int at, int count) {
-    return direction == 0 ? at : direction < 0 ? 0 : count - 1;
-  };
-  select({edge(dv, current().v, grid().v), edge(du, current().u, grid().u)});
-}
-
-void ViewGrid::goToCenter() {
-  select(grid().center());
+void ViewGrid::followTip(const QAction* play) {
+  const auto follow = [this, play] { play_->setToolTip(play->toolTip()); };
+  connect(play, &QAction::changed, play_, follow);
+  follow();
 }
 
 void ViewGrid::setPlaying(bool playing) {
@@ -122,7 +111,6 @@ void ViewGrid::setPlaying(bool playing) {
   play_->setChecked(playing);
   if (playing == timer_.isActive()) return;
   play_->setIcon(themed_icon(playing ? "pause" : "play"));
-  play_->setToolTip(playing ? tr("Pause (Space)") : tr("Play the views (Space)"));
   if (playing) {
     timer_.start();
   } else {

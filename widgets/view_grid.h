@@ -10,6 +10,7 @@
 
 #include <vector>
 
+class QAction;
 class QComboBox;
 class QLabel;
 class QToolButton;
@@ -19,8 +20,8 @@ namespace episcope {
 class ViewGridCells;
 
 /// The camera grid as v × u thumbnails with the current view marked, and a play button. Any grid
-/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Arrows step,
-/// Shift+arrows go to the first and last, Home to the centre.
+/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Keys are left to the
+/// host.
 class ViewGrid : public QWidget {
   Q_OBJECT
 
@@ -39,13 +40,10 @@ class ViewGrid : public QWidget {
   [[nodiscard]] ViewGridCells* cells() const { return cells_; }
   /// Size in device pixels that a thumbnail need not exceed.
   [[nodiscard]] QSize thumbnailSize() const;
+  /// The button that plays shows the tool tip of this command, with its key.
+  void followTip(const QAction* play);
 
  public slots:
-  /// The neighbour; ignored at the border.
-  void step(int dv, int du);
-  /// First or last view of the row or column.
-  void jump(int dv, int du);
-  void goToCenter();
   void setPlaying(bool playing);
   void setPlayPath(episcope::PlayPath path);
 

@@ -4,7 +4,6 @@
 #include "widgets/theme.h"
 
 #include <QHelpEvent>
-#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
@@ -133,36 +132,6 @@ void ViewGridCells::mouseMoveEvent(QMouseEvent* event) {
   if (!(event->buttons() & Qt::LeftButton)) return;
   if (const auto view = viewAt(event->position()); view && *view != current_) {
     emit viewClicked(*view);
-  }
-}
-
-void ViewGridCells::keyPressEvent(QKeyEvent* event) {
-  int dv = 0;
-  int du = 0;
-  switch (event->key()) {
-    case Qt::Key_Left:
-      du = -1;
-      break;
-    case Qt::Key_Right:
-      du = 1;
-      break;
-    case Qt::Key_Up:
-      dv = -1;
-      break;
-    case Qt::Key_Down:
-      dv = 1;
-      break;
-    case Qt::Key_Home:
-      emit centerRequested();
-      return;
-    default:
-      QWidget::keyPressEvent(event);
-      return;
-  }
-  if (event->modifiers() & Qt::ShiftModifier) {
-    emit jumpRequested(dv, du);
-  } else {
-    emit stepRequested(dv, du);
   }
 }
 

@@ -35,16 +35,12 @@ class ViewGridCells : public QWidget {
 
  signals:
   void viewClicked(episcope::ViewIndex view);
-  void stepRequested(int dv, int du);
-  void jumpRequested(int dv, int du);
-  void centerRequested();
 
  protected:
   bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
-  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   [[nodiscard]] double aspect() const;  ///< Height over width of a cell.

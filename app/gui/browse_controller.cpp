@@ -46,7 +46,6 @@ void BrowseController::connectCanvas() {
     session_.set_view({parallax_start_.v + static_cast<int>(std::lround(views.y())),
                        parallax_start_.u + static_cast<int>(std::lround(views.x()))});
   });
-  connect(canvas, &ViewCanvas::playToggled, this, &BrowseController::togglePlay);
   connect(canvas, &ViewCanvas::focusStepped, this, &BrowseController::stepFocus);
 }
 

@@ -66,7 +66,7 @@ void CompareController::connectWall() {
   connect(wall, &TileWall::crossHairRequested, canvas, &ViewCanvas::crossHairRequested);
   connect(wall, &TileWall::focusRequested, canvas, &ViewCanvas::focusRequested);
   connect(wall, &TileWall::cursorMoved, canvas, &ViewCanvas::cursorMoved);
-  connect(wall, &TileWall::playToggled, canvas, &ViewCanvas::playToggled);
+  connect(wall, &TileWall::spaceTapped, canvas, &ViewCanvas::spaceTapped);
   connect(wall, &TileWall::focusStepped, canvas, &ViewCanvas::focusStepped);
 }
 

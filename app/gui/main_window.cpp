@@ -30,6 +30,7 @@
 #include "widgets/overlay_bar.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
+#include "widgets/view_grid.h"
 
 #include <QAction>
 #include <QActionGroup>
@@ -72,6 +73,7 @@ MainWindow::MainWindow(QWidget* parent)
   add_actions(*actions_, *this);
   panels_.color_bar->followTips(actions_->find("compare.auto_range"),
                                 actions_->find("compare.own_range"));
+  panels_.view_grid->followTip(actions_->find("view.play"));
   palette_ = new CommandPalette(*actions_, this);
   buildBars();
   connectJobs();
@@ -165,6 +167,9 @@ void MainWindow::connectControllers() {
   connect(estimate_, &EstimateController::exportRequested, exporter_,
           &ExportController::exportResultDialog);
   connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);
+  connect(panels_.canvas, &ViewCanvas::spaceTapped, actions_, [this] {
+    if (QAction* action = actions_->find(actions_->userOf(Qt::Key_Space))) action->trigger();
+  });
   connect(panels_.color_bar, &ColorBar::automaticRangeRequested, statistics_,
           &StatisticsController::useAutomaticRange);
   connect(compare_, &CompareController::modeChanged, this, &MainWindow::updateActions);

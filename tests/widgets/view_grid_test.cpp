@@ -47,49 +47,6 @@ class ViewGridTest : public QObject {
     QVERIFY(cells.rect().contains(cells.cellRect({v - 1, u - 1}).toRect().adjusted(0, 0, -1, -1)));
   }
 
-  void keys_move_data() {
-    QTest::addColumn<int>("key");
-    QTest::addColumn<Qt::KeyboardModifier>("modifier");
-    QTest::addColumn<ViewIndex>("expected");
-    QTest::newRow("left") << int(Qt::Key_Left) << Qt::NoModifier << ViewIndex{2, 2};
-    QTest::newRow("right") << int(Qt::Key_Right) << Qt::NoModifier << ViewIndex{2, 4};
-    QTest::newRow("up") << int(Qt::Key_Up) << Qt::NoModifier << ViewIndex{1, 3};
-    QTest::newRow("down") << int(Qt::Key_Down) << Qt::NoModifier << ViewIndex{3, 3};
-    QTest::newRow("first") << int(Qt::Key_Left) << Qt::ShiftModifier << ViewIndex{2, 0};
-    QTest::newRow("last") << int(Qt::Key_Right) << Qt::ShiftModifier << ViewIndex{2, 8};
-    QTest::newRow("top") << int(Qt::Key_Up) << Qt::ShiftModifier << ViewIndex{0, 3};
-    QTest::newRow("bottom") << int(Qt::Key_Down) << Qt::ShiftModifier << ViewIndex{6, 3};
-    QTest::newRow("home") << int(Qt::Key_Home) << Qt::NoModifier << ViewIndex{3, 4};
-  }
-
-  void keys_move() {
-    QFETCH(int, key);
-    QFETCH(Qt::KeyboardModifier, modifier);
-    QFETCH(ViewIndex, expected);
-    ViewGrid grid;
-    grid.setGrid({7, 9});
-    grid.setCurrent({2, 3});
-    QSignalSpy selected(&grid, &ViewGrid::viewSelected);
-
-    QTest::keyClick(grid.cells(), static_cast<Qt::Key>(key), modifier);
-
-    QCOMPARE(selected.size(), 1);
-    QCOMPARE(selected[0][0].value<ViewIndex>(), expected);
-    QCOMPARE(grid.current(), (ViewIndex{2, 3}));  // The host decides.
-  }
-
-  void stepOverTheBorder_isIgnored() {
-    ViewGrid grid;
-    grid.setGrid({3, 3});
-    grid.setCurrent({0, 2});
-    QSignalSpy selected(&grid, &ViewGrid::viewSelected);
-
-    QTest::keyClick(grid.cells(), Qt::Key_Right);
-    QTest::keyClick(grid.cells(), Qt::Key_Up);
-
-    QCOMPARE(selected.size(), 0);
-  }
-
   void currentAndThumbnails_areDrawn() {
     ViewGridCells cells;
     cells.setGrid({3, 3});

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/action_table.h"
 
+#include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "widgets/view_canvas.h"
+#include "widgets/view_grid.h"
+#include "widgets/view_grid_cells.h"
 
 #include <QAction>
 #include <QKeySequenceEdit>
@@ -14,8 +17,11 @@
 #include <QPushButton>
 #include <QSet>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QTest>
 #include <QTreeWidget>
+
+#include <tuple>
 
 using namespace episcope;
 
@@ -30,6 +36,8 @@ class ActionTableTest : public QObject {
   void everyCommandWithKeys_isInTheShortcutWindow();
   void palette_findsAndRunsACommand();
   void changedKey_worksIsShownAndRemembered();
+  void keysOfTheView_areThoseOfTheTable_data();
+  void keysOfTheView_areThoseOfTheTable();
   void keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked();
   void defaults_comeBack();
 };
@@ -154,6 +162,56 @@ void ActionTableTest::changedKey_worksIsShownAndRemembered() {
   QTRY_VERIFY(canvas->isFitted());
   MainWindow next;
   QCOMPARE(next.actions().find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
+}
+
+void ActionTableTest::keysOfTheView_areThoseOfTheTable_data() {
+  QTest::addColumn<QString>("id");
+  QTest::addColumn<bool>("in_grid");
+  for (const char* id : {"view.zoom_in", "view.zoom_out", "view.fit", "view.actual_size",
+                         "view.play"}) {
+    QTest::newRow(id) << QString(id) << false;
+  }
+  for (const char* id : {"view.left", "view.right_most", "view.up", "view.down", "view.center"}) {
+    QTest::newRow(id) << QString(id) << false;
+    QTest::addRow("%s in the grid", id) << QString(id) << true;
+  }
+}
+
+// A command of the view is heard by the key it has now, and no longer by the one it had.
+void ActionTableTest::keysOfTheView_areThoseOfTheTable() {
+  QFETCH(QString, id);
+  QFETCH(bool, in_grid);
+  WindowFixture f;
+  f.openSmall();
+  f.window.session().set_view({3, 3});
+  ActionTable& table = f.window.actions();
+  const Panels& panels = f.window.panels();
+  QWidget* focused = in_grid ? static_cast<QWidget*>(panels.view_grid->cells()) : panels.canvas;
+  focused->setFocus();
+  f.window.activateWindow();
+  QTRY_VERIFY_WITH_TIMEOUT(focused->hasFocus(), 30000);
+  const QSignalSpy ran(table.find(id), &QAction::triggered);
+  const QKeyCombination own = table.keys(id).front()[0];
+  const auto press = [&](QKeyCombination key) {
+    QTest::keyClick(focused, key.key(), key.keyboardModifiers());
+  };
+  const auto place = [&] {
+    return std::tuple(f.window.session().view(), panels.canvas->canvasTransform().scale,
+                      panels.view_grid->isPlaying());
+  };
+
+  press(own);
+  QCOMPARE(ran.size(), 1);
+  panels.view_grid->setPlaying(false);
+
+  table.setKeys(id, {QKeySequence("Ctrl+Alt+J")});
+  QVERIFY(table.find(id)->toolTip().contains("Ctrl+Alt+J"));
+  const auto before = place();
+  press(own);
+  QCOMPARE(ran.size(), 1);
+  QVERIFY(place() == before);
+  press(Qt::CTRL | Qt::ALT | Qt::Key_J);
+  QCOMPARE(ran.size(), 2);
 }
 
 void ActionTableTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
