@@ -11,14 +11,15 @@
 namespace episcope {
 
 /// How probable each label is for every pixel of one view: `[y][label][x]`, 0 … 255 for 0 … 1, so
-/// that 13 labels of 9×9×768×768 rays take 0.6 GB; labels in the order of `LabelProbabilities::ids`.
+/// that 13 labels of 9×9×768×768 rays take 0.6 GB; labels in the order of
+/// `LabelProbabilities::ids`.
 using ProbabilityMap = Volume<std::uint8_t>;
 
 /// Label probabilities of a rectangle of views. Move-only.
 struct LabelProbabilities {
-  std::vector<std::int32_t> ids;  ///< The label of each layer, ascending.
-  GridShape grid;                 ///< Views covered,
-  ViewIndex first;                ///< beginning here: one view alone is a grid of 1×1.
+  std::vector<std::int32_t> ids;      ///< The label of each layer, ascending.
+  GridShape grid;                     ///< Views covered,
+  ViewIndex first;                    ///< beginning here: one view alone is a grid of 1×1.
   std::vector<ProbabilityMap> views;  ///< `[v][u]`
 
   [[nodiscard]] bool empty() const { return views.empty(); }
@@ -35,8 +36,8 @@ struct LabelProbabilities {
   }
 };
 
-/// The most probable label of each pixel, `[y][x]`; of equals the lowest id. `ids` names the layers.
-/// Throws InvalidInput unless there is one id for each layer.
+/// The most probable label of each pixel, `[y][x]`; of equals the lowest id. `ids` names the
+/// layers. Throws InvalidInput unless there is one id for each layer.
 [[nodiscard]] Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
                                                        const std::vector<std::int32_t>& ids);
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/light_field.h"
+#include "engine/core/progress.h"
+#include "engine/core/scene.h"
+#include "engine/core/schema.h"
+#include "engine/labeling/label_probabilities.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Parameters of a segmentation.
+struct LabelerParameters {
+  std::string features = "image+estimate";
+  std::string regularizer = "none";
+  int trees = 64;
+  int depth = 14;
+  int seed = 1;
+};
+
+/// `features`: "image", "image+estimate" or "image+truth", the three sets of the archive. Which
+/// disparity is meant is up to the caller; here all but "image" take it as a feature.
+/// `regularizer`: "none", "view" or "rayspace".
+[[nodiscard]] Schema<LabelerParameters> labeler_schema();
+
+/// Whether a set of features has disparity among them.
+[[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
+
+/// A rectangle of views of the camera grid.
+struct ViewRectangle {
+  ViewIndex first;
+  GridShape grid{1, 1};
+};
+
+/// A segmentation of a rectangle of views.
+struct Labeling {
+  LabelProbabilities probabilities;  ///< Of the forest, before regularisation.
+  ViewStack<std::int32_t> labels;    ///< The label of each pixel, one of `probabilities.ids`.
+  bool is_draft = false;             ///< Whether the labels are still to be regularised.
+  double seconds = 0;                ///< Wall-clock time.
+};
+
+/// Learns from scribbles which label each pixel of a light field has. One object serves many
+/// strokes: what does not depend on them, the features of views (engine/labeling/pixel_features.h)
+/// above all, is kept between calls, of as many views as fit `kKeptBytes`.
+///
+/// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all painted
+/// views, as many of each label, and votes on every pixel of the views asked for.
+/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13].
+///
+/// For one thread at a time; what is asked for while it works must wait or cancel it.
+class Labeler {
+ public:
+  static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
+
+  /// `disparity` may be null, or cover some views only. It carries places along the rays, and is a
+  /// feature where the parameters say so.
+  Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity);
+  ~Labeler();
+  Labeler(Labeler&&) noexcept;
+  Labeler& operator=(Labeler&&) noexcept;
+
+  /// Segments `views`. Labels are those painted anywhere; names and colours in `scribbles` are not
+  /// needed. `on_draft`, if given, is called on the calling thread with the labels before
+  /// regularisation, if there is any to come. The result depends neither on the number of threads
+  /// nor on earlier calls.
+  /// Throws InvalidInput if fewer than two labels are painted, if scribbles or `views` do not fit
+  /// the light field, or disparity is a feature and a view lacks it; Cancelled, within 200 ms.
+  [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
+                               ViewRectangle views, const Progress& progress,
+                               const std::function<void(const Labeling&)>& on_draft = {});
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace episcope
