@@ -58,13 +58,19 @@ bool Progress::stop_requested() const { return shared_->stop.stop_requested(); }
 
 bool Progress::finish_requested() const { return shared_->finish.stop_requested(); }
 
-int Progress::threads() const { return shared_->threads; }
+int Progress::threads() const { return is_alone_ ? 1 : shared_->threads; }
 
 Progress Progress::part(double begin, double end) const {
   Progress inner = *this;
   inner.begin_ = begin_ + begin * (end_ - begin_);
   inner.end_ = begin_ + end * (end_ - begin_);
   return inner;
+}
+
+Progress Progress::on_one_thread() const {
+  Progress alone = *this;
+  alone.is_alone_ = true;
+  return alone;
 }
 
 Progress Progress::titled(const std::string& title) const {

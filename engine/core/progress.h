@@ -42,6 +42,9 @@ class Progress {
 
   /// A progress for the part [begin, end] of this one.
   [[nodiscard]] Progress part(double begin, double end) const;
+  /// This one, for a computation that should stay on the thread that calls it, because many of them
+  /// run side by side.
+  [[nodiscard]] Progress on_one_thread() const;
   /// This one, with "<title>: " before the name of every stage.
   [[nodiscard]] Progress titled(const std::string& title) const;
 
@@ -50,6 +53,7 @@ class Progress {
   std::shared_ptr<Shared> shared_;
   double begin_ = 0;
   double end_ = 1;
+  bool is_alone_ = false;
   std::string title_;
 };
 
