@@ -2,50 +2,10 @@
 // Compiled once for each instruction set: see engine/core/isa.h for what may stand here.
 #include "engine/solvers/lifted_labeling_kernel.h"
 
-#include "engine/core/simd.h"
+#include "engine/solvers/pair_duals_simd.h"
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
-
-// Columns walked through all layers before the next ones: what is kept of each fits the first
-// cache, and a run within a layer is long enough for the prefetcher.
-constexpr int kColumns = 128;
-
-// The first `count` floats, then zeros.
-inline Vec load_first(const float* from, int count) {
-  if (count >= kLanes) return load(from);
-  Vec value{};
-  for (int i = 0; i < count; ++i) value[i] = from[i];
-  return value;
-}
-
-inline Vec clamp(Vec value, Vec limit) {
-  return greatest(least(value, limit), -limit);
-}
-
-inline int end_of(const LiftedShape& shape, int begin) {
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
-  return end < begin + kColumns ? end : begin + kColumns;
-}
-
-// What leaves a pixel through the pairs that begin at it, less what enters through those that end.
-inline Vec divergence(const LiftedDuals& here, const LiftedDuals& above, long i) {
-  return load(here.pair[0] + i) - load(here.pair[0] + i - 1) +     //
-         (load(here.pair[1] + i) - load(above.pair[1] + i)) +      //
-         (load(here.pair[2] + i) - load(above.pair[2] + i - 1)) +  //
-         (load(here.pair[3] + i - 1) - load(above.pair[3] + i));
-}
-
-inline Vec limited(const LiftedDuals& row, int pair, long i, int x) {
-  return clamp(load(row.pair[pair] + i), load(row.limit[pair] + x));
-}
-
-inline Vec limited_divergence(const LiftedDuals& here, const LiftedDuals& above, long i, int x) {
-  return limited(here, 0, i, x) - limited(here, 0, i - 1, x - 1) +
-         (limited(here, 1, i, x) - limited(above, 1, i, x)) +
-         (limited(here, 2, i, x) - limited(above, 2, i - 1, x - 1)) +
-         (limited(here, 3, i - 1, x - 1) - limited(above, 3, i, x));
-}
 
 // Of a column of values v, where the projection to non-increasing sequences within [0, 1] is
 // neither 1 nor 0: behind the summit of Σ (v − 1), up to that of Σ v. Both sums run in the order of
@@ -101,7 +61,7 @@ void pool(float* v, long stride, int begin, int end) {
   }
 }
 
-void pool_columns(const LiftedShape& shape, const Summits& summits, int begin, float* v) {
+void pool_columns(const LayeredShape& shape, const Summits& summits, int begin, float* v) {
   const int end = shape.width < begin + kColumns ? shape.width : begin + kColumns;
   for (int x = begin; x < end; ++x) {
     const int first = static_cast<int>(summits.full[x - begin]);
@@ -110,8 +70,8 @@ void pool_columns(const LiftedShape& shape, const Summits& summits, int begin, f
   }
 }
 
-void move_primal(const LiftedShape& shape, const float* cost, const LiftedDuals& here,
-                 const LiftedDuals& above, float* phi, float* ahead) {
+void move_primal(const LayeredShape& shape, const float* cost, const PairDuals& here,
+                 const PairDuals& above, float* phi, float* ahead) {
   Summits summits;
   const Vec step = splat(shape.primal_step), relaxation = splat(shape.relaxation);
   for (int begin = 0; begin < shape.width; begin += kColumns) {
@@ -145,31 +105,8 @@ void move_primal(const LiftedShape& shape, const float* cost, const LiftedDuals&
   }
 }
 
-void move_dual(const LiftedShape& shape, const float* ahead, const float* ahead_below,
-               const LiftedDuals& here) {
-  const Vec step = splat(shape.dual_step), relaxation = splat(shape.relaxation);
-  const auto move = [&](int pair, long i, int x, Vec difference) {
-    float* const at = here.pair[pair] + i;
-    const Vec old = load(at);
-    const Vec next = clamp(old + step * difference, load(here.limit[pair] + x));
-    store(at, old + relaxation * (next - old));
-  };
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
-  for (int l = 0; l < shape.steps; ++l) {
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = l * shape.pitch + x;
-      const Vec at = load(ahead + i), right = load(ahead + i + 1);
-      const Vec down = load(ahead_below + i), across = load(ahead_below + i + 1);
-      move(0, i, x, right - at);
-      move(1, i, x, down - at);
-      move(2, i, x, across - at);
-      move(3, i, x, down - right);
-    }
-  }
-}
-
-double bound(const LiftedShape& shape, const float* cost, const LiftedDuals& here,
-             const LiftedDuals& above) {
+double bound(const LayeredShape& shape, const float* cost, const PairDuals& here,
+             const PairDuals& above) {
   double total = 0;
   float least_cost[kColumns], gathered[kColumns];
   for (int begin = 0; begin < shape.width; begin += kColumns) {
@@ -195,7 +132,7 @@ double bound(const LiftedShape& shape, const float* cost, const LiftedDuals& her
   return total;
 }
 
-void cut(const LiftedShape& shape, const float* phi, int* const labels[kLiftedCuts]) {
+void cut(const LayeredShape& shape, const float* phi, int* const labels[kLiftedCuts]) {
   float counts[kLiftedCuts][kColumns];
   for (int begin = 0; begin < shape.width; begin += kColumns) {
     const int end = end_of(shape, begin);

@@ -360,12 +360,12 @@ void LiftedLabelingTest::kernel_usesAdjointOperators() {
   constexpr long kPitch = 32;
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-0.5F, 0.5F);
-  const LiftedShape shape{1, kWidth, kPitch, 1, 1, 1};
+  const LayeredShape shape{1, kWidth, kPitch, 1, 1, 1};
   // Two rows: φ of each, duals of the first; those of the second are 0.
   std::vector<float> memory(16 * kPitch + 16), limits(kPitch + 32, 1.0F);
   const auto row = [&](int i) { return memory.data() + 16 + i * kPitch; };
-  LiftedDuals first, none;
-  for (int k = 0; k < kLiftedPairs; ++k) {
+  PairDuals first, none;
+  for (int k = 0; k < kPairKinds; ++k) {
     first.pair[k] = row(k);
     none.pair[k] = row(4);
     first.limit[k] = none.limit[k] = limits.data() + 16;
@@ -388,7 +388,7 @@ void LiftedLabelingTest::kernel_usesAdjointOperators() {
   for (int y = 0; y < 2; ++y) {
     std::vector<float> cost(2 * kWidth, 1e3F);  // 0 at the chosen label
     for (int x = 0; x < kWidth; ++x) cost[chosen[y * kWidth + x] * kWidth + x] = 0;
-    const LiftedDuals& here = y == 0 ? first : none;
+    const PairDuals& here = y == 0 ? first : none;
     bounds += baseline::kLiftedKernel.bound(shape, cost.data(), here, y == 0 ? none : first);
   }
 

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/solvers/simplex_labeling.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel.h"
+#include "engine/solvers/layered_sweep.h"
+#include "engine/solvers/simplex_labeling_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr float kRelaxation = 1.9F;
+
+void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
+  const auto& cost = problem.cost;
+  if (cost.empty() || cost.height != height || cost.layers != layers || cost.width != width) {
+    throw InvalidInput("a labeling needs costs of " + std::to_string(layers) + " labels for " +
+                       std::to_string(width) + " by " + std::to_string(height) + " pixels, not " +
+                       std::to_string(cost.layers) + " for " + std::to_string(cost.width) + " by " +
+                       std::to_string(cost.height));
+  }
+  const auto& g = problem.g;
+  if (!g.empty() && (g.height != height || g.width != width || g.channels != 1)) {
+    throw InvalidInput("a labeling needs edge weights of " + std::to_string(width) + " by " +
+                       std::to_string(height) + " pixels, not " + std::to_string(g.width) + " by " +
+                       std::to_string(g.height));
+  }
+  if (!(problem.smoothness >= 0)) throw InvalidInput("a labeling needs a smoothness of at least 0");
+}
+
+// A jump changes the layers of both labels, each weighted by half of λ.
+PairLimits limits_of(const SimplexProblem& problem) {
+  return {problem.cost.height, problem.cost.width, problem.smoothness / 2, problem.g};
+}
+
+double row_energy(const SimplexProblem& problem, const PairLimits& limits, ImageView<const int> u,
+                  int y) {
+  const int width = problem.cost.width;
+  const int* const here = u.row(y);
+  const int* const below = u.row(std::min(y + 1, u.height - 1));
+  const auto jump = [&](int pair, int x, int from, int to) {
+    return from == to ? 0.0 : 2.0 * static_cast<double>(limits.row(y, pair)[x]);
+  };
+  double sum = 0;
+  for (int x = 0; x < width; ++x) {
+    const int right = std::min(x + 1, width - 1);
+    sum += problem.cost.at(y, here[x], x) + jump(0, x, here[x], here[right]) +
+           jump(1, x, here[x], below[x]) + jump(2, x, here[x], below[right]) +
+           jump(3, x, here[right], below[x]);
+  }
+  return sum;
+}
+
+// Each pixel for itself: the optimum without smoothness, and where u begins.
+void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector<float>& least) {
+  least.assign(cost.row(y, 0), cost.row(y, 0) + cost.width);
+  std::fill_n(labels, cost.width, 0);
+  for (int l = 1; l < cost.layers; ++l) {
+    const float* const row = cost.row(y, l);
+    for (int x = 0; x < cost.width; ++x) {
+      if (row[x] >= least[x]) continue;
+      least[x] = row[x];
+      labels[x] = l;
+    }
+  }
+}
+
+std::string gap_text(double gap) {
+  char text[40];
+  std::snprintf(text, sizeof text, "labeling, gap %.1e", gap);
+  return text;
+}
+
+double share(double part, double whole) {
+  return part == 0 ? 0 : part / std::abs(whole);
+}
+
+}  // namespace
+
+double SimplexResult::relative_gap() const {
+  return share(relaxed - bound, relaxed);
+}
+double SimplexResult::label_gap() const {
+  return share(energy - bound, energy);
+}
+
+struct SimplexSolver::State {
+  State(int height, int layers, int width, Isa isa)
+      : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kSimplexKernel)),
+        sweep(height, layers, width),
+        rounded(height, width) {}
+
+  void start(const SimplexProblem& problem, bool warm, const Progress& progress);
+  void measure(const SimplexProblem& problem, const PairLimits& limits, SimplexResult& result,
+               ImageView<int> labels, const Progress& progress);
+  void measure_band(const SimplexProblem& problem, const PairLimits& limits, int band);
+
+  const SimplexKernel& kernel;
+  LayeredSweep sweep;
+  bool has_run = false;
+  Image<int> rounded;
+  std::vector<double> bounds, relaxed, energies;  // of each band
+};
+
+void SimplexSolver::State::start(const SimplexProblem& problem, bool warm,
+                                 const Progress& progress) {
+  // Each pixel is in 8 pairs, so |K|² ≤ 16; u moves within [0, 1], the duals within about λ/2.
+  LayeredShape& shape = sweep.shape();
+  shape.primal_step = static_cast<float>(1 / (2 * problem.smoothness));
+  shape.dual_step = static_cast<float>(problem.smoothness / 8);
+  shape.relaxation = kRelaxation;
+  for (auto* each : {&bounds, &relaxed, &energies}) each->assign(sweep.bands(), 0.0);
+  if (warm && has_run) return;
+  has_run = true;
+  parallel_for(sweep.bands(), progress, [&](int i) {
+    const auto band = sweep.band(i);
+    sweep.clear(band);
+    std::vector<float> least;
+    for (int y = band.begin; y < band.end; ++y) {
+      take_cheapest(problem.cost, y, rounded.row(y), least);
+      for (int x = 0; x < shape.width; ++x) {
+        sweep.phi(y)[rounded.at(y, x) * shape.pitch + x] = 1;
+      }
+    }
+  });
+}
+
+void SimplexSolver::State::measure_band(const SimplexProblem& problem, const PairLimits& limits,
+                                        int i) {
+  const auto band = sweep.band(i);
+  const LayeredShape& shape = sweep.shape();
+  std::vector<float> rows(2 * sweep.row_size() + 2 * kLayerRowUnit);
+  const auto feasible = [&](int y) {
+    float* const row = rows.data() + kLayerRowUnit + (y & 1) * sweep.row_size();
+    kernel.project(shape, sweep.phi(y), row);
+    return row;
+  };
+  bounds[i] = relaxed[i] = 0;
+  const float* here = feasible(band.begin);
+  for (int y = band.begin; y < band.end; ++y) {
+    const float* const below = y + 1 < sweep.height() ? feasible(y + 1) : here;
+    const auto duals = sweep.duals(y, limits);
+    bounds[i] += kernel.bound(shape, problem.cost.row(y, 0), duals, sweep.duals_above(y, limits));
+    relaxed[i] += kernel.energy(shape, problem.cost.row(y, 0), duals, here, below);
+    kernel.cut(shape, here, rounded.row(y));
+    here = below;
+  }
+}
+
+void SimplexSolver::State::measure(const SimplexProblem& problem, const PairLimits& limits,
+                                   SimplexResult& result, ImageView<int> labels,
+                                   const Progress& progress) {
+  parallel_for(sweep.bands(), progress, [&](int i) { measure_band(problem, limits, i); });
+  parallel_for(sweep.bands(), progress, [&](int i) {
+    energies[i] = 0;
+    for (int y = sweep.band(i).begin; y < sweep.band(i).end; ++y) {
+      energies[i] += row_energy(problem, limits, rounded, y);
+    }
+  });
+  const auto sum = [](const std::vector<double>& of) {
+    return std::accumulate(of.begin(), of.end(), 0.0);
+  };
+  const double energy = sum(energies);
+  result.bound = std::max(result.bound, sum(bounds));
+  // A labeling is a u as well, and often better than the one it was read from.
+  result.relaxed = std::min({result.relaxed, sum(relaxed), energy});
+  if (energy >= result.energy) return;
+  result.energy = energy;
+  for (int y = 0; y < labels.height; ++y) {
+    std::copy_n(rounded.row(y), labels.width, labels.row(y));
+  }
+}
+
+SimplexSolver::SimplexSolver(int height, int layers, int width, Isa isa) {
+  if (height < 1 || layers < 1 || width < 1) {
+    throw InvalidInput("a labeling needs costs of at least one pixel and one label");
+  }
+  if (layers > kSimplexMostLayers) {
+    throw InvalidInput("a labeling takes at most " + std::to_string(kSimplexMostLayers) +
+                       " labels, not " + std::to_string(layers));
+  }
+  state_ = std::make_unique<State>(height, layers, width, isa);
+}
+SimplexSolver::~SimplexSolver() = default;
+SimplexSolver::SimplexSolver(SimplexSolver&&) noexcept = default;
+
+SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexOptions& options,
+                                   const Progress& progress, ImageView<int> labels) {
+  State& state = *state_;
+  const LayeredShape& shape = state.sweep.shape();
+  check_problem(problem, state.sweep.height(), shape.steps, shape.width);
+  if (labels.height != state.sweep.height() || labels.width != shape.width) {
+    throw InvalidInput("a labeling needs an image of labels of the size of the costs");
+  }
+  SimplexResult result;
+  if (problem.smoothness == 0 || shape.steps == 1) {
+    std::vector<float> least;
+    for (int y = 0; y < labels.height; ++y) {
+      take_cheapest(problem.cost, y, labels.row(y), least);
+      for (int x = 0; x < labels.width; ++x) result.energy += least[x];
+    }
+    result.relaxed = result.bound = result.energy;
+    result.converged = true;
+    return result;
+  }
+  const PairLimits limits = limits_of(problem);
+  state.start(problem, options.warm, progress.part(0, 0));
+  result.energy = result.relaxed = std::numeric_limits<double>::infinity();
+  result.bound = -result.energy;
+  const int check_every = std::max(1, options.check_every);
+  const LayeredMoves moves{state.kernel.move_primal, state.kernel.move_dual};
+  double done = 0;
+  for (bool last = false; !last;) {
+    const Progress quiet = progress.part(done, done);
+    state.sweep.iterate(problem.cost, limits, moves, quiet);
+    ++result.iterations;
+    done = std::max(done, 1 - std::exp2(-result.iterations / 20.0));
+    progress.report(done);
+    last = result.iterations >= options.max_iterations || progress.finish_requested();
+    if (!last && result.iterations % check_every != 0) continue;
+    state.measure(problem, limits, result, labels, quiet);
+    result.converged = result.relative_gap() <= options.gap;
+    last = last || result.converged;
+    progress.step(gap_text(result.relative_gap()));
+  }
+  progress.report(1);
+  return result;
+}
+
+double potts_energy(const SimplexProblem& problem, ImageView<const int> labels) {
+  check_problem(problem, labels.height, problem.cost.layers, labels.width);
+  const PairLimits limits = limits_of(problem);
+  double sum = 0;
+  for (int y = 0; y < labels.height; ++y) sum += row_energy(problem, limits, labels, y);
+  return sum;
+}
+
+}  // namespace episcope

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/isa.h"
+#include "engine/core/progress.h"
+#include "engine/core/volume.h"
+
+#include <memory>
+
+namespace episcope {
+
+/// A division of one image into L regions (Potts): labels u(x) ∈ {0, …, L − 1} in no order,
+/// E(u) = Σ c(x, u(x)) + λ Σ ½ Σ_l g · TV([u = l]). A boundary between two regions belongs to both,
+/// so it costs λ g times its length, whichever they are.
+///
+/// TV is the octagonal one of engine/solvers/pair_limits.h, for the reasons given in
+/// lifted_labeling.h: with two labels its relaxation is tight.
+struct SimplexProblem {
+  VolumeView<const float> cost;  ///< c, `[y][label][x]`, finite.
+  ImageView<const float> g;      ///< `[y][x]` ≥ 0, one channel. Empty = 1.
+  double smoothness = 0;         ///< λ ≥ 0: cost of one pixel of boundary, in units of c.
+};
+
+struct SimplexOptions {
+  int max_iterations = 300;
+  double gap = 1e-3;     ///< Stop once the primal energy is within this share of the bound.
+  int check_every = 10;  ///< Iterations between two looks at the gap.
+  bool warm = false;     ///< Begin where the last call ended: for costs changed a little.
+};
+
+struct SimplexResult {
+  int iterations = 0;
+  double energy = 0;   ///< E of the labels written.
+  double relaxed = 0;  ///< The least energy found with u relaxed, ≤ `energy`.
+  double bound = 0;    ///< ≤ E of every labeling: a certificate.
+  bool converged = false;
+
+  /// (relaxed − bound)/|relaxed|, what the method can close; ≥ 0 up to rounding.
+  [[nodiscard]] double relative_gap() const;
+  /// (energy − bound)/|energy|: with more than two labels the relaxation need not be tight.
+  [[nodiscard]] double label_gap() const;
+};
+
+/// Minimises SimplexProblem relaxed to min over u ≥ 0, Σ_l u_l = 1 of
+/// Σ <c, u> + λ/2 Σ_l g·TV(u_l), and takes the largest u_l of each pixel; the best labeling of all
+/// looks at the gap is kept. Whatever the duals p of the pairs are, |p| ≤ λ g w/2,
+/// Σ_x min_l [c_l − div p_l] bounds the energy from below.
+/// Source: Zach, Gallup, Frahm, Niethammer 2008 and Lellmann et al. 2009 for the relaxation, with
+/// the first-order primal-dual method [CP11] over-relaxed by 1.9.
+///
+/// For many images of one size: 5 floats for each pixel and label stay allocated between calls.
+/// Rows are worked on by `progress.threads()` threads; not thread-safe, one object for each caller.
+/// The result depends on neither the number of threads nor (unless `warm`) earlier calls.
+class SimplexSolver {
+ public:
+  /// Throws InvalidInput unless all are positive and there are at most 256 labels. `isa` other than
+  /// `best_isa()` is for tests.
+  SimplexSolver(int height, int layers, int width, Isa isa = best_isa());
+  ~SimplexSolver();
+  SimplexSolver(SimplexSolver&&) noexcept;
+
+  /// Writes the labeling `[y][x]`, 0 … L − 1. Ends after the next iteration at
+  /// `progress.finish_requested()`. Throws InvalidInput on a wrong shape or a negative λ, Cancelled
+  /// on a stop request (asked for at least once an iteration).
+  SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
+                      const Progress& progress, ImageView<int> labels);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// E(labels). Throws InvalidInput on wrong shapes.
+[[nodiscard]] double potts_energy(const SimplexProblem& problem, ImageView<const int> labels);
+
+}  // namespace episcope
