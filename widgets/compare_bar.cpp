@@ -3,6 +3,7 @@
 
 #include "widgets/side.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QAction>
 #include <QComboBox>
@@ -73,13 +74,7 @@ CompareBar::CompareBar(QWidget* parent)
 }
 
 void CompareBar::addAction(QAction* action, const QString& object_name) {
-  auto* button = new QToolButton(this);
-  button->setObjectName(object_name);
-  button->setDefaultAction(action);
-  button->setIconSize({16, 16});
-  button->setAutoRaise(true);
-  button->setFocusPolicy(Qt::NoFocus);
-  buttons_->insertWidget(buttons_->count() - 1, button);
+  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
 }
 
 void CompareBar::setChoices(const std::vector<Choice>& choices, quint64 a, quint64 b,

@@ -13,6 +13,7 @@ inline constexpr QColor kCanvasMuted{0x9a, 0xa0, 0xa8};
 inline constexpr QColor kCrossHair{0xff, 0xd1, 0x4a};
 inline constexpr QColor kEstimate{0x4a, 0xc8, 0xff};  ///< Slope of the estimate.
 inline constexpr QColor kTruth{0x7d, 0xe0, 0x6b};     ///< Slope of the truth.
+inline constexpr QColor kPainted{0xff, 0x6a, 0x3d};   ///< Marks views that are painted.
 inline constexpr QColor kMeasured{0xff, 0x8b, 0xd1};  ///< A line drawn by hand.
 
 inline constexpr int kSpacing = 6;  ///< Between controls, logical pixels.

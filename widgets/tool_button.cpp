@@ -3,6 +3,7 @@
 
 #include "widgets/icon.h"
 
+#include <QAction>
 #include <QToolButton>
 
 namespace episcope {
@@ -18,6 +19,16 @@ QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
     button->setText(text.text);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   }
+  return button;
+}
+
+QToolButton* make_action_button(QAction* action, const QString& object_name, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName(object_name);
+  button->setDefaultAction(action);
+  button->setIconSize({16, 16});
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
   return button;
 }
 

@@ -3,6 +3,7 @@
 
 #include <QString>
 
+class QAction;
 class QToolButton;
 class QWidget;
 
@@ -17,5 +18,9 @@ struct ToolButtonText {
 
 /// A flat tool button, the same everywhere.
 [[nodiscard]] QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent);
+
+/// A flat tool button of an action, with its icon, tip and state; it takes no focus.
+[[nodiscard]] QToolButton* make_action_button(QAction* action, const QString& object_name,
+                                              QWidget* parent);
 
 }  // namespace episcope

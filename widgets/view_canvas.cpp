@@ -105,7 +105,9 @@ void ViewCanvas::showMessage(State state, const QString& text) {
   message_ = text;
   picture_ = {};
   overlay_ = {};
+  scribbles_ = {};
   cross_hair_ = std::nullopt;
+  endTool();
   gesture_ = Gesture::None;
   if (hovered_) emit cursorMoved(hovered_ = std::nullopt);
   update();
@@ -188,6 +190,7 @@ void ViewCanvas::changeTransform(const CanvasTransform& transform, bool fitted) 
   if (bounded == transform_) return;
   transform_ = bounded;
   update();
+  updateRing();
   emit transformChanged(transform_);
 }
 

@@ -12,14 +12,19 @@
 #include <functional>
 #include <optional>
 
+class QTabletEvent;
+
 namespace episcope {
+
+class BrushTool;
 
 /// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
 /// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
 ///
 /// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
 /// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view. Keys
-/// are left to the host, whose commands call the slots.
+/// are left to the host, whose commands call the slots. With a tool in hand, the left and right
+/// buttons belong to it, Ctrl+click moves the cross-hair, and Ctrl+Shift+wheel changes its size.
 class ViewCanvas : public QWidget {
   Q_OBJECT
 
@@ -45,6 +50,13 @@ class ViewCanvas : public QWidget {
   /// instead of the overlay, with `caption` in the upper right corner.
   void setWipe(double position, const QImage& overlay, const QString& caption);
   void endWipe();
+  /// What is painted on the view, drawn over the overlay; null = nothing. As large as the picture.
+  void setScribbles(const QImage& scribbles);
+  /// Replaces a rectangle of the scribbles and redraws no more than that.
+  void patchScribbles(QPoint at, const QImage& patch);
+  void setScribbleOpacity(double opacity);
+  /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
+  void setTool(BrushTool* tool);
   /// Whether a left drag is parallax (default). Off: it pans.
   void setParallaxEnabled(bool enabled);
 
@@ -58,6 +70,8 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] State state() const { return state_; }
   [[nodiscard]] const QImage& picture() const { return picture_; }
   [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
+  [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
+  [[nodiscard]] BrushTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
   /// Scale at which the whole picture just fits.
@@ -116,18 +130,25 @@ class ViewCanvas : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void tabletEvent(QTabletEvent* event) override;
   void leaveEvent(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void keyReleaseEvent(QKeyEvent* event) override;
   void focusOutEvent(QFocusEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
 
  private:
-  enum class Gesture { None, Press, Pan, Parallax, Wipe };
+  enum class Gesture { None, Press, Pan, Parallax, Wipe, Paint };
 
   void changeTransform(const CanvasTransform& transform, bool fitted);
   void zoomAt(QPointF anchor, double factor);
   void beginDrag();
   void drag(QPointF position);
+  [[nodiscard]] bool pressTool(QPointF position, Qt::MouseButton button,
+                               Qt::KeyboardModifiers modifiers);
+  void endTool();
+  void updatePixels(const QRect& pixels);
+  void updateRing();
   void updateCursorShape();
   void showMessage(State state, const QString& text);
   [[nodiscard]] double dividerX() const;
@@ -136,6 +157,7 @@ class ViewCanvas : public QWidget {
   void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
   void paintCrossHair(QPainter& painter) const;
+  void paintRing(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
   void paintMessage(QPainter& painter) const;
   void followCursor(std::optional<QPointF> position);
@@ -151,13 +173,19 @@ class ViewCanvas : public QWidget {
   QImage picture_;
   QImage overlay_;
   double overlay_opacity_ = 0.7;
+  QImage scribbles_;
+  double scribble_opacity_ = 0.7;
   std::optional<PixelIndex> cross_hair_;
   PixelText pixel_text_;
   CanvasTransform transform_;
   bool fitted_ = true;
   bool parallax_enabled_ = true;
 
+  BrushTool* tool_ = nullptr;
+  QRect ring_rect_;       // as it was drawn last
+  bool has_pen_ = false;  // a pen is drawing
   Gesture gesture_ = Gesture::None;
+  Qt::MouseButton gesture_button_ = Qt::NoButton;  // that ends it
   Qt::KeyboardModifiers press_modifiers_;
   QPointF press_position_;
   QPointF last_position_;

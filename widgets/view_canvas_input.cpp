@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/brush_tool.h"
 #include "widgets/view_canvas.h"
 
 #include <QApplication>
@@ -33,11 +34,14 @@ void ViewCanvas::wheelEvent(QWheelEvent* event) {
   const QPoint angle = event->angleDelta();
   const double turned = angle.y() != 0 ? angle.y() : angle.x();
   const auto modifiers = event->modifiers();
-  if (picture_.isNull() || (modifiers & Qt::ControlModifier && modifiers & Qt::ShiftModifier)) {
+  const bool is_for_tool = modifiers & Qt::ControlModifier && modifiers & Qt::ShiftModifier;
+  if (picture_.isNull() || (is_for_tool && !tool_)) {
     event->ignore();
     return;
   }
-  if (modifiers & Qt::AltModifier) {
+  if (is_for_tool) {
+    tool_->step(turned / kWheelNotch);
+  } else if (modifiers & Qt::AltModifier) {
     emit focusStepped(turned / kWheelNotch);
   } else {
     zoomAt(event->position(), wheel_zoom(turned));
@@ -50,12 +54,18 @@ void ViewCanvas::mousePressEvent(QMouseEvent* event) {
   if (picture_.isNull() || gesture_ != Gesture::None) return;
   press_position_ = last_position_ = event->position();
   press_modifiers_ = event->modifiers();
+  gesture_button_ = event->button();
   if (event->button() == Qt::MiddleButton || (event->button() == Qt::LeftButton && space_held_)) {
     gesture_ = Gesture::Pan;
     space_used_ = true;
     updateCursorShape();
+  } else if (event->button() == Qt::LeftButton && isOnDivider(event->position())) {
+    gesture_ = Gesture::Wipe;
+    updateCursorShape();
+  } else if (pressTool(event->position(), event->button(), event->modifiers())) {
+    event->accept();
   } else if (event->button() == Qt::LeftButton) {
-    gesture_ = isOnDivider(event->position()) ? Gesture::Wipe : Gesture::Press;
+    gesture_ = Gesture::Press;
     updateCursorShape();
   } else {
     event->ignore();
@@ -75,6 +85,7 @@ void ViewCanvas::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void ViewCanvas::beginDrag() {
+  if (tool_) return;  // Ctrl+drag: a press on the cross-hair's new place
   gesture_ = parallax_enabled_ ? Gesture::Parallax : Gesture::Pan;
   updateCursorShape();
   if (gesture_ == Gesture::Parallax) emit parallaxStarted();
@@ -88,15 +99,19 @@ void ViewCanvas::drag(QPointF position) {
     emit parallaxDragged((press_position_ - position) / kParallaxStep);
   } else if (gesture_ == Gesture::Wipe) {
     emit wipeMoved(std::clamp(position.x() / std::max(1, width()), 0.0, 1.0));
+  } else if (gesture_ == Gesture::Paint) {
+    tool_->drag(transform_.to_image(position, size()));
   }
   last_position_ = position;
 }
 
 void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
-  if (event->button() != Qt::LeftButton && event->button() != Qt::MiddleButton) return;
+  if (event->button() != gesture_button_) return;
   const Gesture ended = gesture_;
   gesture_ = Gesture::None;
+  if (ended == Gesture::Paint) tool_->release();
   updateCursorShape();
+  updateRing();
   if (ended == Gesture::Parallax) emit parallaxFinished();
   if (ended != Gesture::Press) return;
   if (const auto pixel = pixelAt(press_position_)) {
@@ -109,7 +124,9 @@ void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void ViewCanvas::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton && !picture_.isNull() && !space_held_) {
+  if (tool_) {
+    mousePressEvent(event);  // quick dabs
+  } else if (event->button() == Qt::LeftButton && !picture_.isNull() && !space_held_) {
     emit centerRequested();
   }
 }
@@ -120,6 +137,7 @@ void ViewCanvas::leaveEvent(QEvent*) {
 
 void ViewCanvas::followCursor(std::optional<QPointF> position) {
   cursor_ = position;
+  if (tool_) updateRing();
   const auto pixel = position ? pixelAt(*position) : std::nullopt;
   if (pixel == hovered_) return;
   hovered_ = pixel;
@@ -150,8 +168,21 @@ void ViewCanvas::keyReleaseEvent(QKeyEvent* event) {
 
 void ViewCanvas::focusOutEvent(QFocusEvent* event) {
   space_held_ = false;
+  endTool();
   updateCursorShape();
   QWidget::focusOutEvent(event);
+}
+
+void ViewCanvas::hideEvent(QHideEvent* event) {
+  endTool();
+  QWidget::hideEvent(event);
+}
+
+void ViewCanvas::endTool() {
+  if (gesture_ != Gesture::Paint) return;
+  gesture_ = Gesture::None;
+  has_pen_ = false;
+  tool_->end();
 }
 
 void ViewCanvas::updateCursorShape() {
@@ -163,6 +194,8 @@ void ViewCanvas::updateCursorShape() {
     setCursor(Qt::OpenHandCursor);
   } else if (gesture_ == Gesture::Wipe || (cursor_ && isOnDivider(*cursor_))) {
     setCursor(Qt::SplitHCursor);
+  } else if (tool_) {
+    setCursor(tool_->cursor());
   } else {
     setCursor(Qt::CrossCursor);
   }

@@ -37,6 +37,7 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
     if (wipe_position_) paintWipe(painter, event->rect());
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
+    paintRing(painter);
     paintCaption(painter);
   } else {
     paintMessage(painter);
@@ -66,6 +67,11 @@ void ViewCanvas::paintPicture(QPainter& painter, const QRect& exposed,
     painter.drawImage(target, overlay,
                       QRectF(source.x() * across, source.y() * down, source.width() * across,
                              source.height() * down));
+    painter.setOpacity(1);
+  }
+  if (scribbles_.size() == picture_.size() && scribble_opacity_ > 0) {
+    painter.setOpacity(scribble_opacity_);
+    painter.drawImage(target, scribbles_, source);
     painter.setOpacity(1);
   }
   painter.setRenderHint(QPainter::SmoothPixmapTransform, false);

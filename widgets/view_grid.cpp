@@ -80,6 +80,10 @@ void ViewGrid::setThumbnail(ViewIndex view, const QImage& thumbnail) {
   cells_->setThumbnail(view, thumbnail);
 }
 
+void ViewGrid::setPainted(const std::vector<ViewIndex>& views) {
+  cells_->setPainted(views);
+}
+
 GridShape ViewGrid::grid() const {
   return cells_->grid();
 }

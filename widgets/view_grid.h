@@ -33,6 +33,8 @@ class ViewGrid : public QWidget {
   void setCurrent(ViewIndex view);
   /// Ignored for a view outside the grid.
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
+  /// Marks views that are painted.
+  void setPainted(const std::vector<ViewIndex>& views);
 
   [[nodiscard]] GridShape grid() const;
   [[nodiscard]] ViewIndex current() const;

@@ -26,6 +26,7 @@ void ViewGridCells::setGrid(GridShape grid) {
   grid_ = grid;
   current_ = grid.center();
   thumbnails_.assign(static_cast<std::size_t>(std::max(0, grid.count())), QImage());
+  painted_.clear();
   updateGeometry();
   update();
 }
@@ -41,6 +42,11 @@ void ViewGridCells::setThumbnail(ViewIndex view, const QImage& thumbnail) {
   const double before = aspect();
   thumbnails_[static_cast<std::size_t>(view.v) * grid_.u + view.u] = thumbnail;
   if (aspect() != before) updateGeometry();
+  update();
+}
+
+void ViewGridCells::setPainted(const std::vector<ViewIndex>& views) {
+  painted_ = views;
   update();
 }
 
@@ -84,7 +90,9 @@ bool ViewGridCells::event(QEvent* event) {
   if (event->type() == QEvent::ToolTip) {
     const auto* help = static_cast<QHelpEvent*>(event);
     if (const auto view = viewAt(help->pos())) {
-      QToolTip::showText(help->globalPos(), tr("view v %1, u %2").arg(view->v).arg(view->u), this);
+      const bool is_painted = std::find(painted_.begin(), painted_.end(), *view) != painted_.end();
+      const QString name = tr("view v %1, u %2").arg(view->v).arg(view->u);
+      QToolTip::showText(help->globalPos(), is_painted ? tr("%1: painted").arg(name) : name, this);
     } else {
       QToolTip::hideText();
     }
@@ -121,6 +129,21 @@ void ViewGridCells::paintEvent(QPaintEvent*) {
   painter.drawRect(marked);
   painter.setPen(QPen(theme::kCrossHair, hasFocus() ? 2 : 1.5));
   painter.drawRect(marked);
+  for (const ViewIndex view : painted_) {
+    if (grid_.contains(view)) paintMark(painter, cellRect(view).adjusted(0, 0, -gap, -gap));
+  }
+}
+
+// A corner with a dark rim, seen on any thumbnail.
+void ViewGridCells::paintMark(QPainter& painter, const QRectF& cell) const {
+  const double side = std::max(4.0, std::min(cell.width(), cell.height()) * 0.4);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(0, 0, 0, 180), 1));
+  painter.setBrush(theme::kPainted);
+  painter.drawPolygon(QPolygonF(
+      {cell.topRight(), cell.topRight() + QPointF(0, side), cell.topRight() - QPointF(side, 0)}));
+  painter.restore();
 }
 
 void ViewGridCells::mousePressEvent(QMouseEvent* event) {

@@ -9,6 +9,8 @@
 #include <optional>
 #include <vector>
 
+class QPainter;
+
 namespace episcope {
 
 /// The painted cells of a ViewGrid: input and painting, nothing of playing.
@@ -21,6 +23,8 @@ class ViewGridCells : public QWidget {
   void setGrid(GridShape grid);
   void setCurrent(ViewIndex view);
   void setThumbnail(ViewIndex view, const QImage& thumbnail);
+  /// Marks views that are painted.
+  void setPainted(const std::vector<ViewIndex>& views);
 
   [[nodiscard]] GridShape grid() const { return grid_; }
   [[nodiscard]] ViewIndex current() const { return current_; }
@@ -43,11 +47,13 @@ class ViewGridCells : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
 
  private:
+  void paintMark(QPainter& painter, const QRectF& cell) const;
   [[nodiscard]] double aspect() const;  ///< Height over width of a cell.
 
   GridShape grid_;
   ViewIndex current_;
   std::vector<QImage> thumbnails_;
+  std::vector<ViewIndex> painted_;
 };
 
 }  // namespace episcope
