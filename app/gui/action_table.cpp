@@ -14,6 +14,8 @@
 namespace episcope {
 namespace {
 
+const QString kSubmenu = QStringLiteral(" › ");
+
 QString settings_key(const QString& id) {
   return "keys/" + id;
 }
@@ -123,7 +125,10 @@ void ActionTable::fillMenus(QMenuBar& bar) const {
   for (const Command& command : commands_) {
     QMenu*& menu = menus[command.menu];
     if (!menu) {
-      menu = bar.addMenu(command.menu);
+      const qsizetype split = command.menu.indexOf(kSubmenu);
+      QMenu* above = split < 0 ? nullptr : menus[command.menu.left(split)];
+      menu = above ? above->addMenu(command.menu.mid(split + kSubmenu.size()))
+                   : bar.addMenu(command.menu);
       menu->setObjectName("menu." + command.menu);
       menu->setToolTipsVisible(true);
     }

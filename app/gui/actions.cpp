@@ -2,6 +2,7 @@
 #include "app/gui/actions.h"
 
 #include "app/gui/action_table.h"
+#include "app/gui/annotate_actions.h"
 #include "app/gui/browse_actions.h"
 #include "app/gui/compare_actions.h"
 #include "app/gui/estimate_controller.h"
@@ -138,16 +139,17 @@ void add_estimate_actions(ActionTable& table, MainWindow& window) {
 }
 
 void add_tab_actions(ActionTable& table, MainWindow& window) {
-  const char* tabs[] = {"estimate", "compare", "cloud"};
-  const QString texts[] = {tr("Estimate tab"), tr("Compare tab"), tr("3D tab")};
+  const char* tabs[] = {"estimate", "compare", "annotate", "cloud"};
+  const QString texts[] = {tr("Estimate tab"), tr("Compare tab"), tr("Annotate tab"), tr("3D tab")};
   const QString tips[] = {tr("Shows methods and results"), tr("Shows the table of metrics"),
+                          tr("Shows labels and tools to paint"),
                           tr("Shows the result as a point cloud")};
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 4; ++i) {
     table.add({.id = QString("tab.%1").arg(tabs[i]),
                .menu = tr("View"),
                .text = texts[i],
                .tip = tips[i],
-               .icon = i == 2 ? "cube" : "",
+               .icon = i == 3 ? "cube" : "",
                .keys = {tr("Ctrl+%1").arg(i + 1)},
                .run = [&window, i] { window.panels().tabs->setCurrentIndex(i); },
                .begins_group = i == 0});
@@ -186,6 +188,7 @@ void add_actions(ActionTable& table, MainWindow& window) {
   add_browse_actions(table, window);
   add_estimate_actions(table, window);
   add_compare_actions(table, window);
+  add_annotate_actions(table, window);
   add_tab_actions(table, window);
   add_help_actions(table, window);
 }

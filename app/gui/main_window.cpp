@@ -3,11 +3,14 @@
 
 #include "app/gui/action_table.h"
 #include "app/gui/actions.h"
+#include "app/gui/annotate_actions.h"
+#include "app/gui/annotate_controller.h"
 #include "app/gui/browse_controller.h"
 #include "app/gui/cloud_controller.h"
 #include "app/gui/command_palette.h"
 #include "app/gui/compare_actions.h"
 #include "app/gui/compare_controller.h"
+#include "app/gui/document_controller.h"
 #include "app/gui/estimate_controller.h"
 #include "app/gui/export_controller.h"
 #include "app/gui/jobs.h"
@@ -16,6 +19,7 @@
 #include "app/gui/overlay_controller.h"
 #include "app/gui/queued_post.h"
 #include "app/gui/scene_info.h"
+#include "app/gui/scribble_controller.h"
 #include "app/gui/shortcut_window.h"
 #include "app/gui/statistics_controller.h"
 #include "app/gui/value_controller.h"
@@ -64,6 +68,9 @@ MainWindow::MainWindow(QWidget* parent)
   compare_ = new CompareController(*session_, *overlay_, panels_, this);
   statistics_ = new StatisticsController(*session_, *overlay_, panels_, this);
   values_ = new ValueController(*session_, *overlay_, panels_, this);
+  document_ = new DocumentController(*session_, this);
+  annotate_ = new AnnotateController(*session_, *document_, panels_, this);
+  scribbles_ = new ScribbleController(*session_, *document_, panels_, this);
   estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
   opener_ = new OpenController(*session_, *jobs_, *browse_, panels_, this);
@@ -78,6 +85,7 @@ MainWindow::MainWindow(QWidget* parent)
   buildBars();
   connectJobs();
   connectControllers();
+  connectAnnotation();
   installEventFilter(opener_);
   panels_.canvas->installEventFilter(this);
   panels_.canvas->showEmpty(tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
@@ -94,8 +102,8 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, opener_, metrics_, estimate_, values_, statistics_, compare_, overlay_, browse_,
-           jobs_}) {
+           cloud_, exporter_, opener_, metrics_, estimate_, scribbles_, annotate_, document_,
+           values_, statistics_, compare_, overlay_, browse_, jobs_}) {
     delete each;
   }
 }
@@ -119,6 +127,7 @@ void MainWindow::buildBars() {
   bar->setContextMenuPolicy(Qt::PreventContextMenu);
   bar->addAction(actions_->find("file.open"));
   bar->addAction(actions_->find("file.export"));
+  bar->addAction(actions_->find("annotate.mode"));
   bar->addSeparator();
   auto* overlays = new QActionGroup(this);
   for (const auto& [id, quantity] : overlay_actions()) {
@@ -181,6 +190,23 @@ void MainWindow::connectControllers() {
   connect(opener_, &OpenController::titleChanged, this, [this](const QString& title) {
     setWindowTitle(title.isEmpty() ? QString("Episcope") : tr("%1 — Episcope").arg(title));
   });
+}
+
+void MainWindow::connectAnnotation() {
+  follow_document(*actions_, *this);
+  const auto hint = [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Info, sentence);
+  };
+  connect(annotate_, &AnnotateController::hint, this, hint);
+  connect(scribbles_, &ScribbleController::hint, this, hint);
+  connect(document_, &DocumentController::problem, this, [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Warning, sentence);
+  });
+  connect(annotate_, &AnnotateController::modeChanged, this, [this] {
+    if (annotate_->isAnnotating()) compare_->leave();
+  });
+  connect(opener_, &OpenController::previewing, annotate_, &AnnotateController::setSuspended);
+  connect(opener_, &OpenController::previewing, scribbles_, &ScribbleController::setSuspended);
 }
 
 void MainWindow::fillRecentMenu() {
@@ -262,7 +288,7 @@ void MainWindow::showAbout() {
 }
 
 void MainWindow::escape() {
-  if (browse_->endWhatIsInHand() || compare_->leave()) return;
+  if (annotate_->cancelStroke() || browse_->endWhatIsInHand() || compare_->leave()) return;
   if (const quint64 job = jobs_->newest()) {
     jobs_->cancel(job);
   } else {

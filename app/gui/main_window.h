@@ -12,16 +12,19 @@ class QMenu;
 namespace episcope {
 
 class ActionTable;
+class AnnotateController;
 class BrowseController;
 class CloudController;
 class CommandPalette;
 class CompareController;
+class DocumentController;
 class EstimateController;
 class ExportController;
 class Jobs;
 class MetricController;
 class OpenController;
 class OverlayController;
+class ScribbleController;
 class Session;
 class ShortcutWindow;
 class StatisticsController;
@@ -47,6 +50,9 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] OverlayController& overlay() { return *overlay_; }
   [[nodiscard]] CompareController& compare() { return *compare_; }
   [[nodiscard]] StatisticsController& statistics() { return *statistics_; }
+  [[nodiscard]] DocumentController& document() { return *document_; }
+  [[nodiscard]] AnnotateController& annotate() { return *annotate_; }
+  [[nodiscard]] ScribbleController& scribbles() { return *scribbles_; }
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
@@ -64,6 +70,7 @@ class MainWindow : public QMainWindow {
  private:
   void connectJobs();
   void connectControllers();
+  void connectAnnotation();
   void buildBars();
   void fillRecentMenu();
   void updateActions();
@@ -79,6 +86,9 @@ class MainWindow : public QMainWindow {
   CompareController* compare_;
   StatisticsController* statistics_;
   ValueController* values_;
+  DocumentController* document_;
+  AnnotateController* annotate_;
+  ScribbleController* scribbles_;
   EstimateController* estimate_;
   MetricController* metrics_;
   OpenController* opener_;

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/panels.h"
 
+#include "widgets/annotation_bar.h"
+#include "widgets/brush_panel.h"
 #include "widgets/color_bar.h"
 #include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
+#include "widgets/label_palette.h"
 #include "widgets/message_bar.h"
 #include "widgets/method_panel.h"
 #include "widgets/metric_table.h"
@@ -114,6 +117,19 @@ QWidget* make_compare_tab(Panels& panels, QWidget* parent) {
   return tab;
 }
 
+QWidget* make_annotate_tab(Panels& panels, QWidget* parent) {
+  auto* tab = new QWidget(parent);
+  panels.brush = new BrushPanel(tab);
+  panels.labels = new LabelPalette(tab);
+  panels.annotation = new AnnotationBar(tab);
+  auto* layout = new QVBoxLayout(tab);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(panels.brush);
+  layout->addWidget(panels.labels, 1);
+  layout->addWidget(panels.annotation);
+  return tab;
+}
+
 QWidget* make_right(Panels& panels, QWidget* parent) {
   auto* right = new QWidget(parent);
   panels.tabs = new QTabWidget(right);
@@ -121,6 +137,8 @@ QWidget* make_right(Panels& panels, QWidget* parent) {
   panels.tabs->setDocumentMode(true);
   panels.tabs->addTab(make_estimate_tab(panels, panels.tabs), text("Estimate"));
   panels.tabs->addTab(make_compare_tab(panels, panels.tabs), text("Compare"));
+  panels.annotate_tab = make_annotate_tab(panels, panels.tabs);
+  panels.tabs->addTab(panels.annotate_tab, text("Annotate"));
   panels.cloud_tab = new QWidget(panels.tabs);
   panels.tabs->addTab(panels.cloud_tab, text("3D"));
   panels.jobs = new JobPanel(right);

@@ -7,11 +7,14 @@ class QWidget;
 
 namespace episcope {
 
+class AnnotationBar;
+class BrushPanel;
 class ColorBar;
 class CompareBar;
 class EpiPane;
 class InfoPanel;
 class JobPanel;
+class LabelPalette;
 class MessageBar;
 class MethodPanel;
 class MetricTable;
@@ -41,6 +44,10 @@ struct Panels {
   CompareBar* compare = nullptr;
   StatisticsPanel* statistics = nullptr;
   MetricTable* metrics = nullptr;
+  QWidget* annotate_tab = nullptr;
+  BrushPanel* brush = nullptr;
+  LabelPalette* labels = nullptr;
+  AnnotationBar* annotation = nullptr;
   QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
   JobPanel* jobs = nullptr;
   MessageBar* messages = nullptr;

@@ -2,6 +2,7 @@
 #include "tests/app/gui/window_fixture.h"
 
 #include "app/gui/action_table.h"
+#include "app/gui/document_controller.h"
 #include "app/gui/open_controller.h"
 #include "app/session/session.h"
 #include "engine/io/write_scene.h"
@@ -33,6 +34,7 @@ WindowFixture::WindowFixture() {
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder_.filePath("settings"));
   QSettings().clear();
   window.opener().setCacheFolder({});
+  window.document().setJournalFolder(folder_.filePath("journals").toStdString());
   window.resize(1280, 800);
   window.show();
 }
