@@ -73,7 +73,8 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
   parser.flag("--json", request.is_json, "One JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
-  if (estimator) parameters.declare(parser, *estimator);
+  if (estimator)
+    parameters.declare(parser, "Parameters of " + estimator->info.id, estimator->parameters);
   return parser.parse(arguments);
 }
 
@@ -148,7 +149,7 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
     request = {};
     if (!parse(arguments, estimator, request, parameters)) return;
   }
-  const ParameterSet values = parameters.values(*estimator);
+  const ParameterSet values = parameters.values(estimator->parameters);
   const ViewSelection views = selected_views(request, *estimator);
   if (request.device == "cuda") {
     throw Unavailable("this build computes on the CPU only; use --device cpu or auto");

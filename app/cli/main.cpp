@@ -28,6 +28,7 @@ constexpr Verb kVerbs[] = {
     {"show", "Write a picture of a light field or a result", run_show},
     {"convert", "Write a light field or a result in another format", run_convert},
     {"synthesize", "Render a built-in scene with exact truth", run_synthesize},
+    {"label", "Segment a light field by what is painted on it", run_label},
     {"benchmark", "Rank methods over scenes: tables, pictures, parameter search", run_benchmark},
 };
 

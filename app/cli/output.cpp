@@ -5,6 +5,7 @@
 #include "app/cli/usage_error.h"
 #include "app/session/load_scene.h"
 #include "engine/io/hdf5_file.h"
+#include "engine/io/labeling_file.h"
 #include "engine/io/result_file.h"
 
 #include <unistd.h>
@@ -29,6 +30,14 @@ bool holds_something(const fs::path& path) {
 bool is_sound_result(const fs::path& path) {
   try {
     return io::is_result_file(path);
+  } catch (const IoError&) {
+    return false;  // damaged
+  }
+}
+
+bool is_sound_labeling(const fs::path& path) {
+  try {
+    return io::is_labeling_file(path);
   } catch (const IoError&) {
     return false;  // damaged
   }
@@ -60,7 +69,7 @@ bool may_be_part(const fs::path& file, const fs::path& input) {
   if (is_light_field(file)) {
     return is_folder || (file.filename() == "lf.h5" && !is_light_field(input));
   }
-  if (io::has_hdf5_signature(file)) return !is_sound_result(file);
+  if (io::has_hdf5_signature(file)) return !is_sound_result(file) && !is_sound_labeling(file);
   // Images and maps belong to folders of images only.
   const bool is_archive = fs::exists((is_folder ? input : folder_of(input)) / "lf.h5", ignored) ||
                           io::has_hdf5_signature(input);
@@ -93,6 +102,11 @@ void check_hdf5_output(const std::string& verb, const fs::path& path) {
 void check_result_output(const fs::path& path) {
   if (!holds_something(path) || is_sound_result(path)) return;
   throw IoError(path, "exists and is not a result file; choose another name or remove it first");
+}
+
+void check_labeling_output(const fs::path& path) {
+  if (!holds_something(path) || is_sound_labeling(path)) return;
+  throw IoError(path, "exists and is not a file of labels; choose another name or remove it first");
 }
 
 void check_light_field_output(const fs::path& path, Overwrite overwrite) {

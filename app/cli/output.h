@@ -18,6 +18,9 @@ void check_hdf5_output(const std::string& verb, const std::filesystem::path& pat
 /// Refuses to replace anything but a result file. Throws IoError.
 void check_result_output(const std::filesystem::path& path);
 
+/// Refuses to replace anything but a file of labels that `label` wrote. Throws IoError.
+void check_labeling_output(const std::filesystem::path& path);
+
 /// Refuses to replace a light field, or labels beside it that go with it, unless that is asked for,
 /// and any other file at all. Throws IoError.
 void check_light_field_output(const std::filesystem::path& path, Overwrite overwrite);

@@ -6,17 +6,18 @@
 
 namespace episcope::cli {
 
-void ParameterOptions::declare(Arguments& arguments, const Estimator& estimator) {
-  arguments.heading("Parameters of " + estimator.info.id);
-  for (const auto& parameter : estimator.parameters) {
+void ParameterOptions::declare(Arguments& arguments, const std::string& heading,
+                               const std::vector<ParameterDescription>& parameters) {
+  arguments.heading(heading);
+  for (const auto& parameter : parameters) {
     arguments.option("--" + parameter.key, texts_[parameter.key], domain_text(parameter),
                      parameter.help + " (default " + to_text(parameter.default_value) + ")");
   }
 }
 
-ParameterSet ParameterOptions::values(const Estimator& estimator) const {
+ParameterSet ParameterOptions::values(const std::vector<ParameterDescription>& parameters) const {
   ParameterSet set;
-  for (const auto& parameter : estimator.parameters) {
+  for (const auto& parameter : parameters) {
     const auto found = texts_.find(parameter.key);
     if (found == texts_.end() || found->second.empty()) continue;
     try {

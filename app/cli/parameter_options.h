@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/estimator.h"
+#include "engine/core/parameter.h"
 
 #include <map>
 #include <string>
+#include <vector>
 
 namespace episcope::cli {
 
 class Arguments;
 
-/// Options of an estimator, generated from its schema: `--<key> VALUE`.
+/// Options generated from a schema: `--<key> VALUE`.
 class ParameterOptions {
  public:
-  void declare(Arguments& arguments, const Estimator& estimator);
+  void declare(Arguments& arguments, const std::string& heading,
+               const std::vector<ParameterDescription>& parameters);
   /// Values of the options that were given. Throws UsageError for one outside its domain.
-  [[nodiscard]] ParameterSet values(const Estimator& estimator) const;
+  [[nodiscard]] ParameterSet values(const std::vector<ParameterDescription>& parameters) const;
 
  private:
   std::map<std::string, std::string> texts_;  // by key; empty = not given

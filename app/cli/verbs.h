@@ -19,6 +19,7 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop);
 void run_show(const VerbArguments& arguments, std::stop_token stop);
 void run_convert(const VerbArguments& arguments, std::stop_token stop);
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop);
+void run_label(const VerbArguments& arguments, std::stop_token stop);
 void run_benchmark(const VerbArguments& arguments, std::stop_token stop);
 
 }  // namespace episcope::cli

@@ -2,18 +2,16 @@
 #include "engine/io/scribble_dataset.h"
 
 #include "engine/core/error.h"
+#include "engine/io/label_list.h"
 #include "engine/io/map_writer.h"
 
 #include <algorithm>
-#include <cmath>
-#include <sstream>
 #include <vector>
 
 namespace episcope::io {
 namespace {
 
 constexpr const char* kName = "SCRIBBLES";
-constexpr int kColorChannels = 3;
 
 struct Census {
   std::size_t zeros = 0;
@@ -89,41 +87,6 @@ bool decode(std::vector<ViewScribbles>& views, bool has_label_zero) {
   return is_zero_a_label;
 }
 
-/// Names and colours of our own files; none if the attributes do not fit together.
-std::vector<LabelInfo> read_label_list(const Hdf5Input& file) {
-  const std::vector<double> ids = file.numbers(kName, "label_ids");
-  const std::vector<double> colors = file.numbers(kName, "label_colors");
-  std::istringstream names(file.text(kName, "label_names").value_or(""));
-  if (colors.size() != ids.size() * kColorChannels) return {};
-  std::vector<LabelInfo> labels;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    LabelInfo label;
-    label.id = static_cast<int>(ids[i]);
-    if (!std::getline(names, label.name)) return {};
-    for (std::size_t c = 0; c < kColorChannels; ++c) {
-      label.color[c] =
-          static_cast<std::uint8_t>(std::clamp(colors[i * kColorChannels + c], 0., 255.));
-    }
-    labels.push_back(std::move(label));
-  }
-  return labels;
-}
-
-void add_label_list(Hdf5Output& file, const std::vector<LabelInfo>& labels) {
-  if (labels.empty()) return;
-  std::vector<int> ids;
-  std::vector<int> colors;
-  std::string names;
-  for (const LabelInfo& label : labels) {
-    ids.push_back(label.id);
-    colors.insert(colors.end(), label.color.begin(), label.color.end());
-    names += label.name + "\n";
-  }
-  file.set_integers(kName, "label_ids", ids);
-  file.set_integers(kName, "label_colors", colors);
-  file.set_text(kName, "label_names", names);
-}
-
 }  // namespace
 
 StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& shape,
@@ -141,7 +104,7 @@ StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& s
   std::erase_if(views, [](const ViewScribbles& one) {
     return std::ranges::all_of(one.labels, [](std::int32_t label) { return label == 0; });
   });
-  stored.scribbles.labels = read_label_list(file);
+  stored.scribbles.labels = read_label_list(file, kName);
   return stored;
 }
 
@@ -169,7 +132,7 @@ void add_scribbles(Hdf5Output& file, const Scribbles& scribbles, const ScribbleP
   if (!has_many) file.set_integers("/", "scribble_view", {maps.first.v, maps.first.u});
   file.set_integers(kName, "unpainted", {0});
   if (place.raises_labels) file.set_integers(kName, "raises_labels", {1});
-  add_label_list(file, scribbles.labels);
+  add_label_list(file, kName, scribbles.labels);
 }
 
 }  // namespace episcope::io

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments.h"
+#include "app/cli/input.h"
+#include "app/cli/json.h"
+#include "app/cli/output.h"
+#include "app/cli/parameter_options.h"
+#include "app/cli/result_input.h"
+#include "app/cli/usage_error.h"
+#include "app/cli/verbs.h"
+#include "app/session/run_labeler.h"
+#include "engine/core/error.h"
+#include "engine/disparity/estimator.h"
+#include "engine/evaluation/label_accuracy.h"
+#include "engine/io/label_file.h"
+#include "engine/io/labeling_file.h"
+
+#include <iomanip>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string input;
+  std::string output;
+  std::string scribbles;
+  std::string disparity;
+  bool is_json = false;
+  bool is_without_probabilities = false;
+  LabelerParameters parameters;
+  JobOptions job;
+  ReadOptions read;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("label",
+                   {"Segments all views of a light field by what is painted on some of them, and\n"
+                    "writes a file of labels and their probabilities.",
+                    "episcope-cli label demo -o labels.h5 --features image"});
+  parser.positional("INPUT", request.input, "The light field");
+  parser.required_option("-o,--output", request.output, "OUT.h5", "File of labels to write");
+  parser.option("--scribbles", request.scribbles, "LABELS.h5",
+                "What is painted; by default the scribbles that lie beside INPUT");
+  parser.option(
+      "--disparity", request.disparity, "RESULT.h5",
+      std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
+  parser.flag("--no-probabilities", request.is_without_probabilities,
+              "Write labels alone: probabilities take four bytes for each ray and label");
+  parser.flag("--json", request.is_json, "One JSON object instead of a table");
+  const Schema<LabelerParameters> schema = labeler_schema();
+  ParameterOptions options;
+  options.declare(parser, "Parameters", schema.descriptions());
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  request.parameters = schema.parse(options.values(schema.descriptions()));
+  if (!request.disparity.empty() && request.parameters.features == "image+truth") {
+    throw UsageError("label: --features image+truth takes the truth, so --disparity has no use");
+  }
+  return true;
+}
+
+void check_output(const Request& request) {
+  check_hdf5_output("label", request.output);
+  check_labeling_output(request.output);
+  protect_input(request.output, request.input);
+  for (const std::string& file : {request.scribbles, request.disparity}) {
+    if (!file.empty()) protect_input(request.output, file);
+  }
+}
+
+Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& progress) {
+  if (!request.scribbles.empty()) {
+    return io::read_scribbles(request.scribbles, scene, progress);
+  }
+  if (scene.scribbles.empty()) {
+    throw InvalidInput(request.input +
+                       " has no scribbles beside it; name a file of them with --scribbles");
+  }
+  return std::move(scene.scribbles);
+}
+
+void write(const Request& request, const Labeling& labeling, const Scribbles& scribbles,
+           const Progress& progress) {
+  io::StoredLabeling stored;
+  stored.labels = labeling.labels.clone();
+  stored.infos = label_infos(scribbles, labeling.probabilities.ids);
+  stored.parameters = labeler_schema().values(request.parameters);
+  stored.source = source_text(request.input, request.output);
+  stored.seconds = labeling.seconds;
+  io::ViewProbabilities probabilities;
+  if (!request.is_without_probabilities) {
+    probabilities = [&](ViewIndex view) { return labeling.probabilities.view(view).view(); };
+  }
+  io::write_labeling(request.output, stored, probabilities, progress);
+}
+
+struct Accuracy {
+  LabelAccuracy all_views;
+  LabelAccuracy center;
+};
+
+Accuracy judge(const Labeling& labeling, const Scene& scene) {
+  const ViewStack<std::int32_t>& truth = scene.truth->labels;
+  const ViewIndex center = scene.light_field->center();
+  Accuracy accuracy;
+  if (truth.empty()) return accuracy;
+  if (truth.grid() == labeling.labels.grid()) {
+    accuracy.all_views = judge_labels(labeling.labels, truth);
+  }
+  if (truth.contains(center)) {
+    accuracy.center = judge_labels(labeling.labels.view(center), truth.view(center));
+  }
+  return accuracy;
+}
+
+void print_json_answer(const Request& request, const Labeling& labeling, const Accuracy& accuracy,
+                       double seconds) {
+  Json json;
+  json["labels"] = labeling.probabilities.ids.size();
+  json["seconds"] = seconds;
+  if (const auto share = accuracy.all_views.share()) json["accuracy_all_views"] = *share;
+  if (const auto share = accuracy.center.share()) json["accuracy_center"] = *share;
+  json["peak_mib"] = peak_memory_mib();
+  json["parameters"] = Json::object();
+  for (const auto& [key, value] : labeler_schema().values(request.parameters)) {
+    json["parameters"][key] = value_json(value);
+  }
+  json["output"] = request.output;
+  print_json(json);
+}
+
+void print_text_answer(const Request& request, const Labeling& labeling, const Accuracy& accuracy,
+                       double seconds) {
+  std::cout << request.output << ": " << labeling.probabilities.ids.size() << " labels in "
+            << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
+            << seconds << " s, " << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
+  std::cout << std::setprecision(2);
+  if (const auto share = accuracy.all_views.share()) {
+    std::cout << "accuracy of all views     " << 100 * *share << " %\n";
+  }
+  const auto share = accuracy.center.share();
+  if (!share) return;
+  std::cout << "accuracy of the centre    " << 100 * *share << " %\n";
+  for (const std::int32_t id : labeling.probabilities.ids) {
+    if (const auto of_label = accuracy.center.share(id)) {
+      std::cout << "  of label " << std::setw(3) << id << "            " << 100 * *of_label
+                << " %\n";
+    }
+  }
+}
+
+}  // namespace
+
+void run_label(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  check_input(request.input);
+  check_output(request);
+
+  Job job(std::move(stop), request.job);
+  const Progress& progress = job.progress();
+  Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  const Scribbles scribbles = load_scribbles(request, scene, progress);
+  const double start = steady_seconds();
+  const LabelingDisparity disparity = find_labeling_disparity(
+      scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
+  Labeler labeler(scene.light_field, disparity.field);
+  const Labeling labeling = labeler.label(
+      scribbles, request.parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95));
+  const double seconds = steady_seconds() - start;
+  progress.step("writing " + request.output);
+  write(request, labeling, scribbles, progress.part(0.95, 1));
+  const Accuracy accuracy = judge(labeling, scene);
+  job.finish();
+  if (request.is_json) {
+    print_json_answer(request, labeling, accuracy, seconds);
+  } else {
+    print_text_answer(request, labeling, accuracy, seconds);
+  }
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/run_labeler.h"
+
+#include "app/session/read_result.h"
+#include "app/session/run_estimator.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+void require_all_views(const DisparityField& field, const LightField& lf, const std::string& what) {
+  if (field.disparity.grid() == lf.grid()) return;
+  throw InvalidInput(what + " covers " + std::to_string(field.disparity.grid().count()) + " of " +
+                     std::to_string(lf.grid().count()) +
+                     " views, but labels are carried along the rays of all; use one of all views");
+}
+
+/// A field of the scene that lives as long as the scene's truth does.
+std::shared_ptr<const DisparityField> true_field(const Scene& scene) {
+  const LightField& lf = *scene.light_field;
+  if (!scene.truth->has_disparity()) {
+    throw InvalidInput(lf.info().name +
+                       " has no true disparity; use the features image or image+estimate");
+  }
+  require_all_views(scene.truth->field, lf, "the true disparity of " + lf.info().name);
+  return {scene.truth, &scene.truth->field};
+}
+
+std::shared_ptr<const DisparityField> field_of(EstimatePtr estimate) {
+  return {estimate, &estimate->field};
+}
+
+}  // namespace
+
+LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParameters& parameters,
+                                          const std::filesystem::path& result_file,
+                                          const Progress& progress) {
+  const LightField& lf = *scene.light_field;
+  if (parameters.features == "image+truth") return {true_field(scene), "truth"};
+  if (!result_file.empty()) {
+    const std::string name = result_file.string();
+    auto estimate = std::make_shared<const Estimate>(read_result_of(lf, result_file));
+    check_fits(*estimate, lf, name);
+    require_all_views(estimate->field, lf, name);
+    return {field_of(std::move(estimate)), name};
+  }
+  const FinishedEstimate finished =
+      run_estimator(lf, {kLabelingEstimator, {}, ViewSelection::All}, progress);
+  return {field_of(finished.estimate), kLabelingEstimator};
+}
+
+std::vector<LabelInfo> label_infos(const Scribbles& scribbles,
+                                   const std::vector<std::int32_t>& ids) {
+  std::vector<LabelInfo> infos;
+  for (const std::int32_t id : ids) {
+    const auto known = std::ranges::find(scribbles.labels, id, &LabelInfo::id);
+    infos.push_back(known != scribbles.labels.end()
+                        ? *known
+                        : LabelInfo{id, "label " + std::to_string(id), label_color(id)});
+  }
+  return infos;
+}
+
+}  // namespace episcope

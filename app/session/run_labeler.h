@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/disparity_field.h"
+#include "engine/core/scene.h"
+#include "engine/labeling/labeler.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace episcope {
+
+/// The disparity that a segmentation goes by: it carries places along the rays, and is a feature if
+/// the parameters say so.
+struct LabelingDisparity {
+  std::shared_ptr<const DisparityField> field;
+  std::string origin;  ///< "truth", "epi_s", or the file it was read from.
+};
+
+/// The method that estimates disparity where none is given: all views within seconds.
+inline constexpr const char* kLabelingEstimator = "epi_s";
+
+/// What the set of features asks for: the truth for "image+truth", else the result in
+/// `result_file`, else an estimate of all views by kLabelingEstimator. Throws InvalidInput if the
+/// scene has no true disparity of all views or the result does not fit or covers fewer views;
+/// IoError, Cancelled.
+[[nodiscard]] LabelingDisparity find_labeling_disparity(const Scene& scene,
+                                                        const LabelerParameters& parameters,
+                                                        const std::filesystem::path& result_file,
+                                                        const Progress& progress);
+
+/// Labels of `ids` with the names and colours of `scribbles`, defaults where it has none.
+[[nodiscard]] std::vector<LabelInfo> label_infos(const Scribbles& scribbles,
+                                                 const std::vector<std::int32_t>& ids);
+
+}  // namespace episcope
