@@ -86,6 +86,7 @@ void write(const Request& request, const Labeling& labeling, const Scribbles& sc
   stored.parameters = labeler_schema().values(request.parameters);
   stored.source = source_text(request.input, request.output);
   stored.seconds = labeling.seconds;
+  stored.notes = labeling.notes;
   io::ViewProbabilities probabilities;
   if (!request.is_without_probabilities) {
     probabilities = [&](ViewIndex view) { return labeling.probabilities.view(view).view(); };
@@ -119,6 +120,7 @@ void print_json_answer(const Request& request, const Labeling& labeling, const A
   json["seconds"] = seconds;
   if (const auto share = accuracy.all_views.share()) json["accuracy_all_views"] = *share;
   if (const auto share = accuracy.center.share()) json["accuracy_center"] = *share;
+  if (request.parameters.regularizer != "none") json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
   for (const auto& [key, value] : labeler_schema().values(request.parameters)) {

@@ -3,20 +3,26 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/labeling/boundary_weights.h"
 #include "engine/labeling/forest.h"
 #include "engine/labeling/pixel_features.h"
+#include "engine/labeling/ray_labeling.h"
 #include "engine/labeling/training_samples.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <map>
+#include <deque>
 #include <utility>
 
 namespace episcope {
 namespace {
 
 using Features = std::shared_ptr<const PixelFeatures>;
+
+// Up to so many views asked for at once are worked on one after the other, each by all threads, and
+// their features kept: somebody is painting. More are worked on side by side.
+constexpr std::size_t kKeptViews = 9;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -51,37 +57,78 @@ void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y)
   }
 }
 
+ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
+                            const Progress& progress) {
+  ProbabilityMap map(features.height, forest.label_count(), features.width);
+  constexpr int kRows = 8;
+  parallel_for_workers((features.height + kRows - 1) / kRows, progress, [&] {
+    const std::size_t size = static_cast<std::size_t>(features.width) * forest.pitch();
+    return [&, row = std::vector<float>(size)](int item) mutable {
+      const int end = std::min(features.height, (item + 1) * kRows);
+      for (int y = item * kRows; y < end; ++y) {
+        forest.predict_row(features, y, row.data());
+        store_row(row.data(), forest.pitch(), map.view(), y);
+      }
+    };
+  });
+  return map;
+}
+
+LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, ViewRectangle views) {
+  LabelProbabilities probabilities;
+  probabilities.ids = ids;
+  probabilities.grid = views.grid;
+  probabilities.first = views.first;
+  probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
+  return probabilities;
+}
+
+ViewIndex view_at(const LabelProbabilities& probabilities, int i) {
+  return {probabilities.first.v + i / probabilities.grid.u,
+          probabilities.first.u + i % probabilities.grid.u};
+}
+
+LabelCoupling coupling_of(const LabelerParameters& parameters) {
+  if (parameters.regularizer == "none") return LabelCoupling::None;
+  return parameters.regularizer == "view" ? LabelCoupling::Views : LabelCoupling::Rays;
+}
+
 }  // namespace
 
 struct Labeler::State {
   LightFieldPtr light_field;
   std::shared_ptr<const DisparityField> disparity;
+  std::shared_ptr<const ViewStack<float>> edges;
+  bool has_own_edges = false;  // Computed here, with or without disparity as `set` says.
   PixelFeatureSet set;
-  std::map<std::pair<int, int>, Features> kept;  // By view.
+  std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
 
-  [[nodiscard]] bool fits_another() const {
-    const std::size_t each = kept.empty() ? 0 : kept.begin()->second->view().size() * sizeof(float);
-    return (kept.size() + 1) * each <= kKeptBytes;
+  void use(PixelFeatureSet wanted) {
+    if (wanted.with_disparity == set.with_disparity) return;
+    set = wanted;
+    kept.clear();
+    if (has_own_edges) edges = nullptr;
   }
 
-  [[nodiscard]] Features compute(ViewIndex view) const {
+  [[nodiscard]] Features find_features(ViewIndex view) const {
+    const auto found = std::ranges::find(kept, view, &std::pair<ViewIndex, Features>::first);
+    return found == kept.end() ? nullptr : found->second;
+  }
+
+  [[nodiscard]] Features compute_features(ViewIndex view, const Progress& progress) const {
     const DisparityView own =
         disparity && disparity->contains(view) ? disparity->view(view) : DisparityView{};
     return std::make_shared<const PixelFeatures>(
-        compute_pixel_features(*light_field, view, own, set));
+        compute_pixel_features(*light_field, view, own, set, progress));
   }
 
-  void use(PixelFeatureSet wanted) {
-    if (wanted.with_disparity != set.with_disparity) kept.clear();
-    set = wanted;
-  }
-
-  /// Features of a view, kept from now on if there is room.
-  [[nodiscard]] Features features(ViewIndex view) {
-    const auto found = kept.find({view.v, view.u});
-    if (found != kept.end()) return found->second;
-    Features computed = compute(view);
-    if (fits_another()) kept.emplace(std::pair(view.v, view.u), computed);
+  /// Features of a view, kept from now on in place of the oldest ones.
+  [[nodiscard]] Features keep_features(ViewIndex view, const Progress& progress) {
+    if (Features found = find_features(view)) return found;
+    Features computed = compute_features(view, progress);
+    const std::size_t each = computed->view().size() * sizeof(float);
+    while (!kept.empty() && (kept.size() + 1) * each > kKeptBytes) kept.pop_front();
+    kept.emplace_back(view, computed);
     return computed;
   }
 
@@ -91,32 +138,80 @@ struct Labeler::State {
     samples.label_count = static_cast<int>(ids.size());
     for (const ViewScribbles& painted : scribbles.views) {
       progress.check();
-      const Features of_view = features(painted.view);
+      const Features of_view = keep_features(painted.view, progress.part(0, 0));
       samples.feature_count = of_view->layers();
       append_samples(painted, of_view->view(), ids, samples);
     }
     return Forest::train(samples, forest_options(parameters), progress);
   }
 
-  void predict_view(const Forest& forest, ViewIndex view, Labeling& labeling,
-                    const Progress& progress) {
-    const Features of_view = features(view);
-    const VolumeView<const float> rows = of_view->view();
-    ProbabilityMap& map = labeling.probabilities.view(view);
-    map = ProbabilityMap(rows.height, forest.label_count(), rows.width);
-    constexpr int kRows = 8;
-    parallel_for_workers((rows.height + kRows - 1) / kRows, progress, [&] {
-      return [&, row = std::vector<float>(static_cast<std::size_t>(rows.width) * forest.pitch())](
-                 int item) mutable {
-        const int end = std::min(rows.height, (item + 1) * kRows);
-        for (int y = item * kRows; y < end; ++y) {
-          forest.predict_row(rows, y, row.data());
-          store_row(row.data(), forest.pitch(), map.view(), y);
-        }
-      };
+  /// Probabilities of the views of `into` that have none yet.
+  void predict(const Forest& forest, LabelProbabilities& into, const Progress& progress) {
+    std::vector<ViewIndex> missing;
+    for (int i = 0; i < into.grid.count(); ++i) {
+      if (into.views[static_cast<std::size_t>(i)].empty()) missing.push_back(view_at(into, i));
+    }
+    if (missing.size() <= kKeptViews) {
+      for (const ViewIndex view : missing) {
+        const Features of_view = keep_features(view, progress.part(0, 0));
+        into.view(view) = predict_view(forest, of_view->view(), progress.part(0, 0));
+      }
+      return;
+    }
+    parallel_for(static_cast<int>(missing.size()), progress, [&](int i) {
+      const ViewIndex view = missing[static_cast<std::size_t>(i)];
+      const Progress alone = progress.part(0, 0).on_one_thread();
+      Features of_view = find_features(view);
+      if (!of_view) of_view = compute_features(view, alone);
+      into.view(view) = predict_view(forest, of_view->view(), alone);
     });
-    const Image<std::int32_t> labels = most_probable_labels(map.view(), labeling.probabilities.ids);
-    std::copy(labels.begin(), labels.end(), labeling.labels.view(view).data);
+  }
+
+  void find_edges(const Progress& progress) {
+    if (edges) return;
+    const DisparityField none;
+    const bool sees_disparity = set.with_disparity && disparity;
+    edges = std::make_shared<const ViewStack<float>>(
+        edge_probabilities(*light_field, sees_disparity ? *disparity : none, {}, progress));
+    has_own_edges = true;
+  }
+
+  /// Replaces the labels by regularised ones.
+  void regularise(const Forest& forest, const LabelerParameters& parameters, Labeling& labeling,
+                  const Progress& progress) {
+    const LabelCoupling coupling = coupling_of(parameters);
+    progress.step("finding edges");
+    find_edges(progress.part(0, 0.05));
+    RayLabelingParameters options;
+    options.smoothness = parameters.smoothness;
+    LabelProbabilities& own = labeling.probabilities;
+    RayLabelingInput input{&own, disparity.get(), edges.get()};
+    RayLabeling result;
+    if (own.grid.count() > 1) {
+      result = label_rays(input, coupling, options, progress.part(0.05, 1));
+    } else {
+      // Where rays of other views agree, fewer than all tell nearly as much.
+      LabelProbabilities around =
+          empty_probabilities(own.ids, coupling == LabelCoupling::Rays ? neighbours(own.first)
+                                                                       : ViewRectangle{own.first});
+      around.view(own.first) = std::move(own.views[0]);
+      progress.step("labeling neighbouring views");
+      predict(forest, around, progress.part(0.05, 0.3));
+      input.probabilities = &around;
+      progress.step("regularising");
+      result = label_view(input, own.first, coupling, options, progress.part(0.3, 1));
+      own.views[0] = std::move(around.view(own.first));
+    }
+    labeling.labels = std::move(result.labels);
+    labeling.gap = result.relative_gap();
+    labeling.notes = std::move(result.notes);
+  }
+
+  [[nodiscard]] ViewRectangle neighbours(ViewIndex view) const {
+    const GridShape grid = light_field->grid();
+    const ViewIndex first{std::max(view.v - 1, 0), std::max(view.u - 1, 0)};
+    const ViewIndex last{std::min(view.v + 1, grid.v - 1), std::min(view.u + 1, grid.u - 1)};
+    return {first, {last.v - first.v + 1, last.u - first.u + 1}};
   }
 };
 
@@ -132,6 +227,9 @@ Schema<LabelerParameters> labeler_schema() {
                "How labels are made consistent: not at all, view by view, or along "
                "the rays of all views"},
               {"none", "view", "rayspace"})
+      .real("smoothness", &LabelerParameters::smoothness,
+            {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
+            {0, 20})
       .integer("trees", &LabelerParameters::trees, {"Trees", "Trees of the forest"}, {4, 500})
       .integer("depth", &LabelerParameters::depth, {"Depth", "Depth of a tree at most"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
@@ -143,10 +241,12 @@ bool uses_disparity(const LabelerParameters& parameters) {
   return parameters.features != "image";
 }
 
-Labeler::Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity)
+Labeler::Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
+                 std::shared_ptr<const ViewStack<float>> edges)
     : state_(std::make_unique<State>()) {
   state_->light_field = std::move(light_field);
   state_->disparity = std::move(disparity);
+  state_->edges = std::move(edges);
 }
 
 Labeler::~Labeler() = default;
@@ -155,30 +255,38 @@ Labeler& Labeler::operator=(Labeler&&) noexcept = default;
 
 Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& parameters,
                         ViewRectangle views, const Progress& progress,
-                        const std::function<void(const Labeling&)>&) {
+                        const std::function<void(const Labeling&)>& on_draft) {
   const auto start = std::chrono::steady_clock::now();
   const LightField& lf = *state_->light_field;
   require_views(views, lf.grid());
-  if (parameters.regularizer != "none") {
-    throw Unavailable("labels cannot be regularised yet; use --regularizer none");
+  const std::vector<std::int32_t> ids = painted_labels(scribbles, lf);
+  const LabelCoupling coupling = coupling_of(parameters);
+  if (coupling == LabelCoupling::Rays && !state_->disparity) {
+    throw InvalidInput(
+        "labels that agree along rays need the disparity of all views; estimate it first, or "
+        "smooth "
+        "each view alone");
   }
-  Labeling labeling;
-  labeling.probabilities.ids = painted_labels(scribbles, lf);
-  labeling.probabilities.grid = views.grid;
-  labeling.probabilities.first = views.first;
-  labeling.probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
-  labeling.labels = ViewStack<std::int32_t>(views.grid, lf.height(), lf.width(), 1, views.first);
-
   state_->use({uses_disparity(parameters)});
+
   progress.step("training the forest");
-  const Forest forest =
-      state_->train(scribbles, labeling.probabilities.ids, parameters, progress.part(0, 0.1));
+  const Forest forest = state_->train(scribbles, ids, parameters, progress.part(0, 0.1));
   progress.step("labeling pixels");
-  for (int i = 0; i < views.grid.count(); ++i) {
-    const ViewIndex view{views.first.v + i / views.grid.u, views.first.u + i % views.grid.u};
-    const double count = views.grid.count();
-    state_->predict_view(forest, view, labeling,
-                         progress.part(0.1 + 0.9 * i / count, 0.1 + 0.9 * (i + 1) / count));
+  Labeling labeling;
+  labeling.probabilities = empty_probabilities(ids, views);
+  state_->predict(forest, labeling.probabilities, progress.part(0.1, 0.5));
+  if (coupling == LabelCoupling::None || on_draft) {
+    const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr};
+    labeling.labels = label_rays(input, LabelCoupling::None, {}, progress.part(0.5, 0.5)).labels;
+  }
+  if (coupling != LabelCoupling::None) {
+    if (on_draft) {
+      labeling.is_draft = true;
+      labeling.seconds = seconds_since(start);
+      on_draft(labeling);
+      labeling.is_draft = false;
+    }
+    state_->regularise(forest, parameters, labeling, progress.part(0.5, 1));
   }
   labeling.seconds = seconds_since(start);
   return labeling;

@@ -18,7 +18,8 @@ namespace episcope {
 /// Parameters of a segmentation.
 struct LabelerParameters {
   std::string features = "image+estimate";
-  std::string regularizer = "none";
+  std::string regularizer = "rayspace";
+  double smoothness = 1;
   int trees = 64;
   int depth = 14;
   int seed = 1;
@@ -43,25 +44,32 @@ struct Labeling {
   LabelProbabilities probabilities;  ///< Of the forest, before regularisation.
   ViewStack<std::int32_t> labels;    ///< The label of each pixel, one of `probabilities.ids`.
   bool is_draft = false;             ///< Whether the labels are still to be regularised.
+  double gap = 0;                    ///< Relative duality gap of the regulariser.
   double seconds = 0;                ///< Wall-clock time.
+  std::vector<std::string> notes;    ///< A sentence each.
 };
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
-/// strokes: what does not depend on them, the features of views (engine/labeling/pixel_features.h)
-/// above all, is kept between calls, of as many views as fit `kKeptBytes`.
+/// strokes: what does not depend on them, edges and the features of views, is kept between calls
+/// (features of as many views as fit `kKeptBytes`).
 ///
 /// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all painted
-/// views, as many of each label, and votes on every pixel of the views asked for.
-/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13].
+/// views, as many of each label; it votes on the pixels of the views asked for by their features
+/// (engine/labeling/pixel_features.h), and labels are then made consistent
+/// (engine/labeling/ray_labeling.h). A single view asked for with `rayspace` goes by the rays of
+/// its neighbours in the grid, all views by those of all. Source: Wanner, Straehle, Goldluecke 2013
+/// [WSG13].
 ///
 /// For one thread at a time; what is asked for while it works must wait or cancel it.
 class Labeler {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
 
-  /// `disparity` may be null, or cover some views only. It carries places along the rays, and is a
-  /// feature where the parameters say so.
-  Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity);
+  /// `disparity` may be null, or cover some views only. It carries places along the rays, couples
+  /// views, and is a feature where the parameters say so. `edges`: EDGE_WEIGHTS of all views; null
+  /// = computed, from disparity as well where that is a feature.
+  Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
+          std::shared_ptr<const ViewStack<float>> edges = nullptr);
   ~Labeler();
   Labeler(Labeler&&) noexcept;
   Labeler& operator=(Labeler&&) noexcept;
@@ -71,7 +79,7 @@ class Labeler {
   /// regularisation, if there is any to come. The result depends neither on the number of threads
   /// nor on earlier calls.
   /// Throws InvalidInput if fewer than two labels are painted, if scribbles or `views` do not fit
-  /// the light field, or disparity is a feature and a view lacks it; Cancelled, within 200 ms.
+  /// the light field, or if disparity is needed and a view lacks it; Cancelled, within 200 ms.
   [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});

@@ -2,27 +2,32 @@
 #include "engine/labeling/pixel_features.h"
 
 #include "engine/core/error.h"
+#include "engine/core/parallel.h"
 
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 
 namespace episcope {
 namespace {
 
-constexpr double kColorScales[] = {1, 2.5, 6};
-constexpr double kShapeScales[] = {1, 2, 4};
+constexpr double kFineScale = 1;
+/// Differences of Lab/100 that the filters that keep edges take for the same surface.
+constexpr double kSurfaceContrast = 0.06;
+constexpr double kWiderSurfaceContrast = 0.15;
+constexpr double kSurfaceScale = 6;
+constexpr int kSurfaceWindow = 13;
+constexpr int kSurfacePasses = 2;
 constexpr double kDisparityScale = 2;
-constexpr float kLabUnit = 0.01F;
+constexpr double kLabUnit = 0.01;
 
-std::string at_scale(const char* name, double sigma) {
-  std::string digits = std::to_string(sigma);
-  digits.erase(digits.find_last_not_of('0') + 1);
-  if (digits.back() == '.') digits.pop_back();
-  return std::string(name) + ", " + digits + " px";
-}
+// First layers of the groups, in the order of `pixel_feature_names`.
+constexpr int kSurfaceLayer = 9;
+constexpr int kWiderSurfaceLayer = 12;
+constexpr int kShapeLayer = 15;
 
 cv::Mat smoothed(const cv::Mat& plane, double sigma) {
   cv::Mat out;
@@ -44,10 +49,10 @@ cv::Mat magnitude(const cv::Mat& dx, const cv::Mat& dy) {
   return out;
 }
 
-/// Fills the layers of a volume one after the other.
+/// Fills layers of a volume one after the other, from `first` on.
 class LayerWriter {
  public:
-  explicit LayerWriter(PixelFeatures& features) : features_(features.view()) {}
+  LayerWriter(VolumeView<float> features, int first) : features_(features), layer_(first) {}
 
   void add(const cv::Mat& plane, float unit = 1) {
     for (int y = 0; y < features_.height; ++y) {
@@ -58,12 +63,12 @@ class LayerWriter {
     ++layer_;
   }
 
-  void add(const std::vector<cv::Mat>& planes, float unit) {
-    for (const cv::Mat& plane : planes) add(plane, unit);
+  void add(const std::vector<cv::Mat>& planes) {
+    for (const cv::Mat& plane : planes) add(plane);
   }
 
   /// The larger and the smaller eigenvalue of [a b; b c] in each pixel.
-  void add_eigenvalues(const cv::Mat& a, const cv::Mat& b, const cv::Mat& c, float unit) {
+  void add_eigenvalues(const cv::Mat& a, const cv::Mat& b, const cv::Mat& c) {
     for (int y = 0; y < features_.height; ++y) {
       const auto *pa = a.ptr<float>(y), *pb = b.ptr<float>(y), *pc = c.ptr<float>(y);
       float* larger = features_.row(y, layer_);
@@ -72,8 +77,8 @@ class LayerWriter {
         const float mean = 0.5F * (pa[x] + pc[x]);
         const float half = 0.5F * (pa[x] - pc[x]);
         const float spread = std::sqrt(half * half + pb[x] * pb[x]);
-        larger[x] = unit * (mean + spread);
-        smaller[x] = unit * (mean - spread);
+        larger[x] = mean + spread;
+        smaller[x] = mean - spread;
       }
     }
     layer_ += 2;
@@ -81,7 +86,7 @@ class LayerWriter {
 
  private:
   VolumeView<float> features_;
-  int layer_ = 0;
+  int layer_;
 };
 
 cv::Mat color_image(const LightField& lf, ViewIndex view) {
@@ -96,28 +101,37 @@ cv::Mat color_image(const LightField& lf, ViewIndex view) {
 void add_color(LayerWriter& layers, const cv::Mat& rgb, const std::vector<cv::Mat>& lab) {
   std::vector<cv::Mat> channels;
   cv::split(rgb, channels);
-  layers.add(channels, 1);
-  layers.add(lab, kLabUnit);
-  for (const double sigma : kColorScales) {
-    for (const cv::Mat& channel : lab) layers.add(smoothed(channel, sigma), kLabUnit);
+  layers.add(channels);
+  layers.add(lab);
+  for (const cv::Mat& channel : lab) layers.add(smoothed(channel, kFineScale));
+}
+
+/// Colours averaged within a surface and not across its outline.
+void add_surface(LayerWriter& layers, const cv::Mat& lab, double contrast,
+                 const Progress& progress) {
+  cv::Mat flat = lab;
+  for (int pass = 0; pass < kSurfacePasses; ++pass) {
+    progress.check();
+    cv::Mat next;
+    cv::bilateralFilter(flat, next, kSurfaceWindow, contrast, kSurfaceScale, cv::BORDER_REPLICATE);
+    flat = next;
   }
+  std::vector<cv::Mat> channels;
+  cv::split(flat, channels);
+  layers.add(channels);
 }
 
 void add_shape(LayerWriter& layers, const cv::Mat& lightness) {
-  for (const double sigma : kShapeScales) {
-    const auto first = static_cast<float>(kLabUnit * sigma);
-    const auto second = static_cast<float>(kLabUnit * sigma * sigma);
-    const cv::Mat smooth = smoothed(lightness, sigma);
-    const cv::Mat dx = derivative(smooth, 1, 0);
-    const cv::Mat dy = derivative(smooth, 0, 1);
-    const cv::Mat dxx = derivative(smooth, 2, 0);
-    const cv::Mat dyy = derivative(smooth, 0, 2);
-    layers.add(magnitude(dx, dy), first);
-    layers.add(dxx + dyy, second);
-    layers.add_eigenvalues(dxx, derivative(smooth, 1, 1), dyy, second);
-    layers.add_eigenvalues(smoothed(dx.mul(dx), 2 * sigma), smoothed(dx.mul(dy), 2 * sigma),
-                           smoothed(dy.mul(dy), 2 * sigma), first * first);
-  }
+  const cv::Mat smooth = smoothed(lightness, kFineScale);
+  const cv::Mat dx = derivative(smooth, 1, 0);
+  const cv::Mat dy = derivative(smooth, 0, 1);
+  const cv::Mat dxx = derivative(smooth, 2, 0);
+  const cv::Mat dyy = derivative(smooth, 0, 2);
+  layers.add(magnitude(dx, dy));
+  layers.add(dxx + dyy);
+  layers.add_eigenvalues(dxx, derivative(smooth, 1, 1), dyy);
+  layers.add_eigenvalues(smoothed(dx.mul(dx), 2 * kFineScale), smoothed(dx.mul(dy), 2 * kFineScale),
+                         smoothed(dy.mul(dy), 2 * kFineScale));
 }
 
 void add_place(LayerWriter& layers, const cv::Mat& disparity, ViewIndex step) {
@@ -145,48 +159,66 @@ void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
 }  // namespace
 
 std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
-  std::vector<std::string> names{"red", "green", "blue", "lightness", "Lab a", "Lab b"};
-  for (const double sigma : kColorScales) {
-    for (const char* name : {"lightness", "Lab a", "Lab b"}) {
-      names.push_back(at_scale((std::string(name) + " smoothed").c_str(), sigma));
+  std::vector<std::string> names{"red", "green", "blue"};
+  const auto add_lab = [&](const std::string& what) {
+    for (const char* channel : {"lightness", "Lab a", "Lab b"}) {
+      names.push_back(channel + what);
     }
-  }
-  for (const double sigma : kShapeScales) {
-    for (const char* name : {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller",
-                             "structure, larger", "structure, smaller"}) {
-      names.push_back(at_scale(name, sigma));
-    }
-  }
-  names.insert(names.end(), {"column in the centre view", "row in the centre view"});
+  };
+  add_lab("");
+  add_lab(", smoothed");
+  add_lab(", of the surface");
+  add_lab(", of the wider surface");
+  names.insert(names.end(),
+               {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller", "structure, larger",
+                "structure, smaller", "column in the centre view", "row in the centre view"});
   if (set.with_disparity) {
-    names.insert(names.end(), {"disparity", at_scale("disparity smoothed", kDisparityScale),
-                               at_scale("disparity gradient", kDisparityScale)});
+    names.insert(names.end(), {"disparity", "disparity, smoothed", "disparity, gradient"});
   }
   return names;
 }
 
 PixelFeatures compute_pixel_features(const LightField& lf, ViewIndex view,
-                                     const DisparityView& disparity, PixelFeatureSet set) {
+                                     const DisparityView& disparity, PixelFeatureSet set,
+                                     const Progress& progress) {
   if (set.with_disparity && disparity.disparity.empty()) {
     throw InvalidInput("features of disparity were asked for, but view " + view_text(view) +
                        " has no disparity; estimate all views first");
   }
   PixelFeatures features(lf.height(), static_cast<int>(pixel_feature_names(set).size()),
                          lf.width());
-  LayerWriter layers(features);
   const cv::Mat rgb = color_image(lf, view);
   cv::Mat lab_image;
   cv::cvtColor(rgb, lab_image, cv::COLOR_RGB2Lab);
+  lab_image *= kLabUnit;
   std::vector<cv::Mat> lab;
   cv::split(lab_image, lab);
-  add_color(layers, rgb, lab);
-  add_shape(layers, lab[0]);
-
   Image<float> filled(lf.height(), lf.width());
   if (!disparity.disparity.empty()) filled = filled_disparity(disparity);
   const cv::Mat map(lf.height(), lf.width(), CV_32F, filled.data());
-  add_place(layers, map, {view.v - lf.center().v, view.u - lf.center().u});
-  if (set.with_disparity) add_disparity(layers, map);
+
+  const auto writer = [&](int first) { return LayerWriter(features.view(), first); };
+  const std::function<void()> groups[] = {
+      [&] {
+        auto layers = writer(kWiderSurfaceLayer);
+        add_surface(layers, lab_image, kWiderSurfaceContrast, progress);
+      },
+      [&] {
+        auto layers = writer(kSurfaceLayer);
+        add_surface(layers, lab_image, kSurfaceContrast, progress);
+      },
+      [&] {
+        auto layers = writer(0);
+        add_color(layers, rgb, lab);
+      },
+      [&] {
+        auto layers = writer(kShapeLayer);
+        add_shape(layers, lab[0]);
+        add_place(layers, map, {view.v - lf.center().v, view.u - lf.center().u});
+        if (set.with_disparity) add_disparity(layers, map);
+      },
+  };
+  parallel_for(static_cast<int>(std::size(groups)), progress, [&](int i) { groups[i](); });
   return features;
 }
 
