@@ -42,6 +42,41 @@ void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, Row& row
   }
 }
 
+void forget_known(const TrackSources& sources, int y, Row& row) {
+  if (sources.known.empty()) return;
+  const std::int32_t* const known = sources.known.row(y);
+  for (int x = 0; x < sources.known.width; ++x) {
+    if (known[x] >= 0) row.targets[x] = -1;
+  }
+}
+
+void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
+              Row& row) {
+  const auto& [probabilities, disparity, view, known] = sources;
+  const std::uint8_t* const own = probabilities.view(view).view().row(y, 0);
+  float* const sums = costs.row(y, 0);
+  std::transform(own, own + static_cast<std::ptrdiff_t>(costs.layers) * costs.width, sums,
+                 [&table](std::uint8_t p) { return table[p]; });
+  if (!known.empty() && std::all_of(known.row(y), known.row(y) + known.width,
+                                    [](std::int32_t label) { return label >= 0; })) {
+    return;
+  }
+  std::fill(row.count.begin(), row.count.end(), 1.0F);
+  for (int i = 0; i < probabilities.grid.count(); ++i) {
+    const ViewIndex other{probabilities.first.v + i / probabilities.grid.u,
+                          probabilities.first.u + i % probabilities.grid.u};
+    if (other == view || !disparity.contains(other)) continue;
+    find_ray_targets(disparity.view(view), disparity.view(other),
+                     {other.v - view.v, other.u - view.u}, y, row.targets.data());
+    forget_known(sources, y, row);
+    add_view(probabilities.view(other).view(), table, row, sums);
+  }
+  for (int layer = 0; layer < costs.layers; ++layer) {
+    float* const sum = costs.row(y, layer);
+    for (int x = 0; x < costs.width; ++x) sum[x] /= row.count[x];
+  }
+}
+
 }  // namespace
 
 CostTable cost_table(double floor) {
@@ -58,32 +93,11 @@ void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& t
                  [&table](std::uint8_t p) { return table[p]; });
 }
 
-void fill_track_costs(const LabelProbabilities& probabilities, const DisparityField& disparity,
-                      ViewIndex view, const CostTable& table, const Progress& progress,
+void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
                       VolumeView<float> costs) {
-  const DisparityView from = disparity.view(view);
-  const auto own = probabilities.view(view).view();
   const auto make_worker = [&]() -> std::function<void(int)> {
     auto row = std::make_shared<Row>(costs.width);
-    return [&, row](int y) {
-      const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(costs.layers) * costs.width;
-      float* const sums = costs.row(y, 0);
-      std::transform(own.row(y, 0), own.row(y, 0) + size, sums,
-                     [&table](std::uint8_t p) { return table[p]; });
-      std::fill(row->count.begin(), row->count.end(), 1.0F);
-      for (int i = 0; i < probabilities.grid.count(); ++i) {
-        const ViewIndex other{probabilities.first.v + i / probabilities.grid.u,
-                              probabilities.first.u + i % probabilities.grid.u};
-        if (other == view || !disparity.contains(other)) continue;
-        find_ray_targets(from, disparity.view(other), {other.v - view.v, other.u - view.u}, y,
-                         row->targets.data());
-        add_view(probabilities.view(other).view(), table, *row, sums);
-      }
-      for (int layer = 0; layer < costs.layers; ++layer) {
-        float* const sum = costs.row(y, layer);
-        for (int x = 0; x < costs.width; ++x) sum[x] /= row->count[x];
-      }
-    };
+    return [&, row](int y) { fill_row(sources, table, costs, y, *row); };
   };
   parallel_for_workers(costs.height, progress, make_worker);
 }

@@ -3,9 +3,8 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/boundary_weights.h"
-#include "engine/labeling/label_costs.h"
-#include "engine/solvers/simplex_labeling.h"
+#include "engine/labeling/ray_space.h"
+#include "engine/labeling/view_problem.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,47 +33,10 @@ ViewIndex view_at(const LabelProbabilities& probabilities, int i) {
           probabilities.first.u + i % probabilities.grid.u};
 }
 
-Image<float> weights_of(const RayLabelingInput& input, ViewIndex view) {
-  if (input.edges == nullptr || input.edges->empty() || !input.edges->contains(view)) return {};
-  return boundary_weights(input.edges->view(view));
+void name_labels(const std::vector<std::int32_t>& ids, ViewStack<std::int32_t>& labels) {
+  std::for_each(labels.data(), labels.data() + labels.size(),
+                [&ids](std::int32_t& label) { label = ids[label]; });
 }
-
-// Everything that one problem on one view needs, for many views of one size.
-class ViewProblem {
- public:
-  explicit ViewProblem(const ProbabilityMap& like)
-      : solver(like.height(), like.layers(), like.width()),
-        costs(like.height(), like.layers(), like.width()),
-        labels(like.height(), like.width()) {}
-
-  void fill(const RayLabelingInput& input, ViewIndex view, LabelCoupling coupling,
-            const CostTable& table, const Progress& progress) {
-    if (coupling == LabelCoupling::Rays) {
-      fill_track_costs(*input.probabilities, *input.disparity, view, table, progress, costs.view());
-    } else {
-      fill_costs(input.probabilities->view(view).view(), table, costs.view());
-    }
-  }
-  SimplexResult solve(const RayLabelingInput& input, ViewIndex view,
-                      const RayLabelingParameters& parameters, const Progress& progress) {
-    const Image<float> weights = weights_of(input, view);
-    SimplexOptions options;
-    options.gap = parameters.gap;
-    options.max_iterations = parameters.max_iterations;
-    return solver.solve({costs.view(), weights, parameters.smoothness}, options, progress,
-                        labels.view());
-  }
-  void write(const std::vector<std::int32_t>& ids, ImageView<std::int32_t> to) const {
-    for (int y = 0; y < to.height; ++y) {
-      std::transform(labels.row(y), labels.row(y) + to.width, to.row(y),
-                     [&ids](int layer) { return ids[layer]; });
-    }
-  }
-
-  SimplexSolver solver;
-  Volume<float> costs;
-  Image<int> labels;
-};
 
 void add(const SimplexResult& part, RayLabeling& result) {
   result.energy += part.energy;
@@ -90,21 +52,19 @@ void label_each_ray(const RayLabelingInput& input, const Progress& progress, Ray
   });
 }
 
-void label_each_view(const RayLabelingInput& input, LabelCoupling coupling,
-                     const RayLabelingParameters& parameters, const Progress& progress,
-                     RayLabeling& result) {
+void label_each_view(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                     const Progress& progress, RayLabeling& result) {
   const LabelProbabilities& p = *input.probabilities;
-  const CostTable table = cost_table(parameters.floor);
   std::vector<SimplexResult> parts(p.views.size());
   progress.step("views");
   // Whole views side by side: threads that share a view wait for each other at every iteration.
   parallel_for_workers(p.grid.count(), progress, [&]() -> std::function<void(int)> {
-    auto problem = std::make_shared<ViewProblem>(p.views[0]);
+    auto problem = std::make_shared<ViewProblem>(input, parameters);
     return [&, problem](int i) {
-      fill_costs(p.views[i].view(), table, problem->costs.view());
+      const ViewIndex view = view_at(p, i);
+      problem->fill_own(view);
       parts[i] =
-          problem->solve(input, view_at(p, i), parameters, progress.part(0, 0).on_one_thread());
-      problem->write(p.ids, result.labels.view(view_at(p, i)));
+          problem->solve(view, progress.part(0, 0).on_one_thread(), result.labels.view(view));
     };
   });
   for (const auto& part : parts) add(part, result);
@@ -125,9 +85,14 @@ RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,
       ViewStack<std::int32_t>(p.grid, p.views[0].height(), p.views[0].width(), 1, p.first);
   if (coupling == LabelCoupling::None) {
     label_each_ray(input, progress, result);
-  } else {
-    label_each_view(input, coupling, parameters, progress, result);
+    return result;
   }
+  if (coupling == LabelCoupling::Views) {
+    label_each_view(input, parameters, progress, result);
+  } else {
+    label_ray_space(input, parameters, progress, result);
+  }
+  name_labels(p.ids, result.labels);
   return result;
 }
 
@@ -147,15 +112,14 @@ RayLabeling label_view(const RayLabelingInput& input, ViewIndex view, LabelCoupl
     std::copy(labels.begin(), labels.end(), out.data);
     return result;
   }
-  ViewProblem problem(own);
-  const CostTable table = cost_table(parameters.floor);
+  ViewProblem problem(input, parameters);
   if (coupling == LabelCoupling::Rays) {
-    fill_track_costs(p, *input.disparity, view, table, progress.part(0, 0.2), problem.costs.view());
+    problem.fill_tracks(view, {}, progress.part(0, 0.2));
   } else {
-    fill_costs(own.view(), table, problem.costs.view());
+    problem.fill_own(view);
   }
-  add(problem.solve(input, view, parameters, progress.part(0.2, 1)), result);
-  problem.write(p.ids, out);
+  add(problem.solve(view, progress.part(0.2, 1), out), result);
+  name_labels(p.ids, result.labels);
   return result;
 }
 
