@@ -217,7 +217,7 @@ void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& 
         line_trust_row(residuals->row(y), lf.width(), variance, noise, trust->data());
         texture->multiply_row(y, noise, trust->data());
         float* const row = confidence.row(y);
-        for (int x = 0; x < lf.width(); ++x) row[x] *= (*trust)[x];
+        for (int x = 0; x < lf.width(); ++x) row[x] *= std::sqrt(std::sqrt((*trust)[x]));
       }
     };
   });

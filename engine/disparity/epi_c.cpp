@@ -5,6 +5,7 @@
 #include "engine/disparity/data_trust.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/edge_weights.h"
+#include "engine/disparity/visibility.h"
 #include "engine/solvers/ordering_terms.h"
 #include "engine/solvers/tv_l2.h"
 
@@ -169,14 +170,16 @@ double order_views(const LightField& lf, const EpiCParameters& parameters,
   double gap = 0;
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
+  const double steps = 2.0 * sweeps;
+  if (sweeps > 0) give_way(work.u, work.confidence, progress.part(0, 0.02));
+  const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps; ++i) {
     if (i % 2 == 0) {
       progress.step("ordering, sweep " + std::to_string(i / 2 + 1) + " of " +
                     std::to_string(sweeps) + (i > 0 ? text_of(", gap %.1e", gap, 0) : ""));
     }
-    const double steps = 2.0 * sweeps;
     const double other =
-        improve(work, views_of_colour(grid, i % 2), progress.part(i / steps, (i + 1) / steps));
+        improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
     gap = i % 2 == 0 ? other : std::max(gap, other);
   }
   return gap;

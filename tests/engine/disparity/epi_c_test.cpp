@@ -120,7 +120,6 @@ void EpiCTest::edgeOfTheBackground_isMovedBack() {
   p.sweeps = 10;
   order_views(plain_views(), p, half_planes(0), estimate, Progress());
   const double after = ordering_violations(estimate.field.disparity, Progress());
-  QEXPECT_FAIL("", "the edge stays: as many lines violate the ordering as before", Continue);
   QVERIFY2(after < 0.5 * before, qPrintable(QString("%1, was %2").arg(after).arg(before)));
 }
 
@@ -169,7 +168,6 @@ void EpiCTest::occludedScene_isBetterThanBySmoothing() {
     better = better && after < before;
     numbers += QString("%1, EPI_S %2; ").arg(after).arg(before);
   }
-  QEXPECT_FAIL("edge with noise", "0.114 against 0.091 since EPI_S smooths more", Continue);
   QVERIFY2(better, qPrintable(numbers));
 }
 
