@@ -7,6 +7,7 @@
 #include "engine/labeling/forest.h"
 #include "engine/labeling/pixel_features.h"
 #include "engine/labeling/ray_labeling.h"
+#include "engine/labeling/stroke_distance.h"
 #include "engine/labeling/training_samples.h"
 
 #include <algorithm>
@@ -23,6 +24,9 @@ using Features = std::shared_ptr<const PixelFeatures>;
 // Up to so many views asked for at once are worked on one after the other, each by all threads, and
 // their features kept: somebody is painting. More are worked on side by side.
 constexpr std::size_t kKeptViews = 9;
+
+// A jump of one px in disparity beside one of Lab/100.
+constexpr float kDisparityWeight = 5;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -57,7 +61,25 @@ void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y)
   }
 }
 
+Image<float> plane(VolumeView<const float> features, int layer, float unit) {
+  Image<float> image(features.height, features.width);
+  for (int y = 0; y < features.height; ++y) {
+    const float* in = features.row(y, layer);
+    std::transform(in, in + features.width, image.row(y), [unit](float f) { return f * unit; });
+  }
+  return image;
+}
+
+/// What a way along a surface must not cross: edges of colour, and of disparity if that is known.
+std::vector<Image<float>> guide_planes(VolumeView<const float> features, PixelFeatureSet set) {
+  std::vector<Image<float>> planes;
+  for (int c = 0; c < 3; ++c) planes.push_back(plane(features, kWiderSurfaceLayer + c, 1));
+  if (set.with_disparity) planes.push_back(plane(features, kDisparityLayer, kDisparityWeight));
+  return planes;
+}
+
 ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
+                            const StrokeDistances& distances, double nearness,
                             const Progress& progress) {
   ProbabilityMap map(features.height, forest.label_count(), features.width);
   constexpr int kRows = 8;
@@ -67,6 +89,7 @@ ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> featur
       const int end = std::min(features.height, (item + 1) * kRows);
       for (int y = item * kRows; y < end; ++y) {
         forest.predict_row(features, y, row.data());
+        distances.weigh_row(y, nearness, forest.pitch(), row.data());
         store_row(row.data(), forest.pitch(), map.view(), y);
       }
     };
@@ -92,6 +115,14 @@ LabelCoupling coupling_of(const LabelerParameters& parameters) {
   if (parameters.regularizer == "none") return LabelCoupling::None;
   return parameters.regularizer == "view" ? LabelCoupling::Views : LabelCoupling::Rays;
 }
+
+/// What was learned from strokes; borrows them.
+struct Learned {
+  const Scribbles& scribbles;
+  const std::vector<std::int32_t>& ids;
+  const LabelerParameters& parameters;
+  Forest forest;
+};
 
 }  // namespace
 
@@ -145,8 +176,19 @@ struct Labeler::State {
     return Forest::train(samples, forest_options(parameters), progress);
   }
 
+  [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
+                                           VolumeView<const float> features,
+                                           const Progress& progress) const {
+    const std::vector<Image<float>> guides = guide_planes(features, set);
+    const Image<std::int32_t> strokes = carried_strokes(
+        learned.scribbles, learned.ids, disparity.get(), view, features.height, features.width);
+    const StrokeDistances distances(strokes, learned.forest.label_count(),
+                                    {guides.begin(), guides.end()}, progress);
+    return predict_view(learned.forest, features, distances, learned.parameters.nearness, progress);
+  }
+
   /// Probabilities of the views of `into` that have none yet.
-  void predict(const Forest& forest, LabelProbabilities& into, const Progress& progress) {
+  void predict(const Learned& learned, LabelProbabilities& into, const Progress& progress) {
     std::vector<ViewIndex> missing;
     for (int i = 0; i < into.grid.count(); ++i) {
       if (into.views[static_cast<std::size_t>(i)].empty()) missing.push_back(view_at(into, i));
@@ -154,7 +196,7 @@ struct Labeler::State {
     if (missing.size() <= kKeptViews) {
       for (const ViewIndex view : missing) {
         const Features of_view = keep_features(view, progress.part(0, 0));
-        into.view(view) = predict_view(forest, of_view->view(), progress.part(0, 0));
+        into.view(view) = predict_one(learned, view, of_view->view(), progress.part(0, 0));
       }
       return;
     }
@@ -163,7 +205,7 @@ struct Labeler::State {
       const Progress alone = progress.part(0, 0).on_one_thread();
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
-      into.view(view) = predict_view(forest, of_view->view(), alone);
+      into.view(view) = predict_one(learned, view, of_view->view(), alone);
     });
   }
 
@@ -177,13 +219,12 @@ struct Labeler::State {
   }
 
   /// Replaces the labels by regularised ones.
-  void regularise(const Forest& forest, const LabelerParameters& parameters, Labeling& labeling,
-                  const Progress& progress) {
-    const LabelCoupling coupling = coupling_of(parameters);
+  void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
+    const LabelCoupling coupling = coupling_of(learned.parameters);
     progress.step("finding edges");
     find_edges(progress.part(0, 0.05));
     RayLabelingParameters options;
-    options.smoothness = parameters.smoothness;
+    options.smoothness = learned.parameters.smoothness;
     LabelProbabilities& own = labeling.probabilities;
     RayLabelingInput input{&own, disparity.get(), edges.get()};
     RayLabeling result;
@@ -196,7 +237,7 @@ struct Labeler::State {
                                                                        : ViewRectangle{own.first});
       around.view(own.first) = std::move(own.views[0]);
       progress.step("labeling neighbouring views");
-      predict(forest, around, progress.part(0.05, 0.3));
+      predict(learned, around, progress.part(0.05, 0.3));
       input.probabilities = &around;
       progress.step("regularising");
       result = label_view(input, own.first, coupling, options, progress.part(0.3, 1));
@@ -230,6 +271,9 @@ Schema<LabelerParameters> labeler_schema() {
       .real("smoothness", &LabelerParameters::smoothness,
             {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
             {0, 20})
+      .real("nearness", &LabelerParameters::nearness,
+            {"Nearness", "How much it counts to be near strokes of a label, along surfaces"},
+            {0, 5})
       .integer("trees", &LabelerParameters::trees, {"Trees", "Trees of the forest"}, {4, 500})
       .integer("depth", &LabelerParameters::depth, {"Depth", "Depth of a tree at most"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
@@ -270,11 +314,12 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   state_->use({uses_disparity(parameters)});
 
   progress.step("training the forest");
-  const Forest forest = state_->train(scribbles, ids, parameters, progress.part(0, 0.1));
+  const Learned learned{scribbles, ids, parameters,
+                        state_->train(scribbles, ids, parameters, progress.part(0, 0.1))};
   progress.step("labeling pixels");
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
-  state_->predict(forest, labeling.probabilities, progress.part(0.1, 0.5));
+  state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
   if (coupling == LabelCoupling::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr};
     labeling.labels = label_rays(input, LabelCoupling::None, {}, progress.part(0.5, 0.5)).labels;
@@ -286,7 +331,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
       on_draft(labeling);
       labeling.is_draft = false;
     }
-    state_->regularise(forest, parameters, labeling, progress.part(0.5, 1));
+    state_->regularise(learned, labeling, progress.part(0.5, 1));
   }
   labeling.seconds = seconds_since(start);
   return labeling;

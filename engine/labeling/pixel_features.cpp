@@ -26,7 +26,6 @@ constexpr double kLabUnit = 0.01;
 
 // First layers of the groups, in the order of `pixel_feature_names`.
 constexpr int kSurfaceLayer = 9;
-constexpr int kWiderSurfaceLayer = 12;
 constexpr int kShapeLayer = 15;
 
 cv::Mat smoothed(const cv::Mat& plane, double sigma) {

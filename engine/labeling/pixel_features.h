@@ -19,6 +19,11 @@ struct PixelFeatureSet {
   bool with_disparity = false;  ///< The archive's sets with depth, else the one of a single view.
 };
 
+/// First of the three layers of Lab averaged within wider surfaces.
+inline constexpr int kWiderSurfaceLayer = 12;
+/// Layer of the disparity, where it is among the features.
+inline constexpr int kDisparityLayer = 23;
+
 /// What each layer of PixelFeatures holds, in their order: "red", "lightness, smoothed", …
 [[nodiscard]] std::vector<std::string> pixel_feature_names(PixelFeatureSet set);
 
