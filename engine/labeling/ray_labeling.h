@@ -19,10 +19,10 @@ enum class LabelCoupling {
 };
 
 struct RayLabelingParameters {
-  double smoothness = 1;  ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
-  double floor = 0.005;   ///< Least probability taken for possible, in (0, 1].
-  double gap = 1e-3;      ///< Relative duality gap at which the solver stops, > 0.
-  int max_iterations = 400;
+  double smoothness = 32;  ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
+  double floor = 0.1;      ///< Least probability taken for possible, in (0, 1].
+  double gap = 2e-3;       ///< Relative duality gap at which the solver stops, > 0.
+  int max_iterations = 300;
 };
 
 /// What is known of the rays; borrowed for the call.

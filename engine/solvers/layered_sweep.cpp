@@ -34,23 +34,32 @@ void LayeredSweep::clear(const Band& band) {
               kPairKinds * size + margin, 0.0F);
 }
 
-PairDuals LayeredSweep::duals(int y, const PairLimits& limits) {
+PairDuals LayeredSweep::duals(int y) {
   PairDuals row;
   for (int k = 0; k < kPairKinds; ++k) {
     row.pair[k] =
         duals_.get() + kLayerRowUnit + (static_cast<long>(y) * kPairKinds + k) * row_size();
-    row.limit[k] = limits.row(y, k);
   }
+  return row;
+}
+
+PairDuals LayeredSweep::duals_above(int y) {
+  if (y > 0) return duals(y - 1);
+  PairDuals row;
+  for (float*& pair : row.pair) pair = nothing_.data() + kLayerRowUnit;
+  return row;
+}
+
+PairDuals LayeredSweep::duals(int y, const PairLimits& limits) {
+  PairDuals row = duals(y);
+  for (int k = 0; k < kPairKinds; ++k) row.limit[k] = limits.row(y, k);
   return row;
 }
 
 PairDuals LayeredSweep::duals_above(int y, const PairLimits& limits) {
   if (y > 0) return duals(y - 1, limits);
-  PairDuals row;
-  for (int k = 0; k < kPairKinds; ++k) {
-    row.pair[k] = nothing_.data() + kLayerRowUnit;
-    row.limit[k] = nothing_.data() + kLayerRowUnit;
-  }
+  PairDuals row = duals_above(y);
+  for (const float*& limit : row.limit) limit = nothing_.data() + kLayerRowUnit;
   return row;
 }
 

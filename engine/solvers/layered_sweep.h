@@ -50,6 +50,8 @@ class LayeredSweep {
   [[nodiscard]] Band band(int i) const;
   /// Row y of φ, `[layer][x]`, and of the duals; above the first row there are no pairs.
   [[nodiscard]] float* phi(int y) { return phi_.get() + kLayerRowUnit + y * row_size(); }
+  [[nodiscard]] PairDuals duals(int y);  // without limits
+  [[nodiscard]] PairDuals duals_above(int y);
   [[nodiscard]] PairDuals duals(int y, const PairLimits& limits);
   [[nodiscard]] PairDuals duals_above(int y, const PairLimits& limits);
   [[nodiscard]] long row_size() const { return shape_.steps * shape_.pitch; }

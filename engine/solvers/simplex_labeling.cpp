@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/solvers/coarse_layers.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/simplex_labeling_kernel.h"
 
@@ -19,6 +20,9 @@ namespace episcope {
 namespace {
 
 constexpr float kRelaxation = 1.9F;
+// Levels are halved down to this side; iterations on each below the finest.
+constexpr int kLeastSide = 16;
+constexpr int kCoarseIterations = 30;
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
@@ -74,6 +78,15 @@ void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector
   }
 }
 
+// Each pixel is in 8 pairs, so |K|² ≤ 16. u moves within [0, 1]; how far the duals move grows with
+// λ, but more slowly: where λ is large, the costs bound them.
+void set_steps(double smoothness, LayeredShape& shape) {
+  const double dual_size = std::min(smoothness, std::sqrt(smoothness));
+  shape.primal_step = static_cast<float>(1 / (2 * dual_size));
+  shape.dual_step = static_cast<float>(dual_size / 8);
+  shape.relaxation = kRelaxation;
+}
+
 std::string gap_text(double gap) {
   char text[40];
   std::snprintf(text, sizeof text, "labeling, gap %.1e", gap);
@@ -94,44 +107,83 @@ double SimplexResult::label_gap() const {
 }
 
 struct SimplexSolver::State {
-  State(int height, int layers, int width, Isa isa)
-      : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kSimplexKernel)),
-        sweep(height, layers, width),
-        rounded(height, width) {}
+  // The problem at half the size of the one before.
+  struct Level {
+    Level(int height, int layers, int width)
+        : cost(height, layers, width), sweep(height, layers, width) {}
+    Volume<float> cost;
+    Image<float> g;
+    LayeredSweep sweep;
+  };
 
-  void start(const SimplexProblem& problem, bool warm, const Progress& progress);
+  State(int height, int layers, int width, Isa isa);
+
+  void start(const SimplexProblem& problem, const Progress& progress);
+  void climb(const SimplexProblem& problem, const Progress& progress);
   void measure(const SimplexProblem& problem, const PairLimits& limits, SimplexResult& result,
                ImageView<int> labels, const Progress& progress);
   void measure_band(const SimplexProblem& problem, const PairLimits& limits, int band);
 
   const SimplexKernel& kernel;
+  const LayeredMoves moves;
   LayeredSweep sweep;
+  std::vector<Level> coarse;
   bool has_run = false;
   Image<int> rounded;
   std::vector<double> bounds, relaxed, energies;  // of each band
 };
 
-void SimplexSolver::State::start(const SimplexProblem& problem, bool warm,
-                                 const Progress& progress) {
-  // Each pixel is in 8 pairs, so |K|² ≤ 16; u moves within [0, 1], the duals within about λ/2.
-  LayeredShape& shape = sweep.shape();
-  shape.primal_step = static_cast<float>(1 / (2 * problem.smoothness));
-  shape.dual_step = static_cast<float>(problem.smoothness / 8);
-  shape.relaxation = kRelaxation;
+SimplexSolver::State::State(int height, int layers, int width, Isa isa)
+    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kSimplexKernel)),
+      moves{kernel.move_primal, kernel.move_dual},
+      sweep(height, layers, width),
+      rounded(height, width) {
+  while (std::min(height, width) >= 2 * kLeastSide) {
+    height = (height + 1) / 2;
+    width = (width + 1) / 2;
+    coarse.emplace_back(height, layers, width);
+  }
   for (auto* each : {&bounds, &relaxed, &energies}) each->assign(sweep.bands(), 0.0);
-  if (warm && has_run) return;
-  has_run = true;
-  parallel_for(sweep.bands(), progress, [&](int i) {
-    const auto band = sweep.band(i);
-    sweep.clear(band);
+}
+
+// Begins at the coarsest level with its cheapest labels.
+void SimplexSolver::State::start(const SimplexProblem& problem, const Progress& progress) {
+  VolumeView<const float> cost = problem.cost;
+  ImageView<const float> g = problem.g;
+  for (Level& level : coarse) {
+    halve(cost, progress, level.cost.view());
+    if (!g.empty()) level.g = halved(g);
+    cost = level.cost.view();
+    if (!g.empty()) g = level.g;
+  }
+  LayeredSweep& first = coarse.empty() ? sweep : coarse.back().sweep;
+  parallel_for(first.bands(), progress, [&](int i) {
+    const auto band = first.band(i);
+    first.clear(band);
     std::vector<float> least;
+    std::vector<int> labels(cost.width);
     for (int y = band.begin; y < band.end; ++y) {
-      take_cheapest(problem.cost, y, rounded.row(y), least);
-      for (int x = 0; x < shape.width; ++x) {
-        sweep.phi(y)[rounded.at(y, x) * shape.pitch + x] = 1;
+      take_cheapest(cost, y, labels.data(), least);
+      for (int x = 0; x < cost.width; ++x) {
+        first.phi(y)[labels[x] * first.shape().pitch + x] = 1;
       }
     }
   });
+}
+
+void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& progress) {
+  double smoothness = std::ldexp(problem.smoothness, -static_cast<int>(coarse.size()));
+  for (std::size_t k = coarse.size(); k-- > 0;) {
+    Level& level = coarse[k];
+    const PairLimits limits(level.cost.height(), level.cost.width(), smoothness / 2,
+                            problem.g.empty() ? ImageView<const float>{} : level.g);
+    set_steps(smoothness, level.sweep.shape());
+    for (int i = 0; i < kCoarseIterations; ++i) {
+      level.sweep.iterate(level.cost.view(), limits, moves, progress);
+    }
+    begin_from(level.sweep, progress, k > 0 ? coarse[k - 1].sweep : sweep);
+    smoothness *= 2;
+  }
 }
 
 void SimplexSolver::State::measure_band(const SimplexProblem& problem, const PairLimits& limits,
@@ -213,15 +265,19 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     return result;
   }
   const PairLimits limits = limits_of(problem);
-  state.start(problem, options.warm, progress.part(0, 0));
+  if (!options.warm || !state.has_run) {
+    state.start(problem, progress.part(0, 0));
+    state.climb(problem, progress.part(0, 0));
+  }
+  state.has_run = true;
+  set_steps(problem.smoothness, state.sweep.shape());
   result.energy = result.relaxed = std::numeric_limits<double>::infinity();
   result.bound = -result.energy;
   const int check_every = std::max(1, options.check_every);
-  const LayeredMoves moves{state.kernel.move_primal, state.kernel.move_dual};
   double done = 0;
   for (bool last = false; !last;) {
     const Progress quiet = progress.part(done, done);
-    state.sweep.iterate(problem.cost, limits, moves, quiet);
+    state.sweep.iterate(problem.cost, limits, state.moves, quiet);
     ++result.iterations;
     done = std::max(done, 1 - std::exp2(-result.iterations / 20.0));
     progress.report(done);

@@ -46,10 +46,16 @@ struct SimplexResult {
 /// Σ <c, u> + λ/2 Σ_l g·TV(u_l), and takes the largest u_l of each pixel; the best labeling of all
 /// looks at the gap is kept. Whatever the duals p of the pairs are, |p| ≤ λ g w/2,
 /// Σ_x min_l [c_l − div p_l] bounds the energy from below.
-/// Source: Zach, Gallup, Frahm, Niethammer 2008 and Lellmann et al. 2009 for the relaxation, with
-/// the first-order primal-dual method [CP11] over-relaxed by 1.9.
+/// Source: Zach, Gallup, Frahm, Niethammer 2008 [ZGFN08] for the relaxation, with the first-order
+/// primal-dual method [CP11] over-relaxed by 1.9.
 ///
-/// For many images of one size: 5 floats for each pixel and label stay allocated between calls.
+/// Where we depart from it: solved coarse to fine, u and duals of each level beginning where the
+/// level of half its size has arrived. Regions of hundreds of pixels are bridged by large λ; on
+/// costs of a forest with λ = 64 the finest level then takes 160 iterations to a gap of 1e-3,
+/// without levels more than 400. The steps follow √λ where λ > 1 (costs of about 1, as −log p,
+/// bound the duals there, not λ): twice as fast as steps that follow λ.
+///
+/// For many images of one size: 8 floats for each pixel and label stay allocated between calls.
 /// Rows are worked on by `progress.threads()` threads; not thread-safe, one object for each caller.
 /// The result depends on neither the number of threads nor (unless `warm`) earlier calls.
 class SimplexSolver {

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/image.h"
+#include "engine/core/progress.h"
+#include "engine/core/volume.h"
+#include "engine/solvers/layered_sweep.h"
+
+namespace episcope {
+
+/// Means of blocks of 2×2 pixels (fewer at the right and lower border), `[y][layer][x]`. `to` has
+/// half the size of `from`, rounded up.
+void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to);
+[[nodiscard]] Image<float> halved(ImageView<const float> from);
+
+/// Begins `fine` where `coarse`, of half the size, has arrived: φ is repeated, duals are spread
+/// over the two pairs of pixels that lie where one lay, and interpolated in between. Costs of both
+/// are per pixel, so duals and smoothness of the finer one are twice those of the coarser one.
+void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fine);
+
+}  // namespace episcope
