@@ -4,6 +4,7 @@
 #include "app/cli/json.h"
 #include "app/cli/scene_summary.h"
 #include "app/cli/verbs.h"
+#include "engine/core/parameter.h"
 
 #include <iostream>
 #include <sstream>
@@ -71,6 +72,7 @@ Json scene_json(const Scene& scene, const std::string& input) {
     json["companions"].push_back(
         {{"kind", companion.kind}, {"path", companion.path.string()}, {"shape", companion.shape}});
   }
+  json["focus"] = scene.convention.focus_px;
   json["order"] = scene.convention.order;
   json["order_check"] = scene.convention.order_check;
   json["units"] = scene.convention.units;
@@ -164,6 +166,9 @@ void print_scene(const Scene& scene) {
   for (const auto& companion : scene.companions) {
     print_line("beside it",
                companion.kind + ", " + companion.shape + ", " + companion.path.filename().string());
+  }
+  if (const double focus_px = scene.convention.focus_px; focus_px != 0) {
+    print_line("focus", "a plane of " + to_text(focus_px) + " px was baked in: it has 0 now");
   }
   print_line("order", scene.convention.order + (scene.convention.order_check.empty()
                                                     ? ""

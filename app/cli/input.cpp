@@ -26,6 +26,8 @@ constexpr std::array<std::pair<const char*, Units>, 3> kUnits{
      {"with-width", Units::WithWidth},
      {"without-width", Units::WithoutWidth}}};
 
+constexpr double kMostFocus = 1000;  // px
+
 template <class Choices>
 std::vector<std::string> names_of(const Choices& choices) {
   std::vector<std::string> names;
@@ -72,6 +74,8 @@ void declare_read_options(Arguments& arguments, ReadOptions& options) {
                    "Names of an image grid with {row} and {col}, or {index}");
   arguments.flag("--snake", options.is_snake,
                  "Every second row of an image grid runs from right to left");
+  arguments.option("--focus", options.focus, "PX",
+                   "Focus plane to bake in: what has this disparity gets 0");
 }
 
 bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
@@ -97,6 +101,7 @@ Scene load_input(const std::string& input, const ReadOptions& options, const Pro
   load.open.units = value_of(kUnits, options.units);
   load.open.pattern = options.pattern;
   load.open.snake = options.is_snake;
+  load.open.focus_px = parse_real("--focus", options.focus, -kMostFocus, kMostFocus);
   load.needs_truth = options.needs_truth;
   load.cache_folder = default_cache_folder();
   progress.step("reading " + std::filesystem::path(input).filename().string());

@@ -15,6 +15,7 @@ struct ReadOptions {
   std::string units = "auto";
   std::string pattern;
   bool is_snake = false;
+  std::string focus = "0";
   bool needs_truth = true;  ///< Whether truth and labels are wanted.
 };
 

@@ -56,7 +56,9 @@ std::string reading_options(const io::OpenOptions& conventions) {
     options += std::string(" --units=") + units[static_cast<std::size_t>(conventions.units)];
   }
   if (!conventions.pattern.empty()) options += " --pattern=" + shell_quoted(conventions.pattern);
-  return conventions.snake ? options + " --snake" : options;
+  if (conventions.snake) options += " --snake";
+  if (conventions.focus_px != 0) options += " --focus=" + to_text(conventions.focus_px);
+  return options;
 }
 
 std::string command_line_for(const std::string& method, const ParameterSet& values,

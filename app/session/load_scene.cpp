@@ -2,6 +2,7 @@
 #include "app/session/load_scene.h"
 
 #include "app/session/scene_cache.h"
+#include "engine/core/shear.h"
 #include "engine/scenes/builtin.h"
 
 #include <system_error>
@@ -97,14 +98,17 @@ std::string builtin_scene_id(const std::string& input) {
 
 Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
-  if (!id.empty()) return load_builtin(id, options, progress);
-  return io::open_scene(input, options.open, progress);
+  if (id.empty()) return io::open_scene(input, options.open, progress);
+  const double focus_px = options.open.focus_px;
+  Scene scene = load_builtin(id, options, progress.part(0, focus_px == 0 ? 1 : 0.8));
+  if (focus_px == 0) return scene;
+  return sheared(scene, focus_px, progress.part(0.8, 1));
 }
 
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
-  if (id.empty() || cache_folder.empty()) return;
+  if (id.empty() || cache_folder.empty() || scene.convention.focus_px != 0) return;
   const SceneCache cache(cache_folder);
   const scenes::RenderOptions render;
   std::error_code ignored;

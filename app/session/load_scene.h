@@ -31,8 +31,8 @@ struct LoadOptions {
                                const Progress& progress);
 
 /// Keeps a built-in scene that `load_scene` rendered. Does nothing for other inputs, for a scene
-/// that is kept already, without a cache folder, or where that cannot be written: a cache is a
-/// convenience. Throws Cancelled.
+/// that is kept already or has a focus plane baked in, without a cache folder, or where that cannot
+/// be written: a cache is a convenience. Throws Cancelled.
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress);
 

@@ -19,6 +19,8 @@ struct ConventionReport {
   std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
   std::string units;        ///< How depth was turned into disparity, and what spoke for it.
   std::vector<std::string> warnings;  ///< A sentence each.
+  double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
+                        ///< by it.
   bool reversed_u = false;     ///< Whether stored columns of views were reversed, for companions,
   bool reversed_v = false;     ///< and rows.
   bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.

@@ -2,6 +2,7 @@
 #include "engine/io/open.h"
 
 #include "engine/core/error.h"
+#include "engine/core/shear.h"
 #include "engine/io/archive_reader.h"
 #include "engine/io/benchmark_reader.h"
 #include "engine/io/decode_image.h"
@@ -87,8 +88,11 @@ Scene open_file(const fs::path& path, const OpenOptions& options, const Progress
 
 Scene open_scene(const fs::path& path, const OpenOptions& options, const Progress& progress) {
   try {
-    if (fs::is_directory(path)) return open_folder(path, options, progress);
-    return open_file(path, options, progress);
+    const Progress reading = progress.part(0, options.focus_px == 0 ? 1 : 0.8);
+    Scene scene = fs::is_directory(path) ? open_folder(path, options, reading)
+                                         : open_file(path, options, reading);
+    if (options.focus_px == 0) return scene;
+    return sheared(scene, options.focus_px, progress.part(0.8, 1));
   } catch (const fs::filesystem_error& error) {
     throw IoError(path,
                   "it cannot be read (" + error.code().message() + "); check its permissions");

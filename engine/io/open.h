@@ -21,6 +21,7 @@ struct OpenOptions {
   Units units = Units::Auto;
   std::string pattern;  ///< Image grids: file name with {row} and {col} or {index}; empty = detect.
   bool snake = false;   ///< Image grids: every second row was captured right to left.
+  double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.
   /// Called on the reading thread as soon as the centre view is there, before the rest is read.
   std::function<void(const Image<std::uint8_t>& center_rgb, const LightFieldInfo&, GridShape)>
       on_center_view;

@@ -104,10 +104,12 @@ void CommandLineTest::overruledConventions_areNamed() {
   conventions.units = io::OpenOptions::Units::WithoutWidth;
   conventions.pattern = "a {row} {col}.png";
   conventions.snake = true;
+  conventions.focus_px = -0.25;
 
-  QCOMPARE(command_line_for("epi_l", {}, ViewSelection::All, "x", conventions),
-           std::string("episcope-cli estimate epi_l x -o epi_l.h5 --views all --flip=both "
-                       "--units=without-width --pattern='a {row} {col}.png' --snake"));
+  QCOMPARE(
+      command_line_for("epi_l", {}, ViewSelection::All, "x", conventions),
+      std::string("episcope-cli estimate epi_l x -o epi_l.h5 --views all --flip=both "
+                  "--units=without-width --pattern='a {row} {col}.png' --snake --focus=-0.25"));
 }
 
 QTEST_GUILESS_MAIN(CommandLineTest)
