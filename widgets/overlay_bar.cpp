@@ -4,6 +4,7 @@
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
@@ -72,7 +73,8 @@ OverlayBar::OverlayBar(QWidget* parent)
       quantity_(new QComboBox(this)),
       opacity_(new QSlider(Qt::Horizontal, this)),
       focus_slider_(new QSlider(Qt::Horizontal, this)),
-      focus_spin_(new QDoubleSpinBox(this)) {
+      focus_spin_(new QDoubleSpinBox(this)),
+      row_(new QHBoxLayout(this)) {
   setObjectName("overlayBar");
   quantity_->setObjectName("overlay.quantity");
   quantity_->setToolTip(tr("What is drawn over the view (M: next)"));
@@ -98,18 +100,17 @@ OverlayBar::OverlayBar(QWidget* parent)
   auto* reset =
       make_tool_button({"overlay.focusReset", "reset", tr("Focus plane back to 0 px")}, this);
 
-  auto* layout = new QHBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(theme::kSpacing);
-  layout->addWidget(title_);
-  layout->addWidget(quantity_);
-  layout->addWidget(opacity_);
-  layout->addSpacing(2 * theme::kMargin);
-  layout->addWidget(new QLabel(tr("Focus plane"), this));
-  layout->addWidget(focus_slider_, 1);
-  layout->addWidget(focus_spin_);
-  layout->addWidget(reset);
-  layout->addStretch();
+  row_->setContentsMargins(0, 0, 0, 0);
+  row_->setSpacing(theme::kSpacing);
+  row_->addWidget(title_);
+  row_->addWidget(quantity_);
+  row_->addWidget(opacity_);
+  row_->addSpacing(2 * theme::kMargin);
+  row_->addWidget(new QLabel(tr("Focus plane"), this));
+  row_->addWidget(focus_slider_, 1);
+  row_->addWidget(focus_spin_);
+  row_->addWidget(reset);
+  row_->addStretch();
   for (auto* label : findChildren<QLabel*>()) {
     label->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
   }
@@ -166,6 +167,10 @@ void OverlayBar::setFocusRange(Interval range_px) {
   focus_slider_->setRange(slider_value(min), slider_value(max));
   focus_slider_->setPageStep(10);
   focus_spin_->setRange(min, max);
+}
+
+void OverlayBar::addFocusAction(QAction* action) {
+  row_->insertWidget(row_->count() - 1, make_action_button(action, "button." + action->objectName(), this));
 }
 
 void OverlayBar::setFocus(double focus_px) {

@@ -8,8 +8,10 @@
 
 #include <vector>
 
+class QAction;
 class QComboBox;
 class QDoubleSpinBox;
+class QHBoxLayout;
 class QLabel;
 class QSlider;
 
@@ -38,6 +40,8 @@ class OverlayBar : public QWidget {
   /// Reach of the focus slider, px per view step.
   void setFocusRange(Interval range_px);
   void setFocus(double focus_px);
+  /// A button for what can be done with the focus plane, beside its controls.
+  void addFocusAction(QAction* action);
 
   [[nodiscard]] render::Quantity quantity() const;
   [[nodiscard]] double opacity() const;
@@ -63,6 +67,7 @@ class OverlayBar : public QWidget {
   QSlider* opacity_;
   QSlider* focus_slider_;
   QDoubleSpinBox* focus_spin_;
+  QHBoxLayout* row_;
 };
 
 }  // namespace episcope

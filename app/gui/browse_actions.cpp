@@ -4,6 +4,7 @@
 #include "app/gui/action_table.h"
 #include "app/gui/browse_controller.h"
 #include "app/gui/compare_controller.h"
+#include "app/gui/focus_controller.h"
 #include "app/gui/main_window.h"
 #include "widgets/view_canvas.h"
 
@@ -124,6 +125,22 @@ void add_focus_actions(ActionTable& table, MainWindow& window) {
              .icon = "",
              .keys = {tr("Ctrl+Alt+0")},
              .run = [&browse] { browse.resetFocus(); }});
+  FocusController& focus = window.focus();
+  table.add({.id = "view.focus_apply",
+             .menu = menu,
+             .text = tr("Apply focus plane"),
+             .tip = tr("Bakes the focus plane in: what is in focus gets disparity 0, results and "
+                       "truth move along"),
+             .icon = "apply",
+             .keys = {tr("Ctrl+Alt+Return")},
+             .run = [&focus] { focus.apply(); }});
+  table.add({.id = "view.focus_undo",
+             .menu = menu,
+             .text = tr("Undo applied focus plane"),
+             .tip = tr("Goes back to the disparities of the files"),
+             .icon = "",
+             .keys = {},
+             .run = [&focus] { focus.undo(); }});
   QAction* refocus =
       table.add({.id = "view.refocus",
                  .menu = menu,

@@ -13,6 +13,7 @@
 #include "app/gui/document_controller.h"
 #include "app/gui/estimate_controller.h"
 #include "app/gui/export_controller.h"
+#include "app/gui/focus_controller.h"
 #include "app/gui/jobs.h"
 #include "app/gui/metric_controller.h"
 #include "app/gui/open_controller.h"
@@ -74,12 +75,14 @@ MainWindow::MainWindow(QWidget* parent)
   estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
   opener_ = new OpenController(*session_, *jobs_, *browse_, panels_, this);
+  focus_ = new FocusController(*session_, *jobs_, *opener_, *document_, this);
   exporter_ = new ExportController(*session_, *jobs_, *overlay_, panels_, this);
   cloud_ = new CloudController(*session_, *overlay_, panels_, this);
   actions_ = new ActionTable(this, panels_.viewer);
   add_actions(*actions_, *this);
   panels_.color_bar->followTips(actions_->find("compare.auto_range"),
                                 actions_->find("compare.own_range"));
+  panels_.overlay_bar->addFocusAction(actions_->find("view.focus_apply"));
   panels_.view_grid->followTip(actions_->find("view.play"));
   palette_ = new CommandPalette(*actions_, this);
   buildBars();
@@ -91,7 +94,7 @@ MainWindow::MainWindow(QWidget* parent)
   panels_.canvas->showEmpty(tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
   session_->on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) showInfo();
-    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) updateActions();
+    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Focus)) updateActions();
   });
   showInfo();
   showStatus();
@@ -102,7 +105,7 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, opener_, metrics_, estimate_, scribbles_, annotate_, document_,
+           cloud_, exporter_, focus_, opener_, metrics_, estimate_, scribbles_, annotate_, document_,
            values_, statistics_, compare_, overlay_, browse_, jobs_}) {
     delete each;
   }
@@ -169,6 +172,7 @@ void MainWindow::connectControllers() {
   };
   connect(browse_, &BrowseController::hint, this, hint);
   connect(estimate_, &EstimateController::hint, this, hint);
+  connect(focus_, &FocusController::hint, this, hint);
   connect(exporter_, &ExportController::hint, this, hint);
   connect(exporter_, &ExportController::written, this, [this](const QString& path) {
     panels_.messages->showMessage(Severity::Success, tr("Written: %1").arg(path));
@@ -243,6 +247,8 @@ void MainWindow::updateActions() {
   for (const char* id : {"file.export", "estimate.remove", "estimate.next", "estimate.previous"}) {
     actions_->find(id)->setEnabled(has_result);
   }
+  actions_->find("view.focus_apply")->setEnabled(focus_->canApply());
+  actions_->find("view.focus_undo")->setEnabled(focus_->canUndo());
   actions_->find("file.conventions")->setEnabled(!opener_->reopenable().isEmpty());
   for (const char* id : {"file.save_picture", "file.close", "file.open_result", "estimate.run",
                          "estimate.copy_command"}) {

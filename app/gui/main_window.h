@@ -20,6 +20,7 @@ class CompareController;
 class DocumentController;
 class EstimateController;
 class ExportController;
+class FocusController;
 class Jobs;
 class MetricController;
 class OpenController;
@@ -56,6 +57,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
+  [[nodiscard]] FocusController& focus() { return *focus_; }
 
   void showShortcuts();
   void showPalette();
@@ -92,6 +94,7 @@ class MainWindow : public QMainWindow {
   EstimateController* estimate_;
   MetricController* metrics_;
   OpenController* opener_;
+  FocusController* focus_;
   ExportController* exporter_;
   CloudController* cloud_;
   ActionTable* actions_;

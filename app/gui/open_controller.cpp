@@ -116,6 +116,13 @@ void OpenController::reopenWith(const io::OpenOptions& conventions) {
        [input, conventions] { remember_conventions(input, conventions); });
 }
 
+void OpenController::reopenAt(double focus_px, std::function<void()> opened) {
+  if (!session_.scene()) return;
+  io::OpenOptions conventions = session_.conventions();
+  conventions.focus_px = focus_px;
+  load(QString::fromStdString(session_.input()), conventions, false, std::move(opened));
+}
+
 QString OpenController::reopenable() const {
   const QString input =
       failed_input_.isEmpty() ? QString::fromStdString(session_.input()) : failed_input_;

@@ -38,6 +38,9 @@ class OpenController : public QObject {
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
   /// for that file if it could be read.
   void reopenWith(const io::OpenOptions& conventions);
+  /// Reads what is open again with another focus plane baked in (0: none). `opened` is called after
+  /// success.
+  void reopenAt(double focus_px, std::function<void()> opened);
   /// What `reopenWith` would read; empty if there is nothing, or a built-in scene.
   [[nodiscard]] QString reopenable() const;
   void conventionsDialog();

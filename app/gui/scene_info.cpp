@@ -89,6 +89,12 @@ SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
                              .replace('-', QChar(0x2212)),
                          {}});
   }
+  if (convention.focus_px != 0) {
+    info.rows.push_back(
+        {text("Focus"),
+         text("%1 px baked in").arg(convention.focus_px, 0, 'f', 2).replace('-', QChar(0x2212)),
+         text("All views but the centre one are interpolated.")});
+  }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back(
       {text("Order"), by_whom(utf8(convention.order)), utf8(convention.order_check)});

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/focus_controller.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/document_controller.h"
+#include "app/gui/jobs.h"
+#include "app/session/session.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/message_bar.h"
+#include "widgets/overlay_bar.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QTest>
+#include <QToolButton>
+
+#include <cmath>
+
+using namespace episcope;
+
+namespace {
+
+constexpr double kFocus = 0.5;
+constexpr ViewIndex kView = {3, 5};
+constexpr PixelIndex kPixel = {20, 33};
+
+// A scene with a result, looked at somewhere, in focus at a plane.
+class Focused : public WindowFixture {
+ public:
+  Focused() {
+    openSmall();
+    runAndWait();
+    session().set_view(kView);
+    session().set_cross_hair(kPixel);
+    session().set_focus(kFocus);
+  }
+
+  Session& session() { return window.session(); }
+  double baked() { return session().scene()->convention.focus_px; }
+  double truth() { return session().scene()->truth->field.view({4, 4}).disparity.at(20, 33); }
+  double found() {
+    return session().estimates().front().estimate->field.view({4, 4}).disparity.at(20, 33);
+  }
+  QAction* action(const char* id) { return window.actions().find(id); }
+  void waitFor(double baked_px) {
+    QTRY_COMPARE_WITH_TIMEOUT(baked(), baked_px, 30000);
+    QTRY_COMPARE_WITH_TIMEOUT(session().estimates().size(), 1U, 30000);
+  }
+  void clickApply() {
+    auto* button = window.findChild<QToolButton*>("button.view.focus_apply");
+    QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), 30000);
+    QTest::mouseClick(button, Qt::LeftButton);
+  }
+};
+
+}  // namespace
+
+class FocusTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void withoutFocus_nothingCanBeApplied();
+  void appliedFocus_movesTruthAndResults();
+  void appliedFocus_keepsThePlace();
+  void undo_bringsTheFileBack();
+  void whileAMethodRuns_itIsRefused();
+  void whatIsPainted_isNotLost();
+};
+
+void FocusTest::withoutFocus_nothingCanBeApplied() {
+  WindowFixture f;
+  f.openSmall();
+
+  QVERIFY(!f.window.actions().find("view.focus_apply")->isEnabled());
+  QVERIFY(!f.window.actions().find("view.focus_undo")->isEnabled());
+}
+
+void FocusTest::appliedFocus_movesTruthAndResults() {
+  Focused f;
+  const double truth = f.truth();
+  const double found = f.found();
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QVERIFY(std::abs(f.truth() - (truth - kFocus)) < 1e-6);
+  QVERIFY(std::abs(f.found() - (found - kFocus)) < 1e-6);
+  QCOMPARE(f.session().shown()->estimate->source_hash, f.session().light_field()->sample_hash());
+  // A run finds the same anew.
+  f.runAndWait();
+  const auto map = f.session().shown()->estimate->field.view({4, 4});
+  QVERIFY(std::abs(map.disparity.at(20, 33) - (found - kFocus)) < 0.05);
+  f.action("estimate.copy_command")->trigger();
+  QVERIFY2(QGuiApplication::clipboard()->text().endsWith(" --focus=0.5"),
+           qPrintable(QGuiApplication::clipboard()->text()));
+}
+
+void FocusTest::appliedFocus_keepsThePlace() {
+  Focused f;
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QVERIFY(f.session().view() == kView);
+  QVERIFY(f.session().cross_hair() == kPixel);
+  QCOMPARE(f.session().focus_px(), 0.0);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().overlay_bar->focus(), 0.0, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), 30000);
+}
+
+void FocusTest::undo_bringsTheFileBack() {
+  Focused f;
+  const auto hash = f.session().light_field()->sample_hash();
+  f.clickApply();
+  f.waitFor(kFocus);
+  QVERIFY(f.session().light_field()->sample_hash() != hash);
+  // Once more: planes add up.
+  f.session().set_focus(0.25);
+  f.clickApply();
+  f.waitFor(0.75);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.action("view.focus_undo")->isEnabled(), 30000);
+  f.action("view.focus_undo")->trigger();
+  f.waitFor(0);
+
+  QCOMPARE(f.session().light_field()->sample_hash(), hash);
+  QVERIFY(!f.action("view.focus_undo")->isEnabled());
+}
+
+void FocusTest::whileAMethodRuns_itIsRefused() {
+  Focused f;
+  f.window.jobs().start<int>(
+      Lane::Estimate, "endless",
+      [](const Progress& progress) -> int {
+        while (true) progress.check();
+      },
+      [](int) {});
+
+  f.clickApply();
+
+  QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().messages->text().contains("running"),
+                            qPrintable(f.window.panels().messages->text()), 30000);
+  QCOMPARE(f.baked(), 0.0);
+  QCOMPARE(f.window.jobs().count(), 1);
+  f.window.jobs().cancelLane(Lane::Estimate);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
+}
+
+void FocusTest::whatIsPainted_isNotLost() {
+  Focused f;
+  f.window.document().edit([](AnnotationDocument& document) { document.add_label(); });
+  QVERIFY(f.window.document().hasUnsavedChanges());
+
+  f.clickApply();
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("painted"), qPrintable(messages->text()),
+                            30000);
+  QCOMPARE(f.baked(), 0.0);
+  QVERIFY(f.window.document().hasUnsavedChanges());
+}
+
+QTEST_MAIN(FocusTest)
+#include "focus_test.moc"
