@@ -6,7 +6,6 @@
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
-#include <QAction>
 #include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -16,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace episcope {
 namespace {
@@ -121,11 +119,8 @@ void ColorBar::setRangeLocked(bool locked) {
 }
 
 void ColorBar::followTips(const QAction* automatic, const QAction* own) {
-  for (const auto& [button, action] : {std::pair{automatic_, automatic}, std::pair{own_, own}}) {
-    const auto follow = [button, action] { button->setToolTip(action->toolTip()); };
-    connect(action, &QAction::changed, button, follow);
-    follow();
-  }
+  follow_tip(automatic_, automatic);
+  follow_tip(own_, own);
 }
 
 Interval ColorBar::range() const {

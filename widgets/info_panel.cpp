@@ -7,13 +7,26 @@
 
 #include <QEvent>
 #include <QGridLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
 namespace episcope {
 namespace {
+
+constexpr int kLongWord = 12;
+
+// Long names may be broken after an underscore, paths after a slash.
+QString breakable(const QString& sentence) {
+  QStringList words = sentence.split(' ');
+  for (QString& word : words) {
+    if (word.size() < kLongWord) continue;
+    for (const char16_t mark : {u'_', u'/'}) {
+      word.replace(QChar(mark), QString(QChar(mark)) + QChar(0x200b));
+    }
+  }
+  return words.join(' ');
+}
 
 /// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
 QLabel* make_value(const QString& text, QWidget* parent) {
@@ -22,7 +35,7 @@ QLabel* make_value(const QString& text, QWidget* parent) {
     label->setFullText(text);
     return label;
   }
-  auto* label = new QLabel(text, parent);
+  auto* label = new QLabel(breakable(text), parent);
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
   label->setMinimumWidth(1);
@@ -52,11 +65,9 @@ InfoPanel::InfoPanel(QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(4);
-  auto* head = new QHBoxLayout;
-  head->addWidget(title_, 1);
-  head->addWidget(conventions_);
-  layout->addLayout(head);
+  layout->addWidget(title_);
   layout->addWidget(scroll_, 1);
+  layout->addWidget(conventions_, 0, Qt::AlignLeft);
   setInfo({}, {}, {});
 }
 

@@ -4,6 +4,7 @@
 #include "widgets/icon.h"
 #include "widgets/parameter_form.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -38,8 +39,7 @@ MethodPanel::MethodPanel(QWidget* parent)
       scroll_(new QScrollArea(this)),
       all_views_(new QCheckBox(tr("All views"), this)),
       run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
-      cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancel the running job (Esc)"),
-                          this)),
+      cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancels every run"), this)),
       reset_(make_button("method.reset", "reset", tr("Reset"),
                          tr("All parameters back to their defaults"), this)),
       copy_(make_button("method.copyCommand", "copy", tr("Copy as command"),
@@ -121,7 +121,7 @@ void MethodPanel::showMethod(int index) {
   if (shown_ >= 0) kept_values_[methods_[shown_].id] = form_->values();
   shown_ = index;
   const bool has_method = index >= 0;
-  for (QWidget* widget : std::initializer_list<QWidget*>{method_, reset_, copy_}) {
+  for (QWidget* widget : std::initializer_list<QWidget*>{method_, reset_}) {
     widget->setEnabled(has_method);
   }
   const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
@@ -167,7 +167,13 @@ void MethodPanel::setRunning(bool running) {
 void MethodPanel::setRunBlocked(const QString& reason) {
   blocked_ = reason;
   run_->setEnabled(reason.isEmpty() && shown_ >= 0);
+  copy_->setEnabled(run_->isEnabled());
   run_->setToolTip(reason.isEmpty() ? tr("Estimate with these parameters") : reason);
+}
+
+void MethodPanel::followTips(const QAction* cancel, const QAction* copy) {
+  follow_tip(cancel_, cancel);
+  follow_tip(copy_, copy);
 }
 
 RunRequest MethodPanel::request() const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+class QAction;
 class QCheckBox;
 class QComboBox;
 class QLabel;
@@ -54,6 +55,8 @@ class MethodPanel : public QWidget {
   void setRunning(bool running);
   /// An empty reason enables Run; else it is greyed out and the reason is its tool tip.
   void setRunBlocked(const QString& reason);
+  /// The buttons take the tool tips of what they do, with the keys in them.
+  void followTips(const QAction* cancel, const QAction* copy);
 
   /// `method` is empty while there are no methods.
   [[nodiscard]] RunRequest request() const;

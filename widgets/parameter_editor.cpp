@@ -92,7 +92,7 @@ class NumberEditor : public ParameterEditor {
     row->addWidget(slider_, 1);
     row->addWidget(spin_);
     // One width for all, so that the controls of a form stand in columns.
-    spin_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("00.00 1/000000")));
+    spin_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("00.00 1/00000000")));
     connect(slider_, &QSlider::valueChanged, this,
             [this](int position) { edit(rounded(scale_.value(position))); });
     connect(spin_, &QDoubleSpinBox::valueChanged, this, [this](double value) { edit(value); });

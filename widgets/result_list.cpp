@@ -143,6 +143,7 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
 }
 
 void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> compared) {
+  const bool is_new = id != shown_;
   shown_ = id;
   compared_ = compared;
   for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
@@ -160,6 +161,7 @@ void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> comp
     QFont font = tree_->font();
     font.setBold(is_shown);
     item->setFont(kMethod, font);
+    if (is_shown && is_new) tree_->scrollToItem(item);
   }
   updateButtons();
 }

@@ -32,4 +32,10 @@ QToolButton* make_action_button(QAction* action, const QString& object_name, QWi
   return button;
 }
 
+void follow_tip(QWidget* widget, const QAction* action) {
+  const auto follow = [widget, action] { widget->setToolTip(action->toolTip()); };
+  QObject::connect(action, &QAction::changed, widget, follow);
+  follow();
+}
+
 }  // namespace episcope

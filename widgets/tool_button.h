@@ -23,4 +23,7 @@ struct ToolButtonText {
 [[nodiscard]] QToolButton* make_action_button(QAction* action, const QString& object_name,
                                               QWidget* parent);
 
+/// Keeps the tool tip of a widget that of the command behind it, with its keys.
+void follow_tip(QWidget* widget, const QAction* action);
+
 }  // namespace episcope

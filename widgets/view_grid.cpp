@@ -3,9 +3,9 @@
 
 #include "widgets/icon.h"
 #include "widgets/theme.h"
+#include "widgets/tool_button.h"
 #include "widgets/view_grid_cells.h"
 
-#include <QAction>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -104,9 +104,7 @@ void ViewGrid::select(ViewIndex view) {
 }
 
 void ViewGrid::followTip(const QAction* play) {
-  const auto follow = [this, play] { play_->setToolTip(play->toolTip()); };
-  connect(play, &QAction::changed, play_, follow);
-  follow();
+  follow_tip(play_, play);
 }
 
 void ViewGrid::setPlaying(bool playing) {

@@ -32,6 +32,7 @@
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
 #include "widgets/message_bar.h"
+#include "widgets/method_panel.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
@@ -82,6 +83,8 @@ MainWindow::MainWindow(QWidget* parent)
   add_actions(*actions_, *this);
   panels_.color_bar->followTips(actions_->find("compare.auto_range"),
                                 actions_->find("compare.own_range"));
+  panels_.method->followTips(actions_->find("estimate.cancel"),
+                             actions_->find("estimate.copy_command"));
   panels_.overlay_bar->addFocusAction(actions_->find("view.focus_apply"));
   panels_.view_grid->followTip(actions_->find("view.play"));
   palette_ = new CommandPalette(*actions_, this);

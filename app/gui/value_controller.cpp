@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -37,6 +38,19 @@ Samples samples_at(const LightField& light_field, ViewIndex view, PixelIndex pix
   samples.color =
       QColor::fromRgbF(bounded(normalized[0]), bounded(normalized[1]), bounded(normalized[2]));
   return samples;
+}
+
+// Of many results, a line has room for a few: A and B before the others.
+std::vector<const EstimateEntry*> shown_first(const Session& session) {
+  std::vector<const EstimateEntry*> entries;
+  for (const EstimateEntry& entry : session.estimates()) entries.push_back(&entry);
+  const auto rank = [&session](const EstimateEntry* entry) {
+    return entry == session.shown() ? 0 : entry == session.compared() ? 1 : 2;
+  };
+  std::stable_sort(
+      entries.begin(), entries.end(),
+      [&rank](const EstimateEntry* a, const EstimateEntry* b) { return rank(a) < rank(b); });
+  return entries;
 }
 
 }  // namespace
@@ -73,10 +87,10 @@ void ValueController::show() {
   reading.has_truth = truth.field.contains(view) || truth.foreground.contains(view);
   reading.truth_px = of_truth.front;
   reading.background_truth_px = of_truth.behind;
-  for (const EstimateEntry& entry : session_.estimates()) {
-    if (!entry.estimate->contains(view)) continue;
-    const DisparityPair found = disparities_at(*entry.estimate, view, pixel);
-    reading.estimates.push_back({QString::fromStdString(entry.name), found.front, found.behind});
+  for (const EstimateEntry* entry : shown_first(session_)) {
+    if (!entry->estimate->contains(view)) continue;
+    const DisparityPair found = disparities_at(*entry->estimate, view, pixel);
+    reading.estimates.push_back({QString::fromStdString(entry->name), found.front, found.behind});
   }
   panels_.values->setReading(reading);
 }

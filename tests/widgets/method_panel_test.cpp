@@ -144,6 +144,7 @@ class MethodPanelTest : public QObject {
     QVERIFY(!control<QPushButton>(panel, "method.run")->isEnabled());
     QCOMPARE(control<QPushButton>(panel, "method.run")->toolTip(),
              QString("The light field has one view."));
+    QVERIFY(!control<QPushButton>(panel, "method.copyCommand")->isEnabled());
     panel.setRunning(true);
     QSignalSpy cancel(&panel, &MethodPanel::cancelRequested);
     control<QPushButton>(panel, "method.cancel")->click();

@@ -187,6 +187,29 @@ class SidePanelsTest : public QObject {
     QCOMPARE(selected.size(), 0);
   }
 
+  void shownResult_isScrolledTo() {
+    ResultList list;
+    list.resize(320, 160);
+    std::vector<ResultRow> rows;
+    for (quint64 id = 1; id <= 20; ++id) rows.push_back({id, "EPI_L", "", 1, {}, ""});
+    list.setResults(rows);
+    list.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&list));
+    auto* tree = list.findChild<QTreeWidget*>("results.tree");
+
+    list.setShown(20);
+
+    const auto is_in_sight = [tree](int row) {
+      return tree->viewport()->rect().contains(
+          tree->visualItemRect(tree->topLevelItem(row)).center());
+    };
+    QVERIFY(is_in_sight(19));
+    // A refresh does not take back what the user scrolled to.
+    tree->scrollToTop();
+    list.setResults(rows);
+    QVERIFY(!is_in_sight(19));
+  }
+
   void resultMenu_offersEveryAction() {
     ResultList list;
     list.resize(320, 200);
@@ -249,6 +272,20 @@ class SidePanelsTest : public QObject {
     QVERIFY(units->width() <= panel.width());
     QCOMPARE(panel.findChild<QLabel*>("info.warning")->text(),
              QString("The order could not be checked."));
+  }
+
+  void info_breaksLongNames() {
+    InfoPanel panel;
+    panel.resize(120, 300);
+    panel.setInfo("scene", {}, {"GT_DEPTH_BACKGROUND_OF_ALL_VIEWS is empty"});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    const auto* warning = panel.findChild<QLabel*>("info.warning");
+    QVERIFY2(warning->minimumSizeHint().width() <= warning->width(),
+             qPrintable(
+                 QString("%1 > %2").arg(warning->minimumSizeHint().width()).arg(warning->width())));
+    QTRY_VERIFY(warning->height() > 2.5 * warning->fontMetrics().height());
   }
 
   void elidedLabel_showsAllWhenThereIsRoom() {

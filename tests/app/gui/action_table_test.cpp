@@ -159,7 +159,7 @@ void ActionTableTest::changedKey_worksIsShownAndRemembered() {
   canvas->zoomIn();
   f.window.activateWindow();
   QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
-  QTRY_VERIFY(canvas->isFitted());
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->isFitted(), 30000);
   MainWindow next;
   QCOMPARE(next.actions().find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
 }

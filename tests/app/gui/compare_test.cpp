@@ -8,6 +8,7 @@
 #include "widgets/histogram_view.h"
 #include "widgets/statistics_panel.h"
 #include "widgets/tile_wall.h"
+#include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
 
 #include <QAction>
@@ -103,13 +104,14 @@ class CompareTest : public QObject {
   void statistics_areOfWhatIsInSight();
   void automaticRange_isThatOfWhatIsInSight();
   void draggedHandle_changesTheColours();
+  void valuesOfAAndB_comeFirst();
   void withoutResults_nothingCanBeCompared();
   void closedScene_leavesEveryMode();
 };
 
 void CompareTest::keyG_showsTheViewTheTruthAndEveryResult() {
   Compared f({0.1F, 0.2F});
-  QTRY_VERIFY(f.window.actions().find("compare.tiles")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.tiles")->isEnabled(), 30000);
 
   f.key(Qt::Key_G);
 
@@ -120,7 +122,7 @@ void CompareTest::keyG_showsTheViewTheTruthAndEveryResult() {
   for (int i = 0; i < 4; ++i) QCOMPARE(f.wall()->tile(i)->picture().size(), QSize(96, 96));
 
   f.key(Qt::Key_G);
-  QTRY_VERIFY(f.canvas()->isVisible());
+  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), 30000);
   QVERIFY(!f.wall()->isVisible());
 }
 
@@ -147,7 +149,7 @@ void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
 
   QCOMPARE(f.session().shown()->id, f.ids[0]);
   QVERIFY(f.session().cross_hair() == (PixelIndex{20, 33}));
-  QTRY_VERIFY(f.wall()->tile(4)->crossHair() == (PixelIndex{20, 33}));
+  QTRY_VERIFY_WITH_TIMEOUT(f.wall()->tile(4)->crossHair() == (PixelIndex{20, 33}), 30000);
 
   QTest::mouseDClick(f.wall()->tile(3), Qt::LeftButton);
   QCOMPARE(f.session().shown()->id, f.ids[1]);
@@ -185,12 +187,12 @@ void CompareTest::escape_leavesTheTiles() {
 
   f.key(Qt::Key_Escape);
 
-  QTRY_VERIFY(f.canvas()->isVisible());
+  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), 30000);
 }
 
 void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
   f.trigger("compare.wipe");
   QVERIFY(f.canvas()->wipePosition().has_value());
   const int width = f.canvas()->width();
@@ -204,7 +206,7 @@ void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
   QTest::mouseRelease(f.canvas(), Qt::LeftButton, {}, {width / 4, 40});
 
   QVERIFY(std::abs(*f.canvas()->wipePosition() - 0.25) < 0.01);
-  QVERIFY(color() != of_a);
+  QTRY_VERIFY_WITH_TIMEOUT(color() != of_a, 30000);
   QVERIFY(f.session().view() == (ViewIndex{4, 4}));  // it was no parallax
   f.trigger("compare.wipe");
   QVERIFY(!f.canvas()->wipePosition());
@@ -213,7 +215,7 @@ void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
 
 void CompareTest::sideBySide_showsAAndB() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY(f.window.actions().find("compare.sides")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.sides")->isEnabled(), 30000);
 
   f.key(Qt::Key_H);
 
@@ -226,7 +228,7 @@ void CompareTest::sideBySide_showsAAndB() {
 
 void CompareTest::flip_marksWhichOneIsSeen() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
   const QImage of_a = f.canvas()->grab().toImage();
   const QRect badge(0, 0, 26, 26);
 
@@ -242,11 +244,11 @@ void CompareTest::flip_marksWhichOneIsSeen() {
 void CompareTest::difference_isOfAAndB() {
   Compared f({0.0F, 0.5F, 0.75F});
   f.session().compare_with(f.ids[0]);
-  QTRY_VERIFY(f.window.actions().find("compare.difference")->isEnabled());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.difference")->isEnabled(), 30000);
 
   f.key(Qt::Key_D);
 
-  QTRY_VERIFY(f.window.overlay().valueAt({48, 48}).has_value());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().valueAt({48, 48}).has_value(), 30000);
   QVERIFY(std::abs(*f.window.overlay().valueAt({48, 48}) - 0.75) < 1e-5);
   QVERIFY(f.window.panels().color_bar->range() == (Interval{-0.2, 0.2}));  // a range of its own
 }
@@ -254,14 +256,14 @@ void CompareTest::difference_isOfAAndB() {
 void CompareTest::clickOnAMark_choosesB() {
   Compared f({0.1F, 0.2F, 0.3F});
   auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
-  QTRY_COMPARE(tree->topLevelItemCount(), 3);
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 3, 30000);
 
   QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, mark_of(*tree, 0));
 
   QCOMPARE(f.session().shown()->id, f.ids[2]);
   QCOMPARE(f.session().compared()->id, f.ids[0]);
   const auto* b = f.window.findChild<QComboBox*>("compare.b");
-  QTRY_COMPARE(b->currentData().toInt(), f.ids[0]);
+  QTRY_COMPARE_WITH_TIMEOUT(b->currentData().toInt(), f.ids[0], 30000);
 }
 
 void CompareTest::chosenB_staysWhenAnotherIsShown() {
@@ -312,8 +314,8 @@ void CompareTest::statistics_areOfWhatIsInSight() {
   const auto& known = f.window.statistics().statistics();
   QTRY_VERIFY_WITH_TIMEOUT(known && known->count + known->invalid == 96U * 96U, 30000);
   QVERIFY(std::abs(known->median - -0.25) < 1e-5);
-  QTRY_VERIFY2(f.window.panels().statistics->text().contains("bad 100.00 %"),
-               qPrintable(f.window.panels().statistics->text()));
+  QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().statistics->text().contains("bad 100.00 %"),
+                            qPrintable(f.window.panels().statistics->text()), 30000);
 
   f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 6, {48, 48}});
 
@@ -335,7 +337,7 @@ void CompareTest::automaticRange_isThatOfWhatIsInSight() {
   QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, 30000);
   QVERIFY(std::abs(bar->range().min - -0.25) < 0.01);
   f.key(Qt::Key_R);
-  QTRY_VERIFY(bar->range() == own);
+  QTRY_VERIFY_WITH_TIMEOUT(bar->range() == own, 30000);
 }
 
 void CompareTest::draggedHandle_changesTheColours() {
@@ -353,7 +355,17 @@ void CompareTest::draggedHandle_changesTheColours() {
 
   QVERIFY(view->range().max < range.max);
   QCOMPARE(view->range().min, range.min);
-  QTRY_VERIFY(f.window.overlay().picture() != before);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, 30000);
+}
+
+void CompareTest::valuesOfAAndB_comeFirst() {
+  Compared f({0.1F, 0.2F, 0.3F});
+  const auto place = [&f](const char* name) {
+    return f.window.panels().values->text().indexOf(name);
+  };
+
+  QTRY_VERIFY_WITH_TIMEOUT(place("off 3 ") > 0, 30000);
+  QVERIFY(place("off 3 ") < place("off 2 "));
 }
 
 void CompareTest::withoutResults_nothingCanBeCompared() {
@@ -368,12 +380,12 @@ void CompareTest::withoutResults_nothingCanBeCompared() {
 void CompareTest::closedScene_leavesEveryMode() {
   for (const char* id : {"compare.tiles", "compare.sides", "compare.wipe"}) {
     Compared f({0.1F, 0.2F});
-    QTRY_VERIFY(f.window.actions().find(id)->isEnabled());
+    QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find(id)->isEnabled(), 30000);
     f.trigger(id);
 
     f.trigger("file.close");
 
-    QTRY_COMPARE(f.canvas()->state(), ViewCanvas::State::Empty);
+    QTRY_COMPARE_WITH_TIMEOUT(f.canvas()->state(), ViewCanvas::State::Empty, 30000);
     QVERIFY2(f.canvas()->isVisible(), id);
     QCOMPARE(f.window.compare().mode(), CompareMode::Single);
   }

@@ -108,7 +108,8 @@ void ConventionsTest::chosenOrder_readsTheFileAgain() {
 
   const auto after = f.window.session().light_field()->view<std::uint8_t>({0, 8});
   QVERIFY(std::equal(first.data, first.data + first.size(), after.data));
-  QTRY_VERIFY2(order_shown(f.window).contains("(set by you)"), qPrintable(order_shown(f.window)));
+  QTRY_VERIFY2_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"),
+                            qPrintable(order_shown(f.window)), 30000);
 }
 
 void ConventionsTest::choice_isRememberedForItsFileOnly() {
@@ -162,7 +163,7 @@ void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
     for (const auto* label : f.window.panels().info->findChildren<QLabel*>()) all += label->text();
     return all;
   };
-  QTRY_VERIFY2(text().contains("(set by you)"), qPrintable(text()));
+  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("(set by you)"), qPrintable(text()), 30000);
 }
 
 void ConventionsTest::copiedCommand_readsAlike() {
