@@ -108,7 +108,10 @@ void CompareController::setMode(CompareMode mode) {
                          panels_.wall->isAncestorOf(QApplication::focusWidget());
   mode_ = mode;
   const bool has_wall = mode == CompareMode::Sides || mode == CompareMode::Wall;
-  if (mode != CompareMode::Wipe) panels_.canvas->endWipe();
+  if (mode != CompareMode::Wipe) {
+    panels_.canvas->endWipe();
+    wipe_picture_ = {};
+  }
   if (mode == CompareMode::Wipe || mode == CompareMode::Sides) overlay_.setDifference(false);
   if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
     overlay_.setQuantity(session_.shown() ? Quantity::Disparity : Quantity::Truth);
@@ -155,7 +158,8 @@ void CompareController::showMode() {
 
 void CompareController::showWipe() {
   const OverlayChoice other = overlay_.choiceB();
-  panels_.canvas->setWipe(wipe_position_, overlay_.pictureOf(other), overlay_.describe(other));
+  if (auto picture = overlay_.pictureOf(other)) wipe_picture_ = *std::move(picture);
+  panels_.canvas->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
 }
 
 TileRequest CompareController::request(const std::optional<OverlayChoice>& choice) const {

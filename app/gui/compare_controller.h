@@ -73,6 +73,7 @@ class CompareController : public QObject {
   Panels panels_;
   CompareMode mode_ = CompareMode::Single;
   double wipe_position_ = 0.5;
+  QImage wipe_picture_;  // of B, until the next one is made
   std::vector<Entry> entries_;
   LatestJob tile_job_;
 };

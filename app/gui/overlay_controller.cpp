@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/overlay_controller.h"
 
+#include "app/gui/queued_post.h"
 #include "widgets/color_bar.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/picture.h"
@@ -33,7 +34,7 @@ int range_key(const OverlayChoice& choice) {
 }  // namespace
 
 OverlayController::OverlayController(Session& session, const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), panels_(panels) {
+    : QObject(parent), session_(session), panels_(panels), runner_(queued_post(this)) {
   connect(panels_.overlay_bar, &OverlayBar::quantitySelected, this,
           &OverlayController::setQuantity);
   connect(panels_.overlay_bar, &OverlayBar::opacityChanged, panels_.canvas,
@@ -187,51 +188,78 @@ void OverlayController::draw() {
 }
 
 void OverlayController::drawMap(const OverlayChoice& choice) {
-  is_up_to_date_ = true;
-  if (!session_.scene() || choice.quantity == Quantity::Labels) {
+  const auto source = overlay_source(session_, choice, session_.view());
+  if (!source) {
+    // While the errors of a view are computed, what was drawn stays: a few milliseconds.
+    is_up_to_date_ = !session_.scene() || choice.quantity == Quantity::View ||
+                     choice.quantity == Quantity::Labels || !session_.is_evaluating();
+    if (!is_up_to_date_) return;
     map_ = nullptr;
-    picture_ = pictureOf(choice);
+    picture_ = {};
     return;
   }
-  const Shaded* found = shaded(choice);
-  // While the errors of a view are computed, what was drawn stays: a few milliseconds.
-  is_up_to_date_ = found || choice.quantity == Quantity::View || !session_.is_evaluating();
-  if (!is_up_to_date_) return;
-  map_ = found ? found->map : nullptr;
-  picture_ = found ? found->picture : QImage();
+  const render::Shading shading = shadingOf(choice);
+  if (const Shaded* found = find(*source, shading)) {
+    is_up_to_date_ = true;
+    map_ = found->map->map.empty() ? nullptr : found->map;
+    picture_ = found->picture;
+    return;
+  }
+  // In another range, the numbers are known before the picture is.
+  const auto known = knownMap(*source);
+  is_up_to_date_ = known && !known->map.empty();
+  if (is_up_to_date_) map_ = known;
+  beginShading(*source, shading);
 }
 
-const OverlayController::Shaded* OverlayController::shaded(const OverlayChoice& choice) {
-  auto source = overlay_source(session_, choice, session_.view());
-  if (!source) return nullptr;
-  const render::Shading shading = shadingOf(choice);
-  const auto is_same_map = [&](const Shaded& each) { return each.source == *source; };
+const OverlayController::Shaded* OverlayController::find(const OverlaySource& source,
+                                                         const render::Shading& shading) {
   const auto found = std::find_if(shaded_.begin(), shaded_.end(), [&](const Shaded& each) {
-    return is_same_map(each) && render::is_same(each.shading, shading);
+    return each.source == source && render::is_same(each.shading, shading);
   });
-  if (found != shaded_.end()) {
-    shaded_.splice(shaded_.begin(), shaded_, found);
-    return &shaded_.front();
-  }
-  const auto known = std::find_if(shaded_.begin(), shaded_.end(), is_same_map);
-  auto map = known != shaded_.end() ? known->map : make_overlay_map(*source);
-  QImage picture = to_qimage(shade_overlay(*map, shading));
-  if (known != shaded_.end()) shaded_.erase(known);  // a former range
-  shaded_.push_front({std::move(*source), shading, std::move(map), std::move(picture)});
-  if (shaded_.size() > kKeptPictures) shaded_.pop_back();
+  if (found == shaded_.end()) return nullptr;
+  shaded_.splice(shaded_.begin(), shaded_, found);
   return &shaded_.front();
 }
 
-QImage OverlayController::pictureOf(const OverlayChoice& choice) {
-  if (!session_.scene()) return {};
-  if (choice.quantity == Quantity::Labels) {
-    const auto& labels = session_.scene()->truth->labels;
-    return labels.contains(session_.view())
-               ? to_qimage(render::shade_labels(labels.view(session_.view())))
-               : QImage();
-  }
-  const Shaded* found = shaded(choice);
-  return found ? found->picture : QImage();
+std::shared_ptr<const OverlayMap> OverlayController::knownMap(const OverlaySource& source) const {
+  const auto found = std::find_if(shaded_.begin(), shaded_.end(),
+                                  [&](const Shaded& each) { return each.source == source; });
+  return found == shaded_.end() ? nullptr : found->map;
+}
+
+// One picture at a time: when it is there, drawing again asks for what is wanted by then. However
+// fast a range is dragged, pictures keep coming.
+void OverlayController::beginShading(const OverlaySource& source, const render::Shading& shading) {
+  if (std::exchange(is_shading_, true)) return;
+  runner_.start<Shaded>(
+      [source, shading, map = knownMap(source)](const Progress&) mutable {
+        if (!map) map = make_overlay_map(source);
+        const QImage picture = to_qimage(shade_overlay(*map, shading));
+        return Shaded{source, shading, map,
+                      picture.convertToFormat(QImage::Format_ARGB32_Premultiplied)};
+      },
+      [this, generation = session_.generation()](Outcome<Shaded> outcome) {
+        is_shading_ = false;
+        if (outcome.failure) return;
+        if (generation == session_.generation()) finishShading(std::move(*outcome.value));
+        draw();
+      });
+}
+
+void OverlayController::finishShading(Shaded shaded) {
+  std::erase_if(shaded_, [&](const Shaded& each) { return each.source == shaded.source; });
+  shaded_.push_front(std::move(shaded));
+  if (shaded_.size() > kKeptPictures) shaded_.pop_back();
+}
+
+std::optional<QImage> OverlayController::pictureOf(const OverlayChoice& choice) {
+  const auto source = overlay_source(session_, choice, session_.view());
+  if (!source) return session_.is_evaluating() ? std::nullopt : std::optional(QImage());
+  const render::Shading shading = shadingOf(choice);
+  if (const Shaded* found = find(*source, shading)) return found->picture;
+  beginShading(*source, shading);
+  return std::nullopt;
 }
 
 QString OverlayController::describe(const OverlayChoice& choice) const {
@@ -250,7 +278,7 @@ void OverlayController::showCaption(const OverlayChoice& choice) const {
   const ViewIndex view = session_.view();
   QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
   if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
-  if (choice.quantity != Quantity::View && picture_.isNull() && !session_.is_evaluating()) {
+  if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
     caption += tr(" · not known for this view");
   }
   const bool has_sides = choice.subtracted == 0 && (is_flipped_ || session_.compared());

@@ -4,6 +4,7 @@
 #include "app/gui/overlay_map.h"
 #include "app/gui/panels.h"
 #include "app/session/session.h"
+#include "engine/core/job_runner.h"
 
 #include <QImage>
 #include <QObject>
@@ -15,7 +16,7 @@
 namespace episcope {
 
 /// Draws a quantity over the view: which one, how opaque, in which range; flips to the other result
-/// while asked to.
+/// while asked to. Pictures are made in the background: what was drawn stays until they are there.
 class OverlayController : public QObject {
   Q_OBJECT
 
@@ -45,13 +46,14 @@ class OverlayController : public QObject {
   /// "error of EPI_L", "truth"; "view" without an overlay.
   [[nodiscard]] QString describe(const OverlayChoice& choice) const;
   [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
-  /// Picture of a choice in the current view; null if there is none (yet).
-  [[nodiscard]] QImage pictureOf(const OverlayChoice& choice);
+  /// Picture of a choice in the current view, null if there is none; nothing while it is being
+  /// made: `drawn` tells when to ask again.
+  [[nodiscard]] std::optional<QImage> pictureOf(const OverlayChoice& choice);
 
   /// Range of what is drawn; none = the quantity's own one.
   void setRange(std::optional<Interval> range);
   void useOwnRange();
-  /// Whether what is drawn is what was chosen last, and not what stays until that is there.
+  /// Whether `map` is what was chosen last, and not what stays until that is there.
   [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
   /// What is drawn; null without a map.
   [[nodiscard]] const std::shared_ptr<const OverlayMap>& map() const { return map_; }
@@ -80,7 +82,10 @@ class OverlayController : public QObject {
     std::shared_ptr<const OverlayMap> map;
     QImage picture;
   };
-  [[nodiscard]] const Shaded* shaded(const OverlayChoice& choice);
+  [[nodiscard]] const Shaded* find(const OverlaySource& source, const render::Shading& shading);
+  [[nodiscard]] std::shared_ptr<const OverlayMap> knownMap(const OverlaySource& source) const;
+  void beginShading(const OverlaySource& source, const render::Shading& shading);
+  void finishShading(Shaded shaded);
   void showAvailable();
   void draw();
   void drawMap(const OverlayChoice& choice);
@@ -96,8 +101,10 @@ class OverlayController : public QObject {
   std::size_t known_estimates_ = 0;
   std::map<int, Interval> edited_ranges_;  // by range_key
   std::list<Shaded> shaded_;  // the newest used comes first: flips and wipes go to and fro
+  bool is_shading_ = false;
   std::shared_ptr<const OverlayMap> map_;
   QImage picture_;
+  JobRunner runner_;
 };
 
 }  // namespace episcope

@@ -74,6 +74,13 @@ Result layer_count(const EstimatePtr& estimate, ViewIndex view) {
   return overlay;
 }
 
+Result labels_overlay(const OverlaySource& source) {
+  auto overlay = std::make_shared<OverlayMap>();
+  overlay->labels = source.truth->labels.view(source.view);
+  overlay->owners[0] = source.truth;
+  return overlay;
+}
+
 bool needs_evaluation(Quantity quantity) {
   return quantity == Quantity::SignedError || quantity == Quantity::AbsoluteError ||
          quantity == Quantity::BadPixels;
@@ -108,8 +115,11 @@ std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoic
   OverlaySource source{choice, view, {}, {}, {}, {}};
   switch (choice.quantity) {
     case Quantity::View:
-    case Quantity::Labels:
       return std::nullopt;
+    case Quantity::Labels:
+      source.truth = session.scene()->truth;
+      if (!source.truth->labels.contains(view)) return std::nullopt;
+      return source;
     case Quantity::Truth:
       source.truth = session.scene()->truth;
       if (!source.truth->field.contains(view)) return std::nullopt;
@@ -120,6 +130,7 @@ std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoic
 }
 
 std::shared_ptr<const OverlayMap> make_overlay_map(const OverlaySource& source) {
+  if (source.choice.quantity == Quantity::Labels) return labels_overlay(source);
   if (source.truth) return borrowed(source.truth->field.view(source.view), source.truth);
   if (source.subtracted) return difference(source.estimate, source.subtracted, source.view);
   if (source.evaluation) return error_overlay(source.evaluation, source.choice.quantity);
@@ -147,6 +158,7 @@ std::optional<double> OverlayMap::value_at(PixelIndex pixel) const {
 }
 
 Image<std::uint8_t> shade_overlay(const OverlayMap& overlay, const render::Shading& shading) {
+  if (!overlay.labels.empty()) return render::shade_labels(overlay.labels);
   Image<std::uint8_t> picture = render::shade(overlay.map, overlay.valid, shading);
   if (overlay.inside.empty()) return picture;
   for (int y = 0; y < picture.height(); ++y) {

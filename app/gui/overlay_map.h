@@ -19,7 +19,8 @@ struct OverlayChoice {
 
 /// Numbers behind an overlay, with all that they are borrowed from.
 struct OverlayMap {
-  ImageView<const float> map;
+  ImageView<const float> map;  ///< Empty: there are labels instead.
+  ImageView<const std::int32_t> labels;
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged, not drawn; empty = all drawn.
   Image<float> computed;

@@ -2,6 +2,7 @@
 #include "app/gui/action_table.h"
 #include "app/gui/compare_controller.h"
 #include "app/gui/jobs.h"
+#include "app/gui/overlay_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/widgets/pictures.h"
@@ -12,6 +13,7 @@
 #include <QTest>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -27,7 +29,7 @@ using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr auto kInterval = std::chrono::milliseconds(5);
 constexpr int kInputsPerEvent = 4;  // every fourth event is an input that redraws the window
-constexpr double kFrame = 16;         // ms
+constexpr double kFrame = 16;       // ms
 constexpr int kAttempts = 4;
 
 // What a user does: moves the mouse over the view, and steps through the views.
@@ -44,8 +46,10 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
-// Ages of events when the window came to handle them, in ms, while its jobs run.
-std::vector<double> latencies_during_run(MainWindow& window) {
+// Ages of events when the window came to handle them, in ms, until `has_ended`; every fourth of
+// them gives an input.
+std::vector<double> latencies(MainWindow& window, const std::function<void(int)>& input,
+                              const std::function<bool()>& has_ended) {
   std::vector<double> ages;
   std::atomic<bool> ends{false};
   std::jthread clock([&] {
@@ -54,18 +58,55 @@ std::vector<double> latencies_during_run(MainWindow& window) {
           &window,
           [&, number, posted = Clock::now()] {
             ages.push_back(Milliseconds(Clock::now() - posted).count());
-            if (number % kInputsPerEvent == 0) give_input(window, number);
+            if (number % kInputsPerEvent == 0) input(number / kInputsPerEvent);
           },
           Qt::QueuedConnection);
       std::this_thread::sleep_for(kInterval);
     }
   });
-  window.actions().find("estimate.run")->trigger();
-  [&] { QTRY_COMPARE_WITH_TIMEOUT(window.jobs().count(), 0, 120'000); }();
+  [&] { QTRY_VERIFY_WITH_TIMEOUT(has_ended(), 120'000); }();
   ends = true;
   clock.join();
   QCoreApplication::processEvents();  // the last of them still refer to `ages`
   return ages;
+}
+
+std::vector<double> latencies_during_run(MainWindow& window) {
+  window.actions().find("estimate.run")->trigger();
+  return latencies(
+      window, [&](int number) { give_input(window, number); },
+      [&] { return window.jobs().count() == 0; });
+}
+
+// What a user does with an overlay: other maps, other ranges, to and fro between A and B, the
+// divider of a wipe, other views.
+void change_overlay(MainWindow& window, int number) {
+  using render::Quantity;
+  constexpr std::array maps = {Quantity::Disparity, Quantity::SignedError, Quantity::Truth,
+                               Quantity::AbsoluteError, Quantity::BadPixels};
+  OverlayController& overlay = window.overlay();
+  ViewCanvas* canvas = window.panels().canvas;
+  switch (number % 8) {
+    case 0:
+      overlay.setQuantity(maps[static_cast<std::size_t>(number / 8) % maps.size()]);
+      break;
+    case 1:
+    case 5:
+      overlay.setRange(Interval{-1 - 0.01 * number, 1 + 0.01 * number});
+      break;
+    case 2:
+    case 3:
+      overlay.setFlipped(number % 8 == 2);
+      break;
+    case 4:
+      window.compare().toggleMode(CompareMode::Wipe);
+      break;
+    case 6:
+      emit canvas->wipeMoved(0.01 * (number % 100));
+      break;
+    default:
+      window.session().set_view({1, number / 8 % 3 == 2 ? 0 : 1});
+  }
 }
 
 QString told(const std::vector<double>& ms) {
@@ -97,8 +138,8 @@ void add_results(Session& session, int count) {
   for (int i = 0; i < count; ++i) {
     auto estimate = std::make_shared<Estimate>();
     estimate->method = "off";
-    estimate->field.disparity =
-        ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, light_field.center());
+    estimate->field.disparity = ViewStack<float>({1, 1}, light_field.height(), light_field.width(),
+                                                 1, light_field.center());
     const DisparityView truth = session.scene()->truth->field.view(light_field.center());
     auto values = estimate->field.disparity.view(light_field.center());
     for (int y = 0; y < values.height; ++y) {
@@ -126,6 +167,7 @@ class LatencyTest : public QObject {
 
  private slots:
   void window_answersWhileAMethodRuns();
+  void overlays_areMadeWithoutHoldingTheWindowUp();
   void tiles_followInputWithinAFrame();
 };
 
@@ -135,11 +177,33 @@ void LatencyTest::window_answersWhileAMethodRuns() {
   f.window.open(f.writeScene("edge", options));
   QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
 
-  const auto ages = measured_calmly("event latency during EPI_L",
-                                    [&] { return latencies_during_run(f.window); });
+  const auto ages =
+      measured_calmly("event latency during EPI_L", [&] { return latencies_during_run(f.window); });
 
   QVERIFY2(ages.size() > 50, "the run was too short to measure");
   QVERIFY(!f.window.session().estimates().empty());
+  QVERIFY2(percentile(ages, 0.95) < kFrame, qPrintable(told(ages)));
+}
+
+void LatencyTest::overlays_areMadeWithoutHoldingTheWindowUp() {
+  constexpr int inputs = 160;
+  WindowFixture f;
+  scenes::RenderOptions options;
+  options.grid = {3, 3};
+  options.height = options.width = 1024;
+  f.window.resize(2560, 1440);
+  f.window.open(f.writeScene("edge", options));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
+  add_results(f.window.session(), 2);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 60'000);
+
+  const auto ages = measured_calmly("event latency while overlays of 1024x1024 change", [&] {
+    int given = 0;
+    return latencies(
+        f.window, [&](int number) { change_overlay(f.window, given = number); },
+        [&] { return given >= inputs; });
+  });
+
   QVERIFY2(percentile(ages, 0.95) < kFrame, qPrintable(told(ages)));
 }
 
