@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/info_panel.h"
 
+#include "widgets/breakable_text.h"
 #include "widgets/elided_label.h"
 #include "widgets/icon.h"
 #include "widgets/theme.h"
@@ -13,20 +14,6 @@
 
 namespace episcope {
 namespace {
-
-constexpr int kLongWord = 12;
-
-// Long names may be broken after an underscore, paths after a slash.
-QString breakable(const QString& sentence) {
-  QStringList words = sentence.split(' ');
-  for (QString& word : words) {
-    if (word.size() < kLongWord) continue;
-    for (const char16_t mark : {u'_', u'/'}) {
-      word.replace(QChar(mark), QString(QChar(mark)) + QChar(0x200b));
-    }
-  }
-  return words.join(' ');
-}
 
 /// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
 QLabel* make_value(const QString& text, QWidget* parent) {

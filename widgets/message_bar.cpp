@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/message_bar.h"
 
+#include "widgets/breakable_text.h"
 #include "widgets/icon.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
+#include <QAction>
+#include <QClipboard>
 #include <QEvent>
+#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -32,7 +36,14 @@ MessageBar::MessageBar(QWidget* parent)
   text_->setObjectName("message.text");
   text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
-  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  text_->setMinimumWidth(1);
+  // What is shown holds places to break: the sentence itself is copied by the menu.
+  auto* copy = new QAction(tr("Copy message"), text_);
+  copy->setObjectName("message.copy");
+  connect(copy, &QAction::triggered, this,
+          [this] { QGuiApplication::clipboard()->setText(sentence_); });
+  text_->addAction(copy);
+  text_->setContextMenuPolicy(Qt::ActionsContextMenu);
   button_->setObjectName("message.action");
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
@@ -60,7 +71,8 @@ void MessageBar::showMessage(Severity severity, const QString& text) {
 void MessageBar::showMessage(Severity severity, const QString& text, Action action) {
   severity_ = severity;
   action_ = std::move(action);
-  text_->setText(text);
+  sentence_ = text;
+  text_->setText(breakable(text));
   button_->setText(action_.text);
   button_->setVisible(!action_.text.isEmpty());
   updateIcon();
@@ -72,10 +84,6 @@ void MessageBar::showMessage(Severity severity, const QString& text, Action acti
   }
   show();
   update();
-}
-
-QString MessageBar::text() const {
-  return text_->text();
 }
 
 void MessageBar::dismiss() {

@@ -31,7 +31,7 @@ class MessageBar : public QWidget {
   void showMessage(Severity severity, const QString& text);
   void showMessage(Severity severity, const QString& text, Action action);
 
-  [[nodiscard]] QString text() const;
+  [[nodiscard]] const QString& text() const { return sentence_; }
   [[nodiscard]] Severity severity() const { return severity_; }
 
  public slots:
@@ -49,6 +49,7 @@ class MessageBar : public QWidget {
   void updateIcon();
 
   Severity severity_ = Severity::Info;
+  QString sentence_;
   Action action_;
   QLabel* icon_;
   QLabel* text_;

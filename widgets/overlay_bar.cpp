@@ -170,7 +170,8 @@ void OverlayBar::setFocusRange(Interval range_px) {
 }
 
 void OverlayBar::addFocusAction(QAction* action) {
-  row_->insertWidget(row_->count() - 1, make_action_button(action, "button." + action->objectName(), this));
+  row_->insertWidget(row_->count() - 1,
+                     make_action_button(action, "button." + action->objectName(), this));
 }
 
 void OverlayBar::setFocus(double focus_px) {

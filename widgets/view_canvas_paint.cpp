@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/breakable_text.h"
 #include "widgets/canvas_text.h"
 #include "widgets/theme.h"
 #include "widgets/view_canvas.h"
@@ -182,7 +183,7 @@ void ViewCanvas::paintMessage(QPainter& painter) const {
   painter.setFont(font());
   painter.setPen(theme::kCanvasMuted);
   painter.drawText(QRectF(area.left(), middle - 4, area.width(), area.bottom() - middle),
-                   Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, message_);
+                   Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, breakable(message_));
   if (state_ != State::Loading || loading_fraction_ < 0) return;
   const QRectF bar(area.center().x() - std::min(120.0, area.width() / 2), middle + 28,
                    std::min(240.0, area.width()), 4);

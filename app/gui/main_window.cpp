@@ -108,8 +108,8 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, focus_, opener_, metrics_, estimate_, scribbles_, annotate_, document_,
-           values_, statistics_, compare_, overlay_, browse_, jobs_}) {
+           cloud_, exporter_, focus_, opener_, metrics_, estimate_, scribbles_, annotate_,
+           document_, values_, statistics_, compare_, overlay_, browse_, jobs_}) {
     delete each;
   }
 }

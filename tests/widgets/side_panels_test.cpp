@@ -7,6 +7,8 @@
 #include "widgets/value_bar.h"
 
 #include <QAction>
+#include <QClipboard>
+#include <QGuiApplication>
 #include <QLabel>
 #include <QMenu>
 #include <QProgressBar>
@@ -55,6 +57,23 @@ class SidePanelsTest : public QObject {
 
     QVERIFY(!bar.isHidden());
     QCOMPARE(bar.text(), QString("second"));
+  }
+
+  void longPath_doesNotWidenTheMessage() {
+    MessageBar bar;
+    const QString path =
+        "/data/" + QString("long_folder_").repeated(30) + "/" + QString(300, QChar('x')) + "/lf.h5";
+
+    bar.showMessage(Severity::Error, path + ": this is not an HDF5 file");
+    bar.resize(600, 100);
+    bar.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&bar));
+
+    QVERIFY2(bar.minimumSizeHint().width() < 300,
+             qPrintable(QString::number(bar.minimumSizeHint().width())));
+    QVERIFY(bar.findChild<QLabel*>("message.text")->heightForWidth(500) > 60);
+    bar.findChild<QAction*>("message.copy")->trigger();
+    QCOMPARE(QGuiApplication::clipboard()->text(), path + ": this is not an HDF5 file");
   }
 
   void iterativeJob_canEndEarly() {
