@@ -3,6 +3,7 @@
 
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
+#include "engine/core/quantile.h"
 #include "engine/disparity/line_residual_kernel.h"
 #include "engine/disparity/packed_views.h"
 
@@ -97,10 +98,7 @@ float noise_variance(const PackedViews& views, const ViewStack<float>& disparity
     std::copy_if(row, row + views.width(), std::back_inserter(all),
                  [](float value) { return std::isfinite(value); });
   }
-  if (all.empty()) return 0;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  return *middle;
+  return all.empty() ? 0 : quantile(all, 0.5);
 }
 
 float squared_difference(std::uint32_t a, std::uint32_t b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/layer_range.h"
 
+#include "engine/core/quantile.h"
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/double_layers.h"
 #include "engine/disparity/layer_decision.h"
@@ -23,13 +24,6 @@ constexpr double kMargin = 0.1;
 
 // Farther apart than orientations that are not there come out.
 constexpr double kLeastDistance = 0.3;
-
-float quantile(std::vector<float>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 }  // namespace
 

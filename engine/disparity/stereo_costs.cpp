@@ -2,6 +2,7 @@
 #include "engine/disparity/stereo_costs.h"
 
 #include "engine/core/parallel.h"
+#include "engine/core/quantile.h"
 #include "engine/disparity/disparity_range.h"
 
 #include <algorithm>
@@ -18,12 +19,6 @@ constexpr double kCapInResiduals = 2;
 constexpr double kLeastCap = 0.015;
 // Of the guided filter, variance of samples in [0, 1].
 constexpr double kRegularization = 1e-3;
-
-float median(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // The residual of prepare_stereo. The cross-hair tells as much of noise as all views.
 double residual(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
@@ -44,7 +39,7 @@ double residual(const LightField& lf, const StereoCosts& costs, const Progress& 
       }
     };
   });
-  return median(least);
+  return quantile(least, 0.5);
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/region_statistics.h"
 
+#include "engine/core/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -36,14 +38,6 @@ std::vector<float> values_in(const MeasuredMap& map, const PixelRegion& region,
     }
   }
   return values;
-}
-
-// Reorders the values.
-double quantile(std::vector<float>& values, double share) {
-  const double last = static_cast<double>(values.size() - 1);
-  const auto place = values.begin() + std::lround(share * last);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 Histogram histogram_of(const std::vector<float>& values, Interval axis, int bars) {

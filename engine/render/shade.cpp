@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/shade.h"
 
+#include "engine/core/quantile.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -52,13 +54,6 @@ std::vector<float> valid_values(ImageView<const float> map, ImageView<const std:
     }
   }
   return values;
-}
-
-float quantile(std::vector<float>& values, double share) {
-  const double last = static_cast<double>(values.size() - 1);
-  const auto place = values.begin() + std::lround(std::clamp(share, 0.0, 1.0) * last);
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
 }
 
 }  // namespace
