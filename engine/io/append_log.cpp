@@ -2,7 +2,6 @@
 #include "engine/io/append_log.h"
 
 #include "engine/core/error.h"
-#include "engine/io/file_descriptor.h"
 #include "engine/io/system_error.h"
 
 #include <fcntl.h>
@@ -23,26 +22,17 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) {
 
 AppendLog::AppendLog(const std::filesystem::path& path) : path_(path) {
   errno = 0;
-  descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (descriptor_ < 0) throw write_error(path);
-  try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
-      throw IoError(path, "another program is writing it; wait for its end or name another folder");
-    }
-    read_lines();
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
+  file_ = FileDescriptor(path, O_RDWR | O_CREAT | O_APPEND);
+  if (!file_.ok()) throw write_error(path);
+  if (::flock(file_.id(), LOCK_EX | LOCK_NB) != 0) {
+    throw IoError(path, "another program is writing it; wait for its end or name another folder");
   }
-}
-
-AppendLog::~AppendLog() {
-  ::close(descriptor_);
+  read_lines();
 }
 
 void AppendLog::read_lines() {
   std::vector<std::uint8_t> bytes;
-  if (!read_all(descriptor_, bytes)) {
+  if (!read_all(file_.id(), bytes)) {
     throw IoError(path_, std::string("cannot be read: ") + std::strerror(errno));
   }
   const std::string text(bytes.begin(), bytes.end());
@@ -51,19 +41,19 @@ void AppendLog::read_lines() {
     lines_.push_back(text.substr(begin, end - begin));
     begin = end + 1;
   }
-  if (begin < text.size() && ::ftruncate(descriptor_, static_cast<off_t>(begin)) != 0) {
+  if (begin < text.size() && ::ftruncate(file_.id(), static_cast<off_t>(begin)) != 0) {
     throw write_error(path_);
   }
 }
 
 void AppendLog::append(const std::string& line) {
-  const off_t size = ::lseek(descriptor_, 0, SEEK_END);
+  const off_t size = ::lseek(file_.id(), 0, SEEK_END);
   errno = 0;
-  if (size >= 0 && write_all(descriptor_, bytes_of(line + "\n")) && ::fsync(descriptor_) == 0)
+  if (size >= 0 && write_all(file_.id(), bytes_of(line + "\n")) && ::fsync(file_.id()) == 0)
     return;
   const IoError error = write_error(path_);
   // What cannot be taken back now is dropped when the log is opened again.
-  [[maybe_unused]] const int ignored = size < 0 ? -1 : ::ftruncate(descriptor_, size);
+  [[maybe_unused]] const int ignored = size < 0 ? -1 : ::ftruncate(file_.id(), size);
   throw error;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/io/file_descriptor.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -15,9 +17,6 @@ class AppendLog {
   /// Opens or creates the log and reads its lines. Throws IoError, also if another program
   /// holds it.
   explicit AppendLog(const std::filesystem::path& path);
-  ~AppendLog();
-  AppendLog(const AppendLog&) = delete;
-  AppendLog& operator=(const AppendLog&) = delete;
 
   /// The lines that were there when it was opened, without their ends.
   [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
@@ -29,7 +28,7 @@ class AppendLog {
   void read_lines();
 
   std::filesystem::path path_;
-  int descriptor_ = -1;
+  FileDescriptor file_;
   std::vector<std::string> lines_;
 };
 

@@ -4,10 +4,10 @@
 #include "engine/core/error.h"
 #include "engine/io/archive_depth.h"
 #include "engine/io/archive_labels.h"
+#include "engine/io/assemble_scene.h"
 #include "engine/io/center_preview.h"
 #include "engine/io/companions.h"
 #include "engine/io/float_samples.h"
-#include "engine/io/order_check.h"
 #include "engine/io/scene_name.h"
 #include "engine/io/scribble_dataset.h"
 
@@ -193,13 +193,11 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     std::move(depth.background),
                     std::move(labels.labels),
                     {}};
-  put_in_order(samples, truth, expected_order(file), options.flip, report, progress);
-  zero_odd_samples(samples, report);
+  info.camera = depth.camera;
+  assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)},
+           options.flip, scene, progress);
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
-  info.camera = depth.camera;
-  scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<GroundTruth>(std::move(truth));
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
   return scene;
 }

@@ -2,11 +2,11 @@
 #include "engine/io/benchmark_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/assemble_scene.h"
 #include "engine/io/config_file.h"
 #include "engine/io/decode_image.h"
 #include "engine/io/float_samples.h"
 #include "engine/io/load_views.h"
-#include "engine/io/order_check.h"
 #include "engine/io/pfm.h"
 #include "engine/io/scene_name.h"
 
@@ -292,11 +292,9 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   read_object_ids(folder, views.grid, size, truth);
   read_regions(folder, size, truth);
 
-  put_in_order(samples, truth, {{}, "folders of the benchmark are in order"}, options.flip, report,
-               progress);
-  zero_odd_samples(samples, report);
-  scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<GroundTruth>(std::move(truth));
+  assemble({std::move(samples), std::move(truth), std::move(info),
+            {{}, "folders of the benchmark are in order"}},
+           options.flip, scene, progress);
   return scene;
 }
 

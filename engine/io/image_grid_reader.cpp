@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/image_grid_reader.h"
 
+#include "engine/io/assemble_scene.h"
 #include "engine/io/float_samples.h"
 #include "engine/io/grid_names.h"
 #include "engine/io/load_views.h"
-#include "engine/io/order_check.h"
 #include "engine/io/scene_name.h"
 
 namespace episcope::io {
@@ -35,11 +35,9 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
   scale_float_samples(samples, report);
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
-  put_in_order(samples, truth, {{}, "rows and columns are as the names say"}, options.flip, report,
-               progress);
-  zero_odd_samples(samples, report);
-  scene.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
-  scene.truth = std::make_shared<GroundTruth>(std::move(truth));
+  assemble({std::move(samples), std::move(truth), std::move(info),
+            {{}, "rows and columns are as the names say"}},
+           options.flip, scene, progress);
   return scene;
 }
 

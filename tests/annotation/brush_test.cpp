@@ -2,6 +2,7 @@
 #include "annotation/brush.h"
 #include "engine/core/error.h"
 #include "engine/core/image.h"
+#include "tests/annotation/drawn_region.h"
 
 #include <QtTest>
 
@@ -10,16 +11,9 @@
 #include <random>
 
 using namespace episcope;
+using episcope::test::drawn;
 
 namespace {
-
-Image<std::uint8_t> drawn(const PixelRegion& region, int height, int width) {
-  Image<std::uint8_t> picture(height, width);
-  for (const PixelSpan& span : region) {
-    for (int x = span.x0; x < span.x1; ++x) ++picture.at(span.y, x);
-  }
-  return picture;
-}
 
 // The definition, pixel by pixel: distance of its middle from the segment by golden-section search
 // would be slow, so the nearest point comes from the projection.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/flood_fill.h"
 #include "engine/core/error.h"
+#include "tests/annotation/drawn_region.h"
 
 #include <QtTest>
 
@@ -8,16 +9,9 @@
 #include <random>
 
 using namespace episcope;
+using episcope::test::drawn;
 
 namespace {
-
-Image<std::uint8_t> drawn(const PixelRegion& region, int height, int width) {
-  Image<std::uint8_t> picture(height, width);
-  for (const PixelSpan& span : region) {
-    for (int x = span.x0; x < span.x1; ++x) ++picture.at(span.y, x);
-  }
-  return picture;
-}
 
 // The plainest flood fill: spreads from pixel to pixel until nothing changes.
 Image<std::uint8_t> spread(const Image<std::int32_t>& map, PixelIndex seed) {

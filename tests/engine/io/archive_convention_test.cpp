@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/open.h"
 #include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 
-#include <QTemporaryDir>
 #include <QtTest>
 
 #include <cmath>
@@ -11,24 +10,12 @@
 using namespace episcope;
 using namespace episcope::test;
 
-// Depth is stored as float: with d + shift about 5 a relative error of 6e-8 moves d by 3e-7 px.
-constexpr double kDepthRounding = 2e-6;
-
 /// The order of views and the units of depth: found, checked, reported, overridden.
-class ArchiveConventionTest : public QObject {
+class ArchiveConventionTest : public QObject, private ArchiveFolder {
   Q_OBJECT
 
- private:
-  std::unique_ptr<QTemporaryDir> folder_;
-  std::filesystem::path path(const char* name) const {
-    return std::filesystem::path(folder_->path().toStdString()) / name;
-  }
-  Scene open(const std::filesystem::path& file, const io::OpenOptions& options = {}) const {
-    return io::open_scene(file, options, Progress(2));
-  }
-
  private slots:
-  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+  void init() { renew(); }
 
   void rawOrder_isFoundByTruth_data() {
     QTest::addColumn<bool>("u");

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/companions.h"
-#include "engine/io/open.h"
 #include "engine/io/write_scene.h"
 #include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/archive_folder.h"
 #include "tests/engine/io/synthetic_scene.h"
 
-#include <QTemporaryDir>
 #include <QtTest>
 
 #include <cmath>
@@ -15,29 +14,17 @@
 using namespace episcope;
 using namespace episcope::test;
 
-// Depth is stored as float: with d + shift about 5 a relative error of 6e-8 moves d by 3e-7 px.
-constexpr double kDepthRounding = 2e-6;
-
-class ArchiveTest : public QObject {
+class ArchiveTest : public QObject, private ArchiveFolder {
   Q_OBJECT
 
- private:
-  std::unique_ptr<QTemporaryDir> folder_;
-  std::filesystem::path path(const char* name) const {
-    return std::filesystem::path(folder_->path().toStdString()) / name;
-  }
-  Scene open(const std::filesystem::path& file, const io::OpenOptions& options = {}) const {
-    return io::open_scene(file, options, Progress(2));
-  }
-
  private slots:
-  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+  void init() { renew(); }
 
   void archive_readsWhatItWrote() {
     const Scene scene = plane_scene();
 
     io::write_archive(path("lf.h5"), scene, Progress(1));
-    const Scene read = open(folder_->path().toStdString());
+    const Scene read = open(path());
 
     QVERIFY(has_same_samples(scene, read));
     QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
@@ -373,7 +360,7 @@ class ArchiveTest : public QObject {
         1);
 
     QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
-    QVERIFY(std::filesystem::is_empty(folder_->path().toStdString()));
+    QVERIFY(std::filesystem::is_empty(path()));
   }
 
   void failingLabels_bringTheOldLightFieldBack_data() {
