@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/evaluation/error_maps.h"
 #include "engine/io/companions.h"
+#include "engine/labeling/boundary_weights.h"
 #include "engine/render/shade.h"
 
 #include <algorithm>
@@ -152,6 +153,29 @@ Picture probability_picture(const Scene& scene, const PictureOptions& options) {
     for (int x = 0; x < map.width(); ++x) map.at(y, x) = probabilities.at(y, x, options.label - 1);
   }
   return render::shade(map.view(), {}, shading(Quantity::Confidence, {}, options));
+}
+
+Picture edges_picture(const Scene& scene, const DisparityField& disparity,
+                      const PictureOptions& options, const Progress& progress) {
+  const ViewIndex view = view_of(scene, options);
+  const auto found =
+      std::find_if(scene.companions.begin(), scene.companions.end(),
+                   [](const Companion& companion) { return companion.kind == "edge weights"; });
+  const auto shade = [&](ImageView<const float> edges) {
+    return render::shade(edges, {}, shading(Quantity::Confidence, {}, options));
+  };
+  if (found == scene.companions.end()) {
+    return shade(edge_probability(*scene.light_field, view, disparity, {}));
+  }
+  const ViewStack<float> stored = io::read_edge_weights(found->path, scene, progress);
+  Image<float> edges(stored.height(), stored.width());
+  for (int y = 0; y < edges.height(); ++y) {
+    for (int x = 0; x < edges.width(); ++x) {
+      const auto here = stored.view(view);
+      edges.at(y, x) = std::max(here.at(y, x), here.at(y, x, here.channels - 1));
+    }
+  }
+  return shade(edges);
 }
 
 Picture disparity_picture(const Estimate& estimate, const Scene* scene,

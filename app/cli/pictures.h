@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/estimate.h"
+#include "engine/core/progress.h"
 #include "engine/core/scene.h"
 #include "engine/evaluation/metrics.h"
 
@@ -33,6 +34,10 @@ using Picture = Image<std::uint8_t>;
 [[nodiscard]] Picture truth_picture(const Scene& scene, const PictureOptions& options);
 [[nodiscard]] Picture labels_picture(const Scene& scene, const PictureOptions& options);
 [[nodiscard]] Picture probability_picture(const Scene& scene, const PictureOptions& options);
+/// How probable an edge is, from the file beside the light field, else computed from the image and
+/// `disparity`, which may be empty (engine/labeling/boundary_weights.h).
+[[nodiscard]] Picture edges_picture(const Scene& scene, const DisparityField& disparity,
+                                    const PictureOptions& options, const Progress& progress);
 inline constexpr int kEpiRowHeight = 8;
 
 /// `scene` may be null: the range is then that of the estimate.

@@ -66,7 +66,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.positional("INPUT|RESULT", request.subject, "A light field or a result");
   parser.required_option("-o,--output", request.output, "OUT.png", "Picture to write");
   parser.choice("--what", request.what,
-                {"view", "epi", "disparity", "error", "confidence", "labels", "probability"},
+                {"view", "epi", "disparity", "error", "confidence", "labels", "probability",
+                 "edges"},
                 "By default the view of an INPUT, the disparity of a RESULT");
   parser.option("--view", texts.view, "V,U", "Camera row and column; by default the centre");
   parser.option("--row", texts.row, "Y", "Image row of a horizontal EPI");
@@ -87,12 +88,13 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return true;
 }
 
-Picture scene_picture(const Request& request, const Scene& scene) {
+Picture scene_picture(const Request& request, const Scene& scene, const Progress& progress) {
   if (request.what == "view") return view_picture(scene, request.picture);
   if (request.what == "epi") return epi_picture(scene, request.picture);
   if (request.what == "disparity") return truth_picture(scene, request.picture);
   if (request.what == "labels") return labels_picture(scene, request.picture);
   if (request.what == "probability") return probability_picture(scene, request.picture);
+  if (request.what == "edges") return edges_picture(scene, {}, request.picture, progress);
   throw UsageError("--what " + request.what + " needs a RESULT, but " + request.subject +
                    " is a light field");
 }
@@ -125,7 +127,10 @@ Picture result_picture(const Request& request, Job& job) {
   if (request.what == "disparity") {
     return disparity_picture(estimate, scene ? &*scene : nullptr, request.picture);
   }
-  if (request.what != "error") return scene_picture(request, *scene);
+  if (request.what == "edges") {
+    return edges_picture(*scene, estimate.field, request.picture, job.progress().part(0.9, 1));
+  }
+  if (request.what != "error") return scene_picture(request, *scene, job.progress().part(0.9, 1));
   const Judgement judgement = judge(estimate, *scene, {}, request.picture.view);
   note_other_source(estimate, *scene->light_field, job);
   return error_picture(judgement.evaluation, request.picture);
@@ -148,7 +153,9 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   const Picture picture =
       request.is_result()
           ? result_picture(request, job)
-          : scene_picture(request, load_input(request.subject, request.read, job.progress()));
+          : scene_picture(request,
+                          load_input(request.subject, request.read, job.progress().part(0, 0.9)),
+                          job.progress().part(0.9, 1));
   job.progress().check();
   io::write_png(request.output, picture.view());
   job.finish();

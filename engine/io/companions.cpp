@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/hdf5_file.h"
+#include "engine/io/map_writer.h"
 #include "engine/io/view_order.h"
 
 #include <array>
@@ -110,6 +111,30 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
     progress.report((i + 1.0) / grid.count());
   }
   return weights;
+}
+
+void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
+                        const Scene& scene, const Progress& progress) {
+  progress.check();
+  const LightField& field = *scene.light_field;
+  const Hdf5Shape shape{static_cast<std::size_t>(weights.grid().v),
+                        static_cast<std::size_t>(weights.grid().u),
+                        static_cast<std::size_t>(weights.height()),
+                        static_cast<std::size_t>(weights.width())};
+  if (weights.channels() != 1 || shape != stack_shape(field)) {
+    throw IoError(path, "edge weights of the shape " + shape_text(shape) +
+                            " do not fit the light field of " + shape_text(stack_shape(field)) +
+                            "; write those of all its views");
+  }
+  AtomicFile target(path, weights.size() * sizeof(float) + (1 << 16));
+  Hdf5Output file(target);
+  write_maps<float>(file, kEdgeWeights, geometry_of(weights), "probability", progress,
+                    [&](ViewIndex stored) {
+                      return weights.view(flipped(stored, field.grid(), flip_of(scene))).data;
+                    });
+  file.close();
+  progress.check();
+  target.commit();
 }
 
 struct ProbabilityFile::State {

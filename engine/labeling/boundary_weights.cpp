@@ -37,17 +37,29 @@ void fill_view(const LightField& lf, ViewIndex view, const DisparityField& dispa
   }
 }
 
+void check_sizes(const LightField& lf, const DisparityField& disparity) {
+  if (disparity.empty() ||
+      (disparity.disparity.height() == lf.height() && disparity.disparity.width() == lf.width())) {
+    return;
+  }
+  throw InvalidInput("edges need disparities of the size of the light field");
+}
+
 }  // namespace
+
+Image<float> edge_probability(const LightField& light_field, ViewIndex view,
+                              const DisparityField& disparity, const EdgeParameters& parameters) {
+  check_sizes(light_field, disparity);
+  Image<float> edges(light_field.height(), light_field.width());
+  fill_view(light_field, view, disparity, parameters, edges.view());
+  return edges;
+}
 
 ViewStack<float> edge_probabilities(const LightField& light_field, const DisparityField& disparity,
                                     const EdgeParameters& parameters, const Progress& progress) {
-  if (!disparity.empty() && (disparity.disparity.height() != light_field.height() ||
-                             disparity.disparity.width() != light_field.width())) {
-    throw InvalidInput("edges need disparities of the size of the light field");
-  }
+  check_sizes(light_field, disparity);
   const GridShape grid = light_field.grid();
   ViewStack<float> edges(grid, light_field.height(), light_field.width());
-  progress.step("edges");
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view{i / grid.u, i % grid.u};
     fill_view(light_field, view, disparity, parameters, edges.view(view));

@@ -13,13 +13,17 @@ struct EdgeParameters {
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
 };
 
-/// How probable an edge is at every pixel of every view, `[v][u][y][x]` in [0, 1], as EDGE_WEIGHTS
-/// of the archive: 1 − exp(−β·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
+/// How probable an edge is at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
+/// archive: 1 − exp(−β·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
 /// channels. Views that `disparity` (which may be empty) does not hold, and pixels where it is
 /// invalid, go by the image alone. Throws InvalidInput on a wrong size, Cancelled.
 ///
 /// The archive does not tell how its own weights were made; this is the exponential that the plan
 /// gives for J_st, with disparity added.
+[[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
+                                            const DisparityField& disparity,
+                                            const EdgeParameters& parameters);
+/// Of all views, `[v][u][y][x]`.
 [[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
                                                   const DisparityField& disparity,
                                                   const EdgeParameters& parameters,

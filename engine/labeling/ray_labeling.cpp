@@ -13,15 +13,41 @@
 namespace episcope {
 namespace {
 
+bool covers(const GridShape& grid, ViewIndex first, const LabelProbabilities& p) {
+  const ViewIndex begin{p.first.v - first.v, p.first.u - first.u};
+  return grid.contains(begin) && grid.contains({begin.v + p.grid.v - 1, begin.u + p.grid.u - 1});
+}
+
+template <class T>
+void check_maps(const ViewStack<T>& maps, const LabelProbabilities& p, const char* what) {
+  const ProbabilityMap& view = p.views[0];
+  if (maps.height() == view.height() && maps.width() == view.width() &&
+      covers(maps.grid(), maps.first(), p)) {
+    return;
+  }
+  throw InvalidInput("labels of " + std::to_string(p.grid.count()) + " views of " +
+                     std::to_string(view.width()) + "×" + std::to_string(view.height()) +
+                     " px need " + what + " of the same size in each of these views");
+}
+
 void check_input(const RayLabelingInput& input, LabelCoupling coupling,
                  const RayLabelingParameters& parameters) {
   if (input.probabilities == nullptr || input.probabilities->empty()) {
     throw InvalidInput("labels need probabilities of at least one view; train a classifier first");
   }
-  if (coupling == LabelCoupling::Rays && (input.disparity == nullptr || input.disparity->empty())) {
-    throw InvalidInput(
-        "labels that agree along rays need a disparity map of every view; "
-        "estimate one first, or regularise each view alone");
+  if (coupling == LabelCoupling::Rays) {
+    if (input.disparity == nullptr || input.disparity->empty()) {
+      throw InvalidInput(
+          "labels that agree along rays need a disparity map of every view; estimate one first, "
+          "or regularise each view alone");
+    }
+    check_maps(input.disparity->disparity, *input.probabilities, "disparities");
+  }
+  if (input.edges != nullptr && !input.edges->empty()) {
+    check_maps(*input.edges, *input.probabilities, "edges");
+  }
+  if (!(parameters.smoothness >= 0)) {
+    throw InvalidInput("the smoothness of labels must not be negative");
   }
   if (!(parameters.floor > 0 && parameters.floor <= 1)) {
     throw InvalidInput("the least probability of a label must be above 0 and at most 1");

@@ -85,12 +85,12 @@ expect("evaluate against other samples" 0 ERR "^note: [^\n]*other samples" OUT "
 expect("evaluate against equal samples" 0 OUT "mse_100"
        ARGS evaluate "${result}" --truth again.h5)
 
-foreach(what view epi disparity labels)
+foreach(what view epi disparity labels edges)
   expect("show ${what} of a light field" 0 OUT "^lf-${what}.png: ${what}"
          ARGS show "${lf}" -o lf-${what}.png --what ${what})
   expect_file(lf-${what}.png ${png})
 endforeach()
-foreach(what disparity error confidence view epi labels)
+foreach(what disparity error confidence view epi labels edges)
   expect("show ${what} of a result" 0 ARGS show "${result}" -o r-${what}.png --what ${what})
   expect_file(r-${what}.png ${png})
 endforeach()

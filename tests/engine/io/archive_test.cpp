@@ -306,6 +306,14 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QCOMPARE(read.companions[0].kind, std::string("edge weights"));
     QCOMPARE(read.companions[0].shape, std::string("5×5×64×80"));
     QCOMPARE(weights.view({0, 4}).at(0, 3), 3.0F);  // stored at h = 0
+    io::write_edge_weights(path("written.h5"), weights, read, Progress(1));
+    const auto again = io::read_edge_weights(path("written.h5"), read, Progress(1));
+    QVERIFY(std::equal(again.data(), again.data() + again.size(), weights.data()));
+    QCOMPARE(io::Hdf5Input(path("written.h5")).dataset("EDGE_WEIGHTS").shape,
+             (io::Hdf5Shape{5, 5, 64, 80}));
+    QVERIFY_EXCEPTION_THROWN(
+        io::write_edge_weights(path("few.h5"), ViewStack<float>({1, 1}, 64, 80), read, Progress(1)),
+        IoError);
     QCOMPARE(all.label_count(), 3);
     QVERIFY(all.contains({0, 0}));
     QCOMPARE(all.view({0, 4}).at(1, 2, 1), 5.0F * 5 * 64 * 80 + 80 + 2);

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/consistency.h"
+
+#include "engine/core/error.h"
+#include "engine/labeling/boundary_weights.h"
+#include "engine/scenes/builtin.h"
+
+#include <QtTest>
+
+using namespace episcope;
+
+namespace {
+
+Scene render(const std::string& id) {
+  scenes::RenderOptions options;
+  options.grid = {5, 5};
+  options.height = options.width = 64;
+  return scenes::render_builtin(id, options, Progress());
+}
+
+}  // namespace
+
+class ConsistencyTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void truth_agrees();
+  void oneWrongView_isSeenByTheOthers();
+  void hiddenPoints_areNotCompared();
+  void consistency_refusesOtherSizes();
+  void edges_lieWhereImageOrDisparityJump();
+  void weights_takeTheMoreProbableDirection();
+  void edges_refuseOtherSizes();
+};
+
+// Only where a ray arrives between two pixels may the nearer one belong to the neighbour.
+void ConsistencyTest::truth_agrees() {
+  const Scene planes = render("edge"), objects = render("objects");
+
+  const auto on_planes = label_consistency(planes.truth->labels, planes.truth->field, Progress());
+  const auto on_objects =
+      label_consistency(objects.truth->labels, objects.truth->field, Progress());
+
+  QVERIFY(on_planes.checked() > 0.9 && on_planes.checked() < 1);
+  QVERIFY2(on_planes.share() > 0.999, qPrintable(QString::number(on_planes.share())));
+  QVERIFY2(on_objects.share() > 0.99, qPrintable(QString::number(on_objects.share())));
+  QCOMPARE(on_planes.pairs, std::int64_t{25} * 8 * 64 * 64);
+}
+
+void ConsistencyTest::oneWrongView_isSeenByTheOthers() {
+  const Scene scene = render("fronto");
+  auto labels = scene.truth->labels.clone();
+  const auto wrong = labels.view({1, 3});
+  for (std::size_t i = 0; i < labels.view_size(); ++i) wrong.data[i] += 5;
+
+  const auto found = label_consistency(labels, scene.truth->field, Progress());
+
+  // Of 25 · 8 pairs of views, 16 have the wrong one at one end; rays leave the image here and
+  // there.
+  QVERIFY(std::abs(found.share() - (1 - 16.0 / 200)) < 2e-3);
+}
+
+void ConsistencyTest::hiddenPoints_areNotCompared() {
+  const Scene scene = render("fronto");
+  DisparityField field{scene.truth->field.disparity.clone(), {}};
+  const auto other = field.disparity.view({2, 2});
+  for (std::size_t i = 0; i < field.disparity.view_size(); ++i) other.data[i] += 2;
+  auto labels = scene.truth->labels.clone();
+  const auto wrong = labels.view({2, 2});
+  for (std::size_t i = 0; i < labels.view_size(); ++i) wrong.data[i] += 5;
+
+  const auto found = label_consistency(labels, field, Progress());
+
+  QCOMPARE(found.agreeing, found.visible);
+}
+
+void ConsistencyTest::consistency_refusesOtherSizes() {
+  const Scene scene = render("fronto");
+  const ViewStack<std::int32_t> small({5, 5}, 8, 8);
+
+  QVERIFY_EXCEPTION_THROWN((void)label_consistency(small, scene.truth->field, Progress()),
+                           InvalidInput);
+  QVERIFY_EXCEPTION_THROWN((void)label_consistency(scene.truth->labels, {}, Progress()),
+                           InvalidInput);
+}
+
+void ConsistencyTest::edges_lieWhereImageOrDisparityJump() {
+  const Scene scene = render("edge");
+  const ViewIndex view{2, 2};
+  const auto truth = scene.truth->labels.view(view);
+
+  const auto both = edge_probabilities(*scene.light_field, scene.truth->field, {}, Progress());
+  const auto one = edge_probability(*scene.light_field, view, {}, {});
+
+  const auto edges = both.view(view);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 63; ++x) {
+      QVERIFY(edges.at(y, x) >= 0 && edges.at(y, x) <= 1);
+      QVERIFY(edges.at(y, x) >= one.at(y, x) - 1e-6F);
+      if (truth.at(y, x) != truth.at(y, x + 1)) QVERIFY(edges.at(y, x) > 0.9F);
+    }
+  }
+}
+
+void ConsistencyTest::weights_takeTheMoreProbableDirection() {
+  Image<float> two(1, 2, 2);
+  two.at(0, 0, 0) = 0.25F;
+  two.at(0, 0, 1) = 0.75F;
+  two.at(0, 1, 0) = 1;
+
+  const Image<float> weights = boundary_weights(two);
+
+  QCOMPARE(weights.at(0, 0), 0.25F);
+  QCOMPARE(weights.at(0, 1), kLeastBoundaryWeight);
+}
+
+void ConsistencyTest::edges_refuseOtherSizes() {
+  const Scene scene = render("fronto");
+  const DisparityField small{ViewStack<float>({5, 5}, 8, 8), {}};
+
+  QVERIFY_EXCEPTION_THROWN((void)edge_probabilities(*scene.light_field, small, {}, Progress()),
+                           InvalidInput);
+}
+
+QTEST_APPLESS_MAIN(ConsistencyTest)
+#include "consistency_test.moc"
