@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/exchange.h"
 
+#include "annotation/pending_edit.h"
 #include "engine/core/error.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 
@@ -34,6 +36,20 @@ void put_view(const ViewScribbles& painted, ScribbleLayer& layer, std::set<int>&
   }
 }
 
+/// Pixels of each label.
+std::map<std::uint8_t, PixelRegion> regions_of(ImageView<const std::uint8_t> image) {
+  std::map<std::uint8_t, PixelRegion> regions;
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.row(y);
+    for (int x = 0; x < image.width;) {
+      const int begin = x;
+      while (x < image.width && row[x] == row[begin]) ++x;
+      if (row[begin] != 0) regions[row[begin]].push_back({y, begin, x});
+    }
+  }
+  return regions;
+}
+
 }  // namespace
 
 Scribbles scribbles_of(const AnnotationDocument& document) {
@@ -59,6 +75,24 @@ AnnotationDocument document_from(const Scribbles& scribbles, GridShape grid, int
     labels.insert({id, "label " + std::to_string(id), label_color(id)});
   }
   return {std::move(labels), std::move(layer), history_bytes};
+}
+
+bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles) {
+  const ScribbleLayer& layer = document.scribbles();
+  const AnnotationDocument other =
+      document_from(scribbles, layer.grid(), layer.height(), layer.width(), 0);
+  LabelSet labels = document.labels();
+  for (const LabelInfo& label : other.labels().labels()) {
+    if (!labels.contains(label.id)) labels.insert(label);
+  }
+  PendingEdit edit(document, EditKind::Import);
+  edit.set_labels(std::move(labels));
+  for (const ViewIndex view : other.scribbles().painted_views()) {
+    for (const auto& [label, region] : regions_of(other.scribbles().view(view))) {
+      edit.paint(view, region, {label, 0});
+    }
+  }
+  return edit.commit();
 }
 
 }  // namespace episcope

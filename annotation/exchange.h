@@ -16,4 +16,9 @@ namespace episcope {
     const Scribbles& scribbles, GridShape grid, int height, int width,
     std::size_t history_bytes = AnnotationDocument::kHistoryBytes);
 
+/// Adds scribbles of a file to a document, as one edit: labels that it does not have under the same
+/// ids, pixels where nothing is painted. Returns whether that changed anything. Throws InvalidInput
+/// as `document_from`, changing nothing.
+bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles);
+
 }  // namespace episcope

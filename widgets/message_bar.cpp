@@ -29,7 +29,7 @@ MessageBar::MessageBar(QWidget* parent)
     : QWidget(parent),
       icon_(new QLabel(this)),
       text_(new QLabel(this)),
-      button_(new QPushButton(this)),
+      buttons_{Button{new QPushButton(this), {}}, Button{new QPushButton(this), {}}},
       close_(make_tool_button({"message.close", "close", tr("Close this message")}, this)) {
   setObjectName("messageBar");
   icon_->setObjectName("message.icon");
@@ -44,37 +44,45 @@ MessageBar::MessageBar(QWidget* parent)
           [this] { QGuiApplication::clipboard()->setText(sentence_); });
   text_->addAction(copy);
   text_->setContextMenuPolicy(Qt::ActionsContextMenu);
-  button_->setObjectName("message.action");
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(theme::kMargin + 4, 4, theme::kMargin, 4);
   layout->setSpacing(theme::kSpacing);
   layout->addWidget(icon_);
   layout->addWidget(text_, 1);
-  layout->addWidget(button_);
+  const char* names[] = {"message.action", "message.other"};
+  for (std::size_t i = 0; i < buttons_.size(); ++i) {
+    buttons_[i].button->setObjectName(names[i]);
+    layout->addWidget(buttons_[i].button);
+    connect(buttons_[i].button, &QPushButton::clicked, this, [this, i] {
+      const auto run = std::exchange(buttons_[i].action, {}).run;
+      dismiss();
+      if (run) run();
+    });
+  }
   layout->addWidget(close_);
   timer_.setSingleShot(true);
   timer_.setInterval(kStay);
   connect(close_, &QToolButton::clicked, this, &MessageBar::dismiss);
   connect(&timer_, &QTimer::timeout, this, &MessageBar::dismiss);
-  connect(button_, &QPushButton::clicked, this, [this] {
-    const auto run = std::exchange(action_, {}).run;
-    dismiss();
-    if (run) run();
-  });
   hide();
 }
 
 void MessageBar::showMessage(Severity severity, const QString& text) {
-  showMessage(severity, text, {});
+  showMessage(severity, text, Action());
 }
 
-void MessageBar::showMessage(Severity severity, const QString& text, Action action) {
+void MessageBar::setAction(Button& button, Action action) {
+  button.button->setText(action.text);
+  button.button->setVisible(!action.text.isEmpty());
+  button.action = std::move(action);
+}
+
+void MessageBar::showMessage(Severity severity, const QString& text, Action action, Action other) {
   severity_ = severity;
-  action_ = std::move(action);
   sentence_ = text;
   text_->setText(breakable(text));
-  button_->setText(action_.text);
-  button_->setVisible(!action_.text.isEmpty());
+  setAction(buttons_[0], std::move(action));
+  setAction(buttons_[1], std::move(other));
   updateIcon();
   const bool goes_away = severity == Severity::Info || severity == Severity::Success;
   if (goes_away) {

@@ -5,6 +5,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include <array>
 #include <functional>
 
 class QLabel;
@@ -15,8 +16,8 @@ namespace episcope {
 
 enum class Severity { Info, Success, Warning, Error };
 
-/// One message that blocks nothing: severity, text, a close button and at most one action. Info and
-/// success go away by themselves; warnings and errors stay until closed. Hidden when empty.
+/// One message that blocks nothing: severity, text, a close button and at most two actions. Info
+/// and success go away by themselves; warnings and errors stay until closed. Hidden when empty.
 class MessageBar : public QWidget {
   Q_OBJECT
 
@@ -29,7 +30,8 @@ class MessageBar : public QWidget {
   explicit MessageBar(QWidget* parent = nullptr);
 
   void showMessage(Severity severity, const QString& text);
-  void showMessage(Severity severity, const QString& text, Action action);
+  /// With `other`, there is a second button.
+  void showMessage(Severity severity, const QString& text, Action action, Action other = {});
 
   [[nodiscard]] const QString& text() const { return sentence_; }
   [[nodiscard]] Severity severity() const { return severity_; }
@@ -45,15 +47,19 @@ class MessageBar : public QWidget {
   void changeEvent(QEvent* event) override;
 
  private:
+  struct Button {
+    QPushButton* button;
+    Action action;
+  };
+  void setAction(Button& button, Action action);
   [[nodiscard]] QColor accent() const;
   void updateIcon();
 
   Severity severity_ = Severity::Info;
   QString sentence_;
-  Action action_;
   QLabel* icon_;
   QLabel* text_;
-  QPushButton* button_;
+  std::array<Button, 2> buttons_;
   QToolButton* close_;
   QTimer timer_;
 };

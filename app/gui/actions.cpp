@@ -58,12 +58,13 @@ void add_file_actions(ActionTable& table, MainWindow& window) {
              .icon = "",
              .keys = {tr("Ctrl+Shift+R")},
              .run = [&opener] { opener.conventionsDialog(); }});
+  add_scribble_file_actions(table, window);
   table.add({.id = "file.export",
              .menu = menu,
              .text = tr("Export result…"),
              .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
              .icon = "export",
-             .keys = {QKeySequence::Save},
+             .keys = {tr("Ctrl+E")},
              .run = [&window] { window.exporter().exportShownDialog(); },
              .begins_group = true});
   table.add({.id = "file.save_picture",
@@ -71,7 +72,7 @@ void add_file_actions(ActionTable& table, MainWindow& window) {
              .text = tr("Save picture…"),
              .tip = tr("Writes the view with its overlay as PNG"),
              .icon = "save",
-             .keys = {tr("Ctrl+Shift+S")},
+             .keys = {tr("Ctrl+Shift+E")},
              .run = [&window] { window.exporter().savePictureDialog(); }});
   table.add({.id = "file.close",
              .menu = menu,

@@ -3,6 +3,7 @@
 
 #include "app/gui/action_table.h"
 #include "app/gui/annotate_controller.h"
+#include "app/gui/annotation_files.h"
 #include "app/gui/document_controller.h"
 #include "app/gui/main_window.h"
 #include "app/gui/scribble_controller.h"
@@ -224,6 +225,40 @@ void add_annotate_actions(ActionTable& table, MainWindow& window) {
   add_carrying(table, window);
 }
 
+void add_scribble_file_actions(ActionTable& table, MainWindow& window) {
+  AnnotationFiles& files = window.annotationFiles();
+  const QString menu = tr("File");
+  table.add({.id = "file.save_scribbles",
+             .menu = menu,
+             .text = tr("Save scribbles"),
+             .tip = tr("Saves labels and scribbles, beside the light field if that can be written"),
+             .icon = "save",
+             .keys = {QKeySequence::Save},
+             .run = [&files] { files.save(); },
+             .begins_group = true});
+  table.add({.id = "file.save_scribbles_as",
+             .menu = menu,
+             .text = tr("Save scribbles as…"),
+             .tip = tr("Saves labels and scribbles in another file"),
+             .icon = "",
+             .keys = {tr("Ctrl+Shift+S")},
+             .run = [&files] { files.saveAsDialog(); }});
+  table.add({.id = "file.import_scribbles",
+             .menu = menu,
+             .text = tr("Import scribbles…"),
+             .tip = tr("Adds scribbles of another file where nothing is painted"),
+             .icon = "import",
+             .keys = {},
+             .run = [&files] { files.importDialog(); }});
+  table.add({.id = "file.export_scribbles",
+             .menu = menu,
+             .text = tr("Export scribbles as pictures…"),
+             .tip = tr("Writes a PNG picture of each painted view"),
+             .icon = "picture",
+             .keys = {},
+             .run = [&files] { files.exportDialog(); }});
+}
+
 void follow_document(ActionTable& table, MainWindow& window) {
   BrushPanel* panel = window.panels().brush;
   auto* tools = new QActionGroup(&table);
@@ -234,6 +269,9 @@ void follow_document(ActionTable& table, MainWindow& window) {
   panel->addGap();
   for (const char* id : {"annotate.undo", "annotate.redo"}) {
     panel->addAction(table.find(id), QString("button.%1").arg(id));
+  }
+  for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
+    window.panels().annotation->addAction(table.find(id), QString("button.%1").arg(id));
   }
   const auto show = [&table, &window] { show_state(table, window); };
   const auto* document = &window.document();

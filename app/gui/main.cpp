@@ -52,5 +52,6 @@ int main(int argc, char** argv) {
   episcope::MainWindow window;
   window.show();
   window.open(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());
+  window.offerRecovery();
   return QApplication::exec();
 }

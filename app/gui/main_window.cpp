@@ -5,6 +5,7 @@
 #include "app/gui/actions.h"
 #include "app/gui/annotate_actions.h"
 #include "app/gui/annotate_controller.h"
+#include "app/gui/annotation_files.h"
 #include "app/gui/browse_controller.h"
 #include "app/gui/cloud_controller.h"
 #include "app/gui/command_palette.h"
@@ -19,6 +20,7 @@
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
 #include "app/gui/queued_post.h"
+#include "app/gui/recovery_controller.h"
 #include "app/gui/scene_info.h"
 #include "app/gui/scribble_controller.h"
 #include "app/gui/shortcut_window.h"
@@ -77,6 +79,10 @@ MainWindow::MainWindow(QWidget* parent)
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
   opener_ = new OpenController(*session_, *jobs_, *browse_, panels_, this);
   focus_ = new FocusController(*session_, *jobs_, *opener_, *document_, this);
+  annotation_files_ = new AnnotationFiles(*session_, *jobs_, *document_, panels_, this);
+  recovery_ = new RecoveryController(
+      *session_, *document_, *panels_.recovery, [this](const QString& source) { open(source); },
+      [this](std::function<void()> go_on) { annotation_files_->leave(std::move(go_on)); }, this);
   exporter_ = new ExportController(*session_, *jobs_, *overlay_, panels_, this);
   cloud_ = new CloudController(*session_, *overlay_, panels_, this);
   actions_ = new ActionTable(this, panels_.viewer);
@@ -92,6 +98,7 @@ MainWindow::MainWindow(QWidget* parent)
   connectJobs();
   connectControllers();
   connectAnnotation();
+  connectFiles();
   installEventFilter(opener_);
   panels_.canvas->installEventFilter(this);
   panels_.canvas->showEmpty(tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
@@ -108,8 +115,9 @@ MainWindow::MainWindow(QWidget* parent)
 // Controllers and their workers end before the session that they speak of.
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
-           cloud_, exporter_, focus_, opener_, metrics_, estimate_, scribbles_, annotate_,
-           document_, values_, statistics_, compare_, overlay_, browse_, jobs_}) {
+           cloud_, exporter_, recovery_, annotation_files_, focus_, opener_, metrics_, estimate_,
+           scribbles_, annotate_, document_, values_, statistics_, compare_, overlay_, browse_,
+           jobs_}) {
     delete each;
   }
 }
@@ -141,8 +149,8 @@ void MainWindow::buildBars() {
     bar->addAction(actions_->find(id));
   }
   bar->addSeparator();
-  for (const char* id : {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference",
-                         "compare.swap"}) {
+  for (const char* id :
+       {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference", "compare.swap"}) {
     panels_.compare->addAction(actions_->find(id), QString("button.%1").arg(id));
   }
   bar->addAction(actions_->find("compare.tiles"));
@@ -195,7 +203,7 @@ void MainWindow::connectControllers() {
   connect(opener_, &OpenController::reopenableChanged, this, &MainWindow::updateActions);
   panels_.info->setConventionsAction(actions_->find("file.conventions"));
   connect(opener_, &OpenController::titleChanged, this, [this](const QString& title) {
-    setWindowTitle(title.isEmpty() ? QString("Episcope") : tr("%1 — Episcope").arg(title));
+    setWindowTitle(title.isEmpty() ? QString("Episcope") : tr("%1[*] — Episcope").arg(title));
   });
 }
 
@@ -214,6 +222,30 @@ void MainWindow::connectAnnotation() {
   });
   connect(opener_, &OpenController::previewing, annotate_, &AnnotateController::setSuspended);
   connect(opener_, &OpenController::previewing, scribbles_, &ScribbleController::setSuspended);
+}
+
+void MainWindow::connectFiles() {
+  opener_->setGuard(
+      [this](std::function<void()> go_on) { annotation_files_->leave(std::move(go_on)); });
+  connect(document_, &DocumentController::unsavedChanged, this, &MainWindow::setWindowModified);
+  connect(annotation_files_, &AnnotationFiles::hint, this, [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Info, sentence);
+  });
+  connect(annotation_files_, &AnnotationFiles::written, this, [this](const QString& path) {
+    panels_.messages->showMessage(Severity::Success, tr("Written: %1").arg(path));
+  });
+  connect(annotation_files_, &AnnotationFiles::imported, this, [this](const QString& path) {
+    panels_.messages->showMessage(Severity::Success, tr("Imported: %1").arg(path));
+  });
+  connect(recovery_, &RecoveryController::recovered, this, [this](const QString& name) {
+    annotate_->setAnnotating(true);
+    panels_.messages->showMessage(Severity::Success,
+                                  tr("Recovered what was painted on “%1”.").arg(name));
+  });
+}
+
+void MainWindow::offerRecovery() {
+  recovery_->look();
 }
 
 void MainWindow::fillRecentMenu() {
@@ -253,8 +285,9 @@ void MainWindow::updateActions() {
   actions_->find("view.focus_apply")->setEnabled(focus_->canApply());
   actions_->find("view.focus_undo")->setEnabled(focus_->canUndo());
   actions_->find("file.conventions")->setEnabled(!opener_->reopenable().isEmpty());
-  for (const char* id : {"file.save_picture", "file.close", "file.open_result", "estimate.run",
-                         "estimate.copy_command"}) {
+  for (const char* id : {"file.save_scribbles", "file.save_scribbles_as", "file.export_scribbles",
+                         "file.import_scribbles", "file.save_picture", "file.close",
+                         "file.open_result", "estimate.run", "estimate.copy_command"}) {
     actions_->find(id)->setEnabled(has_scene);
   }
 }
@@ -331,6 +364,11 @@ void MainWindow::restoreLayout() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (document_->hasUnsavedChanges()) {
+    event->ignore();
+    annotation_files_->leave([this] { close(); });
+    return;
+  }
   QSettings().setValue("geometry", saveGeometry());
   event->accept();
 }

@@ -13,6 +13,7 @@ namespace episcope {
 
 class ActionTable;
 class AnnotateController;
+class AnnotationFiles;
 class BrowseController;
 class CloudController;
 class CommandPalette;
@@ -25,6 +26,7 @@ class Jobs;
 class MetricController;
 class OpenController;
 class OverlayController;
+class RecoveryController;
 class ScribbleController;
 class Session;
 class ShortcutWindow;
@@ -43,6 +45,9 @@ class MainWindow : public QMainWindow {
   /// something to see.
   void open(const QString& input);
 
+  /// Offers what a session that died left behind.
+  void offerRecovery();
+
   [[nodiscard]] Session& session() { return *session_; }
   [[nodiscard]] Jobs& jobs() { return *jobs_; }
   [[nodiscard]] const Panels& panels() const { return panels_; }
@@ -54,6 +59,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] DocumentController& document() { return *document_; }
   [[nodiscard]] AnnotateController& annotate() { return *annotate_; }
   [[nodiscard]] ScribbleController& scribbles() { return *scribbles_; }
+  [[nodiscard]] AnnotationFiles& annotationFiles() { return *annotation_files_; }
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
@@ -73,6 +79,7 @@ class MainWindow : public QMainWindow {
   void connectJobs();
   void connectControllers();
   void connectAnnotation();
+  void connectFiles();
   void buildBars();
   void fillRecentMenu();
   void updateActions();
@@ -91,6 +98,8 @@ class MainWindow : public QMainWindow {
   DocumentController* document_;
   AnnotateController* annotate_;
   ScribbleController* scribbles_;
+  AnnotationFiles* annotation_files_;
+  RecoveryController* recovery_;
   EstimateController* estimate_;
   MetricController* metrics_;
   OpenController* opener_;

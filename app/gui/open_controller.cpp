@@ -149,6 +149,13 @@ LoadOptions OpenController::loadOptions(quint64 load, const io::OpenOptions& con
 
 void OpenController::load(const QString& input, const io::OpenOptions& conventions,
                           bool is_remembered, std::function<void()> opened) {
+  guard_([this, input, conventions, is_remembered, opened = std::move(opened)] {
+    startLoading(input, conventions, is_remembered, opened);
+  });
+}
+
+void OpenController::startLoading(const QString& input, const io::OpenOptions& conventions,
+                                  bool is_remembered, std::function<void()> opened) {
   jobs_.cancelLane(Lane::Load);
   const quint64 load = ++load_;
   beginLoading(short_name(input));
@@ -160,9 +167,12 @@ void OpenController::load(const QString& input, const io::OpenOptions& conventio
                              : read_as_told(path, options, progress);
       },
       [this, input, load, opened = std::move(opened)](const ReadScene& read) {
-        if (load != load_) return;
-        finishOpening(input, read);
-        if (opened) opened();
+        // Painting may have gone on while this was read.
+        guard_([this, input, load, opened, read] {
+          if (load != load_) return;
+          finishOpening(input, read);
+          if (opened) opened();
+        });
       },
       [this, load, input] { endLoading(load, input); });
 }
@@ -286,13 +296,15 @@ void OpenController::openResultDialog() {
 }
 
 void OpenController::closeScene() {
-  jobs_.cancelLane(Lane::Load);
-  jobs_.cancelLane(Lane::Estimate);
-  ++load_;
-  loading_job_ = 0;
-  failed_input_.clear();
-  session_.close();
-  emit titleChanged({});
+  guard_([this] {
+    jobs_.cancelLane(Lane::Load);
+    jobs_.cancelLane(Lane::Estimate);
+    ++load_;
+    loading_job_ = 0;
+    failed_input_.clear();
+    session_.close();
+    emit titleChanged({});
+  });
 }
 
 QStringList OpenController::recentInputs() const {

@@ -49,6 +49,11 @@ class OpenController : public QObject {
   void openResultDialog();
   void closeScene();
 
+  /// Asked before the open light field is left: it calls back once nothing is lost by that, or
+  /// never.
+  using Guard = std::function<void(std::function<void()> go_on)>;
+  void setGuard(Guard guard) { guard_ = std::move(guard); }
+
   /// Opened before, newest first.
   [[nodiscard]] QStringList recentInputs() const;
   void forgetRecentInputs();
@@ -68,6 +73,8 @@ class OpenController : public QObject {
  private:
   void load(const QString& input, const io::OpenOptions& conventions, bool is_remembered,
             std::function<void()> opened);
+  void startLoading(const QString& input, const io::OpenOptions& conventions, bool is_remembered,
+                    std::function<void()> opened);
   [[nodiscard]] LoadOptions loadOptions(quint64 load, const io::OpenOptions& conventions);
   void beginLoading(const QString& name);
   void showLoading(quint64 job, double fraction);
@@ -80,6 +87,7 @@ class OpenController : public QObject {
   Jobs& jobs_;
   BrowseController& browse_;
   Panels panels_;
+  Guard guard_ = [](const std::function<void()>& go_on) { go_on(); };
   std::filesystem::path cache_folder_;
   quint64 load_ = 0;  // number of the newest load
   quint64 loading_job_ = 0;

@@ -179,12 +179,15 @@ Panels make_panels(QWidget* window) {
   split->setSizes({kLeftWidth + kCenterWidth, kRightWidth});
   split->setChildrenCollapsible(false);
 
+  panels.recovery = new MessageBar(window);
+  panels.recovery->setObjectName("recoveryBar");
   panels.messages = new MessageBar(window);
   panels.values = new ValueBar(window);
   auto* layout = new QVBoxLayout(window);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
   layout->addWidget(split, 1);
+  layout->addWidget(panels.recovery);
   layout->addWidget(panels.messages);
   layout->addWidget(panels.values);
   return panels;

@@ -50,6 +50,7 @@ struct Panels {
   AnnotationBar* annotation = nullptr;
   QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
   JobPanel* jobs = nullptr;
+  MessageBar* recovery = nullptr;  ///< What a crash left; other messages do not push it aside.
   MessageBar* messages = nullptr;
   ValueBar* values = nullptr;
 };

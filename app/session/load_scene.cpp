@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/load_scene.h"
 
+#include "app/session/label_place.h"
 #include "app/session/scene_cache.h"
 #include "engine/core/shear.h"
 #include "engine/scenes/builtin.h"
@@ -98,7 +99,11 @@ std::string builtin_scene_id(const std::string& input) {
 
 Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
-  if (id.empty()) return io::open_scene(input, options.open, progress);
+  if (id.empty()) {
+    Scene scene = io::open_scene(input, options.open, progress);
+    read_kept_scribbles(scene, progress);
+    return scene;
+  }
   const double focus_px = options.open.focus_px;
   Scene scene = load_builtin(id, options, progress.part(0, focus_px == 0 ? 1 : 0.8));
   if (focus_px == 0) return scene;

@@ -153,18 +153,23 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
-ArchiveLabels read_labels_beside(const Hdf5Input& file, const FieldShape& shape,
-                                 ConventionReport& report, const Progress& progress) {
-  if (file.has("GT_LABELS") || file.has("SCRIBBLES")) {
-    return read_archive_labels(file, shape, report, progress);
-  }
+ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
+                          const Progress& progress) {
+  const bool has_own = file.has("GT_LABELS") || file.has("SCRIBBLES");
+  ArchiveLabels own =
+      has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
   const std::filesystem::path beside = file.path().parent_path() / "labels.h5";
-  if (!std::filesystem::exists(beside)) return {};
+  if (!std::filesystem::exists(beside)) return own;
   const Hdf5Input labels(beside);
   // Where several light fields share a folder, labels that we wrote name theirs.
   const auto owner = labels.text("/", "light_field");
-  if (owner && *owner != file.path().filename().string()) return {};
-  return read_archive_labels(labels, shape, report, progress);
+  if (owner && *owner != file.path().filename().string()) return own;
+  if (!has_own) return read_archive_labels(labels, shape, report, progress);
+  // What was painted is saved beside the file and never into it.
+  if (owner && labels.has("SCRIBBLES")) {
+    own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
+  }
+  return own;
 }
 
 }  // namespace
@@ -187,7 +192,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ArchiveTruth depth =
       read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
-  ArchiveLabels labels = read_labels_beside(file, layout.shape, report, progress.part(0.85, 0.95));
+  ArchiveLabels labels = read_labels(file, layout.shape, report, progress.part(0.85, 0.95));
   GroundTruth truth{std::move(depth.field),
                     std::move(depth.foreground),
                     std::move(depth.background),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/exchange.h"
+#include "annotation/stroke.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 
@@ -35,6 +36,30 @@ class ExchangeTest : public QObject {
     QVERIFY(document.labels().labels() ==
             (std::vector<LabelInfo>{{2, "known", {9, 9, 9}}, {7, "label 7", label_color(7)}}));
     QCOMPARE(document.scribbles().label_at({0, 1}, {2, 3}), 7);
+  }
+
+  void import_addsWhatIsMissing() {
+    AnnotationDocument document({1, 2}, 4, 5);
+    document.add_label("mine", Rgb{1, 2, 3});
+    Stroke stroke(document, {0, 1}, {PaintTool::Brush, 1, 1, false});
+    stroke.extend({0.5, 0.5});
+    stroke.commit();
+    Scribbles scribbles;
+    scribbles.views.push_back({{0, 1}, Image<std::int32_t>(4, 5, 1, 2)});
+    scribbles.labels = {{1, "theirs", {9, 9, 9}}, {2, "new", {8, 8, 8}}};
+    const std::size_t edits = document.history().count();
+
+    QVERIFY(import_scribbles(document, scribbles));
+
+    QCOMPARE(document.scribbles().label_at({0, 1}, {0, 0}), 1);
+    QCOMPARE(document.scribbles().label_at({0, 1}, {3, 4}), 2);
+    QVERIFY(document.labels().labels() ==
+            (std::vector<LabelInfo>{{1, "mine", {1, 2, 3}}, {2, "new", {8, 8, 8}}}));
+    QCOMPARE(document.history().count(), edits + 1);
+    QVERIFY(!import_scribbles(document, scribbles));
+    document.undo();
+    QCOMPARE(document.scribbles().label_at({0, 1}, {3, 4}), 0);
+    QVERIFY(!document.labels().contains(2));
   }
 
   void misfits_areRefused() {

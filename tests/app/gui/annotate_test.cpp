@@ -3,13 +3,31 @@
 #include "app/gui/annotate_controller.h"
 
 #include "app/gui/action_table.h"
+#include "app/gui/annotation_files.h"
+#include "app/gui/document_controller.h"
+#include "app/gui/jobs.h"
+#include "app/gui/open_controller.h"
 #include "app/gui/scribble_controller.h"
+#include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
+#include "tests/widgets/pictures.h"
+#include "widgets/annotation_bar.h"
+#include "widgets/label_palette.h"
+#include "widgets/message_bar.h"
 #include "widgets/view_canvas.h"
+#include "widgets/view_grid.h"
 
 #include <QAction>
-#include <QTabWidget>
+#include <QDir>
+#include <QDoubleSpinBox>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QSpinBox>
 #include <QTest>
+#include <QTreeWidget>
+
+#include <filesystem>
 
 using namespace episcope;
 
@@ -68,6 +86,26 @@ class AnnotateTest : public QObject {
 
  private slots:
   void drag_paintsAStrokeThatUndoTakesBack();
+  void rightDrag_erases();
+  void shift_protectsOtherLabels();
+  void escape_takesTheStrokeBack();
+  void wheelAndMiddleDrag_stillZoomAndPan();
+  void keys_chooseToolsSizesAndLabels();
+  void fill_staysWithinEdges();
+  void pick_takesTheLabelUnderTheMouse();
+  void otherView_endsTheStroke();
+  void undo_jumpsToTheViewItChanges();
+  void brushWithoutLabels_addsOne();
+  void removedLabel_isAskedForOnlyIfPainted();
+  void carriedLabels_neverCoverPaintedOnes();
+  void otherTab_goesBackToBrowsing();
+  void preview_cannotBePainted();
+  void story_paintsSavesReopensAndFindsTheSame();
+  void failedSave_keepsTheDocument();
+  void exportedPictures_comeBackByImport();
+  void close_asksAboutUnsavedChanges_data();
+  void close_asksAboutUnsavedChanges();
+  void openAnother_asksAboutUnsavedChanges();
 };
 
 void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
@@ -82,6 +120,7 @@ void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
   QCOMPARE(f.labelAt({50, 41}), 0);
   const Rgb color = f.document().labels().find(1)->color;
   QCOMPARE(f.shownAt({40, 41}), QColor(color[0], color[1], color[2]));
+  QVERIFY(f.window.isWindowModified());
 
   f.key(Qt::Key_Z, Qt::ControlModifier);
 
@@ -89,6 +128,388 @@ void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
   QCOMPARE(f.shownAt({40, 41}).alpha(), 0);
   f.key(Qt::Key_Y, Qt::ControlModifier);
   QCOMPARE(f.labelAt({40, 41}), 1);
+}
+
+void AnnotateTest::rightDrag_erases() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+
+  f.drag({40, 40}, {40, 44}, Qt::RightButton);
+
+  QCOMPARE(f.labelAt({40, 42}), 0);
+  QCOMPARE(f.labelAt({40, 20}), 1);
+  QCOMPARE(f.document().history().next_undo()->kind, EditKind::Erase);
+}
+
+void AnnotateTest::shift_protectsOtherLabels() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+  QCOMPARE(f.window.annotate().label(), 2);
+
+  f.drag({20, 40}, {60, 40}, Qt::LeftButton, Qt::ShiftModifier);
+
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({20, 40}), 2);
+  f.drag({20, 40}, {60, 40});
+  QCOMPARE(f.labelAt({40, 40}), 2);
+}
+
+void AnnotateTest::escape_takesTheStrokeBack() {
+  Annotating f;
+  f.trigger("annotate.add_label");
+  f.press({40, 20});
+  f.move({40, 60});
+  QCOMPARE(f.labelAt({40, 40}), 1);
+
+  f.key(Qt::Key_Escape);
+
+  QCOMPARE(f.labelAt({40, 40}), 0);
+  QCOMPARE(f.shownAt({40, 40}).alpha(), 0);
+  f.move({60, 60});  // the button is still held
+  f.release({60, 60});
+  QVERIFY(f.document().scribbles().painted_views().empty());
+  f.drag({40, 20}, {40, 60});
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::wheelAndMiddleDrag_stillZoomAndPan() {
+  Annotating f;
+  f.trigger("annotate.add_label");
+  const double scale = f.canvas()->canvasTransform().scale;
+
+  test::turn_wheel(*f.canvas(), f.at({40, 40}), 2);
+  const QPointF center = f.canvas()->canvasTransform().center;
+  f.drag({40, 40}, {50, 50}, Qt::MiddleButton);
+
+  QVERIFY(f.canvas()->canvasTransform().scale > scale);
+  QVERIFY(f.canvas()->canvasTransform().center != center);
+  QVERIFY(f.document().scribbles().painted_views().empty());
+  const double size = f.canvas()->tool()->brushSize();
+  test::turn_wheel(*f.canvas(), f.at({40, 40}), 3, Qt::ControlModifier | Qt::ShiftModifier);
+  QVERIFY(f.canvas()->tool()->brushSize() > size);
+  QCOMPARE(f.window.findChild<QSpinBox*>("brush.spin")->value(),
+           qRound(f.canvas()->tool()->brushSize()));
+}
+
+void AnnotateTest::keys_chooseToolsSizesAndLabels() {
+  Annotating f;
+  AnnotateController& annotate = f.window.annotate();
+  for (int i = 0; i < 3; ++i) f.trigger("annotate.add_label");
+
+  f.key(Qt::Key_2);
+  QCOMPARE(annotate.label(), 2);
+  f.key(Qt::Key_N);
+  QCOMPARE(annotate.label(), 3);
+  f.key(Qt::Key_N);
+  QCOMPARE(annotate.label(), 1);
+  f.key(Qt::Key_X);
+  QCOMPARE(annotate.label(), 3);
+  f.key(Qt::Key_X);
+  QCOMPARE(annotate.label(), 1);
+  f.key(Qt::Key_E);
+  QVERIFY(annotate.tool() == AnnotationTool::Eraser);
+  const double eraser = f.canvas()->tool()->eraserSize();
+  const double brush = f.canvas()->tool()->brushSize();
+  f.key(Qt::Key_BracketRight);
+  QVERIFY(f.canvas()->tool()->eraserSize() > eraser);
+  QCOMPARE(f.canvas()->tool()->brushSize(), brush);
+  f.key(Qt::Key_F);
+  QVERIFY(annotate.tool() == AnnotationTool::Fill);
+  f.key(Qt::Key_I);
+  QVERIFY(annotate.tool() == AnnotationTool::Pick);
+  f.key(Qt::Key_B);
+  QVERIFY(annotate.tool() == AnnotationTool::Brush);
+  for (int i = 0; i < 40; ++i) f.key(Qt::Key_Comma);
+  QCOMPARE(f.canvas()->tool()->brushSize(), 1.0);
+  for (int i = 0; i < 60; ++i) f.key(Qt::Key_Period);
+  QCOMPARE(f.canvas()->tool()->brushSize(), 100.0);
+  QVERIFY(f.window.actions().find("annotate.brush")->isChecked());
+}
+
+void AnnotateTest::fill_staysWithinEdges() {
+  Annotating f("objects");
+  f.trigger("annotate.add_label");
+  const int label = f.window.annotate().label();
+  f.window.findChild<QDoubleSpinBox*>("fill.gradient")->setValue(60);
+  f.key(Qt::Key_F);
+
+  f.press({90, 48});
+  f.release({90, 48});
+
+  QVERIFY(f.document().history().next_undo()->kind == EditKind::Fill);
+  QCOMPARE(f.labelAt({90, 48}), label);
+}
+
+void AnnotateTest::pick_takesTheLabelUnderTheMouse() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+  f.key(Qt::Key_I);
+
+  f.press({40, 40});
+  f.release({40, 40});
+
+  QCOMPARE(f.window.annotate().label(), 1);
+  QVERIFY(f.window.annotate().tool() == AnnotationTool::Brush);
+}
+
+void AnnotateTest::otherView_endsTheStroke() {
+  Annotating f;
+  f.trigger("annotate.add_label");
+  f.press({40, 20});
+  f.move({40, 40});
+
+  f.window.session().set_view({4, 5});
+  QTRY_VERIFY(!f.window.document().isStroking());
+  f.move({40, 60});
+  f.release({40, 60});
+
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.labelAt({40, 60}), 0);
+  QVERIFY(f.document().scribbles().view({4, 5}).empty());
+  // So does a loss of the focus.
+  f.press({60, 20});
+  QVERIFY(f.window.document().isStroking());
+  f.window.panels().labels->findChild<QTreeWidget*>("labels.tree")->setFocus();
+  QVERIFY(!f.window.document().isStroking());
+}
+
+void AnnotateTest::undo_jumpsToTheViewItChanges() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.window.session().set_view({0, 1});
+  QTRY_COMPARE(f.canvas()->scribbles().pixelColor(40, 40).alpha(), 0);
+  f.drag({60, 20}, {60, 60});
+  f.window.session().set_view({8, 8});
+
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY((f.window.session().view() == ViewIndex{0, 1}));
+  QCOMPARE(f.labelAt({60, 40}, {0, 1}), 0);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  QVERIFY(f.window.session().view() == kCenter);
+  QCOMPARE(f.labelAt({40, 40}), 0);
+  f.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QTRY_VERIFY(f.shownAt({40, 40}).alpha() == 255);
+}
+
+void AnnotateTest::brushWithoutLabels_addsOne() {
+  Annotating f;
+  QVERIFY(f.document().labels().labels().empty());
+
+  f.drag({40, 20}, {40, 60});
+
+  QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
+  QCOMPARE(f.window.annotate().label(), 1);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::removedLabel_isAskedForOnlyIfPainted() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  f.trigger("annotate.add_label");
+
+  f.trigger("annotate.remove_label");
+  QVERIFY(!f.document().labels().contains(2));
+  QVERIFY(!f.window.findChild<QMessageBox*>("remove_label"));
+  f.trigger("annotate.remove_label");
+  auto* box = f.window.findChild<QMessageBox*>("remove_label");
+  QVERIFY(box);
+  QVERIFY(f.document().labels().contains(1));
+  box->buttons().back()->click();
+  QTRY_VERIFY(!f.document().labels().contains(1) || !box);
+  QTRY_COMPARE(f.labelAt({40, 40}), 0);
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::carriedLabels_neverCoverPaintedOnes() {
+  Annotating f;
+  f.drag({40, 20}, {40, 70});
+  f.window.session().set_view({4, 6});
+  f.trigger("annotate.add_label");
+  f.drag({30, 45}, {50, 45});
+
+  f.trigger("annotate.carry");  // by the truth: there is no estimate
+
+  QTRY_VERIFY(f.window.scribbles().carried());
+  const auto& carried = *f.window.scribbles().carried();
+  QCOMPARE(carried.label_at({4, 6}, {40, 45}), 0);
+  QCOMPARE(f.labelAt({40, 45}, {4, 6}), 2);
+  QVERIFY(carried.painted_views().size() > 70);
+  QVERIFY(f.document().scribbles().painted_views().size() == 2);
+  // Carried pixels are drawn fainter than painted ones, in their colour.
+  int faint = 0;
+  for (int x = 0; x < 96; ++x) {
+    const int alpha = f.shownAt({40, x}).alpha();
+    faint += alpha > 0 && alpha < 255;
+  }
+  QVERIFY(faint > 20);
+  const std::size_t before = carried.painted_views().size();
+  f.trigger("annotate.undo");
+  f.trigger("annotate.undo");
+  f.trigger("annotate.undo");
+  QTRY_VERIFY(!f.window.scribbles().isCarrying());
+  QVERIFY(f.window.scribbles().carried()->painted_views().size() < before);
+  f.trigger("annotate.carry");
+  QVERIFY(!f.window.scribbles().carried());
+}
+
+void AnnotateTest::otherTab_goesBackToBrowsing() {
+  Annotating f;
+  QVERIFY(f.canvas()->tool());
+
+  f.trigger("tab.estimate");
+  QVERIFY(!f.canvas()->tool());
+  QVERIFY(!f.window.annotate().isAnnotating());
+  f.trigger("tab.annotate");
+  QVERIFY(f.canvas()->tool());
+  f.trigger("annotate.mode");
+  QVERIFY(!f.canvas()->tool());
+  QVERIFY(!f.window.actions().find("annotate.mode")->isChecked());
+  // Without a tool in hand a click moves the cross-hair again.
+  f.press({10, 12});
+  f.release({10, 12});
+  QVERIFY((f.window.session().cross_hair() == PixelIndex{10, 12}));
+}
+
+void AnnotateTest::preview_cannotBePainted() {
+  Annotating f;
+  f.trigger("annotate.add_label");
+
+  emit f.window.opener().previewing(true);
+  f.drag({40, 20}, {40, 60});
+  QVERIFY(f.document().scribbles().painted_views().empty());
+  emit f.window.opener().previewing(false);
+  f.drag({40, 20}, {40, 60});
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+// The way of a user, from the first label to the light field opened again.
+void AnnotateTest::story_paintsSavesReopensAndFindsTheSame() {
+  Annotating f("objects");
+  const std::size_t given = f.document().labels().labels().size();
+  QVERIFY(given > 2);
+  QVERIFY(!f.document().scribbles().painted_views().empty());
+  f.trigger("annotate.add_label");
+  const int label = f.window.annotate().label();
+  QCOMPARE(label, static_cast<int>(given) + 1);
+  emit f.window.panels().labels->renameRequested(label, "Größe ✓");
+
+  f.drag({10, 10}, {10, 50});
+  f.drag({10, 30}, {10, 32}, Qt::RightButton);
+  f.window.session().set_view({2, 3});
+  f.key(Qt::Key_B);
+  f.drag({20, 20}, {70, 70});
+  f.drag({80, 20}, {80, 70});
+  f.key(Qt::Key_Z, Qt::ControlModifier);
+  f.trigger("annotate.carry");
+  QTRY_VERIFY(f.window.scribbles().carried());
+  QVERIFY(f.window.isWindowModified());
+  const auto labels = f.document().labels().labels();
+  const ScribbleLayer painted = f.document().scribbles();
+  f.key(Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY(!f.window.isWindowModified());
+  QVERIFY(std::filesystem::exists(f.path("objects/labels.h5").toStdString()));
+
+  f.window.opener().closeScene();
+  QTRY_VERIFY(!f.window.session().scene());
+  f.window.open(f.path("objects/lf.h5"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.document().document(), 30'000);
+
+  QVERIFY(f.document().scribbles() == painted);
+  QVERIFY(f.document().labels().labels() == labels);
+  QCOMPARE(f.document().labels().find(label)->name, std::string("Größe ✓"));
+  QVERIFY(!f.window.session().scene()->truth->labels.empty());  // GT_LABELS are there still
+  QVERIFY(!f.window.isWindowModified());
+}
+
+void AnnotateTest::failedSave_keepsTheDocument() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  QSignalSpy failures(&f.window.jobs(), &Jobs::failed);
+
+  f.window.annotationFiles().saveAs(f.path("none/labels.h5"));
+
+  QTRY_COMPARE(failures.size(), 1);
+  QVERIFY(f.window.panels().messages->text().contains("labels.h5"));
+  QVERIFY(f.window.isWindowModified());
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::exportedPictures_comeBackByImport() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  QDir().mkpath(f.path("pictures"));
+  QSignalSpy written(&f.window.annotationFiles(), &AnnotationFiles::written);
+  f.window.annotationFiles().exportPictures(f.path("pictures"));
+  QTRY_COMPARE(written.size(), 1);
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({40, 40}), 0);
+
+  QSignalSpy imported(&f.window.annotationFiles(), &AnnotationFiles::imported);
+  f.window.annotationFiles().importFrom(f.path("pictures"));
+  QTRY_COMPARE(imported.size(), 1);
+
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.document().history().next_undo()->kind, EditKind::Import);
+}
+
+void AnnotateTest::close_asksAboutUnsavedChanges_data() {
+  QTest::addColumn<int>("answer");
+  QTest::addColumn<bool>("closes");
+  QTest::addColumn<bool>("saves");
+  QTest::newRow("cancel") << static_cast<int>(QMessageBox::Cancel) << false << false;
+  QTest::newRow("discard") << static_cast<int>(QMessageBox::Discard) << true << false;
+  QTest::newRow("save") << static_cast<int>(QMessageBox::Save) << true << true;
+}
+
+void AnnotateTest::close_asksAboutUnsavedChanges() {
+  QFETCH(int, answer);
+  QFETCH(bool, closes);
+  QFETCH(bool, saves);
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  const QString saved = f.path("edge/labels.h5");
+  QVERIFY(!std::filesystem::exists(saved.toStdString()));
+
+  f.window.close();
+  QVERIFY(f.window.isVisible());
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(static_cast<QMessageBox::StandardButton>(answer))->click();
+
+  QTRY_COMPARE(!f.window.isVisible(), closes);
+  QCOMPARE(std::filesystem::exists(saved.toStdString()), saves);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  if (!closes) f.window.document().discardChanges();
+}
+
+void AnnotateTest::openAnother_asksAboutUnsavedChanges() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
+
+  f.window.open(other);
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(QMessageBox::Cancel)->click();
+  QCOMPARE(f.window.jobs().count(), 0);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+
+  f.window.open(other);
+  box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(QMessageBox::Discard)->click();
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), 30'000);
+  QTRY_VERIFY(f.window.document().document());
+  QVERIFY(f.document().scribbles().painted_views().empty());
+  // The journal of what was discarded is gone.
+  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
 }
 
 QTEST_MAIN(AnnotateTest)
