@@ -47,7 +47,10 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   layout->addWidget(carry_state_);
   layout->addLayout(buttons_);
   connect(carried_, &QCheckBox::toggled, this, &AnnotationBar::carriedEdited);
-  connect(by_, &QComboBox::activated, this, &AnnotationBar::carriedByEdited);
+  connect(by_, &QComboBox::activated, this, [this] {
+    is_chosen_ = true;
+    emit carriedByEdited();
+  });
   setSources(false, false);
   setCarryState({});
 }
@@ -60,9 +63,8 @@ void AnnotationBar::setSources(bool has_estimate, bool has_truth) {
   auto* model = qobject_cast<QStandardItemModel*>(by_->model());
   const bool has[] = {has_estimate, has_truth};
   for (int i = 0; i < 2; ++i) model->item(i)->setEnabled(has[i]);
-  if (!has[by_->currentIndex()] && has[1 - by_->currentIndex()]) {
-    by_->setCurrentIndex(1 - by_->currentIndex());
-  }
+  const int wanted = is_chosen_ ? by_->currentIndex() : 0;
+  by_->setCurrentIndex(has[wanted] || !has[1 - wanted] ? wanted : 1 - wanted);
   by_->setEnabled(has_estimate || has_truth);
 }
 

@@ -47,6 +47,7 @@ class AnnotationBar : public QWidget {
   ElidedLabel* carry_state_;
   ElidedLabel* file_state_;
   QHBoxLayout* buttons_;
+  bool is_chosen_ = false;  // by the user; until then the estimate goes before the truth
 };
 
 }  // namespace episcope

@@ -247,7 +247,7 @@ void add_scribble_file_actions(ActionTable& table, MainWindow& window) {
              .menu = menu,
              .text = tr("Import scribbles…"),
              .tip = tr("Adds scribbles of another file where nothing is painted"),
-             .icon = "import",
+             .icon = "open",
              .keys = {},
              .run = [&files] { files.importDialog(); }});
   table.add({.id = "file.export_scribbles",

@@ -8,6 +8,7 @@
 
 #include <QColorDialog>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QTabWidget>
 
 #include <algorithm>
@@ -239,7 +240,7 @@ void AnnotateController::removeLabel(int id) {
                           .arg(QString::fromStdString(label->name)),
                       QMessageBox::Cancel, panels_.viewer->window());
   box->setObjectName("remove_label");
-  box->addButton(tr("Remove"), QMessageBox::AcceptRole);
+  box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
   box->setAttribute(Qt::WA_DeleteOnClose);
   connect(box, &QDialog::accepted, this, [this, id] { removeNow(id); });
   box->open();

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The window that ships, painted in with the mouse until it is killed. After each stroke it says
+// how many steps the document has and what it looks like.
+// Usage: paint_in_a_window_until_killed <folder of journals> <light field> <folder of settings>
+#include "app/gui/action_table.h"
+#include "app/gui/annotate_controller.h"
+#include "app/gui/document_controller.h"
+#include "app/gui/main_window.h"
+#include "app/session/session.h"
+#include "tests/app/gui/document_digest.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QSettings>
+#include <QTest>
+
+#include <cstdio>
+
+using namespace episcope;
+
+namespace {
+
+void paint(MainWindow& window, int number) {
+  ViewCanvas* canvas = window.panels().canvas;
+  const auto at = [&](int i) {
+    return canvas->positionOf({10 + (number * 13 + i * 5) % 70, 10 + (number * 29 + i * 7) % 70})
+        .toPoint();
+  };
+  if (number % 7 == 0) window.actions().find("annotate.add_label")->trigger();
+  if (number % 5 == 0) {
+    window.session().set_view({number % 9, number % 4});
+    QCoreApplication::processEvents();
+  }
+  const auto button = number % 4 == 3 ? Qt::RightButton : Qt::LeftButton;
+  QTest::mousePress(canvas, button, {}, at(0));
+  for (int i = 1; i < 6; ++i) QTest::mouseMove(canvas, at(i));
+  QTest::mouseRelease(canvas, button, {}, at(6));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  QApplication application(argc, argv);
+  if (argc != 4) return 2;
+  QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, argv[3]);
+  MainWindow window;
+  window.document().setJournalFolder(argv[1]);
+  window.show();
+  window.open(argv[2]);
+  if (!QTest::qWaitFor([&] { return window.document().document(); }, 30'000)) return 3;
+  window.annotate().setAnnotating(true);
+  for (int number = 0;; ++number) {
+    paint(window, number);
+    QCoreApplication::processEvents();
+    const AnnotationDocument& document = *window.document().document();
+    std::printf("%zu %s\n", document.history().applied_count(), digest_of(document).constData());
+    std::fflush(stdout);
+  }
+}

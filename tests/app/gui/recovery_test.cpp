@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a killed window had painted is offered by the next one.
+#include "app/gui/recovery_controller.h"
+
+#include "app/gui/action_table.h"
+#include "app/gui/annotate_controller.h"
+#include "app/gui/document_controller.h"
+#include "app/session/session.h"
+#include "tests/app/gui/document_digest.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/message_bar.h"
+#include "widgets/view_canvas.h"
+
+#include <QAction>
+#include <QMessageBox>
+#include <QProcess>
+#include <QPushButton>
+#include <QTest>
+
+#include <csignal>
+
+using namespace episcope;
+
+namespace {
+
+constexpr int kStrokes = 25;
+
+struct Painted {
+  std::size_t steps = 0;
+  QByteArray digest;
+};
+
+// Lets the real window paint and kills it in the midst; gives what it told last.
+Painted paint_and_kill(WindowFixture& f, const QString& light_field) {
+  QProcess program;
+  program.start(PAINTING_PROGRAM, {QString::fromStdString(f.window.document().journalFolder()),
+                                   light_field, f.path("settings of the dead")});
+  QByteArray told;
+  int lines = 0;
+  while (lines < kStrokes && (program.canReadLine() || program.waitForReadyRead(30'000))) {
+    if (!program.canReadLine()) continue;
+    told = program.readLine();
+    ++lines;
+  }
+  ::kill(static_cast<pid_t>(program.processId()), SIGKILL);
+  program.waitForFinished();
+  // What it went on to paint before it died.
+  const QByteArray rest = program.readAllStandardOutput();
+  const QList<QByteArray> whole = rest.left(rest.lastIndexOf('\n') + 1).trimmed().split('\n');
+  if (!whole.last().isEmpty()) told = whole.last();
+  const QList<QByteArray> words = told.trimmed().split(' ');
+  return {static_cast<std::size_t>(words.front().toULongLong()), words.back()};
+}
+
+QPushButton* button(const WindowFixture& f, const char* name) {
+  return f.window.panels().recovery->findChild<QPushButton*>(name);
+}
+
+}  // namespace
+
+class RecoveryTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void killedWindow_losesAtMostTheStrokeInProgress();
+  void discardedJournal_isGone();
+  void whatWasPaintedMeanwhile_isNotLost();
+  void withoutAJournal_nothingIsOffered();
+};
+
+void RecoveryTest::killedWindow_losesAtMostTheStrokeInProgress() {
+  WindowFixture f;
+  const QString light_field = f.writeScene("edge", WindowFixture::smallOptions());
+  const Painted painted = paint_and_kill(f, light_field);
+  QVERIFY(painted.steps >= kStrokes);
+  QCOMPARE(painted.digest.size(), 40);
+
+  f.window.offerRecovery();
+  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+  QVERIFY(f.window.panels().recovery->text().contains("lf") ||
+          f.window.panels().recovery->text().contains("edge"));
+  button(f, "message.action")->click();
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), 30'000);
+  const AnnotationDocument& document = *f.window.document().document();
+  const std::size_t steps = document.history().applied_count();
+  QVERIFY2(steps == painted.steps || steps == painted.steps + 1 || steps == painted.steps + 2,
+           qPrintable(QString("%1 of %2 steps").arg(steps).arg(painted.steps)));
+  // A step that was not told any more was on its way when the window died.
+  while (document.history().applied_count() > painted.steps) f.window.document().undo();
+  QCOMPARE(digest_of(document), painted.digest);
+  QVERIFY(f.window.annotate().isAnnotating());
+  QVERIFY(!f.window.panels().recovery->isVisible());
+  // It can be undone, and a journal of its own has taken the place of the one that was left.
+  f.window.actions().find("annotate.undo")->trigger();
+  QCOMPARE(document.history().applied_count(), painted.steps - 1);
+  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
+  f.window.document().discardChanges();
+}
+
+void RecoveryTest::discardedJournal_isGone() {
+  WindowFixture f;
+  f.openSmall();
+  (void)paint_and_kill(f, QString::fromStdString(f.window.session().input()));
+  f.window.offerRecovery();
+  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+
+  button(f, "message.other")->click();
+
+  QVERIFY(!f.window.panels().recovery->isVisible());
+  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
+  QVERIFY(!f.window.isWindowModified());
+}
+
+void RecoveryTest::whatWasPaintedMeanwhile_isNotLost() {
+  WindowFixture f;
+  f.openSmall();
+  const Painted painted = paint_and_kill(f, QString::fromStdString(f.window.session().input()));
+  QTRY_VERIFY(f.window.document().document());
+  f.window.annotate().addLabel();
+  f.window.offerRecovery();
+  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+
+  button(f, "message.action")->click();
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  QCOMPARE(f.window.document().document()->labels().labels().size(), std::size_t{1});
+  box->button(QMessageBox::Save)->click();
+
+  QTRY_VERIFY(f.window.document().document()->history().count() >= painted.steps);
+  f.window.document().discardChanges();
+}
+
+void RecoveryTest::withoutAJournal_nothingIsOffered() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.offerRecovery();
+  QTest::qWait(50);
+
+  QVERIFY(!f.window.panels().recovery->isVisible());
+}
+
+QTEST_MAIN(RecoveryTest)
+#include "recovery_test.moc"
