@@ -166,7 +166,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const double start = steady_seconds();
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
-  Labeler labeler(scene.light_field, disparity.field);
+  Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
   const Labeling labeling = labeler.label(
       scribbles, request.parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95));
   const double seconds = steady_seconds() - start;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
+#include "app/cli/labeling_pictures.h"
 #include "app/cli/output.h"
 #include "app/cli/pictures.h"
 #include "app/cli/result_input.h"
@@ -9,6 +10,7 @@
 #include "app/session/judgement.h"
 #include "app/session/read_result.h"
 #include "engine/io/image_file.h"
+#include "engine/io/labeling_file.h"
 #include "engine/render/color_map.h"
 
 #include <algorithm>
@@ -29,6 +31,8 @@ struct Request {
 
   /// Whether the subject is a result and not a light field.
   [[nodiscard]] bool is_result() const { return !truth.empty() || names_result(subject); }
+  /// Whether it is a file of labels.
+  [[nodiscard]] bool is_labeling() const { return io::is_labeling_file(subject); }
 };
 
 /// Options as typed.
@@ -67,8 +71,9 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.required_option("-o,--output", request.output, "OUT.png", "Picture to write");
   parser.choice("--what", request.what,
                 {"view", "epi", "disparity", "error", "confidence", "labels", "probability",
-                 "edges"},
-                "By default the view of an INPUT, the disparity of a RESULT");
+                 "uncertainty", "edges"},
+                "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
+                "of labels");
   parser.option("--view", texts.view, "V,U", "Camera row and column; by default the centre");
   parser.option("--row", texts.row, "Y", "Image row of a horizontal EPI");
   parser.option("--column", texts.column, "X", "Image column of a vertical EPI");
@@ -78,13 +83,18 @@ bool parse(const VerbArguments& arguments, Request& request) {
                 "Light field of a RESULT; by default the one that its file names");
   parser.choice("--layer", texts.layer, {"foreground", "background"},
                 "Which disparity of a light field or result in two layers");
-  parser.option("--label", texts.label, "N", "Label whose probability is shown, from 1");
+  parser.option("--label", texts.label, "N", "Label whose probability is shown (default 1)");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.picture = picture_options(texts, color_map);
   if (suffix_of(request.output) != ".png") {
     throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
   }
-  if (request.what.empty()) request.what = request.is_result() ? "disparity" : "view";
+  if (!request.what.empty()) return true;
+  if (request.is_labeling()) {
+    request.what = "labels";
+  } else {
+    request.what = request.is_result() ? "disparity" : "view";
+  }
   return true;
 }
 
@@ -136,6 +146,28 @@ Picture result_picture(const Request& request, Job& job) {
   return error_picture(judgement.evaluation, request.picture);
 }
 
+bool shows_labels(const std::string& what) {
+  return what == "labels" || what == "probability" || what == "uncertainty";
+}
+
+Picture make_picture(const Request& request, Job& job) {
+  if (request.is_labeling()) {
+    if (!shows_labels(request.what)) {
+      throw UsageError("--what " + request.what + " needs a light field or a RESULT, but " +
+                       request.subject + " is a file of labels");
+    }
+    return labeling_picture(request.subject, request.what, request.picture);
+  }
+  if (request.what == "uncertainty") {
+    throw UsageError("--what uncertainty needs a file of labels that 'label' wrote, but " +
+                     request.subject + " is none");
+  }
+  if (request.is_result()) return result_picture(request, job);
+  return scene_picture(request,
+                       load_input(request.subject, request.read, job.progress().part(0, 0.9)),
+                       job.progress().part(0.9, 1));
+}
+
 }  // namespace
 
 void run_show(const VerbArguments& arguments, std::stop_token stop) {
@@ -150,12 +182,7 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   }
 
   Job job(std::move(stop), request.job);
-  const Picture picture =
-      request.is_result()
-          ? result_picture(request, job)
-          : scene_picture(request,
-                          load_input(request.subject, request.read, job.progress().part(0, 0.9)),
-                          job.progress().part(0.9, 1));
+  const Picture picture = make_picture(request, job);
   job.progress().check();
   io::write_png(request.output, picture.view());
   job.finish();

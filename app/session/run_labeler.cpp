@@ -4,6 +4,7 @@
 #include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
+#include "engine/io/companions.h"
 
 #include <algorithm>
 
@@ -49,6 +50,14 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
   const FinishedEstimate finished =
       run_estimator(lf, {kLabelingEstimator, {}, ViewSelection::All}, progress);
   return {field_of(finished.estimate), kLabelingEstimator};
+}
+
+std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
+                                                          const Progress& progress) {
+  const auto found = std::ranges::find(scene.companions, "edge weights", &Companion::kind);
+  if (found == scene.companions.end()) return nullptr;
+  return std::make_shared<const ViewStack<float>>(
+      io::read_edge_weights(found->path, scene, progress));
 }
 
 std::vector<LabelInfo> label_infos(const Scribbles& scribbles,

@@ -3,14 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/labeling/flat_tree.h"
 
 #include <opencv2/ml.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <iterator>
-#include <limits>
 #include <random>
 #include <string>
 
@@ -19,13 +16,6 @@ namespace {
 
 // The widest vector of floats.
 constexpr int kVectorLanes = 16;
-
-/// Trees of one block, nodes numbered within each.
-struct GrownTree {
-  std::vector<ForestNode> nodes;
-  std::vector<int> leaves;  // As Forest::leaves_, numbered within the tree.
-  int leaf_count = 0;
-};
 
 std::vector<std::vector<int>> samples_by_label(const ForestSamples& samples) {
   std::vector<std::vector<int>> of_label(static_cast<std::size_t>(samples.label_count));
@@ -67,30 +57,6 @@ cv::Ptr<cv::ml::RTrees> grow(const cv::Ptr<cv::ml::TrainData>& data, const Fores
   return trees;
 }
 
-/// Children of a node become neighbours, numbered breadth first.
-GrownTree flatten(const cv::ml::RTrees& trees, int root) {
-  const auto& nodes = trees.getNodes();
-  const auto& splits = trees.getSplits();
-  GrownTree flat;
-  std::vector<int> origin{root};
-  for (std::size_t i = 0; i < origin.size(); ++i) {
-    const auto& node = nodes[static_cast<std::size_t>(origin[i])];
-    if (node.split < 0) {
-      flat.nodes.push_back(
-          {std::numeric_limits<float>::infinity(), 0, static_cast<unsigned short>(i)});
-      flat.leaves.push_back(flat.leaf_count++);
-      continue;
-    }
-    const auto& split = splits[static_cast<std::size_t>(node.split)];
-    flat.nodes.push_back({split.c, static_cast<unsigned short>(split.varIdx),
-                          static_cast<unsigned short>(origin.size())});
-    flat.leaves.push_back(-1);
-    origin.push_back(node.left);
-    origin.push_back(node.right);
-  }
-  return flat;
-}
-
 void check(const ForestSamples& samples) {
   std::vector<int> counts(static_cast<std::size_t>(std::max(samples.label_count, 0)));
   for (const std::int32_t label : samples.labels) ++counts.at(static_cast<std::size_t>(label));
@@ -121,7 +87,7 @@ class Forest::Trainer {
     const std::vector<int>& roots = trees->getRoots();
     for (int i = 0; i < kForestTreesPerBlock; ++i) {
       trees_[static_cast<std::size_t>(block) * kForestTreesPerBlock + i] =
-          flatten(*trees, roots[static_cast<std::size_t>(i)]);
+          flatten_tree(*trees, roots[static_cast<std::size_t>(i)]);
     }
   }
 
@@ -131,7 +97,7 @@ class Forest::Trainer {
 
   void join(Forest& forest) const {
     int leaf_count = 0;
-    for (const GrownTree& tree : trees_) {
+    for (const FlatTree& tree : trees_) {
       forest.roots_.push_back(static_cast<int>(forest.nodes_.size()));
       forest.nodes_.insert(forest.nodes_.end(), tree.nodes.begin(), tree.nodes.end());
       for (const int leaf : tree.leaves)
@@ -164,7 +130,7 @@ class Forest::Trainer {
   const ForestSamples& samples_;
   const ForestOptions& options_;
   std::vector<std::vector<int>> of_label_;
-  std::vector<GrownTree> trees_;
+  std::vector<FlatTree> trees_;
 };
 
 Forest Forest::train(const ForestSamples& samples, const ForestOptions& options,

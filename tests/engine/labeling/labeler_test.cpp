@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/labeler.h"
+
+#include "engine/core/error.h"
+#include "engine/scenes/builtin.h"
+
+#include <QTest>
+
+#include <algorithm>
+#include <stop_token>
+
+namespace episcope {
+namespace {
+
+constexpr int kSize = 96;
+
+const Scene& scene() {
+  static const Scene kept = [] {
+    scenes::RenderOptions options;
+    options.grid = {3, 3};
+    options.height = kSize;
+    options.width = kSize;
+    return scenes::render_builtin("objects", options, Progress());
+  }();
+  return kept;
+}
+
+std::shared_ptr<const DisparityField> true_disparity() {
+  return {scene().truth, &scene().truth->field};
+}
+
+Labeler new_labeler() {
+  return {scene().light_field, true_disparity()};
+}
+
+LabelerParameters parameters(const char* features, const char* regularizer) {
+  LabelerParameters chosen;
+  chosen.features = features;
+  chosen.regularizer = regularizer;
+  return chosen;
+}
+
+const ViewRectangle kAll{{0, 0}, {3, 3}};
+
+double accuracy(const Labeling& labeling) {
+  const auto& truth = scene().truth->labels;
+  std::size_t right = 0;
+  std::size_t all = 0;
+  for (int i = 0; i < labeling.labels.grid().count(); ++i) {
+    const ViewIndex first = labeling.labels.first();
+    const ViewIndex view{first.v + i / labeling.labels.grid().u,
+                         first.u + i % labeling.labels.grid().u};
+    const auto given = labeling.labels.view(view);
+    const auto expected = truth.view(view);
+    for (std::size_t k = 0; k < given.size(); ++k) right += given.data[k] == expected.data[k];
+    all += given.size();
+  }
+  return static_cast<double>(right) / static_cast<double>(all);
+}
+
+}  // namespace
+
+class LabelerTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void objects_areSegmentedInAllViews_data();
+  void objects_areSegmentedInAllViews();
+  void oneView_comesAsADraftFirst();
+  void strokesOnAnotherView_count();
+  void result_dependsNeitherOnThreads_norOnEarlierCalls();
+  void badInput_isToldInASentence();
+  void stop_cancels();
+};
+
+void LabelerTest::objects_areSegmentedInAllViews_data() {
+  QTest::addColumn<QByteArray>("features");
+  QTest::addColumn<QByteArray>("regularizer");
+  for (const char* features : {"image", "image+truth"}) {
+    for (const char* regularizer : {"none", "view", "rayspace"}) {
+      QTest::addRow("%s %s", features, regularizer)
+          << QByteArray(features) << QByteArray(regularizer);
+    }
+  }
+}
+
+void LabelerTest::objects_areSegmentedInAllViews() {
+  QFETCH(QByteArray, features);
+  QFETCH(QByteArray, regularizer);
+
+  const Labeling labeling = new_labeler().label(
+      scene().scribbles, parameters(features.data(), regularizer.data()), kAll, Progress());
+
+  QCOMPARE(labeling.labels.grid(), kAll.grid);
+  QCOMPARE(labeling.probabilities.ids, (std::vector<std::int32_t>{1, 2, 3}));
+  // 97 to 99.5 % were measured.
+  QVERIFY2(accuracy(labeling) > 0.95, qPrintable(QString::number(accuracy(labeling))));
+}
+
+void LabelerTest::oneView_comesAsADraftFirst() {
+  Labeler labeler = new_labeler();
+  int drafts = 0;
+
+  const Labeling refined = labeler.label(scene().scribbles, parameters("image+truth", "rayspace"),
+                                         {{1, 1}, {1, 1}}, Progress(), [&](const Labeling& draft) {
+                                           ++drafts;
+                                           QVERIFY(draft.is_draft);
+                                           QCOMPARE(draft.labels.first(), (ViewIndex{1, 1}));
+                                           QVERIFY(draft.probabilities.contains({1, 1}));
+                                         });
+
+  QCOMPARE(drafts, 1);
+  QVERIFY(!refined.is_draft);
+  QVERIFY(refined.probabilities.contains({1, 1}));
+  QVERIFY(accuracy(refined) > 0.95);
+}
+
+void LabelerTest::strokesOnAnotherView_count() {
+  // The same strokes as if painted on a corner view, carried there by the truth of the labels.
+  Scribbles moved = scene().scribbles;
+  moved.views[0].view = {0, 0};
+  const auto truth = scene().truth->labels.view({0, 0});
+  auto& labels = moved.views[0].labels;
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels.data()[i] != truth.data[i]) labels.data()[i] = 0;
+  }
+
+  const Labeling labeling =
+      new_labeler().label(moved, parameters("image+truth", "none"), kAll, Progress());
+
+  QVERIFY(accuracy(labeling) > 0.95);
+}
+
+void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {
+  const LabelerParameters chosen = parameters("image+truth", "view");
+  Labeler used = new_labeler();
+  (void)used.label(scene().scribbles, parameters("image", "none"), kAll, Progress());
+
+  const Labeling one = new_labeler().label(scene().scribbles, chosen, kAll, Progress(1));
+  const Labeling three = used.label(scene().scribbles, chosen, kAll, Progress(3));
+
+  QVERIFY(
+      std::equal(one.labels.data(), one.labels.data() + one.labels.size(), three.labels.data()));
+}
+
+void LabelerTest::badInput_isToldInASentence() {
+  Scribbles one_label = scene().scribbles;
+  for (std::int32_t& label : one_label.views[0].labels) label = label == 2 ? 2 : 0;
+  Scribbles foreign = scene().scribbles;
+  foreign.views[0].view = {7, 7};
+  const LabelerParameters chosen = parameters("image", "none");
+  const auto message = [&](const Scribbles& scribbles, ViewRectangle views) {
+    try {
+      (void)new_labeler().label(scribbles, chosen, views, Progress());
+    } catch (const InvalidInput& error) {
+      return QString(error.what());
+    }
+    return QString();
+  };
+
+  QVERIFY(message({}, kAll).contains("nothing is painted"));
+  QVERIFY(message(one_label, kAll).contains("paint a second one"));
+  QVERIFY(message(foreign, kAll).contains("do not fit"));
+  QVERIFY(message(scene().scribbles, {{2, 2}, {2, 2}}).contains("were asked for"));
+  Labeler without(scene().light_field, nullptr);
+  QVERIFY_THROWS_EXCEPTION(
+      InvalidInput,
+      (void)without.label(scene().scribbles, parameters("image", "rayspace"), kAll, Progress()));
+}
+
+void LabelerTest::stop_cancels() {
+  std::stop_source stop;
+  stop.request_stop();
+
+  QVERIFY_THROWS_EXCEPTION(
+      Cancelled, (void)new_labeler().label(scene().scribbles, parameters("image", "none"), kAll,
+                                           Progress(stop.get_token(), nullptr)));
+}
+
+}  // namespace episcope
+
+QTEST_APPLESS_MAIN(episcope::LabelerTest)
+#include "labeler_test.moc"
