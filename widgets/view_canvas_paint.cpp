@@ -34,7 +34,9 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
   QPainter painter(this);
   painter.fillRect(event->rect(), theme::kCanvas);
   if (state_ == State::Picture) {
-    paintPicture(painter, event->rect(), overlay_);
+    QRect left = event->rect();
+    if (wipe_position_) left.setRight(std::min(left.right(), static_cast<int>(dividerX())));
+    if (!left.isEmpty()) paintPicture(painter, left, overlay_);
     if (wipe_position_) paintWipe(painter, event->rect());
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());

@@ -2,6 +2,7 @@
 #include "app/gui/overlay_controller.h"
 
 #include "app/gui/queued_post.h"
+#include "app/gui/thread_priority.h"
 #include "widgets/color_bar.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/picture.h"
@@ -234,10 +235,9 @@ void OverlayController::beginShading(const OverlaySource& source, const render::
   if (std::exchange(is_shading_, true)) return;
   runner_.start<Shaded>(
       [source, shading, map = knownMap(source)](const Progress&) mutable {
+        lower_thread_priority();
         if (!map) map = make_overlay_map(source);
-        const QImage picture = to_qimage(shade_overlay(*map, shading));
-        return Shaded{source, shading, map,
-                      picture.convertToFormat(QImage::Format_ARGB32_Premultiplied)};
+        return Shaded{source, shading, map, to_qimage(shade_overlay(*map, shading))};
       },
       [this, generation = session_.generation()](Outcome<Shaded> outcome) {
         is_shading_ = false;
