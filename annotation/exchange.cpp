@@ -53,8 +53,13 @@ std::map<std::uint8_t, PixelRegion> regions_of(ImageView<const std::uint8_t> ima
 }  // namespace
 
 Scribbles scribbles_of(const AnnotationDocument& document) {
-  Scribbles scribbles{{}, document.labels().labels()};
-  const ScribbleLayer& layer = document.scribbles();
+  Scribbles scribbles = scribbles_of(document.scribbles());
+  scribbles.labels = document.labels().labels();
+  return scribbles;
+}
+
+Scribbles scribbles_of(const ScribbleLayer& layer) {
+  Scribbles scribbles;
   for (const ViewIndex view : layer.painted_views()) {
     Image<std::int32_t> labels(layer.height(), layer.width());
     std::copy_n(layer.view(view).data, labels.size(), labels.data());

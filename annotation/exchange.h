@@ -8,6 +8,8 @@ namespace episcope {
 
 /// The painted views and the labels of a document, as they are written to files.
 [[nodiscard]] Scribbles scribbles_of(const AnnotationDocument& document);
+/// Painted views alone, without names and colours.
+[[nodiscard]] Scribbles scribbles_of(const ScribbleLayer& layer);
 
 /// A document that begins with scribbles read from a file. Painted ids without a name get a default
 /// one and a colour of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/thread_priority.h"
+#include "app/session/thread_priority.h"
 #include "engine/core/job_runner.h"
 
 #include <QObject>

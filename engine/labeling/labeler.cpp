@@ -316,7 +316,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   progress.step("training the forest");
   const Learned learned{scribbles, ids, parameters,
                         state_->train(scribbles, ids, parameters, progress.part(0, 0.1))};
-  progress.step("labeling pixels");
+  progress.step(kLabelingStep);
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));

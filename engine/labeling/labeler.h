@@ -71,6 +71,8 @@ struct Labeling {
 class Labeler {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
+  /// The stage after training, as `progress` tells it.
+  static constexpr const char* kLabelingStep = "labeling pixels";
 
   /// `disparity` may be null, or cover some views only. It carries places along the rays, couples
   /// views, and is a feature where the parameters say so. `edges`: EDGE_WEIGHTS of all views; null

@@ -2,41 +2,17 @@
 #include "app/session/session.h"
 
 #include "tests/app/session/tiny_scene.h"
+#include "tests/app/session/turned_loop.h"
 
 #include <QTest>
 
-#include <deque>
-#include <mutex>
 
 using namespace episcope;
 
 namespace {
 
-// Stands for an event loop: closures wait until the test runs them.
-class Loop {
- public:
-  JobRunner::Post post() {
-    return [this](std::function<void()> closure) {
-      const std::scoped_lock lock(mutex_);
-      waiting_.push_back(std::move(closure));
-    };
-  }
-  void turn() {
-    std::deque<std::function<void()>> now;
-    {
-      const std::scoped_lock lock(mutex_);
-      now.swap(waiting_);
-    }
-    for (auto& closure : now) closure();
-  }
-
- private:
-  std::mutex mutex_;
-  std::deque<std::function<void()>> waiting_;
-};
-
 struct Fixture {
-  Loop loop;
+  test::TurnedLoop loop;
   Session session{loop.post()};
   std::vector<Parts> told;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/thread_priority.h"
+#include "app/session/thread_priority.h"
 
 #include <sys/resource.h>
 #include <sys/syscall.h>
