@@ -25,7 +25,8 @@ using render::Quantity;
 constexpr Quantity kQuantities[] = {
     Quantity::View,       Quantity::Disparity, Quantity::Background,  Quantity::Layers,
     Quantity::Confidence, Quantity::Truth,     Quantity::SignedError, Quantity::AbsoluteError,
-    Quantity::BadPixels,  Quantity::Labels};
+    Quantity::BadPixels,  Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,
+    Quantity::Uncertainty, Quantity::Edges,    Quantity::WrongLabels};
 constexpr double kFocusStep = 0.01;  // px a slider step.
 
 int slider_value(double focus_px) {
@@ -56,6 +57,16 @@ QString quantity_label(Quantity quantity) {
       return OverlayBar::tr("background");
     case Quantity::Layers:
       return OverlayBar::tr("layers");
+    case Quantity::Segmentation:
+      return OverlayBar::tr("segmentation");
+    case Quantity::Probability:
+      return OverlayBar::tr("probability");
+    case Quantity::Uncertainty:
+      return OverlayBar::tr("uncertainty");
+    case Quantity::Edges:
+      return OverlayBar::tr("edge probability");
+    case Quantity::WrongLabels:
+      return OverlayBar::tr("wrong labels");
   }
   return {};
 }

@@ -9,6 +9,7 @@
 #include "app/gui/export_controller.h"
 #include "app/gui/main_window.h"
 #include "app/gui/open_controller.h"
+#include "app/gui/segment_actions.h"
 
 #include <QAction>
 #include <QTabWidget>
@@ -190,6 +191,7 @@ void add_actions(ActionTable& table, MainWindow& window) {
   add_estimate_actions(table, window);
   add_compare_actions(table, window);
   add_annotate_actions(table, window);
+  add_segment_actions(table, window);
   add_tab_actions(table, window);
   add_help_actions(table, window);
 }

@@ -22,7 +22,8 @@ constexpr quint64 kViewTile = 0;
 constexpr quint64 kTruthTile = std::numeric_limits<quint64>::max();
 
 bool is_of_a_result(Quantity quantity) {
-  return quantity != Quantity::View && quantity != Quantity::Truth && quantity != Quantity::Labels;
+  return quantity != Quantity::View && quantity != Quantity::Truth && quantity != Quantity::Labels &&
+         !is_of_segmentation(quantity);
 }
 
 QStringList value_text(const OverlayMap& map, int y, int x) {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/export_controller.h"
 
+#include "app/session/write_segmentation.h"
 #include "engine/io/image_file.h"
 #include "engine/io/pfm.h"
 #include "engine/io/ply.h"
 #include "engine/io/result_file.h"
 #include "engine/render/shade.h"
+#include "widgets/picture.h"
 #include "widgets/view_canvas.h"
 
 #include <QFileDialog>
@@ -113,6 +115,37 @@ void ExportController::exportResult(int estimate, const QString& path) {
     is_cloud ? write_cloud(file, *light_field, view, result->field.view(view))
              : write_map(file, result->field.view(view));
   });
+}
+
+void ExportController::exportSegmentationDialog() {
+  const SegmentationPtr& segmentation = session_.segmentation();
+  if (!segmentation || !segmentation->labeling) {
+    emit hint(tr("Nothing is segmented yet: paint two labels, then update the segmentation."));
+    return;
+  }
+  const QString name = QString::fromStdString(session_.light_field()->info().name);
+  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
+  ask(tr("Export the segmentation"), name + "_labels.h5",
+      tr("%1 (*.h5);;Labels of this view (*.png)")
+          .arg(has_all ? tr("Labels and probabilities of all views")
+                       : tr("Labels and probabilities of this view")),
+      [this](const QString& path) { exportSegmentation(path); });
+}
+
+void ExportController::exportSegmentation(const QString& path) {
+  const SegmentationPtr segmentation = session_.segmentation();
+  if (!segmentation || !segmentation->labeling) return;
+  const std::filesystem::path file = path.toStdString();
+  if (QFileInfo(path).suffix().toLower() != "png") {
+    startWriting(path, [file, segmentation, source = session_.input()](const Progress& progress) {
+      write_segmentation(file, *segmentation, source, progress);
+    });
+  } else if (segmentation->covers(session_.view())) {
+    startWriting(path, [file, segmentation, view = session_.view()](const Progress&) {
+      const auto labels = segmentation->labeling->labels.view(view);
+      write_image(file, to_qimage(render::shade_labels(labels, segmentation->labels)));
+    });
+  }
 }
 
 void ExportController::savePicture(const QString& path) {

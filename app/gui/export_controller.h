@@ -26,8 +26,13 @@ class ExportController : public QObject {
   void exportShownDialog();
   void savePictureDialog();
 
+  /// Asks where to write the segmentation: .h5, or .png of this view.
+  void exportSegmentationDialog();
+
   /// Writes without asking. The suffix of `path` says the form.
   void exportResult(int estimate, const QString& path);
+  /// Labels and probabilities of what is segmented (.h5), or labels of this view in their colours.
+  void exportSegmentation(const QString& path);
   /// The view with its overlay as shown, one image pixel a pixel.
   void savePicture(const QString& path);
 

@@ -15,7 +15,7 @@
 namespace episcope {
 
 /// Jobs of one lane run one after the other, those of different lanes side by side.
-enum class Lane { Load, Estimate, Export };
+enum class Lane { Load, Estimate, Label, Export };
 
 /// Every background job that a user sees: starts, progress, cancel, end and failures of all lanes
 /// with ids of their own.
@@ -80,7 +80,7 @@ class Jobs : public QObject {
 
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
-  std::array<std::unique_ptr<JobRunner>, 3> runners_;
+  std::array<std::unique_ptr<JobRunner>, 4> runners_;
 };
 
 /// What went wrong, as a sentence for the user.

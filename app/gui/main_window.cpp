@@ -23,6 +23,8 @@
 #include "app/gui/recovery_controller.h"
 #include "app/gui/scene_info.h"
 #include "app/gui/scribble_controller.h"
+#include "app/gui/segment_actions.h"
+#include "app/gui/segment_controller.h"
 #include "app/gui/shortcut_window.h"
 #include "app/gui/statistics_controller.h"
 #include "app/gui/value_controller.h"
@@ -75,6 +77,7 @@ MainWindow::MainWindow(QWidget* parent)
   document_ = new DocumentController(*session_, this);
   annotate_ = new AnnotateController(*session_, *document_, panels_, this);
   scribbles_ = new ScribbleController(*session_, *document_, panels_, this);
+  segment_ = new SegmentController(*session_, *document_, *annotate_, *jobs_, panels_, this);
   estimate_ = new EstimateController(*session_, *jobs_, panels_, this);
   metrics_ = new MetricController(*session_, *jobs_, panels_, this);
   opener_ = new OpenController(*session_, *jobs_, *browse_, panels_, this);
@@ -116,8 +119,8 @@ MainWindow::MainWindow(QWidget* parent)
 MainWindow::~MainWindow() {
   for (QObject* each : std::initializer_list<QObject*>{
            cloud_, exporter_, recovery_, annotation_files_, focus_, opener_, metrics_, estimate_,
-           scribbles_, annotate_, document_, values_, statistics_, compare_, overlay_, browse_,
-           jobs_}) {
+           segment_, scribbles_, annotate_, document_, values_, statistics_, compare_, overlay_,
+           browse_, jobs_}) {
     delete each;
   }
 }
@@ -147,6 +150,9 @@ void MainWindow::buildBars() {
   for (const auto& [id, quantity] : overlay_actions()) {
     overlays->addAction(actions_->find(id));
     bar->addAction(actions_->find(id));
+  }
+  for (const auto& [id, quantity] : segment_overlay_actions()) {
+    overlays->addAction(actions_->find(id));
   }
   bar->addSeparator();
   for (const char* id :
@@ -209,11 +215,18 @@ void MainWindow::connectControllers() {
 
 void MainWindow::connectAnnotation() {
   follow_document(*actions_, *this);
+  follow_segmentation(*actions_, *this);
   const auto hint = [this](const QString& sentence) {
     panels_.messages->showMessage(Severity::Info, sentence);
   };
   connect(annotate_, &AnnotateController::hint, this, hint);
   connect(scribbles_, &ScribbleController::hint, this, hint);
+  connect(segment_, &SegmentController::hint, this, hint);
+  connect(segment_, &SegmentController::labelsArrived, overlay_, [this] {
+    if (!is_of_segmentation(overlay_->quantity())) {
+      overlay_->setQuantity(render::Quantity::Segmentation);
+    }
+  });
   connect(document_, &DocumentController::problem, this, [this](const QString& sentence) {
     panels_.messages->showMessage(Severity::Warning, sentence);
   });
@@ -262,10 +275,12 @@ void MainWindow::fillRecentMenu() {
 void MainWindow::updateActions() {
   const bool has_scene = session_->scene() != nullptr;
   const bool has_result = session_->shown() != nullptr;
-  for (const auto& [id, quantity] : overlay_actions()) {
-    QAction* action = actions_->find(id);
-    action->setEnabled(overlay_->isAvailable(quantity));
-    if (overlay_->quantity() == quantity) action->setChecked(true);
+  for (const auto* overlays : {&overlay_actions(), &segment_overlay_actions()}) {
+    for (const auto& [id, quantity] : *overlays) {
+      QAction* action = actions_->find(id);
+      action->setEnabled(overlay_->isAvailable(quantity));
+      if (overlay_->quantity() == quantity) action->setChecked(true);
+    }
   }
   actions_->find("compare.difference")->setChecked(overlay_->showsDifference());
   for (const auto& [id, mode] : std::initializer_list<std::pair<const char*, CompareMode>>{
@@ -330,7 +345,7 @@ void MainWindow::showAbout() {
 }
 
 void MainWindow::escape() {
-  if (annotate_->cancelStroke() || browse_->endWhatIsInHand() || compare_->leave()) return;
+  if (annotate_->cancelStroke() || segment_->cancel() || browse_->endWhatIsInHand() || compare_->leave()) return;
   if (const quint64 job = jobs_->newest()) {
     jobs_->cancel(job);
   } else {

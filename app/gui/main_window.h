@@ -28,6 +28,7 @@ class OpenController;
 class OverlayController;
 class RecoveryController;
 class ScribbleController;
+class SegmentController;
 class Session;
 class ShortcutWindow;
 class StatisticsController;
@@ -60,6 +61,7 @@ class MainWindow : public QMainWindow {
   [[nodiscard]] AnnotateController& annotate() { return *annotate_; }
   [[nodiscard]] ScribbleController& scribbles() { return *scribbles_; }
   [[nodiscard]] AnnotationFiles& annotationFiles() { return *annotation_files_; }
+  [[nodiscard]] SegmentController& segment() { return *segment_; }
   [[nodiscard]] EstimateController& estimate() { return *estimate_; }
   [[nodiscard]] ExportController& exporter() { return *exporter_; }
   [[nodiscard]] OpenController& opener() { return *opener_; }
@@ -100,6 +102,7 @@ class MainWindow : public QMainWindow {
   ScribbleController* scribbles_;
   AnnotationFiles* annotation_files_;
   RecoveryController* recovery_;
+  SegmentController* segment_;
   EstimateController* estimate_;
   MetricController* metrics_;
   OpenController* opener_;

@@ -20,7 +20,9 @@ using render::Quantity;
 constexpr Quantity kQuantities[] = {
     Quantity::Disparity,     Quantity::Background, Quantity::Layers,
     Quantity::Confidence,    Quantity::Truth,      Quantity::SignedError,
-    Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels};
+    Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels,
+    Quantity::Segmentation,  Quantity::Probability, Quantity::Uncertainty,
+    Quantity::Edges,         Quantity::WrongLabels};
 
 constexpr std::size_t kKeptPictures = 4;
 
@@ -67,12 +69,13 @@ void OverlayController::update(Parts parts) {
       quantity_ = Quantity::Disparity;
     }
   }
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Segmentation)) {
     if (!isAvailable(quantity_)) quantity_ = Quantity::View;
     if (!session_.compared()) shows_difference_ = false;
     showAvailable();
   }
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations)) {
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations |
+                    Part::Segmentation)) {
     draw();
   }
 }
@@ -81,6 +84,7 @@ bool OverlayController::isAvailable(Quantity quantity) const {
   const auto& scene = session_.scene();
   if (!scene) return quantity == Quantity::View;
   const EstimateEntry* shown = session_.shown();
+  const bool is_segmented = session_.segmentation() && session_.segmentation()->labeling;
   switch (quantity) {
     case Quantity::View:
       return true;
@@ -92,6 +96,14 @@ bool OverlayController::isAvailable(Quantity quantity) const {
       return scene->truth->has_disparity();
     case Quantity::Labels:
       return !scene->truth->labels.empty();
+    case Quantity::Edges:
+      return true;
+    case Quantity::Segmentation:
+    case Quantity::Probability:
+    case Quantity::Uncertainty:
+      return is_segmented;
+    case Quantity::WrongLabels:
+      return is_segmented && !scene->truth->labels.empty();
     case Quantity::Background:
       return shown && !shown->estimate->layered.background.empty();
     case Quantity::Layers:
@@ -148,10 +160,15 @@ OverlayChoice OverlayController::choice() const {
 
 OverlayChoice OverlayController::choiceA() const {
   const EstimateEntry* shown = session_.shown();
-  return {quantity_, shown ? shown->id : 0, 0};
+  return {quantity_, shown && !is_of_segmentation(quantity_) ? shown->id : 0, 0};
 }
 
 OverlayChoice OverlayController::choiceB() const {
+  if (is_of_segmentation(quantity_)) {
+    const bool shows_truth =
+        quantity_ == Quantity::Segmentation && isAvailable(Quantity::Labels);
+    return {shows_truth ? Quantity::Labels : Quantity::View, 0, 0};
+  }
   if (const EstimateEntry* compared = session_.compared()) return {quantity_, compared->id, 0};
   const bool shows_truth = quantity_ == Quantity::Disparity && isAvailable(Quantity::Truth);
   return {shows_truth ? Quantity::Truth : Quantity::View, choiceA().estimate, 0};
@@ -177,7 +194,8 @@ void OverlayController::draw() {
   drawMap(drawn_choice);
   panels_.canvas->setOverlay(picture_);
   const bool has_scale = session_.scene() && drawn_choice.quantity != Quantity::View &&
-                         drawn_choice.quantity != Quantity::Labels;
+                         drawn_choice.quantity != Quantity::Labels &&
+                         drawn_choice.quantity != Quantity::Segmentation;
   panels_.color_bar->setVisible(has_scale);
   if (has_scale) {
     panels_.color_bar->setShading(

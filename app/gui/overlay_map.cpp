@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/overlay_map.h"
 
+#include "app/gui/segment_map.h"
 #include "engine/evaluation/error_maps.h"
 
 #include <algorithm>
@@ -109,10 +110,17 @@ std::optional<OverlaySource> estimate_source(Session& session, OverlaySource sou
 
 }  // namespace
 
+bool is_of_segmentation(Quantity quantity) {
+  return quantity == Quantity::Segmentation || quantity == Quantity::Probability ||
+         quantity == Quantity::Uncertainty || quantity == Quantity::Edges ||
+         quantity == Quantity::WrongLabels;
+}
+
 std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoice& choice,
                                             ViewIndex view) {
   if (!session.scene()) return std::nullopt;
-  OverlaySource source{choice, view, {}, {}, {}, {}};
+  OverlaySource source{choice, view, {}, {}, {}, {}, {}, {}};
+  if (is_of_segmentation(choice.quantity)) return segment_source(session, std::move(source));
   switch (choice.quantity) {
     case Quantity::View:
       return std::nullopt;
@@ -130,6 +138,7 @@ std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoic
 }
 
 std::shared_ptr<const OverlayMap> make_overlay_map(const OverlaySource& source) {
+  if (is_of_segmentation(source.choice.quantity)) return make_segment_map(source);
   if (source.choice.quantity == Quantity::Labels) return labels_overlay(source);
   if (source.truth) return borrowed(source.truth->field.view(source.view), source.truth);
   if (source.subtracted) return difference(source.estimate, source.subtracted, source.view);
@@ -158,7 +167,7 @@ std::optional<double> OverlayMap::value_at(PixelIndex pixel) const {
 }
 
 Image<std::uint8_t> shade_overlay(const OverlayMap& overlay, const render::Shading& shading) {
-  if (!overlay.labels.empty()) return render::shade_labels(overlay.labels);
+  if (!overlay.labels.empty()) return render::shade_labels(overlay.labels, overlay.label_infos);
   Image<std::uint8_t> picture = render::shade(overlay.map, overlay.valid, shading);
   if (overlay.inside.empty()) return picture;
   for (int y = 0; y < picture.height(); ++y) {

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace episcope {
 
@@ -17,10 +18,14 @@ struct OverlayChoice {
   friend bool operator==(const OverlayChoice&, const OverlayChoice&) = default;
 };
 
+/// Whether a quantity is of the segmentation, and of no estimate.
+[[nodiscard]] bool is_of_segmentation(render::Quantity quantity);
+
 /// Numbers behind an overlay, with all that they are borrowed from.
 struct OverlayMap {
   ImageView<const float> map;  ///< Empty: there are labels instead.
   ImageView<const std::int32_t> labels;
+  std::vector<LabelInfo> label_infos;    ///< Their colours; of others the default ones.
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged, not drawn; empty = all drawn.
   Image<float> computed;
@@ -39,6 +44,8 @@ struct OverlaySource {
   EstimatePtr subtracted;
   GroundTruthPtr truth;
   EvaluationPtr evaluation;
+  LightFieldPtr light_field;
+  SegmentationPtr segmentation;
   friend bool operator==(const OverlaySource&, const OverlaySource&) = default;
 };
 

@@ -14,6 +14,7 @@
 #include "widgets/metric_table.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/result_list.h"
+#include "widgets/segment_panel.h"
 #include "widgets/statistics_panel.h"
 #include "widgets/theme.h"
 #include "widgets/tile_wall.h"
@@ -121,11 +122,13 @@ QWidget* make_annotate_tab(Panels& panels, QWidget* parent) {
   auto* tab = new QWidget(parent);
   panels.brush = new BrushPanel(tab);
   panels.labels = new LabelPalette(tab);
+  panels.segment = new SegmentPanel(tab);
   panels.annotation = new AnnotationBar(tab);
   auto* layout = new QVBoxLayout(tab);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panels.brush);
   layout->addWidget(panels.labels, 1);
+  layout->addWidget(panels.segment);
   layout->addWidget(panels.annotation);
   return tab;
 }

@@ -20,6 +20,7 @@ class MethodPanel;
 class MetricTable;
 class OverlayBar;
 class ResultList;
+class SegmentPanel;
 class StatisticsPanel;
 class TileWall;
 class ValueBar;
@@ -47,6 +48,7 @@ struct Panels {
   QWidget* annotate_tab = nullptr;
   BrushPanel* brush = nullptr;
   LabelPalette* labels = nullptr;
+  SegmentPanel* segment = nullptr;
   AnnotationBar* annotation = nullptr;
   QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
   JobPanel* jobs = nullptr;

@@ -12,6 +12,7 @@ enum class Part : unsigned {
   View = 16,        ///< The current view.
   CrossHair = 32,   ///< The current pixel.
   Focus = 64,       ///< The focus plane.
+  Segmentation = 128,  ///< What is shown of the segmentation.
 };
 
 /// A set of parts.

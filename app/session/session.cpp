@@ -44,6 +44,7 @@ void Session::close() {
   for (const EstimateEntry& entry : estimates_) judge_.forget(entry.id);
   estimates_.clear();
   scene_.reset();
+  segmentation_.reset();
   input_.clear();
   conventions_ = {};
   shown_ = compared_ = 0;
@@ -52,7 +53,7 @@ void Session::close() {
   focus_px_ = 0;
   ++generation_;
   changed(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-          Part::CrossHair | Part::Focus);
+          Part::CrossHair | Part::Focus | Part::Segmentation);
 }
 
 LightFieldPtr Session::light_field() const {
@@ -153,6 +154,12 @@ Interval Session::disparity_range() const {
     if (entry.display_range.length() > 0) return entry.display_range;
   }
   return {-1, 1};
+}
+
+void Session::set_segmentation(SegmentationPtr segmentation) {
+  if (!scene_) return;
+  segmentation_ = std::move(segmentation);
+  changed(Part::Segmentation);
 }
 
 void Session::set_view(ViewIndex view) {

@@ -3,6 +3,7 @@
 
 #include "app/session/judge.h"
 #include "app/session/parts.h"
+#include "app/session/segmentation.h"
 #include "engine/io/open.h"
 
 #include <cstdint>
@@ -73,6 +74,10 @@ class Session {
   [[nodiscard]] bool is_evaluating() const { return judge_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
+  /// What is shown of the segmentation; null = nothing.
+  void set_segmentation(SegmentationPtr segmentation);
+  [[nodiscard]] const SegmentationPtr& segmentation() const { return segmentation_; }
+
   /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
   /// else those of the first estimate. It does not change with the shown estimate.
   [[nodiscard]] Interval disparity_range() const;
@@ -103,6 +108,7 @@ class Session {
   int shown_ = 0;
   int compared_ = 0;
   bool is_compared_chosen_ = false;
+  SegmentationPtr segmentation_;
   ViewIndex view_;
   PixelIndex cross_hair_;
   double focus_px_ = 0;

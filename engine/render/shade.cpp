@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace episcope::render {
@@ -65,17 +66,22 @@ Shading default_shading(Quantity quantity, Interval disparity_range) {
     case Quantity::Background:
       return {color_map("viridis"), disparity_range};
     case Quantity::Confidence:
+    case Quantity::Probability:
+    case Quantity::Uncertainty:
+    case Quantity::Edges:
       return {color_map("magma"), {0, 1}};
     case Quantity::SignedError:
       return {color_map("seismic"), {-0.2, 0.2}};
     case Quantity::AbsoluteError:
       return {color_map("ylorrd"), {0, 0.1}};
     case Quantity::BadPixels:
+    case Quantity::WrongLabels:
       return {color_map("rdylgn_r"), {0, 1}};
     case Quantity::Layers:
       return {color_map("magma"), {0, 3}};
     case Quantity::View:
     case Quantity::Labels:
+    case Quantity::Segmentation:
       break;
   }
   return {color_map("grey"), {0, 1}};
@@ -102,11 +108,25 @@ Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view) {
 }
 
 Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels) {
+  return shade_labels(labels, {});
+}
+
+Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
+                                 const std::vector<LabelInfo>& infos) {
   Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
+  std::map<std::int32_t, Rgb> colors;
+  for (const LabelInfo& info : infos) colors[info.id] = info.color;
+  std::int32_t last = 0;
+  Rgb color{};
   for (int y = 0; y < labels.height; ++y) {
     for (int x = 0; x < labels.width; ++x) {
       const std::int32_t id = labels.at(y, x);
-      if (id > 0) put(&picture.at(y, x), label_color(id));
+      if (id <= 0) continue;
+      if (id != last) {
+        color = colors.try_emplace(id, label_color(id)).first->second;
+        last = id;
+      }
+      put(&picture.at(y, x), color);
     }
   }
   return picture;

@@ -3,10 +3,12 @@
 
 #include "engine/core/disparity_field.h"
 #include "engine/core/image.h"
+#include "engine/core/label_info.h"
 #include "engine/core/light_field.h"
 #include "engine/render/color_map.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace episcope::render {
 
@@ -22,7 +24,12 @@ enum class Quantity {
   BadPixels,
   Labels,
   Background,  ///< Disparity of what is seen through a surface.
-  Layers       ///< Number of surfaces, 1 or 2.
+  Layers,      ///< Number of surfaces, 1 or 2.
+  Segmentation,  ///< Labels learnt from scribbles.
+  Probability,   ///< Of one label, 0 … 1.
+  Uncertainty,   ///< How undecided labels are, 0 … 1.
+  Edges,         ///< How probable an edge is, 0 … 1.
+  WrongLabels    ///< As BadPixels: where the segmentation is not the truth.
 };
 
 struct Shading {
@@ -50,6 +57,9 @@ struct Shading {
 
 /// RGBA8 picture of label ids: 0 and negative ids transparent, the others in their `label_color`.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
+/// The same in the colours of `infos`, as far as they are known there.
+[[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
+                                               const std::vector<LabelInfo>& infos);
 
 /// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view.
 [[nodiscard]] Image<std::uint8_t> shade_samples(ImageView<const float> samples);
