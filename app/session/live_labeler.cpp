@@ -49,6 +49,7 @@ bool LiveLabeler::is_running() const {
 }
 
 void LiveLabeler::set_input(LabelingInput input) {
+  if (input_ && is_same(*input_, input)) return;
   cancel();
   const bool keeps_labeler = input_ && input_->light_field == input.light_field &&
                              input_->disparity == input.disparity;

@@ -38,7 +38,8 @@ class LiveLabeler {
   LiveLabeler(const LiveLabeler&) = delete;
   LiveLabeler& operator=(const LiveLabeler&) = delete;
 
-  /// Everything known is out of date from now on; what is under way is cancelled.
+  /// Everything known is out of date from now on, and what is under way is cancelled; unless the
+  /// input is the same.
   void set_input(LabelingInput input);
   [[nodiscard]] bool has_input() const { return input_ != nullptr; }
   /// No input, and nothing known: the light field is another one.

@@ -31,6 +31,12 @@ LabelingPtr copy(const Labeling& from) {
 
 }  // namespace
 
+bool is_same(const LabelingInput& a, const LabelingInput& b) {
+  const Schema<LabelerParameters> schema = labeler_schema();
+  return a.light_field == b.light_field && a.disparity == b.disparity &&
+         schema.values(a.parameters) == schema.values(b.parameters) && *a.scribbles == *b.scribbles;
+}
+
 LabelerParameters possible_parameters(const LabelingInput& input) {
   LabelerParameters parameters = input.parameters;
   if (input.disparity) return parameters;

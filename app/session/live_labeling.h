@@ -19,6 +19,9 @@ struct LabelingInput {
   LabelerParameters parameters;
 };
 
+/// Whether two inputs give the same labels.
+[[nodiscard]] bool is_same(const LabelingInput& a, const LabelingInput& b);
+
 /// What the parameters come to without a disparity: features of images, smoothed view by view.
 [[nodiscard]] LabelerParameters possible_parameters(const LabelingInput& input);
 

@@ -28,7 +28,7 @@ namespace {
 
 using render::Quantity;
 
-constexpr int kPatience = 60'000;  // ms
+constexpr int kPatience = 20'000;  // ms
 
 class Segmenting : public WindowFixture {
  public:

@@ -78,6 +78,7 @@ class LiveLabelerTest : public QObject {
   void label_withoutDisparity_goesByImages();
   void newRequest_dropsTheFormer();
   void newInput_outdatesWhatIsKnown();
+  void sameInput_changesNothing();
   void cancel_leavesWhatWasKnown();
   void oneLabel_isAHint();
   void otherLightField_forgetsEverything();
@@ -157,6 +158,17 @@ void LiveLabelerTest::newInput_outdatesWhatIsKnown() {
   QTRY_COMPARE_WITH_TIMEOUT(f.turn(), LiveState::Idle, kPatience);
 
   QVERIFY(f.live.labeling(f.center) != former);
+  QVERIFY(f.live.is_up_to_date(f.center));
+}
+
+void LiveLabelerTest::sameInput_changesNothing() {
+  Fixture f;
+  f.live.set_input(f.input());
+  f.live.label(f.center);
+  QTRY_COMPARE_WITH_TIMEOUT(f.turn(), LiveState::Idle, kPatience);
+
+  f.live.set_input(f.input());
+
   QVERIFY(f.live.is_up_to_date(f.center));
 }
 
