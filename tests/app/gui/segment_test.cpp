@@ -249,10 +249,8 @@ void SegmentTest::otherScene_dropsEverything() {
 
   f.openSmall("edge");
 
-  QTRY_VERIFY(f.window.document().document());
-  QTRY_VERIFY(!f.window.session().segmentation() ||
-              !f.window.session().segmentation()->labeling);
-  QVERIFY(!f.segment().labeler().labeling({4, 4}));
+  QTRY_VERIFY_WITH_TIMEOUT(!f.segment().labeler().labeling({4, 4}), kPatience);
+  QVERIFY(!f.window.session().segmentation() || !f.window.session().segmentation()->labeling);
   f.window.opener().closeScene();
   QTRY_VERIFY(!f.segment().labeler().has_input());
   QVERIFY(!f.window.actions().find("segment.update")->isEnabled());
