@@ -2,7 +2,7 @@
 #include "app/gui/overlay_controller.h"
 
 #include "app/gui/queued_post.h"
-#include "app/gui/thread_priority.h"
+#include "app/session/thread_priority.h"
 #include "widgets/color_bar.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/picture.h"
