@@ -270,7 +270,7 @@ Schema<LabelerParameters> labeler_schema() {
               {"none", "view", "rayspace"})
       .real("smoothness", &LabelerParameters::smoothness,
             {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
-            {0, 20})
+            {0, 200})
       .real("nearness", &LabelerParameters::nearness,
             {"Nearness", "How much it counts to be near strokes of a label, along surfaces"},
             {0, 5})

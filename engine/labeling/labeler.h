@@ -19,7 +19,7 @@ namespace episcope {
 struct LabelerParameters {
   std::string features = "image+estimate";
   std::string regularizer = "rayspace";
-  double smoothness = 1;
+  double smoothness = 32;
   double nearness = 0.35;
   int trees = 96;
   int depth = 14;

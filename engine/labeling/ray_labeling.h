@@ -18,6 +18,11 @@ enum class LabelCoupling {
   Rays,   ///< That, and labels are constant along the rays' lines on the EPIs.
 };
 
+/// Defaults were chosen on three scenes with scribbles (a rendered still life, `demo`, `objects`;
+/// forest with estimated disparity, centre view): a forest is mistaken in whole regions, sure of
+/// itself, so λ must be large and the floor high, and boundaries lie where image and disparity have
+/// edges. Accuracy without λ, with λ = 1, 16, 32, 64: still life 92.4, 93.1, 95.2, 95.8, 96.7 %,
+/// demo 91.0, 91.4, 92.6, 93.6, 92.6 %. Under independent mistakes of single rays λ = 1 is right.
 struct RayLabelingParameters {
   double smoothness = 32;  ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
   double floor = 0.1;      ///< Least probability taken for possible, in (0, 1].
@@ -46,7 +51,21 @@ struct RayLabeling {
   [[nodiscard]] double relative_gap() const;
 };
 
-/// Labels of all views that have probabilities.
+/// Labels of all views that have probabilities. The energy is that of algorithms.md §8.3: per-view
+/// TV weighted by edges (J_st), variation along the lines of horizontal and vertical EPIs
+/// (J_xs, J_yt) and one label for each ray, relaxed to the simplex [WSG13].
+///
+/// `Rays` solves it in the limit μ → ∞, where labels are constant along each line: all rays of a
+/// scene point, found through the disparities with a check of visibility, are one unknown, whose
+/// cost is the mean over them. The problem of the middle view is solved
+/// (engine/solvers/simplex_labeling.h), its labels are carried to every ray that it sees; then that
+/// of the view with most rays left, with the labels carried there kept, up to five views. Rays that
+/// none of them sees, about 0.05 %, are decided by their own costs and their neighbours' labels.
+/// Energy and bound are sums over the problems solved.
+/// Why: a finite μ has 8 floats for each ray and label, 8 GB for 9×9×512×512 with 13 labels, and a
+/// second for each iteration; this takes 7 s of processor time, 0.1 GB, and carries a certificate.
+/// Accuracy over all views and consistency on a rendered still life: 95.4 %, 99.5 %, of the exact
+/// labels 99.9 %. Not done: boundaries finer than the nearest pixel of the view they come from.
 /// Throws InvalidInput if parts of the input are missing or do not fit, Cancelled. Ends each solver
 /// after its next iteration at `progress.finish_requested()`.
 [[nodiscard]] RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,
