@@ -27,6 +27,8 @@
 #include <QTest>
 #include <QVBoxLayout>
 
+#include <algorithm>
+#include <cstdlib>
 #include <functional>
 #include <memory>
 
@@ -53,6 +55,11 @@ QWidget* make_job_panel() {
   auto* panel = new JobPanel;
   panel->addJob(1, "job");
   return panel;
+}
+
+int largest_difference(const QColor& a, const QColor& b) {
+  return std::max({std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+                   std::abs(a.blue() - b.blue())});
 }
 
 }  // namespace
@@ -112,7 +119,9 @@ class ThemeTest : public QObject {
           const QColor color = image.pixelColor(x, y);
           if (color.alpha() < 255) continue;
           ++drawn;
-          QCOMPARE(color.rgb(), palette.color(QPalette::ButtonText).rgb());
+          // Where the soft edges of two strokes meet, blending rounds twice.
+          QVERIFY2(largest_difference(color, palette.color(QPalette::ButtonText)) <= 1,
+                   qPrintable(file + " " + color.name()));
         }
       }
       QVERIFY2(drawn > 10, qPrintable(file));
