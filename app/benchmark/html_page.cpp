@@ -102,7 +102,7 @@ std::string paragraph(const std::string& text, const char* style) {
 }
 
 bool is_summary(const std::vector<std::string>& row) {
-  return row.front() == "average" || row.front() == "rank";
+  return row.front().starts_with("average") || row.front() == "rank";
 }
 
 std::string row_html(const TitledTable& titled, std::size_t row) {

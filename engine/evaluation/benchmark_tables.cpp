@@ -81,6 +81,22 @@ void add_scores(TitledTable& titled, const std::string& name,
   stress_least(titled, scores);
 }
 
+/// Of every scene that an entry has, and of how many: no two entries need have the same.
+std::vector<std::string> own_averages(const ScoreMatrix& matrix,
+                                      const std::vector<std::size_t>& order) {
+  std::vector<std::string> cells{"average of its own scenes"};
+  for (const std::size_t entry : order) {
+    double sum = 0;
+    int count = 0;
+    for (const auto& score : matrix.scores[entry]) {
+      sum += score.value_or(0);
+      count += score ? 1 : 0;
+    }
+    cells.push_back(fixed_text(sum / count, kScoreDigits) + " (" + std::to_string(count) + ")");
+  }
+  return cells;
+}
+
 /// Time and views of an entry over its scenes.
 struct Speed {
   double seconds = 0;
@@ -154,6 +170,9 @@ TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) 
   }
   add_scores(titled, "average",
              in_order([&](std::size_t entry) { return ranking.averages[entry]; }));
+  if (!ranking.missing.empty()) {
+    titled.table.rows.push_back(own_averages(matrix, ranking.order));
+  }
   std::vector<std::string> ranks{"rank"};
   for (const std::size_t entry : ranking.order) ranks.push_back(rank_text(ranking.ranks[entry]));
   titled.table.rows.push_back(std::move(ranks));

@@ -114,7 +114,9 @@ class RankingTest : public QObject {
     QCOMPARE(titled.table.rows[0], (std::vector<std::string>{"x", "1.000", "2.000"}));
     QCOMPARE(titled.table.rows[1], (std::vector<std::string>{"y", "–", "3.000"}));
     QCOMPARE(titled.table.rows[2], (std::vector<std::string>{"average", "1.000", "2.000"}));
-    QCOMPARE(titled.table.rows[3], (std::vector<std::string>{"rank", "1", "2"}));
+    QCOMPARE(titled.table.rows[3],
+             (std::vector<std::string>{"average of its own scenes", "1.000 (1)", "2.500 (2)"}));
+    QCOMPARE(titled.table.rows[4], (std::vector<std::string>{"rank", "1", "2"}));
     QVERIFY(titled.best[0] == std::pair(std::size_t{0}, std::size_t{1}));
     QVERIFY(titled.best[1] == std::pair(std::size_t{1}, std::size_t{2}));
     const QString note = QString::fromStdString(titled.note);
