@@ -223,7 +223,7 @@ Schema<EpiCParameters> epi_c_schema() {
              "where the texture is a neighbour's"});
   add_denoise_parameters(schema);
   add_epi_l_parameters(schema);
-  schema.search("lambda", {0.05, 0.1, 0.2, 0.4}).search("fall", {0.03, 0.1, 0.3});
+  schema.search("lambda", {0.03, 0.06, 0.12, 0.24}).search("fall", {0.03, 0.1, 0.3});
   return schema;
 }
 

@@ -83,6 +83,9 @@ Schema<EpiGParameters> epi_g_schema() {
       .real("weight_power", &P::weight_power,
             {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16});
   add_epi_l_parameters(schema);
+  schema.search("smoothness", {0.5, 1, 2, 4, 8})
+      .search("weight_power", {0, 2, 8})
+      .search("truncation", {0.1, 0.3, 1});
   return schema;
 }
 

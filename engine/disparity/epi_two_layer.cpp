@@ -254,6 +254,9 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {0.1, 255, true});
   add_stop_parameters(schema);
   add_epi_l_parameters(schema);
+  schema.search("lambda", {0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {2, 6})
+      .search("decision", {0.1, 0.15, 0.25});
   return schema;
 }
 
