@@ -100,8 +100,10 @@ std::string builtin_scene_id(const std::string& input) {
 Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
   if (id.empty()) {
-    Scene scene = io::open_scene(input, options.open, progress);
-    read_kept_scribbles(scene, progress);
+    io::OpenOptions open = options.open;
+    open.needs_truth = options.needs_truth;
+    Scene scene = io::open_scene(input, open, progress);
+    if (options.needs_truth) read_kept_scribbles(scene, progress);
     return scene;
   }
   const double focus_px = options.open.focus_px;

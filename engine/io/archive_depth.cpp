@@ -18,13 +18,13 @@ FieldShape shape_of(const LightField::Samples& samples) {
 }
 
 DepthMaps read_depth(const Hdf5Input& file, const std::string& name, const FieldShape& shape,
-                     const Progress& progress) {
+                     MapViews views, const Progress& progress) {
   DepthMaps maps;
   if (!file.has(name)) return maps;
   maps.name = name;
-  maps.depth = read_maps<float>(file, name, shape, progress.part(0, 0.8));
+  maps.depth = read_maps<float>(file, name, shape, progress.part(0, 0.8), views);
   if (file.has(name + "_MASK")) {
-    maps.mask = read_maps<std::uint8_t>(file, name + "_MASK", shape, progress.part(0.8, 1));
+    maps.mask = read_maps<std::uint8_t>(file, name + "_MASK", shape, progress.part(0.8, 1), views);
   }
   return maps;
 }
@@ -95,14 +95,18 @@ CameraGrid read_camera(const Hdf5Input& file) {
 }
 
 ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples& samples,
-                                OpenOptions::Units units, ConventionReport& report,
+                                const OpenOptions& options, ConventionReport& report,
                                 const Progress& progress) {
   const FieldShape shape = shape_of(samples);
   ArchiveTruth truth;
   truth.camera = stored_camera(file);
-  DepthMaps field = read_depth(file, "GT_DEPTH", shape, progress.part(0, 0.7));
-  DepthMaps foreground = read_depth(file, "GT_DEPTH_FOREGROUND", shape, progress.part(0.7, 0.8));
-  DepthMaps background = read_depth(file, "GT_DEPTH_BACKGROUND", shape, progress.part(0.8, 0.9));
+  const MapViews views = options.needs_truth ? MapViews::All : MapViews::Center;
+  const auto read = [&](const char* name, double begin, double end) {
+    return read_depth(file, name, shape, views, progress.part(begin, end));
+  };
+  DepthMaps field = read("GT_DEPTH", 0, 0.7);
+  DepthMaps foreground = read("GT_DEPTH_FOREGROUND", 0.7, 0.8);
+  DepthMaps background = read("GT_DEPTH_BACKGROUND", 0.8, 0.9);
   const DepthMaps& reference =
       !field.empty() ? field : (!background.empty() ? background : foreground);
   if (reference.empty()) {
@@ -116,7 +120,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
     report.warnings.push_back(reference.name + " is left out, since " + camera_fault(file) + ".");
     return truth;
   }
-  truth.camera = settle_units(reference, samples, truth.camera, units, report);
+  truth.camera = settle_units(reference, samples, truth.camera, options.units, report);
   const auto finish = [&](DepthMaps& maps, double from) {
     return maps.empty() ? DisparityField{}
                         : disparity_from_depth(std::move(maps), truth.camera, report,

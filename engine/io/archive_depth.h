@@ -19,11 +19,12 @@ struct ArchiveTruth {
 
 /// Reads GT_DEPTH and the datasets of transparent scenes with their masks, finds the units and
 /// converts to disparity; what it decided goes to `report`. Depth that is zero, negative or NaN is
-/// invalid; of views without any valid depth nothing is kept. Throws IoError, Cancelled.
+/// invalid; of views without any valid depth nothing is kept. Without `options.needs_truth` only
+/// the centre view is read. Throws IoError, Cancelled.
 [[nodiscard]] ArchiveTruth read_archive_depth(const Hdf5Input& file,
                                               const LightField::Samples& samples,
-                                              OpenOptions::Units units, ConventionReport& report,
-                                              const Progress& progress);
+                                              const OpenOptions& options,
+                                              ConventionReport& report, const Progress& progress);
 
 /// Camera attributes as stored, on the root or on LF; an unknown camera if they are missing, if one
 /// is not finite, or if the file states that it has none.

@@ -29,7 +29,7 @@ bool is_one_view(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldS
 
 template <class T>
 ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const FieldShape& shape,
-                       const Progress& progress) {
+                       const Progress& progress, MapViews views) {
   const Hdf5Dataset dataset = file.dataset(name);
   const auto height = static_cast<std::size_t>(shape.height);
   const auto width = static_cast<std::size_t>(shape.width);
@@ -40,24 +40,27 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
     file.read(name, {origin, dataset.shape}, stack.data());
     return stack;
   }
-  ViewStack<T> stack(shape.grid, shape.height, shape.width);
-  for (int i = 0; i < shape.grid.count(); ++i) {
+  const bool is_center = views == MapViews::Center;
+  const ViewIndex first = is_center ? shape.grid.center() : ViewIndex{};
+  const GridShape grid = is_center ? GridShape{1, 1} : shape.grid;
+  ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
+  for (int i = 0; i < grid.count(); ++i) {
     progress.check();
-    const ViewIndex view{i / shape.grid.u, i % shape.grid.u};
+    const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
     const Hdf5Block block{
         {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
         {1, 1, height, width}};
     file.read(name, block, stack.view(view).data);
-    progress.report((i + 1.0) / shape.grid.count());
+    progress.report((i + 1.0) / grid.count());
   }
   return stack;
 }
 
 template ViewStack<std::uint8_t> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
-                                           const Progress&);
+                                           const Progress&, MapViews);
 template ViewStack<std::int32_t> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
-                                           const Progress&);
+                                           const Progress&, MapViews);
 template ViewStack<float> read_maps(const Hdf5Input&, const std::string&, const FieldShape&,
-                                    const Progress&);
+                                    const Progress&, MapViews);
 
 }  // namespace episcope::io

@@ -16,11 +16,14 @@ struct FieldShape {
   int width = 0;
 };
 
+enum class MapViews { All, Center };
+
 /// Reads `[v][h][y][x]`, `[1][1][y][x]` or `[y][x]` view by view, in the stored order; the latter
-/// two belong to the centre view. T: uint8, int32 or float. Throws IoError for another rank or
+/// two belong to the centre view; `Center` reads that alone. T: uint8, int32 or float. Throws IoError for another rank or
 /// size.
 template <class T>
 [[nodiscard]] ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name,
-                                     const FieldShape& shape, const Progress& progress);
+                                     const FieldShape& shape, const Progress& progress,
+                                     MapViews views = MapViews::All);
 
 }  // namespace episcope::io

@@ -190,9 +190,12 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   scale_float_samples(samples, report);
   progress.step("reading depth");
   ArchiveTruth depth =
-      read_archive_depth(file, samples, options.units, report, progress.part(0.6, 0.85));
+      read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
-  ArchiveLabels labels = read_labels(file, layout.shape, report, progress.part(0.85, 0.95));
+  ArchiveLabels labels;
+  if (options.needs_truth) {
+    labels = read_labels(file, layout.shape, report, progress.part(0.85, 0.95));
+  }
   GroundTruth truth{std::move(depth.field),
                     std::move(depth.foreground),
                     std::move(depth.background),
@@ -200,7 +203,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     {}};
   info.camera = depth.camera;
   assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)},
-           options.flip, scene, progress);
+           options, scene, progress);
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);

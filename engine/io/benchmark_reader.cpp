@@ -294,7 +294,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
 
   assemble({std::move(samples), std::move(truth), std::move(info),
             {{}, "folders of the benchmark are in order"}},
-           options.flip, scene, progress);
+           options, scene, progress);
   return scene;
 }
 

@@ -37,7 +37,7 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
   assemble({std::move(samples), std::move(truth), std::move(info),
             {{}, "rows and columns are as the names say"}},
-           options.flip, scene, progress);
+           options, scene, progress);
   return scene;
 }
 

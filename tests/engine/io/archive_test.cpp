@@ -42,6 +42,31 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
   }
 
+  void truthNotNeeded_isNotRead_data() {
+    QTest::addColumn<bool>("is_reversed");
+    QTest::newRow("in order") << false;
+    QTest::newRow("h reversed") << true;
+  }
+  // What it is needed for is as with it: the order of views and the units.
+  void truthNotNeeded_isNotRead() {
+    QFETCH(bool, is_reversed);
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {is_reversed, false};
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"), {.needs_truth = false});
+
+    const Scene whole = open(path("lf.h5"));
+    QVERIFY(has_same_samples(whole, read));
+    QCOMPARE(read.convention.order_check, whole.convention.order_check);
+    QCOMPARE(read.convention.units, whole.convention.units);
+    QCOMPARE(read.light_field->info().camera.baseline, whole.light_field->info().camera.baseline);
+    QVERIFY(read.truth->field.empty());
+    QVERIFY(read.truth->labels.empty());
+    QVERIFY(whole.truth->has_disparity());
+  }
+
   void archive_keepsInvalidPixels() {
     Scene scene = plane_scene();
     GroundTruth truth;
