@@ -89,6 +89,19 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   });
 }
 
+// View by view: memory of hundreds of megabytes is touched here for the first time, which takes
+// longer than a stop request may wait.
+void clear(DoubleLayers& layers, const Progress& progress) {
+  const GridShape grid = layers.near.grid();
+  const ViewIndex first = layers.near.first();
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
+    std::fill_n(layers.near.view(view).data, layers.near.view_size(), 0.0F);
+    std::fill_n(layers.far.view(view).data, layers.far.view_size(), 0.0F);
+    std::memset(layers.confidence.view(view).data, 0, layers.confidence.view_size());
+  });
+}
+
 }  // namespace
 
 void require_double_grid(const LightField& lf) {
@@ -107,14 +120,12 @@ DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& sca
   layers.near = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   layers.far = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   layers.confidence = ViewStack<std::uint8_t>(grid, lf.height(), lf.width(), 1, first);
-  std::fill_n(layers.near.data(), layers.near.size(), 0.0F);
-  std::fill_n(layers.far.data(), layers.far.size(), 0.0F);
-  std::memset(layers.confidence.data(), 0, layers.confidence.size());
+  clear(layers, progress.part(0, 0.01));
   const Measurement measurement{lf, scales, search, layers};
-  const double half = !has_vertical ? 1 : has_horizontal ? 0.5 : 0;
+  const double half = !has_vertical ? 1 : has_horizontal ? 0.5 : 0.01;
   if (has_horizontal) {
     progress.step("two orientations, horizontal EPIs");
-    run_direction(measurement, Direction::Horizontal, progress.part(0, half));
+    run_direction(measurement, Direction::Horizontal, progress.part(0.01, half));
   }
   if (has_vertical) {
     progress.step("two orientations, vertical EPIs");
