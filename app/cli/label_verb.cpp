@@ -13,6 +13,7 @@
 #include "engine/evaluation/label_accuracy.h"
 #include "engine/io/label_file.h"
 #include "engine/io/labeling_file.h"
+#include "engine/labeling/consistency.h"
 
 #include <iomanip>
 #include <iostream>
@@ -97,12 +98,20 @@ void write(const Request& request, const Labeling& labeling, const Scribbles& sc
 struct Accuracy {
   LabelAccuracy all_views;
   LabelAccuracy center;
+  double consistency = 0;
 };
 
-Accuracy judge(const Labeling& labeling, const Scene& scene) {
+Accuracy judge(const Labeling& labeling, const Scene& scene, const DisparityField& disparity,
+               const Progress& progress) {
   const ViewStack<std::int32_t>& truth = scene.truth->labels;
   const ViewIndex center = scene.light_field->center();
   Accuracy accuracy;
+  // Where the rays truly go, as far as that is known.
+  const bool knows_rays =
+      scene.truth->has_disparity() && scene.truth->field.disparity.grid() == labeling.labels.grid();
+  accuracy.consistency =
+      label_consistency(labeling.labels, knows_rays ? scene.truth->field : disparity, progress)
+          .share();
   if (truth.empty()) return accuracy;
   if (truth.grid() == labeling.labels.grid()) {
     accuracy.all_views = judge_labels(labeling.labels, truth);
@@ -120,6 +129,7 @@ void print_json_answer(const Request& request, const Labeling& labeling, const A
   json["seconds"] = seconds;
   if (const auto share = accuracy.all_views.share()) json["accuracy_all_views"] = *share;
   if (const auto share = accuracy.center.share()) json["accuracy_center"] = *share;
+  json["consistency"] = accuracy.consistency;
   if (request.parameters.regularizer != "none") json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
@@ -136,6 +146,7 @@ void print_text_answer(const Request& request, const Labeling& labeling, const A
             << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
             << seconds << " s, " << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
   std::cout << std::setprecision(2);
+  std::cout << "consistency along rays    " << 100 * accuracy.consistency << " %\n";
   if (const auto share = accuracy.all_views.share()) {
     std::cout << "accuracy of all views     " << 100 * *share << " %\n";
   }
@@ -172,7 +183,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const double seconds = steady_seconds() - start;
   progress.step("writing " + request.output);
   write(request, labeling, scribbles, progress.part(0.95, 1));
-  const Accuracy accuracy = judge(labeling, scene);
+  const Accuracy accuracy = judge(labeling, scene, *disparity.field, progress.part(1, 1));
   job.finish();
   if (request.is_json) {
     print_json_answer(request, labeling, accuracy, seconds);

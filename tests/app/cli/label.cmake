@@ -9,10 +9,11 @@ json_is("${out}" 3 labels)
 json_near("${out}" 0.001 100 seconds)
 json_near("${out}" 0.95 1 accuracy_all_views)
 json_near("${out}" 0.95 1 accuracy_center)
+json_near("${out}" 0.95 1 consistency)
 json_near("${out}" 0 0.01 gap)
 json_is("${out}" rayspace parameters regularizer)
 expect_file(l.h5 ${hdf5})
-expect("label again, over its own result" 0 OUT "3 labels in 9 views.*accuracy of all views"
+expect("label again, over its own result" 0 OUT "3 labels in 9 views.*consistency along rays.*accuracy of all views"
        ARGS label lf.h5 -o l.h5 --features image --regularizer none --trees 8)
 
 foreach(what labels probability uncertainty)
