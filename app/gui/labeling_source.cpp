@@ -2,11 +2,16 @@
 #include "app/gui/labeling_source.h"
 
 #include "app/session/run_estimator.h"
-#include "app/session/run_labeler.h"
 
 #include <algorithm>
 
 namespace episcope {
+namespace {
+
+// Somebody waits for it while painting: seconds, where better methods take half a minute.
+constexpr const char* kQuickEstimator = "epi_s";
+
+}  // namespace
 
 LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
     : QObject(parent), session_(session), jobs_(jobs) {
@@ -88,7 +93,7 @@ void LabelingSource::provide() {
   jobs_.start<FinishedEstimate>(
       Lane::Estimate, tr("Disparity for labels"),
       [light_field](const Progress& progress) {
-        return run_estimator(*light_field, {kLabelingEstimator, {}, ViewSelection::All}, progress);
+        return run_estimator(*light_field, {kQuickEstimator, {}, ViewSelection::All}, progress);
       },
       [this, generation](const FinishedEstimate& finished) {
         if (generation != session_.generation()) return;
