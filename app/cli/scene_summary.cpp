@@ -96,7 +96,8 @@ SceneSummary summarize(const Scene& scene) {
   for (const auto& [view, labels] : scene.scribbles.views) {
     painted += collect_ids(labels.data(), labels.size(), summary.scribble_ids);
     pixels += labels.size();
-    summary.painted_views += (summary.painted_views.empty() ? "" : " ") + view_text(view);
+    summary.painted_views += summary.painted_views.empty() ? "" : " ";
+    summary.painted_views += view_text(view);
   }
   if (pixels > 0) {
     summary.painted_percent = 100.0 * static_cast<double>(painted) / static_cast<double>(pixels);

@@ -52,7 +52,8 @@ AnnotateController::AnnotateController(Session& session, DocumentController& doc
   connectPanel();
   connectPalette();
   connect(panels_.tabs, &QTabWidget::currentChanged, this,
-          [this] { setAnnotating(panels_.tabs->currentWidget() == panels_.annotate_tab); });
+          [this] { setAnnotating(isTabShown()); });
+  connect(panels_.tabs, &QTabWidget::currentChanged, this, &AnnotateController::showScribbles);
   connect(&document_, &DocumentController::replaced, this, [this] {
     label_ = former_label_ = 0;
     showLabels();
@@ -84,12 +85,11 @@ void AnnotateController::connectPanel() {
   BrushPanel* panel = panels_.brush;
   panel->setBrushSize(tool_->brushSize());
   panel->setEraserSize(tool_->eraserSize());
-  panels_.canvas->setScribbleOpacity(panel->scribbleOpacity());
+  showScribbles();
   connect(panel, &BrushPanel::brushSizeEdited, tool_, &BrushTool::setBrushSize);
   connect(panel, &BrushPanel::eraserSizeEdited, tool_, &BrushTool::setEraserSize);
   connect(panel, &BrushPanel::protectsOthersEdited, this, &AnnotateController::setProtectsOthers);
-  connect(panel, &BrushPanel::scribbleOpacityEdited, panels_.canvas,
-          &ViewCanvas::setScribbleOpacity);
+  connect(panel, &BrushPanel::scribbleOpacityEdited, this, &AnnotateController::showScribbles);
 }
 
 void AnnotateController::connectPalette() {
@@ -126,6 +126,14 @@ void AnnotateController::setSuspended(bool is_suspended) {
 
 void AnnotateController::showTab() {
   panels_.tabs->setCurrentWidget(panels_.annotate_tab);
+}
+
+bool AnnotateController::isTabShown() const {
+  return panels_.tabs->currentWidget() == panels_.annotate_tab;
+}
+
+void AnnotateController::showScribbles() {
+  panels_.canvas->setScribbleOpacity(isTabShown() ? panels_.brush->scribbleOpacity() : 0);
 }
 
 void AnnotateController::showMode() {

@@ -70,6 +70,9 @@ class AnnotateController : public QObject {
   void showMode();
   void showLabels();
   void showTab();
+  [[nodiscard]] bool isTabShown() const;
+  /// Strokes are seen with the tab that they are edited in: over errors they would hide some.
+  void showScribbles();
   [[nodiscard]] PaintStyle styleOf(const StrokeStart& start) const;
   bool requireLabel();
   void fill(const StrokeStart& start);

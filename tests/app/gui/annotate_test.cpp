@@ -99,6 +99,7 @@ class AnnotateTest : public QObject {
   void removedLabel_isAskedForOnlyIfPainted();
   void carriedLabels_neverCoverPaintedOnes();
   void otherTab_goesBackToBrowsing();
+  void otherTab_hidesWhatIsPainted();
   void preview_cannotBePainted();
   void story_paintsSavesReopensAndFindsTheSame();
   void failedSave_keepsTheDocument();
@@ -373,6 +374,22 @@ void AnnotateTest::otherTab_goesBackToBrowsing() {
   f.press({10, 12});
   f.release({10, 12});
   QVERIFY((f.window.session().cross_hair() == PixelIndex{10, 12}));
+}
+
+void AnnotateTest::otherTab_hidesWhatIsPainted() {
+  Annotating f;
+  const auto drawnColor = [&f] { return f.canvas()->grab().toImage().pixelColor(f.at({40, 40})); };
+  const QColor view = drawnColor();
+  f.trigger("annotate.add_label");
+  f.drag({40, 20}, {40, 60});
+  QVERIFY(drawnColor() != view);
+
+  f.trigger("tab.estimate");
+  QCOMPARE(drawnColor(), view);
+
+  f.trigger("tab.annotate");
+  f.trigger("annotate.mode");  // browsing, with the strokes in sight
+  QVERIFY(drawnColor() != view);
 }
 
 void AnnotateTest::preview_cannotBePainted() {
