@@ -52,7 +52,7 @@ LabelPalette::LabelPalette(QWidget* parent)
       hint_(new QLabel(this)),
       add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
       rename_(make_tool_button(
-          {"labels.rename", "rename", tr("Rename this label (F2)"), tr("Rename")}, this)),
+          {"labels.rename", "rename", tr("Rename this label"), tr("Rename")}, this)),
       remove_(make_tool_button(
           {"labels.remove", "trash", tr("Remove this label and what is painted with it (Delete)"),
            tr("Remove")},
@@ -110,16 +110,12 @@ void LabelPalette::setUpTree() {
 }
 
 void LabelPalette::setUpActions() {
-  const auto add_key = [this](const char* name, QKeySequence key, QToolButton* button) {
-    auto* action = new QAction(tree_);
-    action->setObjectName(name);
-    action->setShortcut(key);
-    action->setShortcutContext(Qt::WidgetShortcut);
-    tree_->addAction(action);
-    connect(action, &QAction::triggered, button, &QToolButton::click);
-  };
-  add_key("labels.removeAction", QKeySequence::Delete, remove_);
-  add_key("labels.renameAction", Qt::Key_F2, rename_);
+  auto* remove = new QAction(tree_);
+  remove->setObjectName("labels.removeAction");
+  remove->setShortcut(QKeySequence::Delete);
+  remove->setShortcutContext(Qt::WidgetShortcut);
+  tree_->addAction(remove);
+  connect(remove, &QAction::triggered, remove_, &QToolButton::click);
   connect(add_, &QToolButton::clicked, this, &LabelPalette::addRequested);
   connect(rename_, &QToolButton::clicked, this, [this] { editName(current_); });
   connect(remove_, &QToolButton::clicked, this, [this] { emit removeRequested(current_); });

@@ -79,8 +79,7 @@ class LabelPaletteTest : public QObject {
     palette_->setCurrent(4);
     QSignalSpy renamed(palette_.get(), &LabelPalette::renameRequested);
 
-    tree_->setFocus();
-    QTest::keyClick(tree_, Qt::Key_F2);
+    palette_->findChild<QToolButton*>("labels.rename")->click();
     auto* editor = tree_->findChild<QLineEdit*>();
     QVERIFY(editor);
     editor->setText("vase");

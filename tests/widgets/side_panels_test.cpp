@@ -26,6 +26,24 @@ class SidePanelsTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void message_mayHaveTwoActions() {
+    MessageBar bar;
+    int recovered = 0;
+    int discarded = 0;
+    bar.showMessage(Severity::Warning, "It died.", {"Recover", [&] { ++recovered; }},
+                    {"Discard", [&] { ++discarded; }});
+
+    auto* other = bar.findChild<QPushButton*>("message.other");
+    QVERIFY(!other->isHidden());
+    other->click();
+
+    QCOMPARE(recovered, 0);
+    QCOMPARE(discarded, 1);
+    QVERIFY(bar.isHidden());
+    bar.showMessage(Severity::Warning, "One only.", {"Retry", [] {}});
+    QVERIFY(other->isHidden());
+  }
+
   void messageBar_showsActsAndCloses() {
     MessageBar bar;
     QVERIFY(bar.isHidden());

@@ -2,6 +2,7 @@
 #include "widgets/view_grid.h"
 #include "tests/widgets/pictures.h"
 #include "widgets/play_path.h"
+#include "widgets/theme.h"
 #include "widgets/view_grid_cells.h"
 
 #include <QComboBox>
@@ -65,6 +66,23 @@ class ViewGridTest : public QObject {
     };
     QVERIFY(area(centre, {1, 1}) != area(corner, {1, 1}));
     QVERIFY(area(centre, {2, 0}) != area(corner, {2, 0}));
+  }
+
+  void paintedViews_areMarked() {
+    ViewGridCells cells;
+    cells.setGrid({3, 3});
+    cells.resize(150, 150);
+    const QImage before = cells.grab().toImage();
+
+    cells.setPainted({{0, 2}, {7, 7}});  // one lies outside
+
+    const QImage after = cells.grab().toImage();
+    const QPoint corner = cells.cellRect({0, 2}).topRight().toPoint() + QPoint(-6, 3);
+    QCOMPARE(after.pixelColor(corner), theme::kPainted);
+    QCOMPARE(after.copy(cells.cellRect({2, 0}).toRect()),
+             before.copy(cells.cellRect({2, 0}).toRect()));
+    cells.setPainted({});
+    QCOMPARE(cells.grab().toImage(), before);
   }
 
   void playPath_isALoopOfNeighbours_data() {
