@@ -221,8 +221,8 @@ void show_state(ActionTable& table, MainWindow& window) {
 void add_annotate_actions(ActionTable& table, MainWindow& window) {
   add_history(table, window);
   add_tools(table, window);
-  add_labels(table, window);
   add_carrying(table, window);
+  add_labels(table, window);
 }
 
 void add_scribble_file_actions(ActionTable& table, MainWindow& window) {

@@ -99,17 +99,30 @@ QWidget* ShortcutWindow::makeEditor() {
 }
 
 void ShortcutWindow::fillGestures() {
-  auto* group = add_group(tree_, tr("In the view"));
-  const QStringList gestures[] = {
-      {tr("Click"), tr("Moves the cross-hair")},
-      {tr("Shift+click"), tr("Focuses at the pixel")},
-      {tr("Double click"), tr("Shows the centre view; of a tile: shows it alone")},
-      {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
-      {tr("Middle drag, Space+drag"), tr("Pans")},
-      {tr("Wheel"), tr("Zooms at the cursor")},
-      {tr("Alt+wheel"), tr("Moves the focus plane")},
-      {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
-  };
+  addGestures(tr("In the view"),
+              {
+                  {tr("Click"), tr("Moves the cross-hair")},
+                  {tr("Shift+click"), tr("Focuses at the pixel")},
+                  {tr("Double click"), tr("Shows the centre view; of a tile: shows it alone")},
+                  {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
+                  {tr("Middle drag, Space+drag"), tr("Pans")},
+                  {tr("Wheel"), tr("Zooms at the cursor")},
+                  {tr("Alt+wheel"), tr("Moves the focus plane")},
+                  {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
+              });
+  addGestures(tr("In the view, while annotating"),
+              {
+                  {tr("Drag"), tr("Paints the current label, or uses the tool in hand")},
+                  {tr("Right drag"), tr("Erases")},
+                  {tr("Shift+drag"), tr("Paints and leaves other labels as they are")},
+                  {tr("Ctrl+click"), tr("Moves the cross-hair")},
+                  {tr("Ctrl+Shift+wheel"), tr("Changes the size of brush or eraser")},
+                  {tr("Esc"), tr("Takes the stroke back that is under way")},
+              });
+}
+
+void ShortcutWindow::addGestures(const QString& title, const QList<QStringList>& gestures) {
+  auto* group = add_group(tree_, title);
   for (const QStringList& gesture : gestures) {
     (new QTreeWidgetItem(group, gesture))->setFlags(Qt::ItemIsEnabled);
   }
@@ -165,8 +178,8 @@ void ShortcutWindow::updateEditor() {
     return;
   }
   const QString text = key.toString(QKeySequence::NativeText);
-  hint_->setText(tr("%1 already belongs to “%2”, which would lose it.")
-                     .arg(text, table_.find(user)->text()));
+  hint_->setText(
+      tr("%1 already belongs to “%2”, which would lose it.").arg(text, table_.find(user)->text()));
   hint_->setPalette(theme::text_palette(theme::warning_text(palette())));
   set_->setText(tr("Take it"));
 }

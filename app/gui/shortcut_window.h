@@ -26,6 +26,7 @@ class ShortcutWindow : public QDialog {
 
  private:
   void fillGestures();
+  void addGestures(const QString& title, const QList<QStringList>& gestures);
   void fillCommands();
   QWidget* makeEditor();
   void showKeys();

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/load_scene.h"
 
+#include "app/session/label_place.h"
 #include "app/session/scene_cache.h"
 #include "engine/core/error.h"
+#include "engine/io/image_file.h"
+#include "engine/io/label_file.h"
 #include "tests/app/session/tiny_scene.h"
 
 #include <QFile>
@@ -40,6 +43,7 @@ class LoadSceneTest : public QObject {
   void otherOptions_areKeptApart();
   void builtinScene_isTheSameFromTheCache();
   void unknownBuiltinScene_isRefused();
+  void scribblesBesideAnImageGrid_areRead();
   void missingFile_isRefusedWithItsPath();
 };
 
@@ -175,6 +179,31 @@ void LoadSceneTest::builtinScene_isTheSameFromTheCache() {
 
 void LoadSceneTest::unknownBuiltinScene_isRefused() {
   QVERIFY_EXCEPTION_THROWN((void)load_scene("demo:slamt", {}, Progress()), Unavailable);
+}
+
+void LoadSceneTest::scribblesBesideAnImageGrid_areRead() {
+  const QTemporaryDir folder;
+  const auto scene = tiny_scene();
+  for (int i = 0; i < 9; ++i) {
+    const std::string name = "view_0" + std::to_string(i / 3) + "_0" + std::to_string(i % 3);
+    io::write_png(path_of(folder) / (name + ".png"),
+                  scene->light_field->view<std::uint8_t>({i / 3, i % 3}));
+  }
+  const Scene read = load_scene(folder.path().toStdString(), {}, Progress());
+  QVERIFY(read.scribbles.empty());
+  QCOMPARE(label_place(*read.light_field), path_of(folder) / "labels.h5");
+  Scribbles painted;
+  painted.views.push_back({{0, 2}, Image<std::int32_t>(64, 64)});
+  painted.views[0].labels.at(5, 6) = 4;
+  painted.labels = {{4, "four", {1, 2, 3}}};
+
+  io::write_scribbles(label_place(*read.light_field), painted, read, Progress());
+  const Scene again = load_scene(folder.path().toStdString(), {}, Progress());
+
+  QCOMPARE(again.scribbles.views.size(), std::size_t{1});
+  QCOMPARE(again.scribbles.views[0].view, (ViewIndex{0, 2}));
+  QCOMPARE(again.scribbles.views[0].labels.at(5, 6), 4);
+  QVERIFY(again.scribbles.labels == painted.labels);
 }
 
 void LoadSceneTest::missingFile_isRefusedWithItsPath() {

@@ -91,6 +91,26 @@ class LabelFileTest : public QObject {
  private slots:
   void init() { folder_ = std::make_unique<QTemporaryDir>(); }
 
+  void scribblesSavedBeside_goBeforeThoseOfTheFileItself() {
+    RawArchive form;
+    form.more = [](io::Hdf5Output& file) {
+      add_bytes(file, "GT_LABELS", {5, 5, kHeight, kWidth},
+                std::vector<std::uint8_t>(5 * 5 * kHeight * kWidth, 3));
+      std::vector<std::uint8_t> scribbles(kHeight * kWidth, 0);
+      scribbles[5] = 7;
+      add_bytes(file, "SCRIBBLES", {kHeight, kWidth}, scribbles);
+    };
+    write_raw_archive(path("lf.h5"), plane_scene(), form);
+    const Scene scene = io::open_scene(path("lf.h5"), {}, Progress(1));
+    QCOMPARE(scene.scribbles.views.size(), std::size_t{1});
+
+    io::write_scribbles(path("labels.h5"), some_scribbles(), scene, Progress(1));
+
+    const Scene again = io::open_scene(path("lf.h5"), {}, Progress(1));
+    compare(again.scribbles, some_scribbles());
+    QVERIFY(!again.truth->labels.empty());
+  }
+
   void scribbles_comeBack_data() {
     QTest::addColumn<bool>("has_many_views");
     QTest::newRow("one view") << false;
