@@ -60,14 +60,17 @@ struct RayLabeling {
 /// cost is the mean over them. The problem of the middle view is solved
 /// (engine/solvers/simplex_labeling.h), its labels are carried to every ray that it sees; then that
 /// of the view with most rays left, with the labels carried there kept, up to five views. Rays that
-/// none of them sees, about 0.05 %, are decided by their own costs and their neighbours' labels.
+/// none of them sees, about 0.05 %, and those next to a boundary, which were carried to the nearest
+/// pixel, are then decided in each view by their mean costs, the view's own edges and the labels of
+/// their neighbours.
 /// Energy and bound are sums over the problems solved.
 /// Why: a finite μ has 8 floats for each ray and label, 8 GB for 9×9×512×512 with 13 labels, and a
-/// second for each iteration; this takes 7 s of processor time, 0.1 GB, and carries a certificate.
-/// Accuracy over all views and consistency on a rendered still life: 95.4 %, 99.5 %, of the exact
-/// labels 99.9 %. Not done: boundaries finer than the nearest pixel of the view they come from.
-/// Throws InvalidInput if parts of the input are missing or do not fit, Cancelled. Ends each solver
-/// after its next iteration at `progress.finish_requested()`.
+/// second for each iteration; this takes 20 s of processor time, 0.2 GB, and carries a certificate.
+/// On a rendered still life, all views, accuracy / consistency: None 92.2 / 98.0, Views 95.8
+/// / 98.9, Rays 95.8 / 99.5 %, of the exact labels 99.9 %. Where a forest is hardly ever mistaken
+/// (`objects`) Views and Rays both reach 99.95 %. Throws InvalidInput if parts of the input are
+/// missing or do not fit, Cancelled. Ends each solver after its next iteration at
+/// `progress.finish_requested()`.
 [[nodiscard]] RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -18,6 +20,14 @@ constexpr std::int32_t kUnknown = -1;
 constexpr int kMostReferences = 5;
 constexpr double kWorthSolving = 5e-4;
 constexpr int kSettlingSweeps = 3;
+
+bool differs_nearby(ImageView<const std::int32_t> labels, PixelIndex at) {
+  const std::int32_t label = labels.at(at.y, at.x);
+  return (at.x > 0 && labels.at(at.y, at.x - 1) != label) ||
+         (at.x + 1 < labels.width && labels.at(at.y, at.x + 1) != label) ||
+         (at.y > 0 && labels.at(at.y - 1, at.x) != label) ||
+         (at.y + 1 < labels.height && labels.at(at.y + 1, at.x) != label);
+}
 
 class RaySpace {
  public:
@@ -42,9 +52,14 @@ class RaySpace {
   void solve(ViewIndex reference, const Progress& progress);
   void carry(ViewIndex reference, const Progress& progress);
   void carry_to(ViewIndex reference, int i, const Progress& progress);
-  void settle(int i, const Progress& progress);
-  void settle_pixel(VolumeView<const std::uint8_t> p, ImageView<const float> weights,
-                    ImageView<std::int32_t> labels, PixelIndex at) const;
+  // What one view is settled by.
+  struct Settling {
+    VolumeView<const float> costs;
+    ImageView<const float> weights;
+    ImageView<std::int32_t> labels;
+  };
+  void settle(int i, Volume<float>& costs, const Progress& progress);
+  void settle_pixel(const Settling& at_hand, PixelIndex at) const;
 
   const RayLabelingInput& input_;
   const RayLabelingParameters& parameters_;
@@ -89,47 +104,56 @@ void RaySpace::carry(ViewIndex reference, const Progress& progress) {
   parallel_for(labels_.grid().count(), progress, [&](int i) { carry_to(reference, i, progress); });
 }
 
-// The cheapest label next to neighbours that are known already.
-void RaySpace::settle_pixel(VolumeView<const std::uint8_t> p, ImageView<const float> weights,
-                            ImageView<std::int32_t> labels, PixelIndex at) const {
+// The cheapest of a pixel's own label and those of its neighbours; of all labels if it has none.
+void RaySpace::settle_pixel(const Settling& at_hand, PixelIndex at) const {
+  const auto& [costs, weights, labels] = at_hand;
   const PixelIndex neighbours[] = {
       {at.y, at.x - 1}, {at.y, at.x + 1}, {at.y - 1, at.x}, {at.y + 1, at.x}};
-  const CostTable& table = problem_.table();
+  const std::int32_t former = labels.at(at.y, at.x);
   float least = 0;
   std::int32_t best = kUnknown;
-  for (int layer = 0; layer < p.layers; ++layer) {
-    float cost = table[p.at(at.y, layer, at.x)];
+  for (int layer = 0; layer < costs.layers; ++layer) {
+    float cost = costs.at(at.y, layer, at.x);
+    bool is_near = former == kUnknown || former == layer;
     for (const PixelIndex n : neighbours) {
-      if (n.y < 0 || n.x < 0 || n.y >= p.height || n.x >= p.width) continue;
-      if (labels.at(n.y, n.x) == kUnknown || labels.at(n.y, n.x) == layer) continue;
+      if (n.y < 0 || n.x < 0 || n.y >= costs.height || n.x >= costs.width) continue;
+      const std::int32_t label = labels.at(n.y, n.x);
+      is_near = is_near || label == layer;
+      if (label == kUnknown || label == layer) continue;
       const PixelIndex first{std::min(n.y, at.y), std::min(n.x, at.x)};
       const float g = weights.empty() ? 1.0F : weights.at(first.y, first.x);
       cost += static_cast<float>(parameters_.smoothness) * g;
     }
-    if (best != kUnknown && cost >= least) continue;
+    if (!is_near || (best != kUnknown && cost >= least)) continue;
     least = cost;
     best = layer;
   }
   labels.at(at.y, at.x) = best;
 }
 
-// What no reference sees: a few rays, whose label is found from their neighbours' and their own
-// probabilities.
-void RaySpace::settle(int i, const Progress& progress) {
-  if (unknown_[i] == 0) return;
+// Rays that no reference sees, and those at boundaries, which were carried to the nearest pixel: by
+// the costs of their tracks, the view's own edges and their neighbours' labels.
+void RaySpace::settle(int i, Volume<float>& costs, const Progress& progress) {
   const ViewIndex view = view_at(i);
   const auto labels = labels_.view(view);
+  Image<std::int32_t> fixed(labels.height, labels.width);
   std::vector<PixelIndex> open;
   for (int y = 0; y < labels.height; ++y) {
     for (int x = 0; x < labels.width; ++x) {
-      if (labels.at(y, x) == kUnknown) open.push_back({y, x});
+      const std::int32_t label = labels.at(y, x);
+      const bool is_open = label == kUnknown || differs_nearby(labels, {y, x});
+      fixed.at(y, x) = is_open ? kUnknown : label;
+      if (is_open) open.push_back({y, x});
     }
   }
-  const auto p = input_.probabilities->view(view).view();
+  if (open.empty()) return;
+  fill_track_costs({*input_.probabilities, *input_.disparity, view, fixed}, problem_.table(),
+                   progress.part(0, 0).on_one_thread(), costs.view());
   const Image<float> weights = problem_.weights(view);
+  const Settling at_hand{costs.view(), weights, labels};
   for (int sweep = 0; sweep < kSettlingSweeps; ++sweep) {
     progress.check();
-    for (const PixelIndex at : open) settle_pixel(p, weights, labels, at);
+    for (const PixelIndex at : open) settle_pixel(at_hand, at);
     std::reverse(open.begin(), open.end());
   }
 }
@@ -137,6 +161,7 @@ void RaySpace::settle(int i, const Progress& progress) {
 void RaySpace::run(const Progress& progress) {
   ViewIndex reference{labels_.first().v + labels_.grid().center().v,
                       labels_.first().u + labels_.grid().center().u};
+  const ViewIndex middle = reference;  // settled by its own problem
   int references = 0;
   std::string used;
   while (true) {
@@ -156,8 +181,14 @@ void RaySpace::run(const Progress& progress) {
   }
   std::int64_t left = 0;
   for (const std::int64_t count : unknown_) left += count;
-  progress.step("rays seen nowhere else");
-  parallel_for(labels_.grid().count(), progress.part(0.92, 1), [&](int i) { settle(i, progress); });
+  progress.step("boundaries");
+  const ProbabilityMap& like = input_.probabilities->views[0];
+  parallel_for_workers(labels_.grid().count(), progress.part(0.92, 1), [&] {
+    auto costs = std::make_shared<Volume<float>>(like.height(), like.layers(), like.width());
+    return [this, costs, &progress, middle](int i) {
+      if (!(view_at(i) == middle)) settle(i, *costs, progress);
+    };
+  });
   char text[160];
   std::snprintf(text, sizeof text,
                 "Rays are labeled where the views %s see them; %.3f %% of all rays by themselves.",
