@@ -5,11 +5,11 @@
 #include "engine/core/parallel.h"
 #include "engine/solvers/layered_sweep.h"
 #include "engine/solvers/lifted_labeling_kernel.h"
+#include "engine/solvers/pair_labels.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <numeric>
@@ -20,22 +20,11 @@ namespace episcope {
 namespace {
 
 constexpr float kRelaxation = 1.9F;
+
 double row_energy(const LiftedProblem& problem, const PairLimits& limits, ImageView<const int> u,
                   int y) {
-  const int width = problem.cost.width;
-  const int* const here = u.row(y);
-  const int* const below = u.row(std::min(y + 1, u.height - 1));
-  const auto jump = [&](int pair, int x, int from, int to) {
-    return static_cast<double>(limits.row(y, pair)[x]) * std::abs(to - from);
-  };
-  double sum = 0;
-  for (int x = 0; x < width; ++x) {
-    const int right = std::min(x + 1, width - 1);
-    sum += problem.cost.at(y, here[x], x) + jump(0, x, here[x], here[right]) +
-           jump(1, x, here[x], below[x]) + jump(2, x, here[x], below[right]) +
-           jump(3, x, here[right], below[x]);
-  }
-  return sum;
+  return pair_row_energy(problem.cost, limits, u, y,
+                         [](int from, int to) { return std::abs(to - from); });
 }
 
 void check_problem(const LiftedProblem& problem) {
@@ -47,13 +36,7 @@ void check_problem(const LiftedProblem& problem) {
     throw InvalidInput("a labeling takes at most " + std::to_string(kLiftedMostLayers) +
                        " labels, not " + std::to_string(cost.layers));
   }
-  const auto& g = problem.g;
-  if (!g.empty() && (g.height != cost.height || g.width != cost.width || g.channels != 1)) {
-    throw InvalidInput("a labeling needs edge weights of " + std::to_string(cost.width) + " by " +
-                       std::to_string(cost.height) + " pixels, not " + std::to_string(g.width) +
-                       " by " + std::to_string(g.height));
-  }
-  if (!(problem.smoothness >= 0)) throw InvalidInput("a labeling needs a smoothness of at least 0");
+  check_boundaries(problem.g, problem.smoothness, cost.height, cost.width);
 }
 
 class Lifting {
@@ -93,20 +76,10 @@ Lifting::Lifting(const LiftedProblem& problem, const Progress& progress, Isa isa
 void Lifting::start(const LayeredSweep::Band& band) {
   sweep_.clear(band);
   const LayeredShape& shape = sweep_.shape();
-  std::vector<float> least(shape.width);
+  std::vector<float> least;
   std::vector<int> label(shape.width);
   for (int y = band.begin; y < band.end; ++y) {
-    std::fill(label.begin(), label.end(), 0);
-    std::copy_n(problem_.cost.row(y, 0), shape.width, least.begin());
-    for (int l = 1; l <= shape.steps; ++l) {
-      const float* const cost = problem_.cost.row(y, l);
-      for (int x = 0; x < shape.width; ++x) {
-        if (cost[x] < least[x]) {
-          least[x] = cost[x];
-          label[x] = l;
-        }
-      }
-    }
+    take_cheapest(problem_.cost, y, label.data(), least);
     for (int l = 0; l < shape.steps; ++l) {
       for (int x = 0; x < shape.width; ++x) {
         sweep_.phi(y)[l * shape.pitch + x] = l < label[x] ? 1.0F : 0.0F;
@@ -141,25 +114,15 @@ void Lifting::measure(LiftedResult& result, const Progress& progress) {
   }
 }
 
-std::string gap_text(double gap) {
-  char text[40];
-  std::snprintf(text, sizeof text, "labeling, gap %.1e", gap);
-  return text;
-}
-
 // Each pixel for itself: the optimum without smoothness.
 LiftedResult cheapest_labels(const LiftedProblem& problem) {
   const auto& cost = problem.cost;
   LiftedResult result;
   result.labels = Image<int>(cost.height, cost.width);
+  std::vector<float> least;
   for (int y = 0; y < cost.height; ++y) {
-    for (int x = 0; x < cost.width; ++x) {
-      int& label = result.labels.at(y, x);
-      for (int l = 1; l < cost.layers; ++l) {
-        if (cost.at(y, l, x) < cost.at(y, label, x)) label = l;
-      }
-      result.energy += cost.at(y, label, x);
-    }
+    take_cheapest(cost, y, result.labels.row(y), least);
+    for (const float each : least) result.energy += each;
   }
   result.bound = result.energy;
   result.converged = true;
@@ -180,7 +143,7 @@ double share_by_gap(double gap, double wanted) {
 }  // namespace
 
 double LiftedResult::relative_gap() const {
-  return energy == bound ? 0 : (energy - bound) / std::abs(energy);
+  return labeling_gap(energy, bound);
 }
 
 LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOptions& options,
@@ -207,7 +170,7 @@ LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOpt
     last = last || result.converged;
     done = std::clamp(share_by_gap(gap, options.gap), done, 1.0);
     progress.report(done);
-    progress.step(gap_text(gap));
+    progress.step(labeling_gap_text(gap));
   }
   return result;
 }

@@ -5,11 +5,11 @@
 #include "engine/core/parallel.h"
 #include "engine/solvers/coarse_layers.h"
 #include "engine/solvers/layered_sweep.h"
+#include "engine/solvers/pair_labels.h"
 #include "engine/solvers/simplex_labeling_kernel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <numeric>
@@ -32,13 +32,7 @@ void check_problem(const SimplexProblem& problem, int height, int layers, int wi
                        std::to_string(cost.layers) + " for " + std::to_string(cost.width) + " by " +
                        std::to_string(cost.height));
   }
-  const auto& g = problem.g;
-  if (!g.empty() && (g.height != height || g.width != width || g.channels != 1)) {
-    throw InvalidInput("a labeling needs edge weights of " + std::to_string(width) + " by " +
-                       std::to_string(height) + " pixels, not " + std::to_string(g.width) + " by " +
-                       std::to_string(g.height));
-  }
-  if (!(problem.smoothness >= 0)) throw InvalidInput("a labeling needs a smoothness of at least 0");
+  check_boundaries(problem.g, problem.smoothness, height, width);
 }
 
 // A jump changes the layers of both labels, each weighted by half of λ.
@@ -48,34 +42,8 @@ PairLimits limits_of(const SimplexProblem& problem) {
 
 double row_energy(const SimplexProblem& problem, const PairLimits& limits, ImageView<const int> u,
                   int y) {
-  const int width = problem.cost.width;
-  const int* const here = u.row(y);
-  const int* const below = u.row(std::min(y + 1, u.height - 1));
-  const auto jump = [&](int pair, int x, int from, int to) {
-    return from == to ? 0.0 : 2.0 * static_cast<double>(limits.row(y, pair)[x]);
-  };
-  double sum = 0;
-  for (int x = 0; x < width; ++x) {
-    const int right = std::min(x + 1, width - 1);
-    sum += problem.cost.at(y, here[x], x) + jump(0, x, here[x], here[right]) +
-           jump(1, x, here[x], below[x]) + jump(2, x, here[x], below[right]) +
-           jump(3, x, here[right], below[x]);
-  }
-  return sum;
-}
-
-// Each pixel for itself: the optimum without smoothness, and where u begins.
-void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector<float>& least) {
-  least.assign(cost.row(y, 0), cost.row(y, 0) + cost.width);
-  std::fill_n(labels, cost.width, 0);
-  for (int l = 1; l < cost.layers; ++l) {
-    const float* const row = cost.row(y, l);
-    for (int x = 0; x < cost.width; ++x) {
-      if (row[x] >= least[x]) continue;
-      least[x] = row[x];
-      labels[x] = l;
-    }
-  }
+  return pair_row_energy(problem.cost, limits, u, y,
+                         [](int from, int to) { return from == to ? 0.0 : 2.0; });
 }
 
 // Each pixel is in 8 pairs, so |K|² ≤ 16. u moves within [0, 1]; how far the duals move grows with
@@ -87,23 +55,13 @@ void set_steps(double smoothness, LayeredShape& shape) {
   shape.relaxation = kRelaxation;
 }
 
-std::string gap_text(double gap) {
-  char text[40];
-  std::snprintf(text, sizeof text, "labeling, gap %.1e", gap);
-  return text;
-}
-
-double share(double part, double whole) {
-  return part == 0 ? 0 : part / std::abs(whole);
-}
-
 }  // namespace
 
 double SimplexResult::relative_gap() const {
-  return share(relaxed - bound, relaxed);
+  return labeling_gap(relaxed, bound);
 }
 double SimplexResult::label_gap() const {
-  return share(energy - bound, energy);
+  return labeling_gap(energy, bound);
 }
 
 struct SimplexSolver::State {
@@ -258,7 +216,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     std::vector<float> least;
     for (int y = 0; y < labels.height; ++y) {
       take_cheapest(problem.cost, y, labels.row(y), least);
-      for (int x = 0; x < labels.width; ++x) result.energy += least[x];
+      for (const float each : least) result.energy += each;
     }
     result.relaxed = result.bound = result.energy;
     result.converged = true;
@@ -286,7 +244,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     state.measure(problem, limits, result, labels, quiet);
     result.converged = result.relative_gap() <= options.gap;
     last = last || result.converged;
-    progress.step(gap_text(result.relative_gap()));
+    progress.step(labeling_gap_text(result.relative_gap()));
   }
   progress.report(1);
   return result;
