@@ -105,10 +105,10 @@ ScribbleLayer propagate(const ScribbleLayer& painted, const DisparityField& fiel
 
   std::vector<ImageView<std::uint8_t>> targets;
   for (int i = 0; i < grid.count(); ++i) {
-    targets.push_back(derived.writable_view({i / grid.u, i % grid.u}));
+    targets.push_back(derived.writable_view(grid.view_at(i)));
   }
   parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex target{i / grid.u, i % grid.u};
+    const ViewIndex target = grid.view_at(i);
     const ImageView<std::uint8_t> labels = targets[static_cast<std::size_t>(i)];
     const Image<float> disparity = disparity_of(field, target, options.tolerance_px);
     std::vector<const PaintedView*> by_distance;

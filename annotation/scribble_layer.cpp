@@ -60,7 +60,7 @@ std::vector<ViewIndex> ScribbleLayer::painted_views() const {
   std::vector<ViewIndex> painted;
   for (int i = 0; i < grid_.count(); ++i) {
     if (!is_blank(views_[static_cast<std::size_t>(i)]))
-      painted.push_back({i / grid_.u, i % grid_.u});
+      painted.push_back(grid_.view_at(i));
   }
   return painted;
 }

@@ -127,7 +127,7 @@ void BrowseController::startThumbnails() {
       },
       [this, grid = session_.light_field()->grid()](Pictures pictures) {
         for (int i = 0; i < grid.count(); ++i) {
-          panels_.view_grid->setThumbnail({i / grid.u, i % grid.u},
+          panels_.view_grid->setThumbnail(grid.view_at(i),
                                           to_qimage(std::move(pictures[i])));
         }
       });

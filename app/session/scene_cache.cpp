@@ -77,7 +77,7 @@ std::optional<ViewStack<std::uint8_t>> SceneCache::read_samples(
     if (dataset.shape != shape || dataset.type != io::Hdf5Type::UInt8) return std::nullopt;
     for (int i = 0; i < options.grid.count(); ++i) {
       progress.check();
-      const ViewIndex view{i / options.grid.u, i % options.grid.u};
+      const ViewIndex view = options.grid.view_at(i);
       const io::Hdf5Block block{{length(view.v), length(view.u), 0, 0, 0},
                                 {1, 1, shape[2], shape[3], shape[4]}};
       file.read("LF", block, stack.view(view).data);

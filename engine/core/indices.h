@@ -30,6 +30,10 @@ struct GridShape {
   int v = 0;
   int u = 0;
   [[nodiscard]] int count() const { return v * u; }
+  /// View number `index`, counted row by row, of a grid that begins at `first`.
+  [[nodiscard]] ViewIndex view_at(int index, ViewIndex first = {}) const {
+    return {first.v + index / u, first.u + index % u};
+  }
   /// The middle view; of an even count the one right of or below the middle.
   [[nodiscard]] ViewIndex center() const { return {v / 2, u / 2}; }
   [[nodiscard]] bool contains(ViewIndex view) const {

@@ -108,11 +108,6 @@ void require_in_sight(const LightField& light_field, double focus_px) {
   throw InvalidInput(text.str());
 }
 
-template <class T>
-ViewIndex view_at(const ViewStack<T>& stack, int index) {
-  return {stack.first().v + index / stack.grid().u, stack.first().u + index % stack.grid().u};
-}
-
 /// Nearest pixels; 0, which says nothing, where there is none.
 template <class T>
 Image<T> nearest(ImageView<const T> in, const ViewOffset& offset) {
@@ -144,7 +139,7 @@ ViewStack<T> nearest(const ViewStack<T>& stack, const Shear& shear) {
   if (stack.empty()) return {};
   ViewStack<T> result(stack.grid(), stack.height(), stack.width(), 1, stack.first());
   parallel_for(stack.grid().count(), shear.progress, [&](int i) {
-    const ViewIndex view = view_at(stack, i);
+    const ViewIndex view = stack.view_at(i);
     const Image<T> moved = nearest(stack.view(view), shear.offset(view));
     std::copy_n(moved.data(), moved.size(), result.view(view).data);
   });
@@ -207,7 +202,7 @@ LightFieldPtr sheared(const LightField& light_field, double focus_px, const Prog
       [&]<class T>(const ViewStack<T>& in) {
         ViewStack<T> out(in.grid(), in.height(), in.width(), in.channels());
         parallel_for(in.grid().count(), progress, [&](int i) {
-          const ViewIndex view = view_at(in, i);
+          const ViewIndex view = in.view_at(i);
           shear_view(in.view(view), offset_of(view, light_field.center(), focus_px),
                      out.view(view));
         });
@@ -226,7 +221,7 @@ DisparityField sheared(const DisparityField& field, ViewIndex center, double foc
   result.disparity = ViewStack<float>(in.grid(), in.height(), in.width(), 1, in.first());
   result.valid = ViewStack<std::uint8_t>(in.grid(), in.height(), in.width(), 1, in.first());
   parallel_for(in.grid().count(), progress, [&](int i) {
-    const ViewIndex view = view_at(in, i);
+    const ViewIndex view = in.view_at(i);
     const ViewOffset offset = offset_of(view, center, focus_px);
     const DisparityView from = field.view(view);
     const ImageView<float> disparity = result.disparity.view(view);

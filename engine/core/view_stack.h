@@ -55,6 +55,9 @@ class ViewStack {
   [[nodiscard]] T* data() { return samples_.get(); }
   [[nodiscard]] const T* data() const { return samples_.get(); }
 
+  /// View number `index`, in the order of the samples.
+  [[nodiscard]] ViewIndex view_at(int index) const { return grid_.view_at(index, first_); }
+
   /// Precondition: `contains(view)`.
   [[nodiscard]] ImageView<T> view(ViewIndex view) { return image<T>(samples_.get(), view); }
   [[nodiscard]] ImageView<const T> view(ViewIndex view) const {

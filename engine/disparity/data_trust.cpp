@@ -206,7 +206,7 @@ void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& 
     auto texture = std::make_shared<TextureTrust>(lf.height(), lf.width());
     auto trust = std::make_shared<std::vector<float>>(lf.width());
     return [&, residuals, texture, trust](int i) {
-      const ViewIndex view{i / grid.u, i % grid.u};
+      const ViewIndex view = grid.view_at(i);
       residuals->begin(view);
       texture->begin(views.view(view));
       const ImageView<float> confidence = estimate.confidence.view(view);

@@ -41,7 +41,7 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters,
     auto solver = std::make_shared<TvL2Solver>(lf.height(), lf.width());
     auto weights = std::make_shared<Image<float>>(lf.height(), lf.width());
     return [&, solver, weights](int i) {
-      const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
+      const ViewIndex view = grid.view_at(i, first);
       fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
                         *weights);
       const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);

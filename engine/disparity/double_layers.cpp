@@ -95,7 +95,7 @@ void clear(DoubleLayers& layers, const Progress& progress) {
   const GridShape grid = layers.near.grid();
   const ViewIndex first = layers.near.first();
   parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
+    const ViewIndex view = grid.view_at(i, first);
     std::fill_n(layers.near.view(view).data, layers.near.view_size(), 0.0F);
     std::fill_n(layers.far.view(view).data, layers.far.view_size(), 0.0F);
     std::memset(layers.confidence.view(view).data, 0, layers.confidence.view_size());

@@ -190,7 +190,7 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
   std::vector<LineCount> counts(grid.count());
   parallel_for(grid.count(), progress, [&](int i) {
     Image<float> scratch(disparity.height(), disparity.width());
-    counts[i] = count_lines(disparity, {i / grid.u, i % grid.u}, scratch);
+    counts[i] = count_lines(disparity, grid.view_at(i), scratch);
   });
   LineCount sum;
   for (const LineCount& count : counts) {

@@ -179,7 +179,7 @@ void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, 
   parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
     auto solver = std::make_shared<ViewSolver>(lf, parameters, progress);
     return [&, solver](int i) {
-      const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
+      const ViewIndex view = grid.view_at(i, first);
       gaps[i] =
           solver->solve(view, {estimate.field.disparity.view(view), estimate.confidence.view(view),
                                layered.foreground.disparity.view(view),

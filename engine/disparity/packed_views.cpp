@@ -26,7 +26,7 @@ void pack_row(const float* samples, int width, int channels, std::uint32_t* out)
 ViewStack<std::uint32_t> pack_views(const LightField& lf, const Progress& progress) {
   ViewStack<std::uint32_t> packed(lf.grid(), lf.height(), lf.width());
   parallel_for(lf.grid().count(), progress, [&](int i) {
-    const ViewIndex view{i / lf.grid().u, i % lf.grid().u};
+    const ViewIndex view = lf.grid().view_at(i);
     const ImageView<std::uint32_t> out = packed.view(view);
     std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
     for (int y = 0; y < lf.height(); ++y) {

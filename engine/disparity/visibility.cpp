@@ -85,7 +85,7 @@ long give_way(ViewStack<float>& disparity, const ViewStack<float>& confidence,
   const GridShape grid = before.grid();
   std::vector<long> changed(grid.count());
   parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view{i / grid.u, i % grid.u};
+    const ViewIndex view = grid.view_at(i);
     const std::vector<Reached> reached = views_reached(before, confidence, view);
     for (int y = 0; y < before.height(); ++y) {
       if (y % 16 == 0) progress.check();

@@ -71,8 +71,7 @@ LabelAccuracy judge_labels(const ViewStack<std::int32_t>& labels,
                            const ViewStack<std::int32_t>& truth) {
   LabelAccuracy accuracy;
   for (int i = 0; i < labels.grid().count(); ++i) {
-    const ViewIndex view{labels.first().v + i / labels.grid().u,
-                         labels.first().u + i % labels.grid().u};
+    const ViewIndex view = labels.view_at(i);
     if (!truth.empty() && truth.contains(view)) {
       accuracy += judge_labels(labels.view(view), truth.view(view));
     }

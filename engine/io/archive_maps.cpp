@@ -46,7 +46,7 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
   ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
-    const ViewIndex view{first.v + i / grid.u, first.u + i % grid.u};
+    const ViewIndex view = grid.view_at(i, first);
     const Hdf5Block block{
         {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
         {1, 1, height, width}};

@@ -101,7 +101,7 @@ ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
   on_center(stack.view(center));
   for (int i = 0; i < shape.grid.count(); ++i) {
     progress.check();
-    const ViewIndex view{i / shape.grid.u, i % shape.grid.u};
+    const ViewIndex view = shape.grid.view_at(i);
     if (!(view == center)) read(view);
     progress.report((i + 1.0) / shape.grid.count());
   }

@@ -197,7 +197,7 @@ DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
     DisparityField field = make(grid, {});
     for (int i = 0; i < grid.count(); ++i) {
       progress.check();
-      store(read_map(per_view(i), size), {i / grid.u, i % grid.u}, field);
+      store(read_map(per_view(i), size), grid.view_at(i), field);
       progress.report((i + 1.0) / grid.count());
     }
     return field;

@@ -102,7 +102,7 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
   ViewStack<float> weights(grid, field.height(), field.width(), is_plain ? 1 : 2);
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
-    const ViewIndex stored{i / grid.u, i % grid.u};
+    const ViewIndex stored = grid.view_at(i);
     Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
     block.start[0] = static_cast<std::size_t>(stored.v);
     block.start[1] = static_cast<std::size_t>(stored.u);

@@ -13,10 +13,6 @@
 namespace episcope::io {
 namespace {
 
-ViewIndex view_at(const ViewStack<float>& stack, int index) {
-  return {stack.first().v + index / stack.grid().u, stack.first().u + index % stack.grid().u};
-}
-
 /// The view whose neighbours tell most: the centre, or another if depth is there only.
 ViewIndex reference_view(const DepthMaps& maps, GridShape grid) {
   return maps.depth.contains(grid.center()) ? grid.center() : maps.depth.first();
@@ -56,7 +52,7 @@ void keep_only_valid_view(DisparityField& field, const std::vector<std::size_t>&
   }
   const auto used = std::find_if(valid_counts.begin(), valid_counts.end(), is_used);
   const ViewIndex view =
-      view_at(field.disparity, static_cast<int>(std::distance(valid_counts.begin(), used)));
+      field.disparity.view_at(static_cast<int>(std::distance(valid_counts.begin(), used)));
   const auto shrink = [&]<class T>(ViewStack<T>& stack) {
     ViewStack<T> single({1, 1}, stack.height(), stack.width(), 1, view);
     std::copy_n(stack.view(view).data, stack.view_size(), single.data());
@@ -86,7 +82,7 @@ DisparityField disparity_from_depth(DepthMaps maps, const CameraGrid& camera,
       ViewStack<std::uint8_t>(depth.grid(), depth.height(), depth.width(), 1, depth.first());
   std::vector<std::size_t> valid_counts(static_cast<std::size_t>(depth.grid().count()));
   parallel_for(depth.grid().count(), progress, [&](int i) {
-    const ViewIndex view = view_at(depth, i);
+    const ViewIndex view = depth.view_at(i);
     const auto z = maps.depth.view(view);
     const auto valid = field.valid.view(view);
     for (int y = 0; y < z.height; ++y) {

@@ -44,7 +44,7 @@ void write_probabilities(Hdf5Output& file, const StoredLabeling& labeling,
   Image<float> samples(labels.height(), labels.width(), static_cast<int>(label_count(labeling)));
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
-    const ViewIndex place{i / grid.u, i % grid.u};
+    const ViewIndex place = grid.view_at(i);
     const auto map = probabilities({labels.first().v + place.v, labels.first().u + place.u});
     for (int y = 0; y < map.height; ++y) {
       for (int l = 0; l < map.layers; ++l) {

@@ -40,7 +40,7 @@ LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_ce
         parallel_for(views.grid.count(), progress, [&](int i) {
           if (i == center_index) return;
           const std::filesystem::path& path = views.files[static_cast<std::size_t>(i)];
-          store(path, decode_image(path), first, stack.view({i / views.grid.u, i % views.grid.u}));
+          store(path, decode_image(path), first, stack.view(views.grid.view_at(i)));
         });
         return stack;
       },

@@ -25,7 +25,7 @@ void write_maps(Hdf5Output& file, const std::string& name, const MapGeometry& ma
   file.add_dataset<T>(name, shape, map_axes(grid), units);
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
-    const ViewIndex place{i / grid.u, i % grid.u};
+    const ViewIndex place = grid.view_at(i);
     Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
     if (grid.count() > 1) {
       block.start[0] = static_cast<std::size_t>(place.v);

@@ -59,8 +59,7 @@ std::vector<ViewScribbles> read_views(const Hdf5Input& file, const FieldShape& s
   const ViewStack<std::int32_t> stack = read_maps<std::int32_t>(file, kName, shape, progress);
   std::vector<ViewScribbles> views;
   for (int i = 0; i < stack.grid().count(); ++i) {
-    const ViewIndex view{stack.first().v + i / stack.grid().u,
-                         stack.first().u + i % stack.grid().u};
+    const ViewIndex view = stack.view_at(i);
     Image<std::int32_t> labels(shape.height, shape.width);
     std::copy_n(stack.view(view).data, labels.size(), labels.data());
     views.push_back({view, std::move(labels)});

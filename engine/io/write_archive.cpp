@@ -91,7 +91,7 @@ void write_light_field(Hdf5Output& file, const LightField& field, const Progress
         file.add_dataset<T>("LF", shape, "v,u,y,x,c", "");
         for (int i = 0; i < grid.count(); ++i) {
           progress.check();
-          const ViewIndex view{i / grid.u, i % grid.u};
+          const ViewIndex view = grid.view_at(i);
           const Hdf5Block block{
               {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0, 0},
               {1, 1, shape[2], shape[3], shape[4]}};

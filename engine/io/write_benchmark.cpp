@@ -140,7 +140,7 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   const bool has_all = truth.has_disparity() && truth.field.disparity.grid() == field.grid();
   for (int i = 0; has_all && i < field.grid().count(); ++i) {
     write_disparity_map(folder / numbered("gt_disp_lowres_Cam", i, ".pfm"),
-                        truth.field.view({i / field.grid().u, i % field.grid().u}));
+                        truth.field.view(field.grid().view_at(i)));
   }
   if (truth.labels.contains(center) && !truth.labels.empty()) {
     const auto labels = truth.labels.view(center);
@@ -166,7 +166,7 @@ void write_benchmark_folder(const fs::path& folder, const Scene& scene, const Pr
   const LightField& field = *scene.light_field;
   AtomicFolder target(folder, field.byte_size());
   parallel_for(field.grid().count(), progress.part(0, 0.9), [&](int i) {
-    const ViewIndex view{i / field.grid().u, i % field.grid().u};
+    const ViewIndex view = field.grid().view_at(i);
     write_view(target.temporary() / numbered("input_Cam", i, ".png"), field, view);
   });
   const std::string config = config_text(field);

@@ -61,7 +61,7 @@ ViewStack<float> edge_probabilities(const LightField& light_field, const Dispari
   const GridShape grid = light_field.grid();
   ViewStack<float> edges(grid, light_field.height(), light_field.width());
   parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view{i / grid.u, i % grid.u};
+    const ViewIndex view = grid.view_at(i);
     fill_view(light_field, view, disparity, parameters, edges.view(view));
   });
   return edges;

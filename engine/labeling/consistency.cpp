@@ -51,7 +51,7 @@ LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
     pairs.push_back({from, to});
   };
   for (int i = 0; i < grid.count(); ++i) {
-    const ViewIndex from{first.v + i / grid.u, first.u + i % grid.u};
+    const ViewIndex from = grid.view_at(i, first);
     for (int u = 0; u < grid.u; ++u) add(from, {from.v, first.u + u});
     for (int v = 0; v < grid.v; ++v) add(from, {first.v + v, from.u});
   }

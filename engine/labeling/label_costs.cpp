@@ -63,8 +63,7 @@ void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<fl
   }
   std::fill(row.count.begin(), row.count.end(), 1.0F);
   for (int i = 0; i < probabilities.grid.count(); ++i) {
-    const ViewIndex other{probabilities.first.v + i / probabilities.grid.u,
-                          probabilities.first.u + i % probabilities.grid.u};
+    const ViewIndex other = probabilities.view_at(i);
     if (other == view || !disparity.contains(other)) continue;
     find_ray_targets(disparity.view(view), disparity.view(other),
                      {other.v - view.v, other.u - view.u}, y, row.targets.data());

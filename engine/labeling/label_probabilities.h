@@ -26,6 +26,8 @@ struct LabelProbabilities {
   [[nodiscard]] bool contains(ViewIndex view) const {
     return !empty() && grid.contains({view.v - first.v, view.u - first.u});
   }
+  /// The view whose map is `views[index]`.
+  [[nodiscard]] ViewIndex view_at(int index) const { return grid.view_at(index, first); }
   /// Precondition: `contains(view)`.
   [[nodiscard]] const ProbabilityMap& view(ViewIndex view) const { return views[index(view)]; }
   [[nodiscard]] ProbabilityMap& view(ViewIndex view) { return views[index(view)]; }

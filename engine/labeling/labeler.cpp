@@ -106,11 +106,6 @@ LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, Vie
   return probabilities;
 }
 
-ViewIndex view_at(const LabelProbabilities& probabilities, int i) {
-  return {probabilities.first.v + i / probabilities.grid.u,
-          probabilities.first.u + i % probabilities.grid.u};
-}
-
 LabelCoupling coupling_of(const LabelerParameters& parameters) {
   if (parameters.regularizer == "none") return LabelCoupling::None;
   return parameters.regularizer == "view" ? LabelCoupling::Views : LabelCoupling::Rays;
@@ -191,7 +186,7 @@ struct Labeler::State {
   void predict(const Learned& learned, LabelProbabilities& into, const Progress& progress) {
     std::vector<ViewIndex> missing;
     for (int i = 0; i < into.grid.count(); ++i) {
-      if (into.views[static_cast<std::size_t>(i)].empty()) missing.push_back(view_at(into, i));
+      if (into.views[static_cast<std::size_t>(i)].empty()) missing.push_back(into.view_at(i));
     }
     if (missing.size() <= kKeptViews) {
       for (const ViewIndex view : missing) {

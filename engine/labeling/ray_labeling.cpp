@@ -5,9 +5,9 @@
 #include "engine/core/parallel.h"
 #include "engine/labeling/ray_space.h"
 #include "engine/labeling/view_problem.h"
+#include "engine/solvers/pair_labels.h"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 namespace episcope {
@@ -54,11 +54,6 @@ void check_input(const RayLabelingInput& input, LabelCoupling coupling,
   }
 }
 
-ViewIndex view_at(const LabelProbabilities& probabilities, int i) {
-  return {probabilities.first.v + i / probabilities.grid.u,
-          probabilities.first.u + i % probabilities.grid.u};
-}
-
 void name_labels(const std::vector<std::int32_t>& ids, ViewStack<std::int32_t>& labels) {
   std::for_each(labels.data(), labels.data() + labels.size(),
                 [&ids](std::int32_t& label) { label = ids[label]; });
@@ -74,7 +69,7 @@ void label_each_ray(const RayLabelingInput& input, const Progress& progress, Ray
   const LabelProbabilities& p = *input.probabilities;
   parallel_for(p.grid.count(), progress, [&](int i) {
     const auto labels = most_probable_labels(p.views[i].view(), p.ids);
-    std::copy(labels.begin(), labels.end(), result.labels.view(view_at(p, i)).data);
+    std::copy(labels.begin(), labels.end(), result.labels.view(p.view_at(i)).data);
   });
 }
 
@@ -87,7 +82,7 @@ void label_each_view(const RayLabelingInput& input, const RayLabelingParameters&
   parallel_for_workers(p.grid.count(), progress, [&]() -> std::function<void(int)> {
     auto problem = std::make_shared<ViewProblem>(input, parameters);
     return [&, problem](int i) {
-      const ViewIndex view = view_at(p, i);
+      const ViewIndex view = p.view_at(i);
       problem->fill_own(view);
       parts[i] =
           problem->solve(view, progress.part(0, 0).on_one_thread(), result.labels.view(view));
@@ -99,7 +94,7 @@ void label_each_view(const RayLabelingInput& input, const RayLabelingParameters&
 }  // namespace
 
 double RayLabeling::relative_gap() const {
-  return energy == bound ? 0 : (energy - bound) / std::abs(energy);
+  return labeling_gap(energy, bound);
 }
 
 RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,

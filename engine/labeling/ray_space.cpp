@@ -46,9 +46,6 @@ class RaySpace {
   void run(const Progress& progress);
 
  private:
-  [[nodiscard]] ViewIndex view_at(int i) const {
-    return {labels_.first().v + i / labels_.grid().u, labels_.first().u + i % labels_.grid().u};
-  }
   void solve(ViewIndex reference, const Progress& progress);
   void carry(ViewIndex reference, const Progress& progress);
   void carry_to(ViewIndex reference, int i, const Progress& progress);
@@ -82,7 +79,7 @@ void RaySpace::solve(ViewIndex reference, const Progress& progress) {
 }
 
 void RaySpace::carry_to(ViewIndex reference, int i, const Progress& progress) {
-  const ViewIndex view = view_at(i);
+  const ViewIndex view = labels_.view_at(i);
   unknown_[i] = 0;
   if (view == reference) return;
   const auto to = labels_.view(view);
@@ -134,7 +131,7 @@ void RaySpace::settle_pixel(const Settling& at_hand, PixelIndex at) const {
 // Rays that no reference sees, and those at boundaries, which were carried to the nearest pixel: by
 // the costs of their tracks, the view's own edges and their neighbours' labels.
 void RaySpace::settle(int i, Volume<float>& costs, const Progress& progress) {
-  const ViewIndex view = view_at(i);
+  const ViewIndex view = labels_.view_at(i);
   const auto labels = labels_.view(view);
   Image<std::int32_t> fixed(labels.height, labels.width);
   std::vector<PixelIndex> open;
@@ -177,7 +174,7 @@ void RaySpace::run(const Progress& progress) {
       break;
     }
     if (references == kMostReferences) break;
-    reference = view_at(static_cast<int>(most - unknown_.begin()));
+    reference = labels_.view_at(static_cast<int>(most - unknown_.begin()));
   }
   std::int64_t left = 0;
   for (const std::int64_t count : unknown_) left += count;
@@ -186,7 +183,7 @@ void RaySpace::run(const Progress& progress) {
   parallel_for_workers(labels_.grid().count(), progress.part(0.92, 1), [&] {
     auto costs = std::make_shared<Volume<float>>(like.height(), like.layers(), like.width());
     return [this, costs, &progress, middle](int i) {
-      if (!(view_at(i) == middle)) settle(i, *costs, progress);
+      if (!(labels_.view_at(i) == middle)) settle(i, *costs, progress);
     };
   });
   char text[160];

@@ -92,8 +92,7 @@ class ViewsCast {
     const int width = (stage_.width + kTraceGroup - 1) / kTraceGroup * kTraceGroup;
     parallel_for_workers(options_.grid.count() * stage_.height, progress, [this, width] {
       return [this, buffers = RowBuffers(width)](int item) mutable {
-        cast_row({item / stage_.height / options_.grid.u, item / stage_.height % options_.grid.u},
-                 item % stage_.height, buffers);
+        cast_row(options_.grid.view_at(item / stage_.height), item % stage_.height, buffers);
       };
     });
     add_regions();
