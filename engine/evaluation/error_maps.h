@@ -15,7 +15,7 @@ namespace episcope {
 [[nodiscard]] Image<float> absolute_error_map(const Evaluation& evaluation);
 
 /// 1.0 where |error| is strictly above `threshold_px` or the estimate is missing, else 0.2: the
-/// places of bad and good in the colour map of bad pixels (formats.md §7).
+/// places of bad and good in the colour map of bad pixels.
 [[nodiscard]] Image<float> bad_pixel_map(const Evaluation& evaluation, double threshold_px);
 
 }  // namespace episcope

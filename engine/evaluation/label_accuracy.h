@@ -10,7 +10,7 @@
 
 namespace episcope {
 
-/// How often labels agree with the truth (formats.md §6, segmentation).
+/// How often labels agree with the truth.
 struct LabelAccuracy {
   /// Pixels by true label and given label.
   std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> confusion;

@@ -14,7 +14,7 @@
 
 namespace episcope {
 
-/// Named protocols, never mixed (formats.md §6).
+/// Named protocols, never mixed.
 enum class Protocol {
   Vmv2013,       ///< All pixels with truth; mean squared error ×100 [WMG13].
   Benchmark2016  ///< A border of 15 px is ignored; BadPix, Q25, region metrics [HJKG16].

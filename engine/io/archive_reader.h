@@ -9,7 +9,7 @@
 
 namespace episcope::io {
 
-/// Reads a light field of the 2013 archive (formats.md §2): `file` is its lf.h5; labels.h5 and the
+/// Reads a light field of the 2013 archive: `file` is its lf.h5; labels.h5 and the
 /// companions are looked for beside it. Throws IoError, Cancelled.
 [[nodiscard]] Scene read_archive(const std::filesystem::path& file, const OpenOptions& options,
                                  const Progress& progress);

@@ -12,7 +12,7 @@ namespace episcope::io {
 /// Whether a folder looks like a scene of the 2016 benchmark.
 [[nodiscard]] bool is_benchmark_folder(const std::filesystem::path& folder);
 
-/// Reads a scene of the 4D Light Field Benchmark [HJKG16] (formats.md §4). Throws IoError,
+/// Reads a scene of the 4D Light Field Benchmark [HJKG16]. Throws IoError,
 /// Cancelled.
 [[nodiscard]] Scene read_benchmark(const std::filesystem::path& folder, const OpenOptions& options,
                                    const Progress& progress);

@@ -25,7 +25,7 @@ struct UnitsFinding {
   std::vector<std::string> warnings;
 };
 
-/// Finds whether dH and shift hold the factor xRes (formats.md §2): of the readings that give
+/// Finds whether dH and shift hold the factor xRes: of the readings that give
 /// |d| < 20 px and, if any does, a depth of zero disparity inside the depth range, the one by which
 /// views warp onto each other best. `warp_error(camera)` is in grey levels.
 [[nodiscard]] UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,

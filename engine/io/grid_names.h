@@ -18,7 +18,7 @@ struct NamedGrid {
 /// Number of images directly in a folder.
 [[nodiscard]] int count_images(const std::filesystem::path& folder);
 
-/// Finds row and column of every image from its name (formats.md §5): Stanford names
+/// Finds row and column of every image from its name: Stanford names
 /// (`out_<row>_<col>_<Y>_<X>` with empty tokens skipped), two numbers that vary, or one number
 /// whose count is a square. `pattern`, if not empty, is a file name with `{row}` and `{col}` or
 /// `{index}`,

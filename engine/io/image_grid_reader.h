@@ -23,7 +23,7 @@ struct ImageGridExtras {
       read_truth;
 };
 
-/// Reads a folder of equally sized images on a grid of views (formats.md §5). Throws IoError,
+/// Reads a folder of equally sized images on a grid of views. Throws IoError,
 /// InvalidInput for a bad pattern, Cancelled.
 [[nodiscard]] Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
                                     const Progress& progress, const ImageGridExtras& extras = {});

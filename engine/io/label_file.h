@@ -20,7 +20,7 @@ namespace episcope::io {
                                                        const Scene& scene,
                                                        const Progress& progress);
 
-/// Writes scribbles as the archive keeps them (formats.md §2), with names and colours in attributes
+/// Writes scribbles as the archive keeps them, with names and colours in attributes
 /// that others pass over. All else that the file holds stays as it is, above all GT_LABELS. Atomic.
 /// Throws IoError, also if the file is no HDF5 file, holds a light field or belongs to another one,
 /// or if a view of `scribbles` does not fit; Cancelled.

@@ -30,7 +30,7 @@ struct StoredLabeling {
 /// StoredLabeling::infos.
 using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
 
-/// Writes a segmentation (formats.md §3) in the house order of views: `LABELS` int32 [v][u][y][x],
+/// Writes a segmentation in the house order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
 /// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`,

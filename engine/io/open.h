@@ -12,7 +12,7 @@
 
 namespace episcope::io {
 
-/// Overrides of what a reader would find out by itself (formats.md §2).
+/// Overrides of what a reader would find out by itself.
 struct OpenOptions {
   enum class Flip { Auto, None, U, V, Both };
   Flip flip = Flip::Auto;  ///< Which view axes to reverse against the order stored.

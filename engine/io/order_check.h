@@ -31,7 +31,7 @@ struct OrderFinding {
 };
 
 /// Finds which view axes to reverse: by warping with truth where there is some, else by the sign of
-/// the correlation of EPI slopes, else as expected (formats.md §2). A `choice` other than Auto wins
+/// the correlation of EPI slopes, else as expected. A `choice` other than Auto wins
 /// over all, but is checked and contradicted in the warnings. Nothing is reversed
 /// yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,

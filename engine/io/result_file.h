@@ -8,7 +8,7 @@
 
 namespace episcope::io {
 
-/// Writes a result file (formats.md §3): group `/estimate` with `disparity`, `confidence`, `valid`
+/// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid`
 /// and, of layered methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in
 /// attributes. Atomic: a temporary file beside it, flushed, then renamed.
 /// Throws IoError (nothing is left behind), Cancelled.

@@ -31,8 +31,8 @@ struct LabelConsistency {
 /// (engine/labeling/ray_targets.h). The nearest pixel of a ray that arrives at the boundary of an
 /// object may belong to the neighbour: exact labels of a rendered scene reach 99 to 99.9 %.
 /// Views without disparity are left out. Takes (v + u − 2)·rays steps, 0.4 s for 9×9×512×512.
-/// Source: algorithms.md gives the measure of [WSG13] as the fraction of rays whose label equals
-/// the label at the warped position, occlusion-checked. Throws InvalidInput unless sizes agree,
+/// Source: the measure of [WSG13], the fraction of rays whose label equals the label at the warped
+/// position, occlusion-checked. Throws InvalidInput unless sizes agree,
 /// Cancelled.
 [[nodiscard]] LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
                                                  const DisparityField& disparity,

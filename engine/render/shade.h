@@ -12,8 +12,8 @@
 
 namespace episcope::render {
 
-/// What an overlay or an exported picture shows. Each quantity has its own colour map and range
-/// (formats.md §7), which belong to the quantity and not to the image.
+/// What an overlay or an exported picture shows. Each quantity has its own colour map and range,
+/// which belong to the quantity and not to the image.
 enum class Quantity {
   View,
   Disparity,

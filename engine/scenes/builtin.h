@@ -25,7 +25,7 @@ struct RenderOptions {
   double disparity_scale = 1;
 };
 
-/// The built-in scenes S1–S6 of algorithms.md §17 and the demo.
+/// All built-in scenes, simple ones that each test one thing first, the demo last.
 [[nodiscard]] std::vector<BuiltinSceneInfo> builtin_scenes();
 
 /// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
