@@ -100,9 +100,8 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
   const FieldShape shape = shape_of(samples);
   ArchiveTruth truth;
   truth.camera = stored_camera(file);
-  const MapViews views = options.needs_truth ? MapViews::All : MapViews::Center;
   const auto read = [&](const char* name, double begin, double end) {
-    return read_depth(file, name, shape, views, progress.part(begin, end));
+    return read_depth(file, name, shape, options.map_views(), progress.part(begin, end));
   };
   DepthMaps field = read("GT_DEPTH", 0, 0.7);
   DepthMaps foreground = read("GT_DEPTH_FOREGROUND", 0.7, 0.8);

@@ -4,6 +4,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/view_stack.h"
 #include "engine/io/hdf5_file.h"
+#include "engine/io/open.h"
 
 #include <string>
 
@@ -16,11 +17,9 @@ struct FieldShape {
   int width = 0;
 };
 
-enum class MapViews { All, Center };
-
 /// Reads `[v][h][y][x]`, `[1][1][y][x]` or `[y][x]` view by view, in the stored order; the latter
-/// two belong to the centre view; `Center` reads that alone. T: uint8, int32 or float. Throws IoError for another rank or
-/// size.
+/// two belong to the centre view; `Center` reads that alone. T: uint8, int32 or float. Throws
+/// IoError for another rank or size.
 template <class T>
 [[nodiscard]] ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name,
                                      const FieldShape& shape, const Progress& progress,

@@ -182,8 +182,9 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
   }
 }
 
+/// Of the centre view only where `views` says so.
 DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
-                          const CameraGrid& camera, ConventionReport& report,
+                          const CameraGrid& camera, MapViews views, ConventionReport& report,
                           const Progress& progress) {
   const auto per_view = [&](int i) { return folder / numbered("gt_disp_lowres_Cam", i, ".pfm"); };
   bool has_all = true;
@@ -194,11 +195,15 @@ DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
   };
   if (has_all) {
     report.units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
-    DisparityField field = make(grid, {});
-    for (int i = 0; i < grid.count(); ++i) {
+    const bool all = views == MapViews::All;
+    const GridShape part = all ? grid : GridShape{1, 1};
+    const ViewIndex first = all ? ViewIndex{} : grid.center();
+    DisparityField field = make(part, first);
+    for (int i = 0; i < part.count(); ++i) {
       progress.check();
-      store(read_map(per_view(i), size), grid.view_at(i), field);
-      progress.report((i + 1.0) / grid.count());
+      const ViewIndex view = part.view_at(i, first);
+      store(read_map(per_view(view.v * grid.u + view.u), size), view, field);
+      progress.report((i + 1.0) / part.count());
     }
     return field;
   }
@@ -287,12 +292,16 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     info.camera = read_camera(folder, *config, size, report);
   }
   GroundTruth truth;
-  truth.field =
-      read_truth(folder, views.grid, size, info.camera, report, progress.part(0.85, 0.95));
-  read_object_ids(folder, views.grid, size, truth);
-  read_regions(folder, size, truth);
+  truth.field = read_truth(folder, views.grid, size, info.camera, options.map_views(), report,
+                           progress.part(0.85, 0.95));
+  if (options.needs_truth) {
+    read_object_ids(folder, views.grid, size, truth);
+    read_regions(folder, size, truth);
+  }
 
-  assemble({std::move(samples), std::move(truth), std::move(info),
+  assemble({std::move(samples),
+            std::move(truth),
+            std::move(info),
             {{}, "folders of the benchmark are in order"}},
            options, scene, progress);
   return scene;

@@ -12,6 +12,9 @@
 
 namespace episcope::io {
 
+/// Of which views maps of disparity and depth are read, where there are any of all.
+enum class MapViews { All, Center };
+
 /// Overrides of what a reader would find out by itself.
 struct OpenOptions {
   enum class Flip { Auto, None, U, V, Both };
@@ -22,9 +25,12 @@ struct OpenOptions {
   std::string pattern;  ///< Image grids: file name with {row} and {col} or {index}; empty = detect.
   bool snake = false;   ///< Image grids: every second row was captured right to left.
   double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.
-  /// Without, no truth nor labels are given: of an archive file only the depth of the centre view is
-  /// then read, by which units and the order of views are settled.
+  /// Without, no truth nor labels are given: only the map of the centre view is then read, by which
+  /// units and the order of views are settled.
   bool needs_truth = true;
+  [[nodiscard]] MapViews map_views() const {
+    return needs_truth ? MapViews::All : MapViews::Center;
+  }
   /// Called on the reading thread as soon as the centre view is there, before the rest is read.
   std::function<void(const Image<std::uint8_t>& center_rgb, const LightFieldInfo&, GridShape)>
       on_center_view;

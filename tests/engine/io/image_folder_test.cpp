@@ -222,6 +222,25 @@ class ImageFolderTest : public QObject {
     QCOMPARE(read.truth->field.disparity.first(), (ViewIndex{1, 1}));
   }
 
+  // What it is needed for is as with it, the order of views.
+  void truthNotNeeded_isNotRead() {
+    const Scene scene = plane_scene(grid(3, 3));
+    io::write_benchmark_folder(path("scene"), scene, Progress(2));
+    const Scene whole = io::open_scene(path("scene"), {}, Progress(2));
+    std::ofstream(path("scene/gt_disp_lowres_Cam003.pfm")) << "no map";
+    std::ofstream(path("scene/objectids_lowres.png")) << "no picture";
+
+    io::OpenOptions options;
+    options.needs_truth = false;
+    const Scene read = io::open_scene(path("scene"), options, Progress(2));
+
+    QVERIFY(has_same_samples(scene, read));
+    QCOMPARE(read.convention.order_check, whole.convention.order_check);
+    QCOMPARE(read.convention.units, whole.convention.units);
+    QVERIFY(read.truth->field.empty() && read.truth->labels.empty());
+    QVERIFY_EXCEPTION_THROWN((void)io::open_scene(path("scene"), {}, Progress(2)), IoError);
+  }
+
   void depthOfTheBenchmark_becomesDisparity() {
     const Scene scene = plane_scene(grid(3, 3));
     io::write_benchmark_folder(path("scene"), scene, Progress(2));
