@@ -19,6 +19,7 @@ struct ForestSamples {
   std::vector<std::int32_t> labels;  ///< `[sample]` in [0, label_count).
 
   [[nodiscard]] int count() const { return static_cast<int>(labels.size()); }
+  friend bool operator==(const ForestSamples&, const ForestSamples&) = default;
 };
 
 struct ForestOptions {
@@ -27,6 +28,8 @@ struct ForestOptions {
   int least_samples = 12;      ///< A node of fewer is not split.
   int samples_a_label = 250;  ///< Drawn for each block of trees, with replacement.
   int seed = 1;
+
+  friend bool operator==(const ForestOptions&, const ForestOptions&) = default;
 };
 
 /// Trees that are trained one after the other on the same draw of samples.

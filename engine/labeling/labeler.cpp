@@ -111,12 +111,19 @@ LabelCoupling coupling_of(const LabelerParameters& parameters) {
   return parameters.regularizer == "view" ? LabelCoupling::Views : LabelCoupling::Rays;
 }
 
-/// What was learned from strokes; borrows them.
+/// A forest and what it was grown from.
+struct Grown {
+  ForestSamples samples;
+  ForestOptions options;
+  Forest forest;
+};
+
+/// What was learned from strokes; borrows it.
 struct Learned {
   const Scribbles& scribbles;
   const std::vector<std::int32_t>& ids;
   const LabelerParameters& parameters;
-  Forest forest;
+  const Forest& forest;
 };
 
 }  // namespace
@@ -128,6 +135,7 @@ struct Labeler::State {
   bool has_own_edges = false;  // Computed here, with or without disparity as `set` says.
   PixelFeatureSet set;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
+  Grown grown;
 
   void use(PixelFeatureSet wanted) {
     if (wanted.with_disparity == set.with_disparity) return;
@@ -158,8 +166,9 @@ struct Labeler::State {
     return computed;
   }
 
-  [[nodiscard]] Forest train(const Scribbles& scribbles, const std::vector<std::int32_t>& ids,
-                             const LabelerParameters& parameters, const Progress& progress) {
+  [[nodiscard]] ForestSamples samples_of(const Scribbles& scribbles,
+                                         const std::vector<std::int32_t>& ids,
+                                         const Progress& progress) {
     ForestSamples samples;
     samples.label_count = static_cast<int>(ids.size());
     for (const ViewScribbles& painted : scribbles.views) {
@@ -168,7 +177,21 @@ struct Labeler::State {
       samples.feature_count = of_view->layers();
       append_samples(painted, of_view->view(), ids, samples);
     }
-    return Forest::train(samples, forest_options(parameters), progress);
+    return samples;
+  }
+
+  /// The forest of these strokes, grown only if it would be another one than the last.
+  [[nodiscard]] const Forest& train(const Scribbles& scribbles,
+                                    const std::vector<std::int32_t>& ids,
+                                    const LabelerParameters& parameters, const Progress& progress) {
+    ForestSamples samples = samples_of(scribbles, ids, progress);
+    const ForestOptions options = forest_options(parameters);
+    if (samples != grown.samples || options != grown.options) {
+      progress.step(kTrainingStep);
+      Forest forest = Forest::train(samples, options, progress);
+      grown = {std::move(samples), options, std::move(forest)};
+    }
+    return grown.forest;
   }
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
@@ -308,7 +331,6 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   }
   state_->use({uses_disparity(parameters)});
 
-  progress.step("training the forest");
   const Learned learned{scribbles, ids, parameters,
                         state_->train(scribbles, ids, parameters, progress.part(0, 0.1))};
   progress.step(kLabelingStep);

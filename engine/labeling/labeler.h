@@ -52,7 +52,7 @@ struct Labeling {
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
 /// strokes: what does not depend on them, edges and the features of views, is kept between calls
-/// (features of as many views as fit `kKeptBytes`).
+/// (features of as many views as fit `kKeptBytes`), and so is the forest while it would be the same.
 ///
 /// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all painted
 /// views, as many of each label; it votes on the pixels of the views asked for by their features
@@ -71,7 +71,9 @@ struct Labeling {
 class Labeler {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
-  /// The stage after training, as `progress` tells it.
+  /// Stages as `progress` tells them: the first is left out if the forest is still that of the last
+  /// call.
+  static constexpr const char* kTrainingStep = "training the forest";
   static constexpr const char* kLabelingStep = "labeling pixels";
 
   /// `disparity` may be null, or cover some views only. It carries places along the rays, couples

@@ -69,6 +69,7 @@ class LabelerTest : public QObject {
   void oneView_comesAsADraftFirst();
   void strokesOnAnotherView_count();
   void result_dependsNeitherOnThreads_norOnEarlierCalls();
+  void forest_isGrownAgainOnlyForOtherStrokesOrOptions();
   void badInput_isToldInASentence();
   void stop_cancels();
 };
@@ -141,6 +142,28 @@ void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {
 
   QVERIFY(
       std::equal(one.labels.data(), one.labels.data() + one.labels.size(), three.labels.data()));
+}
+
+void LabelerTest::forest_isGrownAgainOnlyForOtherStrokesOrOptions() {
+  Labeler labeler = new_labeler();
+  const auto grows_forest = [&](const Scribbles& scribbles, ViewIndex view, int seed) {
+    LabelerParameters chosen = parameters("image", "none");
+    chosen.seed = seed;
+    bool grows = false;
+    const auto listen = [&](const ProgressState& state) {
+      grows = grows || state.step == Labeler::kTrainingStep;
+    };
+    (void)labeler.label(scribbles, chosen, {view, {1, 1}}, Progress(std::stop_token(), listen));
+    return grows;
+  };
+  Scribbles more = scene().scribbles;
+  more.views[0].labels.at(0, 0) = 1;
+
+  QVERIFY(grows_forest(scene().scribbles, {1, 1}, 1));
+  QVERIFY(!grows_forest(scene().scribbles, {1, 1}, 1));
+  QVERIFY(!grows_forest(scene().scribbles, {0, 1}, 1));
+  QVERIFY(grows_forest(more, {0, 1}, 1));
+  QVERIFY(grows_forest(more, {0, 1}, 2));
 }
 
 void LabelerTest::badInput_isToldInASentence() {

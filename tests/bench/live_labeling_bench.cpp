@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Labels of the centre view of 9×9 views of 512×512 pixels after a stroke, as the window asks for
+// them: the draft, the refined labels, and those of another view after the same strokes; against a
+// labeler that knows nothing yet, in the same run. The demo scene (11 labels), or the archive folder
+// still_life (13) where EPISCOPE_SHARED_DATA names its parent.
+#include "engine/disparity/registry.h"
+#include "engine/evaluation/label_accuracy.h"
+#include "engine/io/open.h"
+#include "engine/labeling/labeler.h"
+#include "engine/scenes/builtin.h"
+#include "tests/bench/bench_scene.h"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace {
+
+using namespace episcope;
+
+constexpr int kStrokeLength = 30;
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+Scene open_bench_scene() {
+  const char* shared = std::getenv("EPISCOPE_SHARED_DATA");
+  if (shared != nullptr && std::filesystem::exists(std::filesystem::path(shared) / "still_life")) {
+    return io::open_scene(std::filesystem::path(shared) / "still_life", {}, Progress());
+  }
+  return scenes::render_builtin("demo", {}, Progress());
+}
+
+struct Bench {
+  Scene scene = open_bench_scene();
+  std::shared_ptr<const DisparityField> disparity;
+  double disparity_seconds = 0;
+
+  Bench() {
+    const double start = bench::now();
+    auto estimate = std::make_shared<Estimate>(
+        find_estimator("epi_s").run(*scene.light_field, {}, ViewSelection::All, Progress()));
+    disparity = {estimate, &estimate->field};
+    disparity_seconds = bench::now() - start;
+  }
+  static const Bench& get() {
+    static const Bench kept;
+    return kept;
+  }
+  [[nodiscard]] ViewIndex center() const { return scene.light_field->center(); }
+  [[nodiscard]] Labeler labeler() const { return {scene.light_field, disparity}; }
+};
+
+/// Paints one more short stroke on the centre view, of the label that is truly there.
+void paint(const Scene& scene, int number, Scribbles& scribbles) {
+  const ViewIndex center = scene.light_field->center();
+  const auto view = std::ranges::find(scribbles.views, center, &ViewScribbles::view);
+  const auto truth = scene.truth->labels.view(center);
+  const int y = 20 + number * 37 % (truth.height - 40);
+  const int x = 20 + number * 61 % (truth.width - 40 - kStrokeLength);
+  for (int i = 0; i < kStrokeLength; ++i) view->labels.at(y, x + i) = truth.at(y, x);
+}
+
+struct Times {
+  double draft = 0;
+  double draft_processor = 0;
+  double refined = 0;
+  double refined_processor = 0;
+  double right = 0;  // Share of pixels, refined; the newest.
+
+  void keep_least(const Times& other) {
+    draft = std::min(draft, other.draft);
+    draft_processor = std::min(draft_processor, other.draft_processor);
+    refined = std::min(refined, other.refined);
+    refined_processor = std::min(refined_processor, other.refined_processor);
+    right = other.right;
+  }
+};
+
+Times measure(Labeler& labeler, const Scene& scene, const Scribbles& scribbles, ViewIndex view) {
+  Times times;
+  const double start = bench::now();
+  const double processor = processor_seconds();
+  const Labeling refined =
+      labeler.label(scribbles, {}, {view, {1, 1}}, Progress(), [&](const Labeling&) {
+        times.draft = bench::now() - start;
+        times.draft_processor = processor_seconds() - processor;
+      });
+  times.refined = bench::now() - start;
+  times.refined_processor = processor_seconds() - processor;
+  times.right =
+      judge_labels(refined.labels.view(view), scene.truth->labels.view(view)).share().value_or(0);
+  return times;
+}
+
+void report(benchmark::State& state, const Times& least, const Times& whole) {
+  state.counters["draft_s"] = least.draft;
+  state.counters["draft_cpu_s"] = least.draft_processor;
+  state.counters["refined_s"] = least.refined;
+  state.counters["refined_cpu_s"] = least.refined_processor;
+  state.counters["right_share"] = least.right;
+  state.counters["draft_times_faster"] = whole.draft / least.draft;
+  state.counters["refined_times_faster"] = whole.refined / least.refined;
+}
+
+Times of_new_labeler(const Bench& bench) {
+  std::optional<Times> least;
+  for (int i = 0; i < 2; ++i) {
+    Labeler labeler = bench.labeler();
+    const Times times = measure(labeler, bench.scene, bench.scene.scribbles, bench.center());
+    least ? least->keep_least(times) : void(least = times);
+  }
+  return *least;
+}
+
+void first_labels(benchmark::State& state) {
+  const Bench& bench = Bench::get();
+  Times whole;
+  for (auto _ : state) whole = of_new_labeler(bench);
+  report(state, whole, whole);
+  state.counters["disparity_s"] = bench.disparity_seconds;
+}
+
+void after_a_stroke(benchmark::State& state) {
+  const Bench& bench = Bench::get();
+  const Times whole = of_new_labeler(bench);
+  Labeler labeler = bench.labeler();
+  Scribbles scribbles = bench.scene.scribbles;
+  measure(labeler, bench.scene, scribbles, bench.center());
+  std::optional<Times> least;
+  int number = 0;
+  for (auto _ : state) {
+    paint(bench.scene, number++, scribbles);
+    const Times times = measure(labeler, bench.scene, scribbles, bench.center());
+    least ? least->keep_least(times) : void(least = times);
+  }
+  report(state, *least, whole);
+}
+
+void in_the_next_view(benchmark::State& state) {
+  const Bench& bench = Bench::get();
+  const Times whole = of_new_labeler(bench);
+  Labeler labeler = bench.labeler();
+  measure(labeler, bench.scene, bench.scene.scribbles, bench.center());
+  std::optional<Times> least;
+  ViewIndex view = bench.center();
+  for (auto _ : state) {
+    view.u = view.u == bench.center().u ? view.u - 1 : view.u + 1;
+    const Times times = measure(labeler, bench.scene, bench.scene.scribbles, view);
+    least ? least->keep_least(times) : void(least = times);
+  }
+  report(state, *least, whole);
+}
+
+BENCHMARK(first_labels)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);
+BENCHMARK(after_a_stroke)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(3);
+BENCHMARK(in_the_next_view)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(3);
+
+}  // namespace
+
+BENCHMARK_MAIN();
