@@ -67,6 +67,11 @@ AnnotateController::AnnotateController(Session& session, DocumentController& doc
   showLabels();
 }
 
+// The tool dies with this, the canvas later.
+AnnotateController::~AnnotateController() {
+  panels_.canvas->setTool(nullptr);
+}
+
 void AnnotateController::connectTool() {
   connect(tool_, &BrushTool::strokeStarted, this, [this](const StrokeStart& start) {
     if (!start.erases && !requireLabel()) return;

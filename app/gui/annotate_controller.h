@@ -24,6 +24,7 @@ class AnnotateController : public QObject {
 
   AnnotateController(Session& session, DocumentController& document, const Panels& panels,
                      QObject* parent);
+  ~AnnotateController() override;
 
   /// While annotating, the mouse paints; the tab is shown. Without a light field nothing happens.
   void setAnnotating(bool is_annotating);
