@@ -116,8 +116,12 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
       case 12:
         run(select_row<12>);
         break;
-      default:
+      case 13:
         run(select_row<13>);
+        break;
+      default:
+        static_assert(kMaxTaps == 13);
+        run(select_row<14>);
         break;
     }
   }

@@ -8,10 +8,11 @@ namespace episcope {
 /// The longest filter of the structure tensor, in taps.
 inline constexpr int kMaxTaps = 13;
 
-/// A small odd filter, centred: out(n) = Σ taps[i]·in(n + i − radius).
+/// A small odd filter, centred: out(n) = Σ taps[i]·in(n + i − radius). Half a sample further it has
+/// one tap more.
 struct Taps {
   int radius = 0;
-  float values[kMaxTaps] = {};
+  float values[kMaxTaps + 1] = {};
 };
 
 /// A banded linear map along the view axis: out(r) = Σ_i taps[i]·in(first + i).
