@@ -13,7 +13,7 @@ endmacro()
 # run_cli(arguments…): sets exit_code, out and err.
 macro(run_cli)
   execute_process(COMMAND "${CLI}" ${ARGN} WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE exit_code
-                  OUTPUT_VARIABLE out ERROR_VARIABLE err TIMEOUT 120)
+                  OUTPUT_VARIABLE out ERROR_VARIABLE err TIMEOUT 300)
 endmacro()
 
 # expect(name exit OUT regex ERR regex ARGS arguments…): runs and compares. A failure must be one

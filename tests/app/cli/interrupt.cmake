@@ -31,7 +31,7 @@ foreach(pause 0 0.02)
     until ls twice/.*.part >/dev/null 2>&1; do kill -0 $cli || break; sleep 0.002; done
     kill -TERM $cli; sleep ${pause}; kill -TERM $cli; wait $cli; echo $?")
   execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
-                  ERROR_VARIABLE err TIMEOUT 60)
+                  ERROR_VARIABLE err TIMEOUT 240)
   if(NOT out STREQUAL "130\n")
     fail_case("interrupted twice, ${pause} s apart: ${out} ${err}")
   endif()
