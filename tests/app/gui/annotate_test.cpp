@@ -3,83 +3,23 @@
 #include "app/gui/annotate_controller.h"
 
 #include "app/gui/action_table.h"
-#include "app/gui/annotation_files.h"
-#include "app/gui/document_controller.h"
-#include "app/gui/jobs.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/scribble_controller.h"
 #include "app/session/session.h"
-#include "tests/app/gui/window_fixture.h"
+#include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
-#include "widgets/annotation_bar.h"
 #include "widgets/label_palette.h"
-#include "widgets/message_bar.h"
 #include "widgets/view_canvas.h"
-#include "widgets/view_grid.h"
 
 #include <QAction>
-#include <QDir>
 #include <QDoubleSpinBox>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTest>
 #include <QTreeWidget>
 
-#include <filesystem>
-
 using namespace episcope;
-
-namespace {
-
-constexpr ViewIndex kCenter{4, 4};
-
-// The window in annotate mode, on a light field that nothing is painted on.
-class Annotating : public WindowFixture {
- public:
-  explicit Annotating(const std::string& id = "edge") {
-    openSmall(id);
-    [&] { QTRY_VERIFY(window.document().document()); }();
-    trigger("annotate.mode");
-  }
-
-  AnnotationDocument& document() { return *window.document().document(); }
-  ViewCanvas* canvas() { return window.panels().canvas; }
-  int labelAt(PixelIndex pixel, ViewIndex view = kCenter) {
-    return document().scribbles().label_at(view, pixel);
-  }
-  void trigger(const char* id) {
-    QAction* action = window.actions().find(id);
-    QVERIFY2(action && action->isEnabled(), id);
-    action->trigger();
-  }
-  void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    window.activateWindow();  // shortcuts are heard in the active window only
-    QVERIFY(QTest::qWaitForWindowActive(&window));
-    canvas()->setFocus();
-    QTest::keyClick(canvas(), key, modifiers);
-  }
-  QPoint at(PixelIndex pixel) { return canvas()->positionOf(pixel).toPoint(); }
-  void press(PixelIndex pixel, Qt::MouseButton button = Qt::LeftButton,
-             Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    QTest::mouseMove(canvas(), at(pixel));
-    QTest::mousePress(canvas(), button, modifiers, at(pixel));
-  }
-  void move(PixelIndex pixel) { QTest::mouseMove(canvas(), at(pixel)); }
-  void release(PixelIndex pixel, Qt::MouseButton button = Qt::LeftButton) {
-    QTest::mouseRelease(canvas(), button, {}, at(pixel));
-  }
-  void drag(PixelIndex from, PixelIndex to, Qt::MouseButton button = Qt::LeftButton,
-            Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    press(from, button, modifiers);
-    move(to);
-    release(to, button);
-  }
-  QColor shownAt(PixelIndex pixel) { return canvas()->scribbles().pixelColor(pixel.x, pixel.y); }
-};
-
-}  // namespace
 
 class AnnotateTest : public QObject {
   Q_OBJECT
@@ -101,12 +41,6 @@ class AnnotateTest : public QObject {
   void otherTab_goesBackToBrowsing();
   void otherTab_hidesWhatIsPainted();
   void preview_cannotBePainted();
-  void story_paintsSavesReopensAndFindsTheSame();
-  void failedSave_keepsTheDocument();
-  void exportedPictures_comeBackByImport();
-  void close_asksAboutUnsavedChanges_data();
-  void close_asksAboutUnsavedChanges();
-  void openAnother_asksAboutUnsavedChanges();
 };
 
 void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
@@ -289,7 +223,7 @@ void AnnotateTest::undo_jumpsToTheViewItChanges() {
   QCOMPARE(f.labelAt({60, 40}, {0, 1}), 0);
   QCOMPARE(f.labelAt({40, 40}), 1);
   f.key(Qt::Key_Z, Qt::ControlModifier);
-  QVERIFY(f.window.session().view() == kCenter);
+  QVERIFY(f.window.session().view() == Annotating::kCenter);
   QCOMPARE(f.labelAt({40, 40}), 0);
   f.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   QCOMPARE(f.labelAt({40, 40}), 1);
@@ -400,135 +334,10 @@ void AnnotateTest::preview_cannotBePainted() {
   f.drag({40, 20}, {40, 60});
   QVERIFY(f.document().scribbles().painted_views().empty());
   emit f.window.opener().previewing(false);
-  f.window.session().set_view(kCenter);  // the drag was parallax
+  f.window.session().set_view(Annotating::kCenter);  // the drag was parallax
   QCoreApplication::processEvents();
   f.drag({40, 20}, {40, 60});
   QCOMPARE(f.labelAt({40, 40}), 1);
-}
-
-// The way of a user, from the first label to the light field opened again.
-void AnnotateTest::story_paintsSavesReopensAndFindsTheSame() {
-  Annotating f("objects");
-  const std::size_t given = f.document().labels().labels().size();
-  QVERIFY(given > 2);
-  QVERIFY(!f.document().scribbles().painted_views().empty());
-  f.trigger("annotate.add_label");
-  const int label = f.window.annotate().label();
-  QCOMPARE(label, static_cast<int>(given) + 1);
-  emit f.window.panels().labels->renameRequested(label, "Größe ✓");
-
-  f.drag({10, 10}, {10, 50});
-  f.drag({10, 30}, {10, 32}, Qt::RightButton);
-  f.window.session().set_view({2, 3});
-  f.key(Qt::Key_B);
-  f.drag({20, 20}, {70, 70});
-  f.drag({80, 20}, {80, 70});
-  f.key(Qt::Key_Z, Qt::ControlModifier);
-  f.trigger("annotate.carry");
-  QTRY_VERIFY(f.window.scribbles().carried());
-  QVERIFY(f.window.isWindowModified());
-  const auto labels = f.document().labels().labels();
-  const ScribbleLayer painted = f.document().scribbles();
-  f.key(Qt::Key_S, Qt::ControlModifier);
-  QTRY_VERIFY(!f.window.isWindowModified());
-  QVERIFY(std::filesystem::exists(f.path("objects/labels.h5").toStdString()));
-
-  f.window.opener().closeScene();
-  QTRY_VERIFY(!f.window.session().scene());
-  f.window.open(f.path("objects/lf.h5"));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.document().document(), 30'000);
-
-  QVERIFY(f.document().scribbles() == painted);
-  QVERIFY(f.document().labels().labels() == labels);
-  QCOMPARE(f.document().labels().find(label)->name, std::string("Größe ✓"));
-  QVERIFY(!f.window.session().scene()->truth->labels.empty());  // GT_LABELS are there still
-  QVERIFY(!f.window.isWindowModified());
-}
-
-void AnnotateTest::failedSave_keepsTheDocument() {
-  Annotating f;
-  f.drag({40, 20}, {40, 60});
-  QSignalSpy failures(&f.window.jobs(), &Jobs::failed);
-
-  f.window.annotationFiles().saveAs(f.path("none/labels.h5"));
-
-  QTRY_COMPARE(failures.size(), 1);
-  QVERIFY(f.window.panels().messages->text().contains("labels.h5"));
-  QVERIFY(f.window.isWindowModified());
-  QCOMPARE(f.labelAt({40, 40}), 1);
-}
-
-void AnnotateTest::exportedPictures_comeBackByImport() {
-  Annotating f;
-  f.drag({40, 20}, {40, 60});
-  QDir().mkpath(f.path("pictures"));
-  QSignalSpy written(&f.window.annotationFiles(), &AnnotationFiles::written);
-  f.window.annotationFiles().exportPictures(f.path("pictures"));
-  QTRY_COMPARE(written.size(), 1);
-  f.trigger("annotate.undo");
-  QCOMPARE(f.labelAt({40, 40}), 0);
-
-  QSignalSpy imported(&f.window.annotationFiles(), &AnnotationFiles::imported);
-  f.window.annotationFiles().importFrom(f.path("pictures"));
-  QTRY_COMPARE(imported.size(), 1);
-
-  QCOMPARE(f.labelAt({40, 40}), 1);
-  QCOMPARE(f.document().history().next_undo()->kind, EditKind::Import);
-}
-
-void AnnotateTest::close_asksAboutUnsavedChanges_data() {
-  QTest::addColumn<int>("answer");
-  QTest::addColumn<bool>("closes");
-  QTest::addColumn<bool>("saves");
-  QTest::newRow("cancel") << static_cast<int>(QMessageBox::Cancel) << false << false;
-  QTest::newRow("discard") << static_cast<int>(QMessageBox::Discard) << true << false;
-  QTest::newRow("save") << static_cast<int>(QMessageBox::Save) << true << true;
-}
-
-void AnnotateTest::close_asksAboutUnsavedChanges() {
-  QFETCH(int, answer);
-  QFETCH(bool, closes);
-  QFETCH(bool, saves);
-  Annotating f;
-  f.drag({40, 20}, {40, 60});
-  const std::filesystem::path file = f.path("edge/labels.h5").toStdString();
-  const auto written = std::filesystem::last_write_time(file);
-
-  f.window.close();
-  QVERIFY(f.window.isVisible());
-  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
-  QVERIFY(box);
-  box->button(static_cast<QMessageBox::StandardButton>(answer))->click();
-
-  QTRY_COMPARE(!f.window.isVisible(), closes);
-  QCOMPARE(std::filesystem::last_write_time(file) != written, saves);
-  QCOMPARE(f.labelAt({40, 40}), 1);
-  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-  if (!closes) f.window.document().discardChanges();
-}
-
-void AnnotateTest::openAnother_asksAboutUnsavedChanges() {
-  Annotating f;
-  f.drag({40, 20}, {40, 60});
-  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
-
-  f.window.open(other);
-  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
-  QVERIFY(box);
-  box->button(QMessageBox::Cancel)->click();
-  QCOMPARE(f.window.jobs().count(), 0);
-  QCOMPARE(f.labelAt({40, 40}), 1);
-  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-
-  f.window.open(other);
-  box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
-  QVERIFY(box);
-  box->button(QMessageBox::Discard)->click();
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), 30'000);
-  QTRY_VERIFY(f.window.document().document());
-  QVERIFY(f.document().scribbles().painted_views().empty());
-  // The journal of what was discarded is gone.
-  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
 }
 
 QTEST_MAIN(AnnotateTest)

@@ -55,13 +55,7 @@ class Compared : public WindowFixture {
   }
 
   Session& session() { return window.session(); }
-  ViewCanvas* canvas() { return window.panels().canvas; }
   TileWall* wall() { return window.panels().wall; }
-  void trigger(const char* id) {
-    QAction* action = window.actions().find(id);
-    QVERIFY2(action->isEnabled(), id);
-    action->trigger();
-  }
   void key(Qt::Key key) {
     window.activateWindow();  // shortcuts are heard in the active window only
     QVERIFY(QTest::qWaitForWindowActive(&window));

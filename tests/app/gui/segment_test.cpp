@@ -2,25 +2,17 @@
 // Segments in the window that ships, from what is painted with the mouse.
 #include "app/gui/segment_controller.h"
 
-#include "annotation/exchange.h"
 #include "app/gui/action_table.h"
 #include "app/gui/export_controller.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
-#include "engine/evaluation/label_accuracy.h"
-#include "engine/io/label_file.h"
 #include "engine/io/labeling_file.h"
-#include "tests/app/gui/window_fixture.h"
+#include "tests/app/gui/annotating.h"
 #include "widgets/segment_panel.h"
-#include "widgets/view_canvas.h"
 
 #include <QAction>
-#include <QFile>
-#include <QFileInfo>
 #include <QSignalSpy>
 #include <QTest>
-
-#include <filesystem>
 
 using namespace episcope;
 
@@ -28,67 +20,14 @@ namespace {
 
 using render::Quantity;
 
-constexpr int kPatience = 20'000;  // ms
+constexpr int kPatience = Annotating::kPatience;
 
-class Segmenting : public WindowFixture {
+class Segmenting : public Annotating {
  public:
-  explicit Segmenting(const std::string& id = "objects") {
-    openSmall(id);
-    begin();
-  }
-  explicit Segmenting(const QString& path) {
-    window.open(path);
-    begin();
-  }
+  explicit Segmenting(const std::string& id = "objects") : Annotating(id) {}
 
-  SegmentController& segment() { return window.segment(); }
   SegmentPanel& panel() { return *window.panels().segment; }
-  [[nodiscard]] ViewIndex view() { return window.session().view(); }
-  void trigger(const char* id) {
-    QAction* action = window.actions().find(id);
-    QVERIFY2(action && action->isEnabled(), id);
-    action->trigger();
-  }
-  void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier) {
-    window.activateWindow();  // shortcuts are heard in the active window only
-    QVERIFY(QTest::qWaitForWindowActive(&window));
-    window.panels().canvas->setFocus();
-    QTest::keyClick(window.panels().canvas, key, modifiers);
-  }
-  void drag(PixelIndex from, PixelIndex to) {
-    ViewCanvas* canvas = window.panels().canvas;
-    const QPoint begin = canvas->positionOf(from).toPoint();
-    const QPoint end = canvas->positionOf(to).toPoint();
-    QTest::mouseMove(canvas, begin);
-    QTest::mousePress(canvas, Qt::LeftButton, {}, begin);
-    QTest::mouseMove(canvas, end);
-    QTest::mouseRelease(canvas, Qt::LeftButton, {}, end);
-  }
-  /// Whether the view has its final labels, and a disparity is not on its way.
-  bool isSegmented() {
-    const LiveLabeler& labeler = segment().labeler();
-    const LabelingPtr labeling = labeler.labeling(view());
-    return labeling && !labeling->is_draft && labeler.is_up_to_date(view()) &&
-           !labeler.is_running() && window.jobs().count() == 0;
-  }
-  /// Share of right pixels of the view.
-  double accuracy() {
-    const LabelingPtr labeling = segment().labeler().labeling(view());
-    const auto& truth = window.session().scene()->truth->labels;
-    return judge_labels(labeling->labels.view(view()), truth.view(view())).share().value_or(0);
-  }
-
- private:
-  void begin() {
-    QTRY_VERIFY_WITH_TIMEOUT(window.document().document(), kPatience);
-    trigger("annotate.mode");
-  }
 };
-
-QString shared_file(const char* name) {
-  const QString folder = qEnvironmentVariable("EPISCOPE_SHARED_DATA");
-  return folder.isEmpty() ? QString() : folder + "/" + name;
-}
 
 }  // namespace
 
@@ -106,7 +45,6 @@ class SegmentTest : public QObject {
   void allViews_areExportedAndReadAgain();
   void otherScene_dropsEverything();
   void escape_endsALabeling();
-  void stillLife_isPaintedSegmentedSavedAndFoundAgain();
 };
 
 void SegmentTest::live_labelsTheViewAndShowsIt() {
@@ -169,7 +107,7 @@ void SegmentTest::withoutLive_aStrokeOutdatesTheLabels() {
 }
 
 void SegmentTest::oneLabel_isAHintAndNoError() {
-  Segmenting f(std::string("edge"));
+  Segmenting f("edge");
   QSignalSpy failed(&f.window.jobs(), &Jobs::failed);
   f.trigger("annotate.add_label");
   f.drag({40, 20}, {40, 60});
@@ -211,8 +149,9 @@ void SegmentTest::recolouredLabel_isSeenAtOnce() {
   const auto labels = f.segment().labeler().labeling(f.view())->labels.view(f.view());
   const int id = labels.at(0, 0);
 
-  f.window.document().edit(
-      [id](AnnotationDocument& document) { document.recolor_label(id, {1, 2, 3}); });
+  f.window.document().edit([id](AnnotationDocument& document) {
+    document.recolor_label(id, {1, 2, 3});
+  });
 
   QTRY_COMPARE(f.window.overlay().picture().pixelColor(0, 0), QColor(1, 2, 3));
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));
@@ -264,45 +203,6 @@ void SegmentTest::escape_endsALabeling() {
   f.window.escape();
 
   QVERIFY(!f.segment().labeler().is_running());
-}
-
-// The chain that a user goes through, on a scene of 512×512 pixels with 13 labels.
-void SegmentTest::stillLife_isPaintedSegmentedSavedAndFoundAgain() {
-  const QString input = shared_file("still_life");
-  if (input.isEmpty() || !QFileInfo::exists(input)) QSKIP("EPISCOPE_SHARED_DATA is not set");
-  Segmenting f(input);
-  AnnotationDocument& document = *f.window.document().document();
-  const std::size_t labels = document.labels().labels().size();
-
-  f.trigger("annotate.add_label");
-  f.drag({20, 20}, {20, 120});
-  f.window.session().set_view({4, 3});
-  f.drag({30, 20}, {30, 120});
-  f.window.session().set_view({4, 4});
-  f.key(Qt::Key_Z, Qt::ControlModifier);
-  QCOMPARE(f.view(), (ViewIndex{4, 3}));  // undo goes to where it changes something
-  f.key(Qt::Key_Z, Qt::ControlModifier);
-  QCOMPARE(f.view(), (ViewIndex{4, 4}));
-  f.key(Qt::Key_Z, Qt::ControlModifier);
-  QCOMPARE(document.labels().labels().size(), labels);
-  f.trigger("annotate.carry");
-  f.trigger("segment.live");
-  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), 120'000);
-  QVERIFY2(f.accuracy() > 0.88, qPrintable(QString::number(f.accuracy())));
-
-  QSignalSpy written(&f.window.exporter(), &ExportController::written);
-  f.window.exporter().exportSegmentation(f.path("labels.h5"));
-  QTRY_COMPARE_WITH_TIMEOUT(written.size(), 1, kPatience);
-  const io::LabelingFile file(f.path("labels.h5").toStdString());
-  const Image<std::int32_t> read = file.labels({4, 4});
-  const auto kept = f.segment().labeler().labeling({4, 4})->labels.view({4, 4});
-  QVERIFY(std::equal(read.begin(), read.end(), kept.data));
-
-  const std::filesystem::path scribbles = f.path("scribbles.h5").toStdString();
-  io::write_scribbles(scribbles, scribbles_of(document), *f.window.session().scene(), Progress());
-  const Scribbles again =
-      io::read_scribbles(scribbles, *f.window.session().scene(), Progress());
-  QCOMPARE(again.views.size(), document.scribbles().painted_views().size());
 }
 
 QTEST_MAIN(SegmentTest)

@@ -2,9 +2,9 @@
 #include "tests/app/gui/window_fixture.h"
 
 #include "app/gui/action_table.h"
-#include "app/gui/document_controller.h"
+#include "app/gui/jobs.h"
 #include "app/gui/open_controller.h"
-#include "app/session/session.h"
+#include "app/gui/segment_controller.h"
 #include "engine/io/write_scene.h"
 #include "widgets/view_canvas.h"
 
@@ -68,6 +68,57 @@ void WindowFixture::runAndWait() {
   QTRY_VERIFY_WITH_TIMEOUT(run->isEnabled(), 30000);
   QTest::mouseClick(run, Qt::LeftButton);
   QTRY_COMPARE_WITH_TIMEOUT(window.session().estimates().size(), before + 1, 60'000);
+}
+
+bool WindowFixture::isSegmented() {
+  const LiveLabeler& labeler = window.segment().labeler();
+  const LabelingPtr labeling = labeler.labeling(view());
+  return labeling && !labeling->is_draft && labeler.is_up_to_date(view()) &&
+         !labeler.is_running() && window.jobs().count() == 0;
+}
+
+void WindowFixture::trigger(const char* id) {
+  QAction* action = window.actions().find(id);
+  QVERIFY2(action && action->isEnabled(), id);
+  action->trigger();
+}
+
+void WindowFixture::key(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+  window.activateWindow();  // shortcuts are heard in the active window only
+  QVERIFY(QTest::qWaitForWindowActive(&window));
+  canvas()->setFocus();
+  QTest::keyClick(canvas(), key, modifiers);
+}
+
+QPoint WindowFixture::at(PixelIndex pixel) const {
+  return canvas()->positionOf(pixel).toPoint();
+}
+
+void WindowFixture::press(PixelIndex pixel, Qt::MouseButton button,
+                          Qt::KeyboardModifiers modifiers) {
+  QTest::mouseMove(canvas(), at(pixel));
+  QTest::mousePress(canvas(), button, modifiers, at(pixel));
+}
+
+void WindowFixture::move(PixelIndex pixel) {
+  QTest::mouseMove(canvas(), at(pixel));
+}
+
+void WindowFixture::release(PixelIndex pixel, Qt::MouseButton button) {
+  QTest::mouseRelease(canvas(), button, {}, at(pixel));
+}
+
+void WindowFixture::drag(PixelIndex from, PixelIndex to, Qt::MouseButton button,
+                         Qt::KeyboardModifiers modifiers) {
+  press(from, button, modifiers);
+  move(to);
+  release(to, button);
+}
+
+void WindowFixture::click(const QString& object_name) {
+  auto* control = window.findChild<QWidget*>(object_name);
+  QVERIFY2(control && control->isEnabled() && control->isVisible(), qPrintable(object_name));
+  QTest::mouseClick(control, Qt::LeftButton);
 }
 
 }  // namespace episcope

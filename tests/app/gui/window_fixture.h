@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/document_controller.h"
 #include "app/gui/main_window.h"
+#include "app/session/session.h"
 #include "engine/scenes/builtin.h"
 
+#include <QPoint>
 #include <QString>
 #include <QTemporaryDir>
-
-#include <memory>
 
 namespace episcope {
 
@@ -26,6 +27,28 @@ class WindowFixture {
   void openSmall(const std::string& id = "edge");
   /// Clicks Run and waits for the result.
   void runAndWait();
+
+  [[nodiscard]] AnnotationDocument& document() { return *window.document().document(); }
+  [[nodiscard]] ViewIndex view() { return window.session().view(); }
+  /// Whether the view has its final labels, and nothing is on its way that would give others.
+  [[nodiscard]] bool isSegmented();
+
+  [[nodiscard]] ViewCanvas* canvas() const { return window.panels().canvas; }
+  /// Runs a command, which must be enabled.
+  void trigger(const char* id);
+  /// Types a key with the focus on the view.
+  void key(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier);
+  /// Where a pixel of the view is on the canvas.
+  [[nodiscard]] QPoint at(PixelIndex pixel) const;
+  /// The mouse on pixels of the view.
+  void press(PixelIndex pixel, Qt::MouseButton button = Qt::LeftButton,
+             Qt::KeyboardModifiers modifiers = Qt::NoModifier);
+  void move(PixelIndex pixel);
+  void release(PixelIndex pixel, Qt::MouseButton button = Qt::LeftButton);
+  void drag(PixelIndex from, PixelIndex to, Qt::MouseButton button = Qt::LeftButton,
+            Qt::KeyboardModifiers modifiers = Qt::NoModifier);
+  /// Clicks the middle of a control.
+  void click(const QString& object_name);
 
   [[nodiscard]] QString path(const QString& name) const { return folder_.filePath(name); }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/document_controller.h"
+#include "app/gui/segment_controller.h"
+#include "tests/app/gui/window_fixture.h"
+
+#include <QColor>
+
+namespace episcope {
+
+/// The window in annotate mode.
+class Annotating : public WindowFixture {
+ public:
+  static constexpr ViewIndex kCenter{4, 4};
+  static constexpr int kPatience = 20'000;  // ms
+
+  /// On a small built-in scene; nothing is painted on `edge`.
+  explicit Annotating(const std::string& id = "edge");
+
+  int labelAt(PixelIndex pixel, ViewIndex view = kCenter) {
+    return document().scribbles().label_at(view, pixel);
+  }
+  /// What is painted, as it is drawn over the view.
+  [[nodiscard]] QColor shownAt(PixelIndex pixel) const;
+
+  SegmentController& segment() { return window.segment(); }
+  /// Share of right pixels of the view.
+  double accuracy();
+};
+
+}  // namespace episcope

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What is painted goes to files, and is not lost by leaving it.
+#include "app/gui/annotation_files.h"
+
+#include "app/gui/jobs.h"
+#include "app/session/session.h"
+#include "tests/app/gui/annotating.h"
+#include "widgets/message_bar.h"
+
+#include <QDir>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <filesystem>
+
+using namespace episcope;
+
+class AnnotationFilesTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void failedSave_keepsTheDocument();
+  void exportedPictures_comeBackByImport();
+  void close_asksAboutUnsavedChanges_data();
+  void close_asksAboutUnsavedChanges();
+  void openAnother_asksAboutUnsavedChanges();
+};
+
+void AnnotationFilesTest::failedSave_keepsTheDocument() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  QSignalSpy failures(&f.window.jobs(), &Jobs::failed);
+
+  f.window.annotationFiles().saveAs(f.path("none/labels.h5"));
+
+  QTRY_COMPARE(failures.size(), 1);
+  QVERIFY(f.window.panels().messages->text().contains("labels.h5"));
+  QVERIFY(f.window.isWindowModified());
+  QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotationFilesTest::exportedPictures_comeBackByImport() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  QDir().mkpath(f.path("pictures"));
+  QSignalSpy written(&f.window.annotationFiles(), &AnnotationFiles::written);
+  f.window.annotationFiles().exportPictures(f.path("pictures"));
+  QTRY_COMPARE(written.size(), 1);
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({40, 40}), 0);
+
+  QSignalSpy imported(&f.window.annotationFiles(), &AnnotationFiles::imported);
+  f.window.annotationFiles().importFrom(f.path("pictures"));
+  QTRY_COMPARE(imported.size(), 1);
+
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCOMPARE(f.document().history().next_undo()->kind, EditKind::Import);
+}
+
+void AnnotationFilesTest::close_asksAboutUnsavedChanges_data() {
+  QTest::addColumn<int>("answer");
+  QTest::addColumn<bool>("closes");
+  QTest::addColumn<bool>("saves");
+  QTest::newRow("cancel") << static_cast<int>(QMessageBox::Cancel) << false << false;
+  QTest::newRow("discard") << static_cast<int>(QMessageBox::Discard) << true << false;
+  QTest::newRow("save") << static_cast<int>(QMessageBox::Save) << true << true;
+}
+
+void AnnotationFilesTest::close_asksAboutUnsavedChanges() {
+  QFETCH(int, answer);
+  QFETCH(bool, closes);
+  QFETCH(bool, saves);
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  const std::filesystem::path file = f.path("edge/labels.h5").toStdString();
+  const auto written = std::filesystem::last_write_time(file);
+
+  f.window.close();
+  QVERIFY(f.window.isVisible());
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(static_cast<QMessageBox::StandardButton>(answer))->click();
+
+  QTRY_COMPARE(!f.window.isVisible(), closes);
+  QCOMPARE(std::filesystem::last_write_time(file) != written, saves);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  if (!closes) f.window.document().discardChanges();
+}
+
+void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
+  Annotating f;
+  f.drag({40, 20}, {40, 60});
+  const QString other = f.writeScene("slant", WindowFixture::smallOptions());
+
+  f.window.open(other);
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(QMessageBox::Cancel)->click();
+  QCOMPARE(f.window.jobs().count(), 0);
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+
+  f.window.open(other);
+  box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
+  QVERIFY(box);
+  box->button(QMessageBox::Discard)->click();
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), 30'000);
+  QTRY_VERIFY(f.window.document().document());
+  QVERIFY(f.document().scribbles().painted_views().empty());
+  // The journal of what was discarded is gone.
+  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
+}
+
+QTEST_MAIN(AnnotationFilesTest)
+#include "annotation_files_test.moc"
