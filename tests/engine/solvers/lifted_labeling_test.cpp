@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/solvers/lifted_labeling_kernel.h"
 #include "engine/solvers/tv_l2.h"
+#include "tests/engine/solvers/random_costs.h"
 
 #include <QtTest>
 
@@ -18,28 +19,11 @@ using namespace episcope;
 
 namespace {
 
-struct Labeling {
-  Volume<float> cost;
-  Image<float> g;
-  double smoothness = 0.1;
-  [[nodiscard]] LiftedProblem problem() const { return {cost.view(), g, smoothness}; }
-};
-
-// Costs without any order along the labels, with many local minima, and edge weights.
-Labeling random_costs(int height, int labels, int width, double smoothness, unsigned seed = 5) {
-  Labeling labeling{Volume<float>(height, labels, width), Image<float>(height, width), smoothness};
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> uniform;
-  for (std::size_t i = 0; i < labeling.cost.view().size(); ++i) {
-    labeling.cost.view().data[i] = uniform(random);
-  }
-  for (float& g : labeling.g) g = 0.2F + 0.8F * uniform(random);
-  return labeling;
-}
+using Labeling = test::Costs<LiftedProblem>;
 
 // A disk before a slope, as a stereo method sees them: noisy, truncated costs, repeated texture.
 Labeling disk_costs(int height, int labels, int width) {
-  Labeling labeling = random_costs(height, labels, width, 0.04);
+  Labeling labeling = test::random_costs<LiftedProblem>(height, labels, width, 0.04);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const bool inside = std::hypot(x - width / 2, y - height / 2) < height / 4;
@@ -58,25 +42,6 @@ Labeling disk_costs(int height, int labels, int width) {
 LiftedResult solve(const LiftedProblem& problem, int iterations, double gap = 0, int threads = 1,
                    Isa isa = best_isa()) {
   return solve_lifted_labeling(problem, {iterations, gap, 10}, Progress(threads), isa);
-}
-
-// The least energy of all labelings.
-double least_energy(const LiftedProblem& problem) {
-  const auto& cost = problem.cost;
-  Image<int> labels(cost.height, cost.width);
-  double least = std::numeric_limits<double>::infinity();
-  while (true) {
-    least = std::min(least, labeling_energy(problem, labels));
-    int i = 0;
-    while (i < static_cast<int>(labels.size()) && ++labels.data()[i] == cost.layers) {
-      labels.data()[i++] = 0;
-    }
-    if (i == static_cast<int>(labels.size())) return least;
-  }
-}
-
-bool same_labels(const Image<int>& a, const Image<int>& b) {
-  return a.size() == b.size() && std::equal(a.begin(), a.end(), b.begin());
 }
 
 }  // namespace
@@ -121,11 +86,11 @@ void LiftedLabelingTest::solve_findsTheLeastOfAllLabelings() {
   QFETCH(int, width);
   QFETCH(double, smoothness);
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Labeling labeling = random_costs(height, 4, width, smoothness, seed);
+    const Labeling labeling = test::random_costs<LiftedProblem>(height, 4, width, smoothness, seed);
 
     const LiftedResult result = solve(labeling.problem(), 2000, 1e-6);
 
-    const double least = least_energy(labeling.problem());
+    const double least = test::least_energy(labeling.problem(), labeling_energy);
     QVERIFY2(result.energy <= least * (1 + 1e-5),
              qPrintable(QString("%1 and not %2").arg(result.energy).arg(least)));
     QVERIFY(result.bound <= least * (1 + 1e-5));
@@ -134,8 +99,8 @@ void LiftedLabelingTest::solve_findsTheLeastOfAllLabelings() {
 }
 
 void LiftedLabelingTest::solve_takesCheapestLabelsWithoutSmoothness() {
-  const Labeling exact = random_costs(17, 9, 21, 0);
-  const Labeling nearly = random_costs(17, 9, 21, 1e-4);
+  const Labeling exact = test::random_costs<LiftedProblem>(17, 9, 21, 0);
+  const Labeling nearly = test::random_costs<LiftedProblem>(17, 9, 21, 1e-4);
 
   const LiftedResult cheapest = solve(exact.problem(), 10);
   const LiftedResult iterated = solve(nearly.problem(), 200);
@@ -246,7 +211,7 @@ void LiftedLabelingTest::solve_ignoresScaleOfCosts() {
   const LiftedResult result = solve(labeling.problem(), 40);
   const LiftedResult large = solve(scaled.problem(), 40);
 
-  QVERIFY(same_labels(result.labels, large.labels));  // a power of two: rounded alike
+  QVERIFY(test::same_labels(result.labels, large.labels));  // a power of two: rounded alike
 }
 
 // Turning the order of the labels round mirrors the labeling.
@@ -272,7 +237,7 @@ void LiftedLabelingTest::solve_isTheSameForAnyThreads() {
   const LiftedResult one = solve(labeling.problem(), 30, 0, 1);
   const LiftedResult five = solve(labeling.problem(), 30, 0, 5);
 
-  QVERIFY(same_labels(one.labels, five.labels));
+  QVERIFY(test::same_labels(one.labels, five.labels));
   QCOMPARE(five.energy, one.energy);
   QCOMPARE(five.bound, one.bound);
 }
@@ -320,8 +285,8 @@ void LiftedLabelingTest::solve_stopsOnRequest() {
 }
 
 void LiftedLabelingTest::solve_refusesBadInput() {
-  const Labeling labeling = random_costs(6, 4, 7, 0.1);
-  const Labeling many = random_costs(1, kLiftedMostLayers + 1, 1, 0.1);
+  const Labeling labeling = test::random_costs<LiftedProblem>(6, 4, 7, 0.1);
+  const Labeling many = test::random_costs<LiftedProblem>(1, kLiftedMostLayers + 1, 1, 0.1);
   const Image<float> wrong(7, 6);
   const Image<int> few(3, 3);
   LiftedProblem problem = labeling.problem();

@@ -5,6 +5,7 @@
 #include "engine/solvers/coarse_layers.h"
 #include "engine/solvers/lifted_labeling.h"
 #include "engine/solvers/simplex_labeling_kernel.h"
+#include "tests/engine/solvers/random_costs.h"
 
 #include <QtTest>
 
@@ -19,27 +20,11 @@ using namespace episcope;
 
 namespace {
 
-struct Potts {
-  Volume<float> cost;
-  Image<float> g;
-  double smoothness = 0.1;
-  [[nodiscard]] SimplexProblem problem() const { return {cost.view(), g, smoothness}; }
-};
-
-Potts random_costs(int height, int labels, int width, double smoothness, unsigned seed = 5) {
-  Potts potts{Volume<float>(height, labels, width), Image<float>(height, width), smoothness};
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> uniform;
-  for (std::size_t i = 0; i < potts.cost.view().size(); ++i) {
-    potts.cost.view().data[i] = uniform(random);
-  }
-  for (float& g : potts.g) g = 0.2F + 0.8F * uniform(random);
-  return potts;
-}
+using Potts = test::Costs<SimplexProblem>;
 
 // Sectors of a disk, each pixel mistaken now and then.
 Potts sectors(int height, int labels, int width, double smoothness = 0.5) {
-  Potts potts = random_costs(height, labels, width, smoothness);
+  Potts potts = test::random_costs<SimplexProblem>(height, labels, width, smoothness);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double angle = std::atan2(y - height / 2 + 0.5, x - width / 2 + 0.5) / 6.2832 + 0.5;
@@ -66,23 +51,6 @@ Solved solve(const SimplexProblem& problem, int iterations, double gap = 0, int 
   solved.result =
       solver.solve(problem, {iterations, gap, 10, false}, Progress(threads), solved.labels.view());
   return solved;
-}
-
-// The least energy of all labelings.
-double least_energy(const SimplexProblem& problem) {
-  const auto& cost = problem.cost;
-  Image<int> labels(cost.height, cost.width);
-  double least = std::numeric_limits<double>::infinity();
-  while (true) {
-    least = std::min(least, potts_energy(problem, labels));
-    std::size_t i = 0;
-    while (i < labels.size() && ++labels.data()[i] == cost.layers) labels.data()[i++] = 0;
-    if (i == labels.size()) return least;
-  }
-}
-
-bool same_labels(const Image<int>& a, const Image<int>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 // By sorting: the threshold of the sorted prefix that still holds its least element.
@@ -208,12 +176,12 @@ void SimplexLabelingTest::solve_isWithinItsGapOfTheBest() {
   QFETCH(int, labels);
   QFETCH(double, smoothness);
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    const Potts potts = random_costs(height, labels, width, smoothness, seed);
+    const Potts potts = test::random_costs<SimplexProblem>(height, labels, width, smoothness, seed);
 
     const auto [result, found] = solve(potts.problem(), 3000, 1e-6);
 
     // With three labels the relaxation may lie below the best labeling, but nothing lies below it.
-    const double least = least_energy(potts.problem());
+    const double least = test::least_energy(potts.problem(), potts_energy);
     QVERIFY(result.bound <= least * (1 + 1e-5));
     QVERIFY(result.energy >= least * (1 - 1e-5));
     QVERIFY2(result.energy <= least * 1.02,
@@ -238,7 +206,7 @@ void SimplexLabelingTest::solve_ofTwoLabelsIsBinaryVariation() {
 }
 
 void SimplexLabelingTest::solve_takesCheapestLabelsWithoutSmoothness() {
-  const Potts potts = random_costs(9, 5, 11, 0);
+  const Potts potts = test::random_costs<SimplexProblem>(9, 5, 11, 0);
 
   const auto [result, labels] = solve(potts.problem(), 10);
 
@@ -266,7 +234,7 @@ void SimplexLabelingTest::solve_keepsCertainLabels() {
 
   const Image<int> labels = solve(potts.problem(), 300, 1e-4).labels;
 
-  QVERIFY(same_labels(labels, truth));
+  QVERIFY(test::same_labels(labels, truth));
 }
 
 // Renaming the labels renames the result: they have no order.
@@ -306,7 +274,7 @@ void SimplexLabelingTest::solve_isTheSameForAnyThreads() {
   const auto one = solve(potts.problem(), 30, 0, 1);
   const auto five = solve(potts.problem(), 30, 0, 5);
 
-  QVERIFY(same_labels(one.labels, five.labels));
+  QVERIFY(test::same_labels(one.labels, five.labels));
   QCOMPARE(five.result.energy, one.result.energy);
   QCOMPARE(five.result.bound, one.result.bound);
 }
@@ -324,7 +292,7 @@ void SimplexLabelingTest::solve_isTheSameForEveryIsa() {
 }
 
 void SimplexLabelingTest::solve_isTheSameAfterOtherProblems() {
-  const Potts potts = sectors(50, 5, 45), other = random_costs(50, 5, 45, 3);
+  const Potts potts = sectors(50, 5, 45), other = test::random_costs<SimplexProblem>(50, 5, 45, 3);
   SimplexSolver solver(50, 5, 45);
   Image<int> first(50, 45), again(50, 45), ignored(50, 45);
 
@@ -332,7 +300,7 @@ void SimplexLabelingTest::solve_isTheSameAfterOtherProblems() {
   solver.solve(other.problem(), {}, Progress(1), ignored.view());
   solver.solve(potts.problem(), {}, Progress(1), again.view());
 
-  QVERIFY(same_labels(first, again));
+  QVERIFY(test::same_labels(first, again));
 }
 
 void SimplexLabelingTest::solve_goesOnFromWhereItEnded() {
@@ -384,7 +352,7 @@ void SimplexLabelingTest::solve_stopsOnRequest() {
 }
 
 void SimplexLabelingTest::solve_refusesBadInput() {
-  const Potts potts = random_costs(6, 4, 7, 0.1);
+  const Potts potts = test::random_costs<SimplexProblem>(6, 4, 7, 0.1);
   const Image<float> wrong(7, 6);
   Image<int> few(3, 3), labels(6, 7);
   SimplexSolver solver(6, 4, 7);
