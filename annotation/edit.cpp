@@ -2,6 +2,7 @@
 #include "annotation/edit.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace episcope {
 namespace {
@@ -12,14 +13,26 @@ std::size_t bytes_of(const LabelSet& labels) {
   return bytes;
 }
 
+/// The first column from `x` on where the labels differ; `end` if there is none. Most of a view is
+/// bare: whole words of it are compared at once.
+int first_change(const std::uint8_t* before, const std::uint8_t* after, int x, int end) {
+  using Word = std::uint64_t;
+  constexpr int kWord = sizeof(Word);
+  for (; x + kWord <= end; x += kWord) {
+    Word old_labels = 0;
+    Word labels = 0;
+    if (before) std::memcpy(&old_labels, before + x, kWord);
+    std::memcpy(&labels, after + x, kWord);
+    if (labels != old_labels) break;
+  }
+  while (x < end && after[x] == (before ? before[x] : 0)) ++x;
+  return x;
+}
+
 void add_row(const std::uint8_t* before, const std::uint8_t* after, PixelSpan row,
              std::vector<LabelRun>& runs) {
   const auto old_label = [before](int x) { return before ? before[x] : std::uint8_t{0}; };
-  for (int x = row.x0; x < row.x1;) {
-    if (old_label(x) == after[x]) {
-      ++x;
-      continue;
-    }
+  for (int x = row.x0; (x = first_change(before, after, x, row.x1)) < row.x1;) {
     int end = x + 1;
     while (end < row.x1 && old_label(end) == old_label(x) && after[end] == after[x]) ++end;
     runs.push_back({static_cast<std::uint16_t>(row.y), static_cast<std::uint16_t>(x),

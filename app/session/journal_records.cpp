@@ -27,6 +27,9 @@ Edit base_edit(const LabelSet& labels, const ScribbleLayer& layer) {
 
 /// The document before the oldest edit that its history keeps.
 Edit base_of(const AnnotationDocument& document) {
+  if (document.history().applied_count() == 0) {
+    return base_edit(document.labels(), document.scribbles());
+  }
   LabelSet labels = document.labels();
   ScribbleLayer layer = document.scribbles();
   for (std::size_t i = document.history().applied_count(); i-- > 0;) {

@@ -82,12 +82,20 @@ AtomicFile::~AtomicFile() {
 
 void AtomicFile::commit() {
   errno = 0;
-  if (!flush_to_disk(temporary_, O_RDONLY) || ::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    throw write_error(named_);
-  }
-  temporary_.clear();
+  if (!flush_to_disk(temporary_, O_RDONLY)) throw write_error(named_);
+  commit_unflushed();
   // The file is whole by now; a folder that cannot be flushed only risks the name after a crash.
-  flush_to_disk(folder_of(target_), O_RDONLY | O_DIRECTORY);
+  flush_folder(target_);
+}
+
+void AtomicFile::commit_unflushed() {
+  errno = 0;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw write_error(named_);
+  temporary_.clear();
+}
+
+void flush_folder(const fs::path& target) {
+  flush_to_disk(folder_of(target), O_RDONLY | O_DIRECTORY);
 }
 
 void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {

@@ -26,12 +26,18 @@ class AtomicFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// The temporary file must be closed. Throws IoError that names the target.
   void commit();
+  /// As `commit`, but without a wait for the disk, for a file that is none yet: a loss of power may
+  /// leave it cut short until it is flushed, the end of the program does not.
+  void commit_unflushed();
 
  private:
   std::filesystem::path named_;
   std::filesystem::path target_;     ///< The file itself, where the name is a symbolic link.
   std::filesystem::path temporary_;  ///< Empty once renamed.
 };
+
+/// Flushes the names in the folder of a file to the disk, as far as that can be done.
+void flush_folder(const std::filesystem::path& target);
 
 /// Checks that `bytes` more fit on the disk that holds `folder`. Throws IoError naming `target`.
 void require_space(const std::filesystem::path& target, const std::filesystem::path& folder,

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -56,7 +57,13 @@ RecordLog::RecordLog(const std::filesystem::path& path, std::span<const Record> 
   if (!file_.ok() || ::flock(file_.id(), LOCK_EX | LOCK_NB) != 0 || !write_all(file_.id(), bytes)) {
     throw write_error(path);
   }
-  target.commit();
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored)) {
+    target.commit();  // a loss of power must not cost the records that are there
+  } else {
+    target.commit_unflushed();
+    written_ = 1;
+  }
   bytes_ = bytes.size();
   flusher_ = std::jthread([this](const std::stop_token& stop) { flush_in_background(stop); });
 }
@@ -99,12 +106,13 @@ void RecordLog::require_flushed() {
 
 void RecordLog::flush_in_background(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  for (;;) {
+  for (bool is_named = written_ == 0;;) {
     changed_.wait(lock, stop, [this] { return flushed_ != written_; });
     if (flushed_ == written_) return;
     const std::uint64_t reached = written_;
     lock.unlock();
     const int error = ::fdatasync(file_.id()) == 0 ? 0 : errno;
+    if (!std::exchange(is_named, true)) flush_folder(path_);
     lock.lock();
     flushed_ = reached;
     if (error != 0) flush_error_ = error;

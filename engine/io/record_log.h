@@ -21,8 +21,8 @@ class RecordLog {
  public:
   using Record = std::vector<std::uint8_t>;
 
-  /// Makes a file with these records, in the place of one that may be there; it appears under its
-  /// name only when it is whole and on the disk. Throws IoError.
+  /// Makes a file with these records, which appears under its name when it is whole; in the place
+  /// of one that may be there only when it is on the disk as well. Throws IoError.
   RecordLog(const std::filesystem::path& path, std::span<const Record> records);
   /// Flushes.
   ~RecordLog();

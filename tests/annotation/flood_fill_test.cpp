@@ -5,6 +5,7 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -33,6 +34,19 @@ Image<std::uint8_t> spread(const Image<std::int32_t>& map, PixelIndex seed) {
     }
   }
   return reached;
+}
+
+// Central differences, one-sided at the border.
+double gradient_at(const Image<float>& picture, int y, int x) {
+  const int left = std::max(x - 1, 0), right = std::min(x + 1, picture.width() - 1);
+  const int up = std::max(y - 1, 0), down = std::min(y + 1, picture.height() - 1);
+  double sum = 0;
+  for (int c = 0; c < picture.channels(); ++c) {
+    const double dx = picture.at(y, right, c) - picture.at(y, left, c);
+    const double dy = picture.at(down, x, c) - picture.at(up, x, c);
+    sum += std::pow(dx / std::max(right - left, 1), 2) + std::pow(dy / std::max(down - up, 1), 2);
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace
@@ -68,6 +82,41 @@ class FloodFillTest : public QObject {
       for (int x = 0; x < 30; ++x) QCOMPARE(int{filled.at(y, x)}, x < 14 ? 1 : 0);
     }
     QVERIFY(region_within_edges(picture.view(), {10, 15}, 0.1).empty());
+  }
+
+  void fill_isWhatSpreadingReachesBetweenEdges_data() {
+    QTest::addColumn<int>("height");
+    QTest::addColumn<int>("width");
+    QTest::addColumn<int>("channels");
+    QTest::newRow("rgb") << 23 << 31 << 3;
+    QTest::newRow("grey") << 17 << 40 << 1;
+    QTest::newRow("a column") << 30 << 1 << 3;
+    QTest::newRow("a row") << 1 << 30 << 3;
+    QTest::newRow("two columns") << 30 << 2 << 1;
+  }
+
+  void fill_isWhatSpreadingReachesBetweenEdges() {
+    QFETCH(int, height);
+    QFETCH(int, width);
+    QFETCH(int, channels);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> uniform;
+    for (int i = 0; i < 20; ++i) {
+      Image<float> picture(height, width, channels);
+      for (float& value : picture) value = uniform(random);
+      constexpr double kLimit = 0.55;  // about half of the pixels
+      Image<std::int32_t> map(height, width);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) map.at(y, x) = gradient_at(picture, y, x) < kLimit ? 1 : 2;
+      }
+      const auto open = std::find(map.begin(), map.end(), 1) - map.begin();
+      const PixelIndex seed{static_cast<int>(open) / width, static_cast<int>(open) % width};
+
+      const auto filled = drawn(region_within_edges(picture.view(), seed, kLimit), height, width);
+
+      const auto expected = spread(map, seed);
+      QVERIFY(std::equal(filled.begin(), filled.end(), expected.begin()));
+    }
   }
 
   void fill_isHeldByALineOfOnePixel() {
