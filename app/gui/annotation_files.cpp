@@ -3,6 +3,7 @@
 
 #include "annotation/exchange.h"
 #include "app/session/label_place.h"
+#include "engine/core/shear.h"
 #include "engine/io/label_file.h"
 #include "engine/io/scribble_pictures.h"
 #include "widgets/annotation_bar.h"
@@ -51,8 +52,6 @@ QString AnnotationFiles::place() const {
   if (!place_.empty()) return QString::fromStdString(place_.string());
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field || !document_.isWhole()) return {};
-  // Pixels of views moved to a focus plane are not those of the file.
-  if (session_.scene()->convention.focus_px != 0) return {};
   const auto beside = label_place(*light_field);
   return beside.empty() || !is_writable(beside) ? QString()
                                                 : QString::fromStdString(beside.string());
@@ -155,8 +154,10 @@ void AnnotationFiles::exportPictures(const QString& folder) {
   if (!document_.document()) return;
   jobs_.start<bool>(
       Lane::Export, tr("Writing pictures of scribbles"),
-      [scribbles = snapshot(), folder](const Progress&) {
-        io::write_scribble_pictures(path_of(folder), scribbles());
+      [scribbles = snapshot(), folder, scene = session_.scene()](const Progress&) {
+        io::write_scribble_pictures(
+            path_of(folder),
+            unsheared(scribbles(), {}, scene->light_field->center(), scene->convention.focus_px));
         return true;
       },
       [this, folder](bool) { emit written(folder); });
@@ -184,11 +185,14 @@ void AnnotationFiles::importFrom(const QString& path) {
   jobs_.start<std::shared_ptr<Scribbles>>(
       Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
       [scene = session_.scene(), path, folder, has_pictures](const Progress& progress) {
+        if (!has_pictures) {
+          return std::make_shared<Scribbles>(io::read_scribbles(path_of(path), *scene, progress));
+        }
         const LightField& light_field = *scene->light_field;
+        const Scribbles read = io::read_scribble_pictures(
+            path_of(folder), light_field.grid(), light_field.height(), light_field.width());
         return std::make_shared<Scribbles>(
-            has_pictures ? io::read_scribble_pictures(path_of(folder), light_field.grid(),
-                                                      light_field.height(), light_field.width())
-                         : io::read_scribbles(path_of(path), *scene, progress));
+            sheared(read, light_field.center(), scene->convention.focus_px));
       },
       [this, path, generation](const std::shared_ptr<Scribbles>& scribbles) {
         if (generation != session_.generation()) return;

@@ -18,7 +18,8 @@ class QMessageBox;
 namespace episcope {
 
 /// Saves, exports and imports scribbles in the background, and sees to it that nobody loses any by
-/// leaving the light field.
+/// leaving the light field. Files and pictures keep to the views as they are stored, also at a focus
+/// plane (shear.h).
 class AnnotationFiles : public QObject {
   Q_OBJECT
 

@@ -27,10 +27,9 @@ bool is_writable(const fs::path& path) {
 void read_kept_scribbles(Scene& scene, const Progress& progress) {
   const fs::path place = label_place(*scene.light_field);
   std::error_code ignored;
-  // Readers of the archive look there themselves, and bring scribbles to a focus plane that is baked
-  // in; those of other formats belong to the views as they are stored.
+  // Readers of the archive look there themselves.
   const bool is_known = scene.convention.format.starts_with("archive");
-  if (is_known || scene.convention.focus_px != 0 || !fs::exists(place, ignored)) return;
+  if (is_known || !fs::exists(place, ignored)) return;
   try {
     scene.scribbles = io::read_scribbles(place, scene, progress);
   } catch (const IoError& error) {

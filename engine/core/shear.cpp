@@ -187,6 +187,38 @@ LightFieldInfo moved(LightFieldInfo info, double focus_px) {
   return info;
 }
 
+/// Writes the painted pixels of a sheared view where they were; the view as it was reaches further
+/// than that, and is left as it is there.
+void put_back(ImageView<const std::int32_t> in, const ViewOffset& offset,
+              ImageView<std::int32_t> out) {
+  for (int y = 0; y < in.height; ++y) {
+    const int to_y = y + offset.y.nearest();
+    if (to_y < 0 || to_y >= in.height) continue;
+    for (int x = 0; x < in.width; ++x) {
+      const int to_x = x + offset.x.nearest();
+      if (to_x >= 0 && to_x < in.width) out.at(to_y, to_x) = in.at(y, x);
+    }
+  }
+}
+
+const Image<std::int32_t>* painted_on(ViewIndex view, const Scribbles& scribbles) {
+  const auto found = std::ranges::find(scribbles.views, view, &ViewScribbles::view);
+  return found == scribbles.views.end() ? nullptr : &found->labels;
+}
+
+/// Views painted in either, in the order of the grid.
+std::vector<ViewIndex> painted_in(const Scribbles& a, const Scribbles& b) {
+  std::vector<ViewIndex> views;
+  for (const Scribbles* each : {&a, &b}) {
+    for (const ViewScribbles& painted : each->views) views.push_back(painted.view);
+  }
+  const auto place = [](ViewIndex view) { return std::pair(view.v, view.u); };
+  std::ranges::sort(views, {}, place);
+  const auto rest = std::ranges::unique(views);
+  views.erase(rest.begin(), rest.end());
+  return views;
+}
+
 std::string note_of(double focus_px) {
   std::ostringstream text;
   text.precision(4);
@@ -238,6 +270,45 @@ DisparityField sheared(const DisparityField& field, ViewIndex center, double foc
   return result;
 }
 
+ViewStack<std::int32_t> sheared(const ViewStack<std::int32_t>& labels, ViewIndex center,
+                                double focus_px, const Progress& progress) {
+  return nearest(labels, {center, focus_px, progress});
+}
+
+Scribbles sheared(const Scribbles& scribbles, ViewIndex center, double focus_px) {
+  Scribbles result;
+  result.labels = scribbles.labels;
+  for (const ViewScribbles& each : scribbles.views) {
+    result.views.push_back({each.view, nearest(ImageView<const std::int32_t>(each.labels),
+                                               offset_of(each.view, center, focus_px))});
+  }
+  return result;
+}
+
+Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before, ViewIndex center,
+                    double focus_px) {
+  Scribbles result;
+  result.labels = scribbles.labels;
+  const auto is_known = [&](std::int32_t id) {
+    return std::ranges::find(scribbles.labels, id, &LabelInfo::id) != scribbles.labels.end();
+  };
+  for (const ViewIndex view : painted_in(scribbles, before)) {
+    const Image<std::int32_t>* now = painted_on(view, scribbles);
+    const Image<std::int32_t>* former = painted_on(view, before);
+    const Image<std::int32_t>& any = now ? *now : *former;
+    const Image<std::int32_t> bare(any.height(), any.width());
+    Image<std::int32_t> put(any.height(), any.width());
+    if (former) {
+      std::ranges::transform(*former, put.begin(),
+                             [&](std::int32_t id) { return is_known(id) ? id : 0; });
+    }
+    put_back(now ? now->view() : bare.view(), offset_of(view, center, focus_px), put.view());
+    const bool is_bare = std::ranges::all_of(put, [](std::int32_t id) { return id == 0; });
+    if (!is_bare) result.views.push_back({view, std::move(put)});
+  }
+  return result;
+}
+
 Scene sheared(const Scene& scene, double focus_px, const Progress& progress) {
   const ViewIndex center = scene.light_field->center();
   const Progress rest = progress.part(0.7, 1);
@@ -247,14 +318,10 @@ Scene sheared(const Scene& scene, double focus_px, const Progress& progress) {
   truth->field = sheared(scene.truth->field, center, focus_px, rest);
   truth->foreground = sheared(scene.truth->foreground, center, focus_px, rest);
   truth->background = sheared(scene.truth->background, center, focus_px, rest);
-  truth->labels = nearest(scene.truth->labels, {center, focus_px, rest});
+  truth->labels = sheared(scene.truth->labels, center, focus_px, rest);
   truth->regions = scene.truth->regions;  // of the centre view, which stays
   result.truth = std::move(truth);
-  result.scribbles.labels = scene.scribbles.labels;
-  for (const ViewScribbles& each : scene.scribbles.views) {
-    result.scribbles.views.push_back({each.view, nearest(ImageView<const std::int32_t>(each.labels),
-                                                         offset_of(each.view, center, focus_px))});
-  }
+  result.scribbles = sheared(scene.scribbles, center, focus_px);
   result.convention = scene.convention;
   result.convention.focus_px += focus_px;
   return result;

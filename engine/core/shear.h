@@ -30,6 +30,17 @@ namespace episcope {
 /// `ConventionReport::focus_px` adds up. Throws as above.
 [[nodiscard]] Scene sheared(const Scene& scene, double focus_px, const Progress& progress);
 
+/// Labels by whole pixels, with the views; 0 where the view was out of sight. Throws Cancelled.
+[[nodiscard]] ViewStack<std::int32_t> sheared(const ViewStack<std::int32_t>& labels,
+                                              ViewIndex center, double focus_px,
+                                              const Progress& progress);
+[[nodiscard]] Scribbles sheared(const Scribbles& scribbles, ViewIndex center, double focus_px);
+
+/// The way back: what was painted on sheared views, on the views as they were. Where these reach
+/// out of the sheared ones, what was painted `before` stays, unless its label is gone.
+[[nodiscard]] Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before,
+                                  ViewIndex center, double focus_px);
+
 /// An estimate of the light field before, as one of the light field after, whose centre is `center`
 /// and whose hash is `sample_hash`. A searched range follows; a note tells. Throws Cancelled.
 struct ShearedInto {

@@ -2,6 +2,7 @@
 #include "engine/io/label_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/shear.h"
 #include "engine/io/scribble_dataset.h"
 
 #include <algorithm>
@@ -76,14 +77,28 @@ std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
          (1 << 16);
 }
 
-}  // namespace
-
-Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progress& progress) {
-  const Hdf5Input file(path);
+/// In the house order, on the views as they are stored.
+Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
   StoredScribbles stored =
       read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);
   put_in_order(stored.scribbles, scene.light_field->grid(), flip_of(scene));
   return std::move(stored.scribbles);
+}
+
+/// As they belong on the views as they are stored, where `former` may have more.
+Scribbles put_back(const Scribbles& scribbles, const Hdf5Input* former, const Scene& scene,
+                   const Progress& progress) {
+  const bool has_more = former && former->has(kScribbles);
+  return unsheared(scribbles, has_more ? read_unmoved(*former, scene, progress) : Scribbles(),
+                   scene.light_field->center(), scene.convention.focus_px);
+}
+
+}  // namespace
+
+Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progress& progress) {
+  Scribbles stored = read_unmoved(Hdf5Input(path), scene, progress);
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(stored) : sheared(stored, scene.light_field->center(), focus_px);
 }
 
 ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scene,
@@ -95,7 +110,9 @@ ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scen
                   [](std::int32_t& label) { ++label; });
   }
   reverse_views(labels, scene.light_field->grid(), flip_of(scene));
-  return labels;
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(labels)
+                       : sheared(labels, scene.light_field->center(), focus_px, progress);
 }
 
 void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,
@@ -104,7 +121,11 @@ void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Sce
   const FieldShape shape = shape_of(scene);
   require_fitting(path, scribbles, shape);
   const std::unique_ptr<Hdf5Input> former = open_former(path, scene);
-  AtomicFile target(path, file_bytes(scribbles, shape, path));
+  const Scribbles moved = scene.convention.focus_px == 0
+                              ? Scribbles()
+                              : put_back(scribbles, former.get(), scene, progress);
+  const Scribbles& stored = scene.convention.focus_px == 0 ? scribbles : moved;
+  AtomicFile target(path, file_bytes(stored, shape, path));
   Hdf5Output file(target);
   const std::string owner = owner_name(scene);
   if (former) {
@@ -113,7 +134,7 @@ void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Sce
     file.set_text("/", kOwner, owner);
   }
   const bool raises_labels = former && former->has(kTrueLabels) && scene.convention.raised_labels;
-  add_scribbles(file, scribbles, {shape, flip_of(scene), raises_labels}, progress);
+  add_scribbles(file, stored, {shape, flip_of(scene), raises_labels}, progress);
   file.close();
   progress.check();
   target.commit();

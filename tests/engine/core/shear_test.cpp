@@ -5,6 +5,7 @@
 
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,6 +57,21 @@ double largest_difference(const LightField& a, const LightField& b, int inset) {
     }
   }
   return largest;
+}
+
+// Label 1 left of column 50, 2 from there, on a corner view, the centre and one between.
+Scribbles painted_everywhere() {
+  Scribbles scribbles;
+  scribbles.labels = {{1, "left", {}}, {2, "right", {}}};
+  for (const ViewIndex view : {ViewIndex{0, 0}, ViewIndex{1, 4}, kCenter}) {
+    Image<std::int32_t> labels(kHeight, kWidth);
+    for (int y = 0; y < kHeight; ++y) {
+      for (int x = 0; x < kWidth; ++x) labels.at(y, x) = x < 50 ? 1 : 2;
+    }
+    labels.at(17, 23) = 0;
+    scribbles.views.push_back({view, std::move(labels)});
+  }
+  return scribbles;
 }
 
 }  // namespace
@@ -201,6 +217,55 @@ class ShearTest : public QObject {
     const LightField light_field(plane_of(0), {});
 
     QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)sheared(light_field, focus, Progress()));
+  }
+
+  void scribbles_comeBackToTheViewsAsTheyWere_data() {
+    QTest::addColumn<double>("focus");
+    for (const double focus : {1.0, -2.0, 0.37, -0.5, 0.5}) QTest::addRow("%g px", focus) << focus;
+  }
+
+  void scribbles_comeBackToTheViewsAsTheyWere() {
+    QFETCH(double, focus);
+    const Scribbles before = painted_everywhere();
+
+    const Scribbles moved = sheared(before, kCenter, focus);
+    const Scribbles back = unsheared(moved, before, kCenter, focus);
+
+    QVERIFY(!std::ranges::equal(moved.views[0].labels, before.views[0].labels));
+    QCOMPARE(back.views.size(), before.views.size());
+    for (std::size_t i = 0; i < before.views.size(); ++i) {
+      QCOMPARE(back.views[i].view, before.views[i].view);
+      QVERIFY(std::ranges::equal(back.views[i].labels, before.views[i].labels));
+    }
+  }
+
+  void scribbles_thatAreNew_goWhereTheyBelong() {
+    Scribbles painted;
+    painted.labels = {{2, "new", {}}};
+    painted.views.push_back({{0, 0}, Image<std::int32_t>(kHeight, kWidth)});
+    painted.views[0].labels.at(10, 20) = 2;
+
+    // Row y of view (0, 0) was fetched at y − 2·(0 − 2), column x at x − 2·(0 − 3).
+    const Scribbles back = unsheared(painted, {}, kCenter, 2);
+
+    QCOMPARE(back.views.size(), std::size_t{1});
+    QCOMPARE(back.views[0].labels.at(14, 26), 2);
+    QCOMPARE(static_cast<int>(std::ranges::count(back.views[0].labels, 0)), kHeight * kWidth - 1);
+  }
+
+  void scribbles_outOfSight_stayUnlessTheirLabelIsGone() {
+    const Scribbles before = painted_everywhere();
+    Scribbles erased;  // on all views, and label 2 is removed
+    erased.labels = {{1, "kept", {}}};
+
+    const Scribbles back = unsheared(erased, before, kCenter, 2);
+
+    QCOMPARE(back.views.size(), before.views.size() - 1);  // all of the centre view is in sight
+    const Image<std::int32_t>& first = back.views[0].labels;
+    QCOMPARE(first.at(0, 30), 1);  // the view begins at row 4 and column 6 now
+    QCOMPARE(first.at(20, 2), 1);
+    QCOMPARE(first.at(4, 6), 0);
+    QCOMPARE(static_cast<int>(std::ranges::count(first, 2)), 0);
   }
 };
 

@@ -280,6 +280,42 @@ class LabelFileTest : public QObject {
     QVERIFY(!std::filesystem::exists(path("out.h5")));
   }
 
+  void scribblesOfAFocusPlane_areThoseOfTheStoredViews() {
+    const Scene scene = plane_scene();
+    io::write_archive(path("lf.h5"), scene, Progress());
+    io::OpenOptions at_plane;
+    at_plane.focus_px = 1;
+    const Scene moved = io::open_scene(path("lf.h5"), at_plane, Progress());
+    Scribbles painted;
+    painted.labels = {{1, "one", {}}, {7, "seven", {}}};
+    painted.views.push_back(painted_view({0, 1}, {10, 20}, 7));
+
+    io::write_scribbles(path("labels.h5"), painted, moved, Progress());
+
+    // View (0, 1) of 5×5 was fetched 2 rows further down and 1 column further right.
+    const Scene stored = io::open_scene(path("lf.h5"), {}, Progress());
+    compare(stored.scribbles.views.size() == 1 ? stored.scribbles : Scribbles(),
+            {{painted_view({0, 1}, {12, 21}, 7)}, painted.labels});
+    compare(io::read_scribbles(path("labels.h5"), moved, Progress()), painted);
+    compare(io::open_scene(path("lf.h5"), at_plane, Progress()).scribbles, painted);
+  }
+
+  void scribblesOutOfSightOfAFocusPlane_stayInTheFile() {
+    const Scene scene = plane_scene();
+    Scribbles before;
+    before.labels = {{1, "one", {}}};
+    before.views.push_back(painted_view({0, 1}, {0, 40}, 1));
+    io::write_archive(path("lf.h5"), scene, Progress());
+    io::write_scribbles(path("labels.h5"), before, scene, Progress());
+    io::OpenOptions at_plane;
+    at_plane.focus_px = 1;
+    const Scene moved = io::open_scene(path("lf.h5"), at_plane, Progress());
+
+    io::write_scribbles(path("labels.h5"), moved.scribbles, moved, Progress());
+
+    compare(io::read_scribbles(path("labels.h5"), scene, Progress()), before);
+  }
+
   void pictures_comeBack() {
     const std::filesystem::path folder = folder_->path().toStdString();
     Scribbles scribbles = some_scribbles();
