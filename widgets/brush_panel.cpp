@@ -44,6 +44,7 @@ BrushPanel::BrushPanel(QWidget* parent)
   form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
   brush_ = addSize(*form, "brush", tr("Brush"), &BrushPanel::brushSizeEdited);
   eraser_ = addSize(*form, "eraser", tr("Eraser"), &BrushPanel::eraserSizeEdited);
+  setSizeKeys({});
   addFill(*form);
   opacity_->setObjectName("brush.opacity");
   opacity_->setRange(0, 100);
@@ -74,9 +75,6 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
   row.spin->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
   row.spin->setSuffix(tr(" px"));
   row.spin->setKeyboardTracking(false);
-  const QString tip = tr("Diameter in pixels of the view ([ and ], or Ctrl+Shift+wheel)");
-  row.slider->setToolTip(tip);
-  row.spin->setToolTip(tip);
   auto* line = new QHBoxLayout;
   line->setSpacing(theme::kSpacing);
   line->addWidget(row.slider, 1);
@@ -136,6 +134,16 @@ void BrushPanel::setBrushSize(double diameter_px) {
 
 void BrushPanel::setEraserSize(double diameter_px) {
   setSize(eraser_, diameter_px);
+}
+
+void BrushPanel::setSizeKeys(const QString& keys) {
+  const QString tip =
+      tr("Diameter in pixels of the view (%1)")
+          .arg(keys.isEmpty() ? tr("Ctrl+Shift+wheel") : tr("%1, or Ctrl+Shift+wheel").arg(keys));
+  for (const SizeRow& row : {brush_, eraser_}) {
+    row.slider->setToolTip(tip);
+    row.spin->setToolTip(tip);
+  }
 }
 
 void BrushPanel::setProtectsOthers(bool protects) {

@@ -31,6 +31,8 @@ class BrushPanel : public QWidget {
   void addGap();
   void setBrushSize(double diameter_px);
   void setEraserSize(double diameter_px);
+  /// Keys that change the size, for its tool tips; empty if there are none.
+  void setSizeKeys(const QString& keys);
   void setProtectsOthers(bool protects);
   void setScribbleOpacity(double opacity);
   /// Without a segmentation, fills can be bounded by edges only.

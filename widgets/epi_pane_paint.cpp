@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/canvas_text.h"
 #include "widgets/epi_pane.h"
+#include "widgets/number_text.h"
 #include "widgets/theme.h"
 
 #include <QPaintEvent>
@@ -35,7 +36,7 @@ void draw_slopes(QPainter& painter, const std::vector<Slope>& slopes) {
 }
 
 QString disparity_text(double disparity_px) {
-  return QString("%1 px").arg(disparity_px, 0, 'f', 3).replace('-', QChar(0x2212));
+  return QString("%1 px").arg(number_text(disparity_px));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "widgets/elided_label.h"
 #include "widgets/histogram_view.h"
+#include "widgets/number_text.h"
 #include "widgets/theme.h"
 
 #include <QEvent>
@@ -10,7 +11,7 @@
 #include <QLabel>
 #include <QLocale>
 
-#include <cmath>
+#include <cstddef>
 
 namespace episcope {
 namespace {
@@ -23,11 +24,6 @@ constexpr const char* kNames[] = {QT_TRANSLATE_NOOP("episcope::StatisticsPanel",
                                   QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "max"),
                                   QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "bad"),
                                   QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "invalid")};
-
-QString number(double value) {
-  const double rounded = std::round(value * 1000) / 1000;
-  return QString::number(rounded == 0 ? 0 : rounded, 'f', 3).replace('-', QChar(0x2212));
-}
 
 }  // namespace
 
@@ -64,7 +60,7 @@ void StatisticsPanel::setSummary(const Summary& summary) {
   histogram_->setHistogram(statistics.histogram, summary.shading);
   const double numbers[] = {statistics.min, statistics.median, statistics.mean, statistics.max};
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
-    values_[i]->setText(statistics.count == 0 ? QString("–") : number(numbers[i]));
+    values_[i]->setText(statistics.count == 0 ? QString("–") : number_text(numbers[i]));
   }
   values_[kBad]->setText(
       summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2) : QString("–"));

@@ -37,6 +37,21 @@ QPalette make_palette(const Surfaces& s) {
   return palette;
 }
 
+/// Text as faint as it may be against windows and panes; `least` is the part of it to begin with.
+QColor text_of_contrast(const QPalette& palette, double contrast, double least) {
+  const QColor window = palette.color(QPalette::Window);
+  const QColor text = palette.color(QPalette::WindowText);
+  // Tabs and group boxes are drawn in shades of the button colour.
+  const QColor pane = palette.color(QPalette::Button).lighter(is_dark(palette) ? 128 : 104);
+  for (double part = least; part < 1; part += 0.05) {
+    const QColor color = blend(window, text, part);
+    if (contrast_ratio(window, color) >= contrast && contrast_ratio(pane, color) >= contrast) {
+      return color;
+    }
+  }
+  return text;
+}
+
 }  // namespace
 
 bool is_dark(const QPalette& palette) {
@@ -63,18 +78,13 @@ QPalette text_palette(const QColor& color) {
 }
 
 QColor muted_text(const QPalette& palette) {
-  const QColor window = palette.color(QPalette::Window);
-  const QColor text = palette.color(QPalette::WindowText);
-  // Tabs and group boxes are drawn in shades of the button colour.
-  const QColor pane = palette.color(QPalette::Button).lighter(is_dark(palette) ? 128 : 104);
   constexpr double kLegible = 4.6;
-  for (double part = 0.6; part < 1; part += 0.05) {
-    const QColor color = blend(window, text, part);
-    if (contrast_ratio(window, color) >= kLegible && contrast_ratio(pane, color) >= kLegible) {
-      return color;
-    }
-  }
-  return text;
+  return text_of_contrast(palette, kLegible, 0.6);
+}
+
+QColor frame(const QPalette& palette) {
+  constexpr double kVisible = 3;
+  return text_of_contrast(palette, kVisible, 0.3);
 }
 
 QColor error_text(const QPalette& palette) {

@@ -23,6 +23,9 @@ inline constexpr int kMargin = 8;   ///< Around groups.
 [[nodiscard]] bool is_dark(const QPalette& palette);
 /// Text of lesser weight, still legible: contrast ≥ 4.5 against window and tabs.
 [[nodiscard]] QColor muted_text(const QPalette& palette);
+/// Frames of controls that nothing else sets off: contrast ≥ 3 against window and tabs, less where
+/// they are disabled.
+[[nodiscard]] QColor frame(const QPalette& palette);
 /// Text colours of meanings, legible on the palette's window.
 [[nodiscard]] QColor error_text(const QPalette& palette);
 [[nodiscard]] QColor warning_text(const QPalette& palette);

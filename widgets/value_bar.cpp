@@ -2,6 +2,7 @@
 #include "widgets/value_bar.h"
 
 #include "widgets/elided_label.h"
+#include "widgets/number_text.h"
 #include "widgets/theme.h"
 
 #include <QEvent>
@@ -13,19 +14,14 @@ namespace episcope {
 namespace {
 
 constexpr int kSwatch = 12;
-const QChar kMinus(0x2212);
-
-QString number(double value, int decimals = 3) {
-  return QString::number(value, 'f', decimals).replace('-', kMinus);
-}
 
 QString signed_number(double value) {
-  const QString text = number(value);
-  return text.startsWith(kMinus) ? text : '+' + text;
+  const QString text = number_text(value);
+  return text.front().isDigit() ? '+' + text : text;
 }
 
 QString with_error(double disparity_px, std::optional<double> truth_px) {
-  const QString text = number(disparity_px);
+  const QString text = number_text(disparity_px);
   return truth_px ? QString("%1 (%2)").arg(text, signed_number(disparity_px - *truth_px)) : text;
 }
 
@@ -46,10 +42,10 @@ QString reading_text(const PixelReading& reading) {
     parts << (is_rgb ? ValueBar::tr("rgb %1") : ValueBar::tr("grey %1")).arg(reading.samples);
   }
   if (reading.has_truth) {
-    parts << (reading.truth_px ? ValueBar::tr("truth %1").arg(number(*reading.truth_px))
+    parts << (reading.truth_px ? ValueBar::tr("truth %1").arg(number_text(*reading.truth_px))
                                : ValueBar::tr("no truth here"));
     if (reading.background_truth_px) {
-      parts.back() += ValueBar::tr(", behind %1").arg(number(*reading.background_truth_px));
+      parts.back() += ValueBar::tr(", behind %1").arg(number_text(*reading.background_truth_px));
     }
   }
   for (const auto& estimate : reading.estimates) parts << estimate_text(estimate, reading);

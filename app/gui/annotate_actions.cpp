@@ -216,6 +216,17 @@ void show_state(ActionTable& table, MainWindow& window) {
   table.find("annotate.carry")->setChecked(window.scribbles().isCarried());
 }
 
+QString key_text(const ActionTable& table, const char* id) {
+  const QList<QKeySequence> keys = table.keys(id);
+  return keys.isEmpty() ? QString() : keys.front().toString(QKeySequence::NativeText);
+}
+
+void show_size_keys(const ActionTable& table, BrushPanel& panel) {
+  QStringList keys{key_text(table, "annotate.smaller"), key_text(table, "annotate.larger")};
+  keys.removeAll({});
+  panel.setSizeKeys(keys.join(tr(" and ")));
+}
+
 }  // namespace
 
 void add_annotate_actions(ActionTable& table, MainWindow& window) {
@@ -273,6 +284,9 @@ void follow_document(ActionTable& table, MainWindow& window) {
   for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
     window.panels().annotation->addAction(table.find(id), QString("button.%1").arg(id));
   }
+  const auto show_keys = [&table, panel] { show_size_keys(table, *panel); };
+  QObject::connect(&table, &ActionTable::keysChanged, panel, show_keys);
+  show_keys();
   const auto show = [&table, &window] { show_state(table, window); };
   const auto* document = &window.document();
   QObject::connect(document, &DocumentController::replaced, &table, show);

@@ -2,6 +2,7 @@
 #include "app/gui/annotate_controller.h"
 
 #include "annotation/flood_fill.h"
+#include "widgets/annotation_bar.h"
 #include "widgets/brush_panel.h"
 #include "widgets/label_palette.h"
 #include "widgets/view_canvas.h"
@@ -147,6 +148,7 @@ void AnnotateController::showMode() {
   panels_.canvas->setTool(is_painting ? tool_ : nullptr);
   panels_.brush->setEnabled(document_.document() != nullptr);
   panels_.labels->setEnabled(document_.document() != nullptr);
+  panels_.annotation->setEnabled(document_.document() != nullptr);
   emit modeChanged();
 }
 

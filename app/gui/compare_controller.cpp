@@ -4,6 +4,7 @@
 #include "app/gui/estimate_controller.h"
 #include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
+#include "widgets/number_text.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/tile_wall.h"
 #include "widgets/view_canvas.h"
@@ -28,8 +29,7 @@ bool is_of_a_result(Quantity quantity) {
 
 QStringList value_text(const OverlayMap& map, int y, int x) {
   const auto value = map.value_at({y, x});
-  return value ? QStringList(QString::number(*value, 'f', 3).replace('-', QChar(0x2212)))
-               : QStringList();
+  return value ? QStringList(number_text(*value)) : QStringList();
 }
 
 }  // namespace

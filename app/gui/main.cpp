@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
 #include "engine/core/version.h"
+#include "widgets/outlined_style.h"
 #include "widgets/theme.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
+#include <QStyle>
 
 #include <cstdio>
 
@@ -13,8 +15,11 @@ namespace {
 constexpr int kUsageError = 2;
 
 bool set_theme(const QString& name) {
-  if (name == "light" || name == "dark") {
-    QApplication::setStyle("Fusion");
+  const bool is_own = name == "light" || name == "dark";
+  if (is_own || QApplication::style()->name() == "fusion") {
+    QApplication::setStyle(new episcope::OutlinedStyle);
+  }
+  if (is_own) {
     QApplication::setPalette(name == "light" ? episcope::theme::light_palette()
                                              : episcope::theme::dark_palette());
     return true;

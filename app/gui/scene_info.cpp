@@ -2,6 +2,7 @@
 #include "app/gui/scene_info.h"
 
 #include "app/session/scene_range.h"
+#include "widgets/number_text.h"
 
 #include <QCoreApplication>
 
@@ -82,18 +83,15 @@ SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
                        {}});
   info.rows.push_back({text("Samples"), sample_text(light_field), {}});
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
-    info.rows.push_back({text("Disparity"),
-                         text("%1 … %2 px")
-                             .arg(range.min, 0, 'f', 2)
-                             .arg(range.max, 0, 'f', 2)
-                             .replace('-', QChar(0x2212)),
-                         {}});
+    info.rows.push_back(
+        {text("Disparity"),
+         text("%1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2)),
+         {}});
   }
   if (convention.focus_px != 0) {
-    info.rows.push_back(
-        {text("Focus"),
-         text("%1 px baked in").arg(convention.focus_px, 0, 'f', 2).replace('-', QChar(0x2212)),
-         text("All views but the centre one are interpolated.")});
+    info.rows.push_back({text("Focus"),
+                         text("%1 px baked in").arg(number_text(convention.focus_px, 2)),
+                         text("All views but the centre one are interpolated.")});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back(

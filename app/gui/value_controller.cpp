@@ -2,6 +2,7 @@
 #include "app/gui/value_controller.h"
 
 #include "app/gui/disparity_at.h"
+#include "widgets/number_text.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
 
@@ -102,7 +103,7 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
   }
   if (!overlay_.picture().isNull()) {
     const auto value = overlay_.valueAt(pixel);
-    if (value) return {QString::number(*value, 'f', 3).replace('-', QChar(0x2212))};
+    if (value) return {number_text(*value)};
   }
   return samples_at(*light_field, session_.view(), pixel).texts;
 }

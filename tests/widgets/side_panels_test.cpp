@@ -292,6 +292,15 @@ class SidePanelsTest : public QObject {
     QCOMPARE(bar.text(), QString::fromUtf8("x 2 y 1 · grey 77 · EPI_S −0.500"));
   }
 
+  void values_roundedToZeroHaveNoMinus() {
+    ValueBar bar;
+
+    bar.setReading(PixelReading{{1, 2}, "77", Qt::gray, true, -0.0004, {{"EPI_S", -0.0006}}});
+
+    QCOMPARE(bar.text(),
+             QString::fromUtf8("x 2 y 1 · grey 77 · truth 0.000 · EPI_S −0.001 (+0.000)"));
+  }
+
   void info_wrapsSentencesAndElidesPaths() {
     InfoPanel panel;
     panel.resize(180, 300);

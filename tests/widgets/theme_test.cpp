@@ -9,6 +9,7 @@
 #include "widgets/message_bar.h"
 #include "widgets/method_panel.h"
 #include "widgets/metric_table.h"
+#include "widgets/outlined_style.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/point_cloud_panel.h"
 #include "widgets/result_list.h"
@@ -20,10 +21,12 @@
 #include <QAbstractSlider>
 #include <QAbstractSpinBox>
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDir>
 #include <QHeaderView>
 #include <QLabel>
+#include <QStyleOption>
 #include <QTest>
 #include <QVBoxLayout>
 
@@ -100,6 +103,28 @@ class ThemeTest : public QObject {
     for (const auto& color : {theme::kCanvasText, theme::kCanvasMuted, theme::kEstimate,
                               theme::kTruth, theme::kMeasured, theme::kCrossHair}) {
       QVERIFY2(theme::contrast_ratio(theme::kCanvas, color) >= kLegible, qPrintable(color.name()));
+    }
+  }
+
+  void uncheckedBoxes_areSeen_data() { addPalettes(); }
+  void uncheckedBoxes_areSeen() {
+    constexpr double kSeen = 3;  // WCAG 2.1 AA for controls
+    QFETCH(QPalette, palette);
+    OutlinedStyle style;
+    QCheckBox box("box");
+    box.setStyle(&style);
+    box.setPalette(palette);
+    QStyleOptionButton option;
+    option.initFrom(&box);
+
+    const QImage drawn = box.grab().toImage();
+
+    const QRect frame = style.subElementRect(QStyle::SE_CheckBoxIndicator, &option, &box);
+    const QColor window = palette.color(QPalette::Window);
+    for (const QPoint at : {QPoint(frame.left(), frame.center().y()),
+                            QPoint(frame.center().x(), frame.bottom())}) {
+      const QColor color = drawn.pixelColor(at);
+      QVERIFY2(theme::contrast_ratio(window, color) >= kSeen, qPrintable(color.name()));
     }
   }
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QProxyStyle>
+
+namespace episcope {
+
+/// The Fusion style, with frames of check boxes that are seen in a dark theme as well: Fusion draws
+/// them darker than the window, whatever that is.
+class OutlinedStyle : public QProxyStyle {
+  Q_OBJECT
+
+ public:
+  OutlinedStyle();
+
+  void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
+                     const QWidget* widget = nullptr) const override;
+};
+
+}  // namespace episcope
