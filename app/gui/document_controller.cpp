@@ -80,7 +80,8 @@ void DocumentController::setDocument(AnnotationDocument document, bool is_whole)
   discarded_state_.reset();
   annotation_ = std::make_unique<Annotation>(
       std::move(document),
-      JournalOwner{session_.light_field()->info().name, session_.input(), sample_hash_},
+      JournalOwner{session_.light_field()->info().name, session_.input(), sample_hash_,
+                   session_.scene()->convention.focus_px},
       journal_folder_);
 }
 

@@ -84,7 +84,11 @@ MainWindow::MainWindow(QWidget* parent)
   focus_ = new FocusController(*session_, *jobs_, *opener_, *document_, this);
   annotation_files_ = new AnnotationFiles(*session_, *jobs_, *document_, panels_, this);
   recovery_ = new RecoveryController(
-      *session_, *document_, *panels_.recovery, [this](const QString& source) { open(source); },
+      *session_, *document_, *panels_.recovery,
+      [this](const QString& source, double focus_px) {
+        if (focus_px == 0) return open(source);
+        opener_->open(source, [this, focus_px] { opener_->reopenAt(focus_px, nullptr); });
+      },
       [this](std::function<void()> go_on) { annotation_files_->leave(std::move(go_on)); }, this);
   exporter_ = new ExportController(*session_, *jobs_, *overlay_, panels_, this);
   cloud_ = new CloudController(*session_, *overlay_, panels_, this);

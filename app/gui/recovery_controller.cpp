@@ -44,9 +44,14 @@ RecoveryController::RecoveryController(Session& session, DocumentController& doc
       leave_(std::move(leave)),
       job_(this) {
   connect(&document_, &DocumentController::replaced, this, [this] {
-    if (!awaited_ || session_.input() != awaited_->owner.source) return;
+    if (!awaited_ || !isOpen(awaited_->owner)) return;
     read(*std::exchange(awaited_, std::nullopt));
   });
+}
+
+bool RecoveryController::isOpen(const JournalOwner& owner) const {
+  return session_.scene() && session_.input() == owner.source &&
+         session_.scene()->convention.focus_px == owner.focus_px;
 }
 
 void RecoveryController::look() {
@@ -82,12 +87,12 @@ void RecoveryController::discard(const LeftJournal& journal) {
 
 void RecoveryController::recover(const LeftJournal& journal) {
   leave_([this, journal] {
-    if (document_.document() && session_.input() == journal.owner.source) {
+    if (document_.document() && isOpen(journal.owner)) {
       read(journal);
       return;
     }
     awaited_ = journal;
-    open_(QString::fromStdString(journal.owner.source));
+    open_(QString::fromStdString(journal.owner.source), journal.owner.focus_px);
   });
 }
 
@@ -115,7 +120,7 @@ void RecoveryController::read(const LeftJournal& journal) {
 void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotation found,
                                   std::uint64_t sample_hash) {
   const LightFieldPtr light_field = session_.light_field();
-  if (!light_field || session_.input() != journal.owner.source) return;
+  if (!light_field || !isOpen(journal.owner)) return;
   const ScribbleLayer& layer = found.document.scribbles();
   const bool fits = layer.grid() == light_field->grid() &&
                     layer.height() == light_field->height() &&

@@ -20,8 +20,8 @@ class RecoveryController : public QObject {
   Q_OBJECT
 
  public:
-  /// Opens a light field by what opened it before.
-  using Open = std::function<void(const QString& source)>;
+  /// Opens a light field by what opened it before, and bakes a focus plane in unless that is 0.
+  using Open = std::function<void(const QString& source, double focus_px)>;
   /// Calls back once the present document may be replaced, or never.
   using Leave = std::function<void(std::function<void()> go_on)>;
 
@@ -35,6 +35,7 @@ class RecoveryController : public QObject {
   void recovered(const QString& name);
 
  private:
+  [[nodiscard]] bool isOpen(const JournalOwner& owner) const;
   void offerNext();
   void recover(const LeftJournal& journal);
   void discard(const LeftJournal& journal);

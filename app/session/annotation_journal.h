@@ -17,6 +17,7 @@ struct JournalOwner {
   std::string name;               ///< Short, for the question whether to recover.
   std::string source;             ///< What opens the light field again.
   std::uint64_t sample_hash = 0;  ///< LightField::sample_hash.
+  double focus_px = 0;            ///< Focus plane to bake in after opening (shear.h).
   friend bool operator==(const JournalOwner&, const JournalOwner&) = default;
 };
 

@@ -4,6 +4,7 @@
 #include "annotation/edit_code.h"
 #include "engine/core/error.h"
 
+#include <bit>
 #include <utility>
 
 namespace episcope {
@@ -51,6 +52,7 @@ io::RecordLog::Record head_record(const JournalOwner& owner, const AnnotationDoc
     out.number(static_cast<std::uint64_t>(extent));
   }
   out.number(document.history().max_bytes());
+  out.number(std::bit_cast<std::uint64_t>(owner.focus_px));
   return out.bytes();
 }
 
@@ -81,6 +83,8 @@ Head read_head(const io::RecordLog::Record& record) {
     *extent = static_cast<int>(in.number(kMaxExtent));
   }
   head.history_bytes = static_cast<std::size_t>(in.number());
+  // Journals of earlier programs end here.
+  if (!in.at_end()) head.owner.focus_px = std::bit_cast<double>(in.number());
   return head;
 }
 

@@ -31,6 +31,7 @@ class AnnotateTest : public QObject {
   void escape_takesTheStrokeBack();
   void wheelAndMiddleDrag_stillZoomAndPan();
   void keys_chooseToolsSizesAndLabels();
+  void tipsOfSizes_nameTheKeysOfTheTable();
   void fill_staysWithinEdges();
   void pick_takesTheLabelUnderTheMouse();
   void otherView_endsTheStroke();
@@ -160,6 +161,17 @@ void AnnotateTest::keys_chooseToolsSizesAndLabels() {
   for (int i = 0; i < 60; ++i) f.key(Qt::Key_Period);
   QCOMPARE(f.canvas()->tool()->brushSize(), 100.0);
   QVERIFY(f.window.actions().find("annotate.brush")->isChecked());
+}
+
+void AnnotateTest::tipsOfSizes_nameTheKeysOfTheTable() {
+  WindowFixture f;
+  const auto* size = f.window.findChild<QSpinBox*>("brush.spin");
+  QVERIFY2(size->toolTip().contains("[ and ]"), qPrintable(size->toolTip()));
+
+  f.window.actions().setKeys("annotate.larger", {QKeySequence("Ctrl+Alt+J")});
+  f.window.actions().setKeys("annotate.smaller", {});
+
+  QVERIFY2(size->toolTip().contains("(Ctrl+Alt+J, or"), qPrintable(size->toolTip()));
 }
 
 void AnnotateTest::fill_staysWithinEdges() {

@@ -65,6 +65,7 @@ class FocusTest : public QObject {
   void undo_bringsTheFileBack();
   void whileAMethodRuns_itIsRefused();
   void whatIsPainted_isNotLost();
+  void whatIsPaintedAtAPlane_isSavedWhereItBelongs();
 };
 
 void FocusTest::withoutFocus_nothingCanBeApplied() {
@@ -158,6 +159,33 @@ void FocusTest::whatIsPainted_isNotLost() {
                             30000);
   QCOMPARE(f.baked(), 0.0);
   QVERIFY(f.window.document().hasUnsavedChanges());
+}
+
+void FocusTest::whatIsPaintedAtAPlane_isSavedWhereItBelongs() {
+  Focused f;
+  f.clickApply();
+  f.waitFor(kFocus);
+  constexpr ViewIndex corner{0, 0};  // four views from the centre: moved by 2 px
+  f.session().set_view(corner);
+  f.trigger("annotate.mode");
+  f.drag({40, 20}, {40, 60});
+  QCOMPARE(f.document().scribbles().label_at(corner, {40, 20}), 1);
+
+  f.key(Qt::Key_S, Qt::ControlModifier);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), 30000);
+  const ScribbleLayer painted = f.document().scribbles();
+  f.trigger("view.focus_undo");
+  f.waitFor(0);
+
+  int differing = 0;
+  for (int y = 0; y < 94; ++y) {
+    for (int x = 0; x < 94; ++x) {
+      differing += f.document().scribbles().label_at(corner, {y + 2, x + 2}) !=
+                   painted.label_at(corner, {y, x});
+    }
+  }
+  QCOMPARE(differing, 0);
+  QVERIFY(!f.document().scribbles().painted_views().empty());
 }
 
 QTEST_MAIN(FocusTest)

@@ -5,6 +5,7 @@
 #include "app/gui/action_table.h"
 #include "app/gui/annotate_controller.h"
 #include "app/gui/document_controller.h"
+#include "app/gui/open_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
 #include "tests/app/gui/window_fixture.h"
@@ -18,6 +19,7 @@
 #include <QTest>
 
 #include <csignal>
+#include <memory>
 
 using namespace episcope;
 
@@ -64,6 +66,7 @@ class RecoveryTest : public QObject {
  private slots:
   void killedWindow_losesAtMostTheStrokeInProgress();
   void discardedJournal_isGone();
+  void whatWasPaintedAtAFocusPlane_comesBackThere();
   void whatWasPaintedMeanwhile_isNotLost();
   void withoutAJournal_nothingIsOffered();
 };
@@ -110,6 +113,29 @@ void RecoveryTest::discardedJournal_isGone() {
   QVERIFY(!f.window.panels().recovery->isVisible());
   QVERIFY(left_journals(f.window.document().journalFolder()).empty());
   QVERIFY(!f.window.isWindowModified());
+}
+
+void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {
+  WindowFixture f;
+  auto dying = std::make_unique<WindowFixture>();
+  dying->window.document().setJournalFolder(f.window.document().journalFolder());
+  dying->window.open(f.writeScene("edge", WindowFixture::smallOptions()));
+  QTRY_VERIFY_WITH_TIMEOUT(dying->window.document().document(), 30'000);
+  dying->window.opener().reopenAt(0.5, nullptr);
+  QTRY_COMPARE_WITH_TIMEOUT(dying->window.session().scene()->convention.focus_px, 0.5, 30'000);
+  QTRY_VERIFY(dying->window.document().document());
+  dying->trigger("annotate.mode");
+  dying->drag({40, 20}, {40, 60});
+  dying.reset();  // nobody decided about the changes
+
+  f.window.offerRecovery();
+  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+  button(f, "message.action")->click();
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), 30'000);
+  QCOMPARE(f.window.session().scene()->convention.focus_px, 0.5);
+  QCOMPARE(f.document().scribbles().label_at({4, 4}, {40, 41}), 1);
+  f.window.document().discardChanges();
 }
 
 void RecoveryTest::whatWasPaintedMeanwhile_isNotLost() {

@@ -19,7 +19,7 @@ namespace {
 constexpr GridShape kGrid{3, 3};
 constexpr int kHeight = 60;
 constexpr int kWidth = 70;
-const JournalOwner kOwner{"scene", "demo", 42};
+const JournalOwner kOwner{"scene", "demo", 42, -0.5};
 
 bool same(const AnnotationDocument& a, const AnnotationDocument& b) {
   const History& ours = a.history();
