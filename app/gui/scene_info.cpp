@@ -39,7 +39,8 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
   if (truth.has_layers()) parts << text("two layers");
   if (!truth.labels.empty()) parts << text("labels");
   if (!truth.regions.empty()) {
-    parts << text("%1 region masks").arg(static_cast<int>(truth.regions.size()));
+    const int regions = static_cast<int>(truth.regions.size());
+    parts << (regions == 1 ? text("1 region mask") : text("%1 region masks").arg(regions));
   }
   return parts.isEmpty() ? text("none") : parts.join(", ");
 }
