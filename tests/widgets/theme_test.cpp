@@ -114,6 +114,8 @@ class ThemeTest : public QObject {
     QCheckBox box("box");
     box.setStyle(&style);
     box.setPalette(palette);
+    box.setAutoFillBackground(true);
+    box.resize(box.sizeHint());
     QStyleOptionButton option;
     option.initFrom(&box);
 
