@@ -52,8 +52,7 @@ AnnotateController::AnnotateController(Session& session, DocumentController& doc
   connectTool();
   connectPanel();
   connectPalette();
-  connect(panels_.tabs, &QTabWidget::currentChanged, this,
-          [this] { setAnnotating(isTabShown()); });
+  connect(panels_.tabs, &QTabWidget::currentChanged, this, [this] { setAnnotating(isTabShown()); });
   connect(panels_.tabs, &QTabWidget::currentChanged, this, &AnnotateController::showScribbles);
   connect(&document_, &DocumentController::replaced, this, [this] {
     label_ = former_label_ = 0;
@@ -66,6 +65,7 @@ AnnotateController::AnnotateController(Session& session, DocumentController& doc
   connect(&document_, &DocumentController::steppedBack, this, &AnnotateController::goTo);
   session_.on_changed([this](Parts parts) { update(parts); });
   showLabels();
+  showMode();
 }
 
 // The tool dies with this, the canvas later.
@@ -142,7 +142,17 @@ void AnnotateController::showScribbles() {
   panels_.canvas->setScribbleOpacity(isTabShown() ? panels_.brush->scribbleOpacity() : 0);
 }
 
+QString AnnotateController::labelHint() const {
+  if (document_.document()) {
+    return tr(
+        "No labels yet. Add one for each kind of thing, then paint a few strokes on the view.");
+  }
+  return is_suspended_ ? tr("The light field is being read.")
+                       : tr("Open a light field to label it.");
+}
+
 void AnnotateController::showMode() {
+  panels_.labels->setHint(labelHint());
   const bool is_painting = is_annotating_ && !is_suspended_ && document_.document();
   if (!is_painting) tool_->end();
   panels_.canvas->setTool(is_painting ? tool_ : nullptr);
@@ -183,10 +193,6 @@ void AnnotateController::showLabels() {
   if (!is_known(label_)) label_ = is_known(former_label_) ? former_label_ : 0;
   if (!is_known(former_label_)) former_label_ = 0;
   if (label_ == 0 && !labels.empty()) label_ = labels.front().id;
-  panels_.labels->setHint(
-      document ? tr("No labels yet. Add one for each kind of thing, then paint a few strokes on "
-                    "the view.")
-               : tr("Open a light field to label it."));
   panels_.labels->setLabels(labels);
   panels_.labels->setCurrent(label_);
   const LabelInfo* current = document ? document->labels().find(label_) : nullptr;

@@ -69,6 +69,7 @@ class AnnotateController : public QObject {
   void connectPalette();
   void update(Parts parts);
   void showMode();
+  [[nodiscard]] QString labelHint() const;
   void showLabels();
   void showTab();
   [[nodiscard]] bool isTabShown() const;

@@ -209,6 +209,10 @@ void MainWindow::connectControllers() {
   connect(compare_, &CompareController::modeChanged, this, &MainWindow::updateActions);
   connect(opener_, &OpenController::previewing, compare_, &CompareController::leave);
   connect(opener_, &OpenController::previewing, overlay_, &OverlayController::setSuspended);
+  connect(opener_, &OpenController::previewing, this, [this](bool is_previewing) {
+    if (session_->scene()) return;
+    panels_.info->setInfo(is_previewing ? tr("Opening …") : tr("Nothing is open"), {}, {});
+  });
   connect(opener_, &OpenController::recentInputsChanged, this, &MainWindow::fillRecentMenu);
   connect(opener_, &OpenController::reopenableChanged, this, &MainWindow::updateActions);
   panels_.info->setConventionsAction(actions_->find("file.conventions"));

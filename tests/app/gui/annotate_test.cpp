@@ -13,6 +13,7 @@
 
 #include <QAction>
 #include <QDoubleSpinBox>
+#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
@@ -42,6 +43,7 @@ class AnnotateTest : public QObject {
   void otherTab_goesBackToBrowsing();
   void otherTab_hidesWhatIsPainted();
   void preview_cannotBePainted();
+  void whileTheFirstIsRead_theHintSaysSo();
 };
 
 void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
@@ -350,6 +352,19 @@ void AnnotateTest::preview_cannotBePainted() {
   QCoreApplication::processEvents();
   f.drag({40, 20}, {40, 60});
   QCOMPARE(f.labelAt({40, 40}), 1);
+}
+
+void AnnotateTest::whileTheFirstIsRead_theHintSaysSo() {
+  WindowFixture f;
+  const auto* hint = f.window.findChild<QLabel*>("labels.hint");
+  QVERIFY2(hint->text().startsWith("Open "), qPrintable(hint->text()));
+  QVERIFY(!f.window.panels().labels->isEnabled());
+
+  emit f.window.opener().previewing(true);
+  QVERIFY2(hint->text().contains("being read"), qPrintable(hint->text()));
+
+  emit f.window.opener().previewing(false);
+  QVERIFY(hint->text().startsWith("Open "));
 }
 
 QTEST_MAIN(AnnotateTest)
