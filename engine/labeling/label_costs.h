@@ -4,6 +4,7 @@
 #include "engine/core/disparity_field.h"
 #include "engine/core/progress.h"
 #include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/ray_colors.h"
 
 #include <array>
 
@@ -18,20 +19,27 @@ using CostTable = std::array<float, 256>;
 void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
                 VolumeView<float> costs);
 
+/// Which rays of a scene point are asked.
+enum class TrackViews {
+  All,   ///< Those of all views.
+  Near,  ///< Those of the nearest 5×5 views.
+};
+
 /// What fill_track_costs gathers from: everything is borrowed.
 struct TrackSources {
   const LabelProbabilities& probabilities;
   const DisparityField& disparity;
   ViewIndex view;
-  ImageView<const std::int32_t> known;  ///< Pixels ≥ 0 need no costs. Empty = all need some.
+  TrackViews others = TrackViews::All;
+  const RayColors* colors = nullptr;  ///< Null = all rays are trusted.
 };
 
-/// Costs of the labels of one view, each the mean of the costs of the ray itself and of all rays of
+/// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of
 /// the same scene point in other views that have probabilities and disparity
-/// (engine/labeling/ray_targets.h). The floor of the table bounds what a single ray that went
-/// astray can say. `costs` has the shape of the view's probabilities; those of known pixels are of
-/// the ray itself. Rows are done in parallel; 0.3 s for 81 views of 512×512 with 13 labels.
-/// Precondition: both hold the view. Throws Cancelled.
+/// (engine/labeling/ray_targets.h), as much as their colours are trusted. The floor of the table
+/// bounds what a single ray that went astray can say. `costs` has the shape of the view's
+/// probabilities. Rows are done in parallel; with 13 labels of 512×512 px 0.3 s for all of 81
+/// views. Precondition: both hold the view. Throws Cancelled.
 void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
                       VolumeView<float> costs);
 

@@ -244,7 +244,7 @@ struct Labeler::State {
     RayLabelingParameters options;
     options.smoothness = learned.parameters.smoothness;
     LabelProbabilities& own = labeling.probabilities;
-    RayLabelingInput input{&own, disparity.get(), edges.get()};
+    RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
     RayLabeling result;
     if (own.grid.count() > 1) {
       result = label_rays(input, coupling, options, progress.part(0.05, 1));
@@ -338,7 +338,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   labeling.probabilities = empty_probabilities(ids, views);
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
   if (coupling == LabelCoupling::None || on_draft) {
-    const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr};
+    const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};
     labeling.labels = label_rays(input, LabelCoupling::None, {}, progress.part(0.5, 0.5)).labels;
   }
   if (coupling != LabelCoupling::None) {

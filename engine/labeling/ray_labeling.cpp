@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/labeling/ray_space.h"
+#include "engine/labeling/ray_vote.h"
 #include "engine/labeling/view_problem.h"
 #include "engine/solvers/pair_labels.h"
 
@@ -12,6 +12,9 @@
 
 namespace episcope {
 namespace {
+
+// The second makes labels agree that the first one has changed.
+constexpr int kVotes = 2;
 
 bool covers(const GridShape& grid, ViewIndex first, const LabelProbabilities& p) {
   const ViewIndex begin{p.first.v - first.v, p.first.u - first.u};
@@ -30,6 +33,16 @@ void check_maps(const ViewStack<T>& maps, const LabelProbabilities& p, const cha
                      " px need " + what + " of the same size in each of these views");
 }
 
+void check_samples(const RayLabelingInput& input) {
+  const LightField* const lf = input.light_field;
+  const LabelProbabilities& p = *input.probabilities;
+  if (lf == nullptr || (lf->height() == p.views[0].height() && lf->width() == p.views[0].width() &&
+                        covers(lf->grid(), {0, 0}, p))) {
+    return;
+  }
+  throw InvalidInput("labels that agree along rays need the light field that they are of");
+}
+
 void check_input(const RayLabelingInput& input, LabelCoupling coupling,
                  const RayLabelingParameters& parameters) {
   if (input.probabilities == nullptr || input.probabilities->empty()) {
@@ -42,6 +55,7 @@ void check_input(const RayLabelingInput& input, LabelCoupling coupling,
           "or regularise each view alone");
     }
     check_maps(input.disparity->disparity, *input.probabilities, "disparities");
+    check_samples(input);
   }
   if (input.edges != nullptr && !input.edges->empty()) {
     check_maps(*input.edges, *input.probabilities, "edges");
@@ -73,22 +87,68 @@ void label_each_ray(const RayLabelingInput& input, const Progress& progress, Ray
   });
 }
 
-void label_each_view(const RayLabelingInput& input, const RayLabelingParameters& parameters,
-                     const Progress& progress, RayLabeling& result) {
+// Views of one row of the grid that are solved one after the other, each beginning where the last
+// ended, and how many such chains there are at least, for as many threads.
+constexpr int kLongestChain = 9;
+constexpr int kLeastChains = 8;
+
+struct Chain {
+  int begin = 0, end = 0;  // of the views' numbers
+};
+
+std::vector<Chain> chains_of(GridShape grid) {
+  const int length = std::clamp(grid.count() / kLeastChains, 1, kLongestChain);
+  std::vector<Chain> chains;
+  for (int v = 0; v < grid.v; ++v) {
+    for (int u = 0; u < grid.u; u += length) {
+      chains.push_back({v * grid.u + u, v * grid.u + std::min(u + length, grid.u)});
+    }
+  }
+  return chains;
+}
+
+void label_each_view(const RayLabelingInput& input, bool is_joint, const RayColors& colors,
+                     const RayLabelingParameters& parameters, const Progress& progress,
+                     RayLabeling& result) {
   const LabelProbabilities& p = *input.probabilities;
+  const std::vector<Chain> chains = chains_of(p.grid);
   std::vector<SimplexResult> parts(p.views.size());
   progress.step("views");
   // Whole views side by side: threads that share a view wait for each other at every iteration.
-  parallel_for_workers(p.grid.count(), progress, [&]() -> std::function<void(int)> {
-    auto problem = std::make_shared<ViewProblem>(input, parameters);
-    return [&, problem](int i) {
-      const ViewIndex view = p.view_at(i);
-      problem->fill_own(view);
-      parts[i] =
-          problem->solve(view, progress.part(0, 0).on_one_thread(), result.labels.view(view));
+  const Progress alone = progress.part(0, 0).on_one_thread();
+  parallel_for_workers(static_cast<int>(chains.size()), progress, [&]() {
+    auto problem = std::make_shared<ViewProblem>(input, parameters, colors);
+    return [&, problem](int k) {
+      ViewProblem::Task task{{}, parameters.gap_of_many, {}};
+      for (int i = chains[k].begin; i < chains[k].end; ++i) {
+        task.view = p.view_at(i);
+        if (is_joint) {
+          problem->fill_tracks(task.view, TrackViews::Near, alone);
+        } else {
+          problem->fill_own(task.view);
+        }
+        parts[i] = problem->solve(task, alone, result.labels.view(task.view));
+        task.last = task.view;
+      }
     };
   });
   for (const auto& part : parts) add(part, result);
+}
+
+RayColors colors_of(const RayLabelingInput& input, const Progress& progress) {
+  if (input.light_field == nullptr) return {};
+  return {*input.light_field, input.probabilities->grid, input.probabilities->first, progress};
+}
+
+void vote(const RayLabelingInput& input, const RayColors& colors, const Progress& progress,
+          RayLabeling& result) {
+  const LabelProbabilities& p = *input.probabilities;
+  progress.step("rays");
+  for (int round = 0; round < kVotes; ++round) {
+    result.labels =
+        vote_along_rays(result.labels, static_cast<int>(p.ids.size()), *input.disparity, colors,
+                        progress.part(round / double{kVotes}, (round + 1.0) / kVotes));
+  }
 }
 
 }  // namespace
@@ -108,11 +168,11 @@ RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,
     label_each_ray(input, progress, result);
     return result;
   }
-  if (coupling == LabelCoupling::Views) {
-    label_each_view(input, parameters, progress, result);
-  } else {
-    label_ray_space(input, parameters, progress, result);
-  }
+  const bool is_joint = coupling == LabelCoupling::Rays;
+  const RayColors colors = is_joint ? colors_of(input, progress.part(0, 0)) : RayColors();
+  label_each_view(input, is_joint, colors, parameters, progress.part(0, is_joint ? 0.9 : 1),
+                  result);
+  if (is_joint) vote(input, colors, progress.part(0.9, 1), result);
   name_labels(p.ids, result.labels);
   return result;
 }
@@ -133,13 +193,15 @@ RayLabeling label_view(const RayLabelingInput& input, ViewIndex view, LabelCoupl
     std::copy(labels.begin(), labels.end(), out.data);
     return result;
   }
-  ViewProblem problem(input, parameters);
-  if (coupling == LabelCoupling::Rays) {
-    problem.fill_tracks(view, {}, progress.part(0, 0.2));
+  const bool is_joint = coupling == LabelCoupling::Rays;
+  const RayColors colors = is_joint ? colors_of(input, progress.part(0, 0)) : RayColors();
+  ViewProblem problem(input, parameters, colors);
+  if (is_joint) {
+    problem.fill_tracks(view, TrackViews::All, progress.part(0, 0.2));
   } else {
     problem.fill_own(view);
   }
-  add(problem.solve(view, progress.part(0.2, 1), out), result);
+  add(problem.solve({view, parameters.gap, {}}, progress.part(0.2, 1), out), result);
   name_labels(p.ids, result.labels);
   return result;
 }

@@ -2,11 +2,21 @@
 #include "engine/labeling/view_problem.h"
 
 #include "engine/labeling/boundary_weights.h"
+#include "engine/labeling/ray_targets.h"
 
 namespace episcope {
-ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters)
+namespace {
+
+// A look at the gap takes as long as half an iteration, and 30 iterations are enough.
+constexpr int kCheckEvery = 5;
+
+}  // namespace
+
+ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                         const RayColors& colors)
     : input_(input),
       parameters_(parameters),
+      colors_(colors),
       table_(cost_table(parameters.floor)),
       solver_(input.probabilities->views[0].height(), input.probabilities->views[0].layers(),
               input.probabilities->views[0].width()),
@@ -22,34 +32,33 @@ void ViewProblem::fill_own(ViewIndex view) {
   fill_costs(input_.probabilities->view(view).view(), table_, costs_.view());
 }
 
-void ViewProblem::fill_tracks(ViewIndex view, ImageView<const std::int32_t> known,
-                              const Progress& progress) {
-  fill_track_costs({*input_.probabilities, *input_.disparity, view, known}, table_, progress,
-                   costs_.view());
-  if (!known.empty()) keep(known);
+void ViewProblem::fill_tracks(ViewIndex view, TrackViews others, const Progress& progress) {
+  fill_track_costs({*input_.probabilities, *input_.disparity, view, others, &colors_}, table_,
+                   progress, costs_.view());
 }
 
-void ViewProblem::keep(ImageView<const std::int32_t> known) {
-  // More than all boundaries of a pixel together: no other label can pay.
-  const auto prohibitive = static_cast<float>(4 * parameters_.smoothness + 1);
-  const auto costs = costs_.view();
-  for (int y = 0; y < costs.height; ++y) {
-    for (int layer = 0; layer < costs.layers; ++layer) {
-      float* const row = costs.row(y, layer);
-      for (int x = 0; x < costs.width; ++x) {
-        const std::int32_t label = known.at(y, x);
-        if (label >= 0) row[x] = label == layer ? 0 : prohibitive;
-      }
-    }
+// Where the pixels of `view` were in `last`; empty if that is not known.
+ImageView<const std::int32_t> ViewProblem::places_in(ViewIndex last, ViewIndex view) {
+  const DisparityField* const disparity = input_.disparity;
+  if (disparity == nullptr || !disparity->contains(last) || !disparity->contains(view)) return {};
+  const int height = costs_.view().height, width = costs_.view().width;
+  if (disparity->disparity.height() != height || disparity->disparity.width() != width) return {};
+  if (places_.empty()) places_ = Image<std::int32_t>(height, width);
+  for (int y = 0; y < height; ++y) {
+    find_ray_targets(disparity->view(view), disparity->view(last),
+                     {last.v - view.v, last.u - view.u}, y, places_.row(y));
   }
+  return places_;
 }
 
-SimplexResult ViewProblem::solve(ViewIndex view, const Progress& progress,
+SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
                                  ImageView<std::int32_t> labels) {
-  const Image<float> g = weights(view);
+  const Image<float> g = weights(task.view);
   SimplexOptions options;
-  options.gap = parameters_.gap;
+  options.gap = task.gap;
   options.max_iterations = parameters_.max_iterations;
+  options.check_every = kCheckEvery;
+  if (task.last) options.from_last = places_in(*task.last, task.view);
   return solver_.solve({costs_.view(), g, parameters_.smoothness}, options, progress, labels);
 }
 

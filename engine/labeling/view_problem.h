@@ -5,6 +5,8 @@
 #include "engine/labeling/ray_labeling.h"
 #include "engine/solvers/simplex_labeling.h"
 
+#include <optional>
+
 namespace episcope {
 
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
@@ -12,28 +14,34 @@ namespace episcope {
 class ViewProblem {
  public:
   /// Borrows the input. All views have the size of the first.
-  ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters);
+  ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+              const RayColors& colors);
 
   /// Costs of each ray by its own probabilities.
   void fill_own(ViewIndex view);
-  /// Costs of each ray's track. Labels ≥ 0 in `known` (which may be empty) are kept by giving them
-  /// alone no cost.
-  void fill_tracks(ViewIndex view, ImageView<const std::int32_t> known, const Progress& progress);
-  /// Solves with the costs last filled. `labels` become layers of the probabilities, 0 … L − 1.
-  SimplexResult solve(ViewIndex view, const Progress& progress, ImageView<std::int32_t> labels);
-
-  /// Weights g of the view's boundaries; empty = 1.
-  [[nodiscard]] Image<float> weights(ViewIndex view) const;
-  [[nodiscard]] const CostTable& table() const { return table_; }
+  /// Costs of each ray's track.
+  void fill_tracks(ViewIndex view, TrackViews others, const Progress& progress);
+  /// Solves with the costs last filled, to a relative duality gap of `gap`. `labels` become layers
+  /// of the probabilities, 0 … L − 1. Begins where the problem of the view `last` ended, moved
+  /// along the rays, if that was solved last and the disparities of both are known.
+  struct Task {
+    ViewIndex view;
+    double gap = 0;
+    std::optional<ViewIndex> last;
+  };
+  SimplexResult solve(const Task& task, const Progress& progress, ImageView<std::int32_t> labels);
 
  private:
-  void keep(ImageView<const std::int32_t> known);
+  [[nodiscard]] Image<float> weights(ViewIndex view) const;
+  [[nodiscard]] ImageView<const std::int32_t> places_in(ViewIndex last, ViewIndex view);
 
   const RayLabelingInput& input_;
   const RayLabelingParameters& parameters_;
+  const RayColors& colors_;
   CostTable table_;
   SimplexSolver solver_;
   Volume<float> costs_;
+  Image<std::int32_t> places_;
 };
 
 }  // namespace episcope

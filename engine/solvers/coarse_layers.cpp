@@ -4,6 +4,7 @@
 #include "engine/core/parallel.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -44,6 +45,27 @@ void begin_row(LayeredSweep& coarse, const PairDuals& near, const PairDuals& abo
   }
 }
 
+// Where in phi() of row 0 each pixel of a row begins, and in its duals, layer 0 of pair 0.
+struct Places {
+  explicit Places(int width) : phi(width), duals(width) {}
+  std::vector<long> phi, duals;
+};
+
+void find_places(const LayeredSweep& from, ImageView<const std::int32_t> places, int y,
+                 Places& found) {
+  const int width = places.width;
+  for (int x = 0; x < width; ++x) {
+    const std::int32_t named = places.at(y, x);
+    const std::int32_t at = named < 0 ? y * width + x : named;
+    found.phi[x] = at / width * from.row_size() + at % width;
+    found.duals[x] = at / width * kPairKinds * from.row_size() + at % width;
+  }
+}
+
+void gather(const float* from, const std::vector<long>& places, float* to) {
+  std::transform(places.begin(), places.end(), to, [from](long place) { return from[place]; });
+}
+
 }  // namespace
 
 void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to) {
@@ -70,6 +92,28 @@ void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fi
     fine.clear(band);
     for (int y = band.begin; y < band.end; ++y) {
       begin_row(coarse, coarse.duals(y / 2), coarse.duals_above(y / 2), y, fine.duals(y), fine);
+    }
+  });
+}
+
+void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
+                      const Progress& progress, LayeredSweep& to) {
+  parallel_for(to.bands(), progress, [&](int i) {
+    const auto band = to.band(i);
+    const LayeredShape& shape = to.shape();
+    to.clear(band);
+    Places found(shape.width);
+    const PairDuals first = from.duals(0);
+    for (int y = band.begin; y < band.end; ++y) {
+      find_places(from, places, y, found);
+      const PairDuals duals = to.duals(y);
+      for (int layer = 0; layer < shape.steps; ++layer) {
+        const long row = layer * shape.pitch;
+        gather(from.phi(0) + row, found.phi, to.phi(y) + row);
+        for (int k = 0; k < kPairKinds; ++k) {
+          gather(first.pair[k] + row, found.duals, duals.pair[k] + row);
+        }
+      }
     }
   });
 }

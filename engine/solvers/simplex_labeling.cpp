@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,17 @@ void check_problem(const SimplexProblem& problem, int height, int layers, int wi
                        std::to_string(cost.height));
   }
   check_boundaries(problem.g, problem.smoothness, height, width);
+}
+
+void check_moves(ImageView<const std::int32_t> from, const LayeredShape& shape, int height) {
+  if (from.empty()) return;
+  const bool fits = from.height == height && from.width == shape.width;
+  const auto pixels = static_cast<std::ptrdiff_t>(height) * shape.width;
+  if (fits && std::all_of(from.data, from.data + pixels,
+                          [&](std::int32_t at) { return at >= -1 && at < pixels; })) {
+    return;
+  }
+  throw InvalidInput("a labeling begins from pixels of an image of the size of the costs");
 }
 
 // A jump changes the layers of both labels, each weighted by half of λ.
@@ -78,6 +90,7 @@ struct SimplexSolver::State {
 
   void start(const SimplexProblem& problem, const Progress& progress);
   void climb(const SimplexProblem& problem, const Progress& progress);
+  void take_over(ImageView<const std::int32_t> from, const Progress& progress);
   void measure(const SimplexProblem& problem, const PairLimits& limits, SimplexResult& result,
                ImageView<int> labels, const Progress& progress);
   void measure_band(const SimplexProblem& problem, const PairLimits& limits, int band);
@@ -85,6 +98,7 @@ struct SimplexSolver::State {
   const SimplexKernel& kernel;
   const LayeredMoves moves;
   LayeredSweep sweep;
+  std::optional<LayeredSweep> last;  // where the call before ended, if ever taken over from
   std::vector<Level> coarse;
   bool has_run = false;
   Image<int> rounded;
@@ -142,6 +156,12 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
     begin_from(level.sweep, progress, k > 0 ? coarse[k - 1].sweep : sweep);
     smoothness *= 2;
   }
+}
+
+void SimplexSolver::State::take_over(ImageView<const std::int32_t> from, const Progress& progress) {
+  if (!last) last.emplace(sweep.height(), sweep.shape().steps, sweep.shape().width);
+  std::swap(sweep, *last);
+  begin_from_moved(*last, from, progress, sweep);
 }
 
 void SimplexSolver::State::measure_band(const SimplexProblem& problem, const PairLimits& limits,
@@ -211,6 +231,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   if (labels.height != state.sweep.height() || labels.width != shape.width) {
     throw InvalidInput("a labeling needs an image of labels of the size of the costs");
   }
+  check_moves(options.from_last, shape, state.sweep.height());
   SimplexResult result;
   if (problem.smoothness == 0 || shape.steps == 1) {
     std::vector<float> least;
@@ -223,9 +244,11 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
     return result;
   }
   const PairLimits limits = limits_of(problem);
-  if (!options.warm || !state.has_run) {
+  if (options.from_last.empty() || !state.has_run) {
     state.start(problem, progress.part(0, 0));
     state.climb(problem, progress.part(0, 0));
+  } else {
+    state.take_over(options.from_last, progress.part(0, 0));
   }
   state.has_run = true;
   set_steps(problem.smoothness, state.sweep.shape());

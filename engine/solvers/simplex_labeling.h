@@ -6,6 +6,7 @@
 #include "engine/core/progress.h"
 #include "engine/core/volume.h"
 
+#include <cstdint>
 #include <memory>
 
 namespace episcope {
@@ -26,7 +27,10 @@ struct SimplexOptions {
   int max_iterations = 300;
   double gap = 1e-3;     ///< Stop once the primal energy is within this share of the bound.
   int check_every = 10;  ///< Iterations between two looks at the gap.
-  bool warm = false;     ///< Begin where the last call ended: for costs changed a little.
+  /// `[y][x]`: begin where the last call ended, for an image like that one. Each pixel takes over
+  /// from the pixel y'·width + x' of the last image that is named here, where −1 from the one at
+  /// its own place. Empty = begin anew. Ignored in the first call.
+  ImageView<const std::int32_t> from_last;
 };
 
 struct SimplexResult {
@@ -55,9 +59,11 @@ struct SimplexResult {
 /// without levels more than 400. The steps follow √λ where λ > 1 (costs of about 1, as −log p,
 /// bound the duals there, not λ): twice as fast as steps that follow λ.
 ///
-/// For many images of one size: 8 floats for each pixel and label stay allocated between calls.
+/// For many images of one size: 8 floats for each pixel and label stay allocated between calls, 13
+/// once `from_last` is used. From the neighbouring view of a light field, moved along its
+/// disparities, 36 iterations do instead of 59 to a gap of 1e-2 (`demo`, 11 labels).
 /// Rows are worked on by `progress.threads()` threads; not thread-safe, one object for each caller.
-/// The result depends on neither the number of threads nor (unless `warm`) earlier calls.
+/// The result depends on neither the number of threads nor (without `from_last`) earlier calls.
 class SimplexSolver {
  public:
   /// Throws InvalidInput unless all are positive and there are at most 256 labels. `isa` other than

@@ -50,7 +50,7 @@ const Volume<float>& costs() {
 SimplexResult solve(int iterations, double gap) {
   static SimplexSolver solver(kSize, kLabels, kSize);
   static Image<int> labels(kSize, kSize);
-  return solver.solve({costs().view(), {}, kSmoothness}, {iterations, gap, 1000000, false},
+  return solver.solve({costs().view(), {}, kSmoothness}, {iterations, gap, 1000000, {}},
                       Progress(), labels.view());
 }
 
@@ -166,7 +166,7 @@ void label_light_field(benchmark::State& state) {
   DisparityField field{ViewStack<float>(grid, kSize, kSize), {}};
   std::fill_n(field.disparity.data(), field.disparity.size(), 0.0F);
   bench::reset_peak_memory();
-  const RayLabelingInput input{&p, &field, nullptr};
+  const RayLabelingInput input{&p, &field, nullptr, nullptr};
   RayLabeling result;
   const auto coupling = state.range(0) == 0 ? LabelCoupling::Views : LabelCoupling::Rays;
   for (auto _ : state) {

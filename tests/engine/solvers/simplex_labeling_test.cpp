@@ -49,7 +49,7 @@ Solved solve(const SimplexProblem& problem, int iterations, double gap = 0, int 
   SimplexSolver solver(cost.height, cost.layers, cost.width, isa);
   Solved solved{{}, Image<int>(cost.height, cost.width)};
   solved.result =
-      solver.solve(problem, {iterations, gap, 10, false}, Progress(threads), solved.labels.view());
+      solver.solve(problem, {iterations, gap, 10, {}}, Progress(threads), solved.labels.view());
   return solved;
 }
 
@@ -86,6 +86,7 @@ class SimplexLabelingTest : public QObject {
   void solve_isTheSameForEveryIsa();
   void solve_isTheSameAfterOtherProblems();
   void solve_goesOnFromWhereItEnded();
+  void solve_goesOnFromWhatHasMoved();
   void solve_keepsTheBestWhenAskedToFinish();
   void solve_stopsOnRequest();
   void solve_refusesBadInput();
@@ -308,13 +309,52 @@ void SimplexLabelingTest::solve_goesOnFromWhereItEnded() {
   SimplexSolver solver(64, 8, 64);
   Image<int> labels(64, 64);
 
-  const auto cold =
-      solver.solve(potts.problem(), {300, 1e-4, 5, false}, Progress(1), labels.view());
-  const auto warm = solver.solve(potts.problem(), {300, 1e-4, 5, true}, Progress(1), labels.view());
+  Image<std::int32_t> same_place(64, 64);
+  std::fill(same_place.begin(), same_place.end(), -1);
+
+  const auto cold = solver.solve(potts.problem(), {300, 1e-4, 5, {}}, Progress(1), labels.view());
+  const auto warm =
+      solver.solve(potts.problem(), {300, 1e-4, 5, same_place}, Progress(1), labels.view());
 
   QVERIFY(cold.converged && warm.converged);
   QVERIFY(cold.iterations > 5);
   QCOMPARE(warm.iterations, 5);
+}
+
+// The image has moved two pixels to the right since.
+void SimplexLabelingTest::solve_goesOnFromWhatHasMoved() {
+  const Potts whole = sectors(64, 8, 66);
+  const auto part = [&](int from) {
+    Volume<float> cost(64, 8, 64);
+    for (int y = 0; y < 64; ++y) {
+      for (int l = 0; l < 8; ++l) {
+        std::copy_n(whole.problem().cost.row(y, l) + from, 64, cost.view().row(y, l));
+      }
+    }
+    return cost;
+  };
+  const Volume<float> before = part(2), after = part(0);
+  Image<std::int32_t> places(64, 64);
+  for (int y = 0; y < 64; ++y) {
+    for (int x = 0; x < 64; ++x) places.at(y, x) = x < 2 ? -1 : y * 64 + x - 2;
+  }
+  const double smoothness = whole.problem().smoothness;
+  SimplexSolver solver(64, 8, 64), other(64, 8, 64);
+  Image<int> labels(64, 64);
+
+  solver.solve({before.view(), {}, smoothness}, {300, 1e-4, 5, {}}, Progress(1), labels.view());
+  const auto moved = solver.solve({after.view(), {}, smoothness}, {300, 1e-4, 5, places},
+                                  Progress(1), labels.view());
+  const auto anew =
+      other.solve({after.view(), {}, smoothness}, {300, 1e-4, 5, {}}, Progress(1), labels.view());
+
+  QVERIFY(moved.converged && anew.converged);
+  QVERIFY(std::fabs(moved.energy - anew.energy) <= 2e-4 * std::fabs(anew.energy));
+  QVERIFY(moved.iterations < anew.iterations);
+  places.at(0, 0) = 64 * 64;
+  QVERIFY_EXCEPTION_THROWN(solver.solve({after.view(), {}, smoothness}, {300, 1e-4, 5, places},
+                                        Progress(1), labels.view()),
+                           InvalidInput);
 }
 
 void SimplexLabelingTest::solve_keepsTheBestWhenAskedToFinish() {
@@ -324,7 +364,7 @@ void SimplexLabelingTest::solve_keepsTheBestWhenAskedToFinish() {
   SimplexSolver solver(60, 5, 60);
   Image<int> labels(60, 60);
 
-  const auto result = solver.solve(potts.problem(), {100000, 0, 10, false},
+  const auto result = solver.solve(potts.problem(), {100000, 0, 10, {}},
                                    Progress({}, finish.get_token(), {}, 1), labels.view());
 
   QCOMPARE(result.iterations, 1);
@@ -345,7 +385,7 @@ void SimplexLabelingTest::solve_stopsOnRequest() {
   Image<int> labels(256, 256);
 
   QVERIFY_EXCEPTION_THROWN(
-      solver.solve(potts.problem(), {100000, 0, 1, false}, progress, labels.view()), Cancelled);
+      solver.solve(potts.problem(), {100000, 0, 1, {}}, progress, labels.view()), Cancelled);
 
   QVERIFY(stop.stop_requested());
   QVERIFY(std::chrono::steady_clock::now() - asked < std::chrono::milliseconds(200));
