@@ -19,7 +19,7 @@ ViewCanvas::ViewCanvas(QWidget* parent) : QWidget(parent) {
 
 void ViewCanvas::setPicture(const QImage& picture) {
   if (picture.isNull()) {
-    showEmpty(tr("Open a light field to see it here."));
+    showEmpty();
     return;
   }
   const bool is_new_size = picture.size() != picture_.size();
@@ -87,8 +87,13 @@ void ViewCanvas::setParallaxEnabled(bool enabled) {
   parallax_enabled_ = enabled;
 }
 
-void ViewCanvas::showEmpty(const QString& hint) {
-  showMessage(State::Empty, hint);
+void ViewCanvas::showEmpty() {
+  showMessage(State::Empty, empty_hint_);
+}
+
+void ViewCanvas::setEmptyHint(const QString& hint) {
+  empty_hint_ = hint;
+  if (state_ == State::Empty) showEmpty();
 }
 
 void ViewCanvas::showLoading(const QString& name, double fraction) {

@@ -61,7 +61,9 @@ class ViewCanvas : public QWidget {
   void setParallaxEnabled(bool enabled);
 
   /// No picture: a hint what to do.
-  void showEmpty(const QString& hint);
+  void showEmpty();
+  /// What is said while nothing is shown.
+  void setEmptyHint(const QString& hint);
   /// No picture yet: what is loading and how far it is, in [0, 1]; negative = unknown.
   void showLoading(const QString& name, double fraction);
   /// No picture: a sentence why.
@@ -164,6 +166,7 @@ class ViewCanvas : public QWidget {
 
   State state_ = State::Empty;
   QString message_;
+  QString empty_hint_ = tr("Open a light field to see it here.");
   double loading_fraction_ = -1;
   QString caption_;
   Side side_ = Side::None;

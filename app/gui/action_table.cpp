@@ -54,10 +54,9 @@ void ActionTable::apply(const Command& command, const QList<QKeySequence>& keys)
   QAction* action = find(command.id);
   // Of a held key, press and release are heard by who needs them.
   if (command.scope != KeyScope::Held) action->setShortcuts(keys);
-  action->setToolTip(keys.isEmpty() ? command.tip
-                                    : QStringLiteral("%1 (%2)").arg(
-                                          command.tip,
-                                          keys.front().toString(QKeySequence::NativeText)));
+  action->setToolTip(keys.isEmpty()
+                         ? command.tip
+                         : QStringLiteral("%1 (%2)").arg(command.tip, keyText(command.id)));
 }
 
 QAction* ActionTable::find(const QString& id) const {
@@ -74,6 +73,11 @@ const Command* ActionTable::command(const QString& id) const {
 QList<QKeySequence> ActionTable::keys(const QString& id) const {
   const auto found = keys_.find(id);
   return found == keys_.end() ? QList<QKeySequence>() : found->second;
+}
+
+QString ActionTable::keyText(const QString& id) const {
+  const QList<QKeySequence> known = keys(id);
+  return known.isEmpty() ? QString() : known.front().toString(QKeySequence::NativeText);
 }
 
 bool ActionTable::hasOwnKeys(const QString& id) const {

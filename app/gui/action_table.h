@@ -53,6 +53,8 @@ class ActionTable : public QObject {
 
   /// Keys of a command now; its own ones unless the user changed them.
   [[nodiscard]] QList<QKeySequence> keys(const QString& id) const;
+  /// The first of them as it is written; empty if there is none.
+  [[nodiscard]] QString keyText(const QString& id) const;
   /// Whether the user gave the command other keys than its own.
   [[nodiscard]] bool hasOwnKeys(const QString& id) const;
   /// Id of the command that a key belongs to; empty if it is free.

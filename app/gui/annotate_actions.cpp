@@ -216,13 +216,8 @@ void show_state(ActionTable& table, MainWindow& window) {
   table.find("annotate.carry")->setChecked(window.scribbles().isCarried());
 }
 
-QString key_text(const ActionTable& table, const char* id) {
-  const QList<QKeySequence> keys = table.keys(id);
-  return keys.isEmpty() ? QString() : keys.front().toString(QKeySequence::NativeText);
-}
-
 void show_size_keys(const ActionTable& table, BrushPanel& panel) {
-  QStringList keys{key_text(table, "annotate.smaller"), key_text(table, "annotate.larger")};
+  QStringList keys{table.keyText("annotate.smaller"), table.keyText("annotate.larger")};
   keys.removeAll({});
   panel.setSizeKeys(keys.join(tr(" and ")));
 }

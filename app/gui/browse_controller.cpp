@@ -107,8 +107,7 @@ void BrowseController::showScene() {
     panels_.canvas->setOverlay({});
     panels_.canvas->setCaption({});
     panels_.canvas->setCrossHair(std::nullopt);
-    panels_.canvas->showEmpty(
-        tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
+    panels_.canvas->showEmpty();
     return;
   }
   const Interval range = session_.disparity_range();

@@ -108,7 +108,8 @@ MainWindow::MainWindow(QWidget* parent)
   connectFiles();
   installEventFilter(opener_);
   panels_.canvas->installEventFilter(this);
-  panels_.canvas->showEmpty(tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
+  connect(actions_, &ActionTable::keysChanged, this, &MainWindow::showInvitation);
+  showInvitation();
   session_->on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) showInfo();
     if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Focus)) updateActions();
@@ -322,6 +323,13 @@ void MainWindow::showInfo() {
   }
   const SceneInfo info = describe(*session_->scene(), session_->conventions());
   panels_.info->setInfo(info.title, info.rows, info.warnings);
+}
+
+void MainWindow::showInvitation() {
+  const QString key = actions_->keyText("file.open");
+  panels_.canvas->setEmptyHint(
+      key.isEmpty() ? tr("Open a light field, or drop a file or a folder here.")
+                    : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
 }
 
 void MainWindow::showStatus() {

@@ -86,6 +86,7 @@ class MainWindow : public QMainWindow {
   void fillRecentMenu();
   void updateActions();
   void showInfo();
+  void showInvitation();
   void showStatus();
   void restoreLayout();
 

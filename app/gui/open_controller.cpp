@@ -209,8 +209,7 @@ void OpenController::endLoading(quint64 load, const QString& input) {
   if (was_previewing) emit previewing(false);
   if (session_.scene()) return;
   if (last_failure_.isEmpty()) {
-    panels_.canvas->showEmpty(
-        tr("Open a light field with Ctrl+O, or drop a file or a folder here."));
+    panels_.canvas->showEmpty();
   } else {
     panels_.canvas->showError(last_failure_);
   }

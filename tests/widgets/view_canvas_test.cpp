@@ -305,7 +305,8 @@ class ViewCanvasTest : public QObject {
   }
 
   void statesWithoutPicture_areDrawn() {
-    canvas_->showEmpty("Open a light field.");
+    canvas_->setEmptyHint("Open a light field.");
+    canvas_->showEmpty();
     const QImage empty = canvas_->grab().toImage();
     canvas_->showLoading("cotton", 0.5);
     const QImage loading = canvas_->grab().toImage();

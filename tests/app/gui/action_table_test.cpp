@@ -39,6 +39,7 @@ class ActionTableTest : public QObject {
   void keysOfTheView_areThoseOfTheTable_data();
   void keysOfTheView_areThoseOfTheTable();
   void keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked();
+  void emptyCanvas_namesTheKeyThatOpens();
   void defaults_comeBack();
 };
 
@@ -227,6 +228,17 @@ void ActionTableTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
   click(dialog, "keys.set");
   QCOMPARE(table.find("view.fit")->shortcut(), QKeySequence("G"));
   QVERIFY(table.find("compare.tiles")->shortcut().isEmpty());
+}
+
+void ActionTableTest::emptyCanvas_namesTheKeyThatOpens() {
+  WindowFixture f;
+  const auto drawn = [&f] { return f.window.panels().canvas->grab().toImage(); };
+  const QImage own = drawn();
+
+  f.window.actions().setKeys("file.open", {QKeySequence("Ctrl+Alt+J")});
+  QVERIFY(drawn() != own);
+  f.window.actions().resetKeys("file.open");
+  QCOMPARE(drawn(), own);
 }
 
 void ActionTableTest::defaults_comeBack() {
