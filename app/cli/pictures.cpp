@@ -168,14 +168,7 @@ Picture edges_picture(const Scene& scene, const DisparityField& disparity,
     return shade(edge_probability(*scene.light_field, view, disparity, {}));
   }
   const ViewStack<float> stored = io::read_edge_weights(found->path, scene, progress);
-  Image<float> edges(stored.height(), stored.width());
-  for (int y = 0; y < edges.height(); ++y) {
-    for (int x = 0; x < edges.width(); ++x) {
-      const auto here = stored.view(view);
-      edges.at(y, x) = std::max(here.at(y, x), here.at(y, x, here.channels - 1));
-    }
-  }
-  return shade(edges);
+  return shade(larger_edge_probability(stored.view(view)));
 }
 
 Picture disparity_picture(const Estimate& estimate, const Scene* scene,

@@ -57,26 +57,36 @@ Image<float> edge_probability(const LightField& light_field, ViewIndex view,
 
 ViewStack<float> edge_probabilities(const LightField& light_field, const DisparityField& disparity,
                                     const EdgeParameters& parameters, const Progress& progress) {
+  return edge_probabilities(light_field, {{0, 0}, light_field.grid()}, disparity, parameters,
+                            progress);
+}
+
+ViewStack<float> edge_probabilities(const LightField& light_field, ViewRectangle views,
+                                    const DisparityField& disparity,
+                                    const EdgeParameters& parameters, const Progress& progress) {
   check_sizes(light_field, disparity);
-  const GridShape grid = light_field.grid();
-  ViewStack<float> edges(grid, light_field.height(), light_field.width());
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i);
+  ViewStack<float> edges(views.grid, light_field.height(), light_field.width(), 1, views.first);
+  parallel_for(views.grid.count(), progress, [&](int i) {
+    const ViewIndex view = views.grid.view_at(i, views.first);
     fill_view(light_field, view, disparity, parameters, edges.view(view));
   });
   return edges;
 }
 
-Image<float> boundary_weights(ImageView<const float> edge_probability) {
+Image<float> larger_edge_probability(ImageView<const float> edge_probability) {
   const auto& edge = edge_probability;
-  Image<float> weights(edge.height, edge.width);
+  Image<float> larger(edge.height, edge.width);
   for (int y = 0; y < edge.height; ++y) {
     for (int x = 0; x < edge.width; ++x) {
-      float most = edge.at(y, x);
-      if (edge.channels > 1) most = std::max(most, edge.at(y, x, 1));
-      weights.at(y, x) = std::clamp(1 - most, kLeastBoundaryWeight, 1.0F);
+      larger.at(y, x) = std::max(edge.at(y, x), edge.at(y, x, edge.channels - 1));
     }
   }
+  return larger;
+}
+
+Image<float> boundary_weights(ImageView<const float> edge_probability) {
+  Image<float> weights = larger_edge_probability(edge_probability);
+  for (float& weight : weights) weight = std::clamp(1 - weight, kLeastBoundaryWeight, 1.0F);
   return weights;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/disparity_field.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/view_rectangle.h"
 
 namespace episcope {
 
@@ -23,14 +24,22 @@ struct EdgeParameters {
 [[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                                             const DisparityField& disparity,
                                             const EdgeParameters& parameters);
-/// Of all views, `[v][u][y][x]`.
+/// Of all views, or of those of a rectangle, `[v][u][y][x]`.
 [[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
                                                   const DisparityField& disparity,
                                                   const EdgeParameters& parameters,
                                                   const Progress& progress);
+[[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
+                                                  ViewRectangle views,
+                                                  const DisparityField& disparity,
+                                                  const EdgeParameters& parameters,
+                                                  const Progress& progress);
+
+/// One probability for each pixel, `[y][x]`: of one per direction (two channels) the larger one.
+[[nodiscard]] Image<float> larger_edge_probability(ImageView<const float> edge_probability);
 
 /// Weights g of boundaries between labels, `[y][x]` in [kLeastBoundaryWeight, 1]: 1 − the
-/// probability of an edge; of one per direction (two channels) the more probable one.
+/// larger probability of an edge.
 inline constexpr float kLeastBoundaryWeight = 0.02F;
 [[nodiscard]] Image<float> boundary_weights(ImageView<const float> edge_probability);
 

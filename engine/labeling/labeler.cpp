@@ -25,6 +25,9 @@ using Features = std::shared_ptr<const PixelFeatures>;
 // their features kept: somebody is painting. More are worked on side by side.
 constexpr std::size_t kKeptViews = 9;
 
+// Of a single view: half the iterations for the same share of right pixels.
+constexpr double kLiveGap = 5e-3;
+
 // A jump of one px in disparity beside one of Lab/100.
 constexpr float kDisparityWeight = 5;
 
@@ -104,6 +107,11 @@ LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, Vie
   probabilities.first = views.first;
   probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
   return probabilities;
+}
+
+bool covers(const ViewStack<float>& maps, ViewRectangle views) {
+  const int last = views.grid.count() - 1;
+  return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
 LabelCoupling coupling_of(const LabelerParameters& parameters) {
@@ -227,32 +235,33 @@ struct Labeler::State {
     });
   }
 
-  void find_edges(const Progress& progress) {
-    if (edges) return;
+  void find_edges(ViewRectangle views, const Progress& progress) {
+    if (edges && covers(*edges, views)) return;
     const DisparityField none;
     const bool sees_disparity = set.with_disparity && disparity;
     edges = std::make_shared<const ViewStack<float>>(
-        edge_probabilities(*light_field, sees_disparity ? *disparity : none, {}, progress));
+        edge_probabilities(*light_field, views, sees_disparity ? *disparity : none, {}, progress));
     has_own_edges = true;
   }
 
   /// Replaces the labels by regularised ones.
   void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
     const LabelCoupling coupling = coupling_of(learned.parameters);
+    LabelProbabilities& own = labeling.probabilities;
+    ViewRectangle views{own.first, own.grid};
+    // Where rays of other views agree, two of them tell nearly as much as all.
+    if (own.grid.count() == 1 && coupling == LabelCoupling::Rays) views = neighbours(own.first);
     progress.step("finding edges");
-    find_edges(progress.part(0, 0.05));
+    find_edges(views, progress.part(0, 0.05));
     RayLabelingParameters options;
     options.smoothness = learned.parameters.smoothness;
-    LabelProbabilities& own = labeling.probabilities;
     RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
     RayLabeling result;
     if (own.grid.count() > 1) {
       result = label_rays(input, coupling, options, progress.part(0.05, 1));
     } else {
-      // Where rays of other views agree, fewer than all tell nearly as much.
-      LabelProbabilities around =
-          empty_probabilities(own.ids, coupling == LabelCoupling::Rays ? neighbours(own.first)
-                                                                       : ViewRectangle{own.first});
+      options.gap = kLiveGap;
+      LabelProbabilities around = empty_probabilities(own.ids, views);
       around.view(own.first) = std::move(own.views[0]);
       progress.step("labeling neighbouring views");
       predict(learned, around, progress.part(0.05, 0.3));
@@ -266,10 +275,13 @@ struct Labeler::State {
     labeling.notes = std::move(result.notes);
   }
 
+  /// The view and those beside it in its row; in a grid of one column, above and below.
   [[nodiscard]] ViewRectangle neighbours(ViewIndex view) const {
     const GridShape grid = light_field->grid();
-    const ViewIndex first{std::max(view.v - 1, 0), std::max(view.u - 1, 0)};
-    const ViewIndex last{std::min(view.v + 1, grid.v - 1), std::min(view.u + 1, grid.u - 1)};
+    const int down = grid.u > 1 ? 0 : 1;
+    const int across = 1 - down;
+    const ViewIndex first{std::max(view.v - down, 0), std::max(view.u - across, 0)};
+    const ViewIndex last{std::min(view.v + down, grid.v - 1), std::min(view.u + across, grid.u - 1)};
     return {first, {last.v - first.v + 1, last.u - first.u + 1}};
   }
 };
@@ -337,6 +349,8 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
+  // Nobody paints: what follows needs the memory.
+  if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
   if (coupling == LabelCoupling::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};
     labeling.labels = label_rays(input, LabelCoupling::None, {}, progress.part(0.5, 0.5)).labels;
