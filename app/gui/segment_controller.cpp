@@ -27,6 +27,7 @@ SegmentController::SegmentController(Session& session, DocumentController& docum
       jobs_(jobs),
       panels_(panels),
       source_(session, jobs, this),
+      edges_(session, this),
       score_job_(this),
       live_(queued_post(this), [this] { followLabeler(); }) {
   panels_.segment->setParameters(labeler_schema().descriptions());
@@ -41,6 +42,8 @@ SegmentController::SegmentController(Session& session, DocumentController& docum
                          live_.input()->disparity == source_.find(live_.input()->parameters.features);
     is_same ? showState() : noteInput();
   });
+  connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
+  connect(&edges_, &EdgeSource::failed, this, &SegmentController::hint);
   connect(panels_.segment, &SegmentPanel::sourceEdited, this,
           [this] { source_.choose(panels_.segment->source()); });
   connect(panels_.segment, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
@@ -83,6 +86,7 @@ void SegmentController::noteInput() {
     input.light_field = session_.light_field();
     input.parameters = parameters();
     input.disparity = source_.find(input.parameters.features);
+    input.edges = edges_.edges();
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
     live_.set_input(std::move(input));
     if (is_live_ || is_wanted_) begin();
@@ -181,6 +185,7 @@ void SegmentController::publish() {
   segmentation->labels = document->labels().labels();
   segmentation->label = annotate_.label();
   segmentation->disparity = live_.input()->disparity;
+  segmentation->edges = live_.input()->edges;
   segmentation->parameters = labeler_schema().values(possible_parameters(*live_.input()));
   panels_.brush->setSegmentationAvailable(segmentation->labeling != nullptr);
   const bool is_labeled = segmentation->labeling != nullptr;
@@ -238,7 +243,8 @@ void SegmentController::showState() {
       break;
   }
   panels_.segment->setState(text, mood,
-                            tr("What the segmentation of this view does, and how long it took"));
+                            tr("What the segmentation of this view does, and how long it took.") +
+                                '\n' + edges_.origin());
   const QString sentence = missing();
   panels_.segment->setNote(sentence.isEmpty() ? scores_ : sentence);
   emit changed();

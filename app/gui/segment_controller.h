@@ -3,6 +3,7 @@
 
 #include "app/gui/annotate_controller.h"
 #include "app/gui/document_controller.h"
+#include "app/gui/edge_source.h"
 #include "app/gui/jobs.h"
 #include "app/gui/labeling_source.h"
 #include "app/gui/panels.h"
@@ -70,6 +71,7 @@ class SegmentController : public QObject {
   Jobs& jobs_;
   Panels panels_;
   LabelingSource source_;
+  EdgeSource edges_;
   bool is_live_ = false;
   bool wants_to_show_ = false;
   bool is_wanted_ = false;  // an update was asked for that is not there yet

@@ -26,6 +26,18 @@ Image<float> probability_of(int label, ViewIndex view, const LabelProbabilities&
   return result;
 }
 
+// Those that boundaries between labels go by.
+Image<float> edges_of(const OverlaySource& source) {
+  const Segmentation* segmentation = source.segmentation.get();
+  if (segmentation && segmentation->edges) {
+    return larger_edge_probability(segmentation->edges->view(source.view));
+  }
+  const DisparityField none;
+  const bool has_disparity = segmentation && segmentation->disparity;
+  return edge_probability(*source.light_field, source.view,
+                          has_disparity ? *segmentation->disparity : none, {});
+}
+
 void fill_wrong(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
                 OverlayMap& overlay) {
   overlay.computed = Image<float>(labels.height, labels.width);
@@ -63,11 +75,7 @@ std::shared_ptr<const OverlayMap> make_segment_map(const OverlaySource& source) 
   overlay->owners[0] = source.segmentation;
   const ViewIndex view = source.view;
   if (source.choice.quantity == Quantity::Edges) {
-    const DisparityField none;
-    const bool has_disparity = source.segmentation && source.segmentation->disparity;
-    overlay->computed =
-        edge_probability(*source.light_field, view,
-                         has_disparity ? *source.segmentation->disparity : none, {});
+    overlay->computed = edges_of(source);
     overlay->map = overlay->computed;
     return overlay;
   }

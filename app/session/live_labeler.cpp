@@ -51,9 +51,9 @@ bool LiveLabeler::is_running() const {
 void LiveLabeler::set_input(LabelingInput input) {
   if (input_ && is_same(*input_, input)) return;
   cancel();
-  const bool keeps_labeler = input_ && input_->light_field == input.light_field &&
-                             input_->disparity == input.disparity;
-  if (!keeps_labeler) labeler_ = std::make_shared<Labeler>(input.light_field, input.disparity);
+  if (!input_ || !is_same_scene(*input_, input)) {
+    labeler_ = std::make_shared<Labeler>(new_labeler(input));
+  }
   if (input_ && input_->light_field != input.light_field) {
     views_.clear();
     all_ = {};

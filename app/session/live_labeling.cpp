@@ -31,10 +31,17 @@ LabelingPtr copy(const Labeling& from) {
 
 }  // namespace
 
+Labeler new_labeler(const LabelingInput& input) {
+  return {input.light_field, input.disparity, input.edges};
+}
+
+bool is_same_scene(const LabelingInput& a, const LabelingInput& b) {
+  return a.light_field == b.light_field && a.disparity == b.disparity && a.edges == b.edges;
+}
+
 bool is_same(const LabelingInput& a, const LabelingInput& b) {
   const Schema<LabelerParameters> schema = labeler_schema();
-  return a.light_field == b.light_field && a.disparity == b.disparity &&
-         schema.values(a.parameters) == schema.values(b.parameters) && *a.scribbles == *b.scribbles;
+  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters) && *a.scribbles == *b.scribbles;
 }
 
 LabelerParameters possible_parameters(const LabelingInput& input) {
@@ -54,7 +61,7 @@ LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex v
 }
 
 LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress) {
-  Labeler labeler(input.light_field, input.disparity);
+  Labeler labeler = new_labeler(input);
   return std::make_shared<const Labeling>(labeler.label(scribbles_of(*input.scribbles),
                                                         possible_parameters(input),
                                                         {{0, 0}, input.light_field->grid()},

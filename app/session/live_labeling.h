@@ -15,9 +15,16 @@ using LabelingPtr = std::shared_ptr<const Labeling>;
 struct LabelingInput {
   LightFieldPtr light_field;
   std::shared_ptr<const DisparityField> disparity;  ///< Null: images alone.
+  /// EDGE_WEIGHTS of all views; null: computed from image and disparity.
+  std::shared_ptr<const ViewStack<float>> edges;
   std::shared_ptr<const ScribbleLayer> scribbles;
   LabelerParameters parameters;
 };
+
+/// A labeler of what the input has besides strokes and parameters, and whether one of `a` serves
+/// `b` as well.
+[[nodiscard]] Labeler new_labeler(const LabelingInput& input);
+[[nodiscard]] bool is_same_scene(const LabelingInput& a, const LabelingInput& b);
 
 /// Whether two inputs give the same labels.
 [[nodiscard]] bool is_same(const LabelingInput& a, const LabelingInput& b);
@@ -27,7 +34,7 @@ struct LabelingInput {
 
 /// Segments one view while somebody paints: `on_draft` gets the most probable label of each pixel
 /// if smoothing is still to come. `labeler` keeps features between calls and must be that of the
-/// input's light field and disparity. The labeling covers the view alone. Throws InvalidInput
+/// input's light field, disparity and edges. The labeling covers the view alone. Throws InvalidInput
 /// unless two labels are painted, Cancelled.
 [[nodiscard]] LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
                                      const std::function<void(LabelingPtr)>& on_draft,

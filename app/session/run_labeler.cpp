@@ -29,6 +29,10 @@ std::shared_ptr<const DisparityField> true_field(const Scene& scene) {
   return {scene.truth, &scene.truth->field};
 }
 
+auto find_weights(const Scene& scene) {
+  return std::ranges::find(scene.companions, "edge weights", &Companion::kind);
+}
+
 std::shared_ptr<const DisparityField> field_of(EstimatePtr estimate) {
   return {estimate, &estimate->field};
 }
@@ -52,9 +56,13 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
   return {field_of(finished.estimate), kLabelingEstimator};
 }
 
+bool has_edge_weights(const Scene& scene) {
+  return find_weights(scene) != scene.companions.end();
+}
+
 std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
                                                           const Progress& progress) {
-  const auto found = std::ranges::find(scene.companions, "edge weights", &Companion::kind);
+  const auto found = find_weights(scene);
   if (found == scene.companions.end()) return nullptr;
   return std::make_shared<const ViewStack<float>>(
       io::read_edge_weights(found->path, scene, progress));

@@ -17,6 +17,7 @@ struct Segmentation {
   std::vector<LabelInfo> labels;  ///< Names and colours, by id.
   int label = 0;                  ///< Whose probability is shown; 0 = none.
   std::shared_ptr<const DisparityField> disparity;  ///< It went by; may be null.
+  std::shared_ptr<const ViewStack<float>> edges;  ///< Read from a file; null = computed.
   ParameterSet parameters;                          ///< It was made with.
 
   [[nodiscard]] bool covers(ViewIndex view) const {

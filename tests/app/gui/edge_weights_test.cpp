@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The edge weights that lie beside a light field, in the window that ships.
+#include "app/gui/action_table.h"
+#include "app/gui/overlay_controller.h"
+#include "app/gui/segment_controller.h"
+#include "engine/io/companions.h"
+#include "engine/io/open.h"
+#include "tests/app/gui/window_fixture.h"
+#include "widgets/segment_panel.h"
+
+#include <QAction>
+#include <QFileInfo>
+#include <QSignalSpy>
+#include <QTest>
+#include <QToolTip>
+
+#include <algorithm>
+#include <filesystem>
+
+using namespace episcope;
+
+namespace {
+
+using render::Quantity;
+
+constexpr int kPatience = 20'000;  // ms
+
+class Weighted : public WindowFixture {
+ public:
+  /// Edges everywhere in the left half of each view, and nowhere else.
+  void openWithWeights() {
+    const std::filesystem::path file = writeScene("objects", smallOptions()).toStdString();
+    const Scene scene = io::open_scene(file, {}, Progress());
+    const LightField& lf = *scene.light_field;
+    ViewStack<float> weights(lf.grid(), lf.height(), lf.width());
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+      weights.data()[i] = isLeft(static_cast<int>(i) % lf.width(), lf.width()) ? 1.0F : 0.0F;
+    }
+    io::write_edge_weights(file.parent_path() / "edge_weights.h5", weights, scene, Progress());
+    open(file);
+  }
+  void openWithout() { open(writeScene("objects", smallOptions()).toStdString()); }
+  static bool isLeft(int x, int width) { return x < width / 2; }
+
+  [[nodiscard]] const LiveLabeler& labeler() { return window.segment().labeler(); }
+  [[nodiscard]] QString chipTip() const {
+    return window.panels().segment->findChild<QWidget*>("segment.state")->toolTip();
+  }
+  void trigger(const char* id) { window.actions().find(id)->trigger(); }
+
+ private:
+  void open(const std::filesystem::path& file) {
+    window.open(QString::fromStdString(file.string()));
+    QTRY_VERIFY_WITH_TIMEOUT(labeler().has_input(), kPatience);
+  }
+};
+
+}  // namespace
+
+class EdgeWeightsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void weightsOfTheFile_areShownAndGoneBy();
+  void withoutAFile_edgesAreComputed();
+  void damagedFile_isToldAndComputedInstead();
+};
+
+void EdgeWeightsTest::weightsOfTheFile_areShownAndGoneBy() {
+  Weighted f;
+  f.openWithWeights();
+  QTRY_VERIFY_WITH_TIMEOUT(f.labeler().input()->edges, kPatience);
+  QVERIFY2(f.chipTip().contains("file"), qPrintable(f.chipTip()));
+
+  f.trigger("segment.edges");
+  QTRY_VERIFY(f.window.overlay().isUpToDate() && !f.window.overlay().picture().isNull());
+  const QImage picture = f.window.overlay().picture();
+  QVERIFY(picture.pixelColor(10, 40) == picture.pixelColor(40, 70));
+  QVERIFY(picture.pixelColor(60, 40) == picture.pixelColor(90, 70));
+  QVERIFY(picture.pixelColor(10, 40) != picture.pixelColor(60, 40));
+
+  f.trigger("segment.all");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.jobs().count() == 0 && f.labeler().labeling({0, 0}), kPatience);
+  QVERIFY(f.window.session().segmentation()->edges);
+}
+
+void EdgeWeightsTest::withoutAFile_edgesAreComputed() {
+  Weighted f;
+  f.openWithWeights();
+  QTRY_VERIFY_WITH_TIMEOUT(f.labeler().input()->edges, kPatience);
+  std::filesystem::remove(std::filesystem::path(f.path("objects/edge_weights.h5").toStdString()));
+
+  f.openWithout();
+  QTRY_VERIFY_WITH_TIMEOUT(!f.labeler().input()->edges, kPatience);
+
+  QVERIFY2(f.chipTip().contains("computed"), qPrintable(f.chipTip()));
+}
+
+void EdgeWeightsTest::damagedFile_isToldAndComputedInstead() {
+  Weighted f;
+  QSignalSpy told(&f.window.segment(), &SegmentController::hint);
+  f.openWithWeights();
+  QTRY_VERIFY_WITH_TIMEOUT(f.labeler().input()->edges, kPatience);
+  const auto scene = f.window.session().scene();
+  const auto file = std::filesystem::path(f.path("objects/edge_weights.h5").toStdString());
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
+
+  f.window.session().open(scene, f.path("objects").toStdString());
+  QTRY_COMPARE_WITH_TIMEOUT(told.size(), 1, kPatience);
+
+  QVERIFY(told[0][0].toString().contains("edge_weights.h5"));
+  QVERIFY(!f.labeler().input()->edges);
+}
+
+QTEST_MAIN(EdgeWeightsTest)
+#include "edge_weights_test.moc"
