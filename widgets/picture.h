@@ -9,8 +9,9 @@
 
 namespace episcope {
 
-/// A QImage over the samples of an RGBA8 image `[y][x][4]`, which it takes over without a copy.
-/// Null for an empty image. Precondition: 4 channels.
+/// A QImage over the samples of an RGBA8 image `[y][x][4]`, which it takes over without a copy, in
+/// the form that is drawn fastest: premultiplied ARGB. Null for an empty image. Precondition: 4
+/// channels.
 [[nodiscard]] QImage to_qimage(Image<std::uint8_t>&& rgba);
 
 }  // namespace episcope

@@ -33,6 +33,7 @@ void ViewCanvas::setPicture(const QImage& picture) {
 }
 
 void ViewCanvas::setOverlay(const QImage& overlay) {
+  if (overlay.cacheKey() == overlay_.cacheKey()) return;  // it is set anew with every change
   overlay_ = overlay;
   update();
 }
@@ -54,6 +55,7 @@ void ViewCanvas::setPixelText(PixelText text) {
 }
 
 void ViewCanvas::setCaption(const QString& caption, Side side) {
+  if (caption == caption_ && side == side_) return;
   caption_ = caption;
   side_ = side;
   update();
