@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // From a movement of the mouse to the painted screen: a stroke on a view of 1024×1024 pixels in the
-// window that ships, at rest and while a job keeps every core busy, against drawing the whole view
-// anew. A frame of the screen lasts 16 ms. Run with QT_QPA_PLATFORM=offscreen.
+// window that ships, at rest and while the view is segmented live on every core, against drawing the
+// whole view anew. A frame of the screen lasts 16 ms. Run with QT_QPA_PLATFORM=offscreen.
+#include "app/gui/action_table.h"
 #include "app/gui/annotate_controller.h"
 #include "app/gui/document_controller.h"
 #include "app/gui/main_window.h"
+#include "app/gui/segment_controller.h"
 #include "app/session/session.h"
-#include "app/session/thread_priority.h"
 #include "engine/scenes/builtin.h"
 #include "widgets/view_canvas.h"
 
 #include <benchmark/benchmark.h>
 
+#include <QAction>
 #include <QApplication>
 #include <QMouseEvent>
 #include <QSettings>
@@ -21,7 +23,6 @@
 #include <chrono>
 #include <cmath>
 #include <memory>
-#include <thread>
 #include <vector>
 
 namespace {
@@ -31,29 +32,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSize = 1024;
 constexpr QSize kWindow(2560, 1440);
-
-/// What a labeling does with the machine: sweeps over more memory than the caches hold, on every
-/// core, at the priority of our jobs.
-class BusyCores {
- public:
-  BusyCores() {
-    for (unsigned i = 0; i < std::max(2U, std::thread::hardware_concurrency()); ++i) {
-      threads_.emplace_back([](const std::stop_token& stop) {
-        lower_thread_priority();
-        std::vector<float> costs(std::size_t{8} << 20, 0.5F);
-        while (!stop.stop_requested()) {
-          for (std::size_t k = 1; k < costs.size(); ++k) {
-            costs[k] = std::max(0.0F, 0.7F * costs[k] + 0.3F * costs[k - 1] - 0.01F) + 0.01F;
-          }
-          benchmark::DoNotOptimize(costs.data());
-        }
-      });
-    }
-  }
-
- private:
-  std::vector<std::jthread> threads_;
-};
 
 class PaintedWindow {
  public:
@@ -71,7 +49,6 @@ class PaintedWindow {
         "bench");
     while (!window->document().document()) QCoreApplication::processEvents();
     window->annotate().setAnnotating(true);
-    window->annotate().addLabel();
     settle();
   }
   ~PaintedWindow() { window->document().discardChanges(); }
@@ -86,6 +63,15 @@ class PaintedWindow {
     QMouseEvent event(type, at, canvas->mapToGlobal(at), is_move ? Qt::NoButton : Qt::LeftButton,
                       type == QEvent::MouseButtonRelease ? Qt::NoButton : Qt::LeftButton, {});
     QCoreApplication::sendEvent(canvas, &event);
+  }
+  void beginStroke(QPointF image) {
+    send(QEvent::MouseButtonRelease, image);
+    send(QEvent::MouseButtonPress, image);
+    settle();
+  }
+  /// The end of a stroke begins a labeling.
+  void keepLabeling(QPointF image) {
+    if (!window->segment().labeler().is_running()) beginStroke(image);
   }
 
  private:
@@ -112,10 +98,11 @@ void report(benchmark::State& state, std::vector<double>& ms) {
   state.counters["longest_ms"] = percentile(ms, 1);
 }
 
-/// Arguments: diameter of the brush, whether every core is busy.
+/// Arguments: diameter of the brush, whether labels are made meanwhile.
 void segment_on_screen(benchmark::State& state) {
   PaintedWindow painted;
-  const auto busy = state.range(1) != 0 ? std::make_unique<BusyCores>() : nullptr;
+  const bool is_live = state.range(1) != 0;
+  if (is_live) painted.window->actions().find("segment.live")->trigger();
   ViewCanvas* canvas = painted.window->panels().canvas;
   canvas->tool()->setBrushSize(static_cast<double>(state.range(0)));
   painted.send(QEvent::MouseButtonPress, point_at(0));
@@ -123,6 +110,7 @@ void segment_on_screen(benchmark::State& state) {
   std::vector<double> ms;
   int i = 1;
   for (auto _ : state) {
+    if (is_live) painted.keepLabeling(point_at(i));
     const auto begin = Clock::now();
     painted.send(QEvent::MouseMove, point_at(i++));
     QCoreApplication::processEvents();  // paints
@@ -130,9 +118,7 @@ void segment_on_screen(benchmark::State& state) {
     state.SetIterationTime(took.count());
     ms.push_back(1000 * took.count());
     if (i % 100 == 0) {  // a new stroke, as hands do
-      painted.send(QEvent::MouseButtonRelease, point_at(i));
-      painted.send(QEvent::MouseButtonPress, point_at(i));
-      PaintedWindow::settle();
+      painted.beginStroke(point_at(i));
     }
   }
   painted.send(QEvent::MouseButtonRelease, point_at(i));

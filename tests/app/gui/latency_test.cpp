@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/action_table.h"
+#include "app/gui/annotate_controller.h"
 #include "app/gui/compare_controller.h"
 #include "app/gui/jobs.h"
 #include "app/gui/overlay_controller.h"
+#include "app/gui/segment_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/widgets/pictures.h"
@@ -151,6 +153,40 @@ void add_results(Session& session, int count) {
   }
 }
 
+// A hand that paints: strokes of 15 movements each, here and there on the view.
+class Painter {
+ public:
+  explicit Painter(MainWindow& window) : window_(window) {}
+
+  void move(int number) {
+    constexpr int kMoves = 15;
+    ViewCanvas* canvas = window_.panels().canvas;
+    const int stroke = number / kMoves;
+    const QPoint at =
+        canvas->positionOf({80 + stroke * 131 % 800 + 3 * (number % kMoves),
+                            80 + stroke * 197 % 600 + 20 * (number % kMoves)})
+            .toPoint();
+    if (number % kMoves == 0) {
+      QTest::mousePress(canvas, Qt::LeftButton, {}, at);
+    } else if (number % kMoves == kMoves - 1) {
+      QTest::mouseRelease(canvas, Qt::LeftButton, {}, at);
+    } else {
+      QTest::mouseMove(canvas, at);
+    }
+    ++moves_;
+    if (window_.segment().labeler().is_running()) ++moves_while_labeling_;
+  }
+  [[nodiscard]] int moves() const { return moves_; }
+  [[nodiscard]] double shareWhileLabeling() const {
+    return static_cast<double>(moves_while_labeling_) / moves_;
+  }
+
+ private:
+  MainWindow& window_;
+  int moves_ = 0;
+  int moves_while_labeling_ = 0;
+};
+
 // Zooms in and out, pans, moves mouse and cross-hair over a tile.
 void give_tile_input(ViewCanvas* tile, Session& session, int number) {
   const QPointF at(20 + number * 7 % 150, 20 + number * 11 % 120);
@@ -169,6 +205,7 @@ class LatencyTest : public QObject {
   void window_answersWhileAMethodRuns();
   void overlays_areMadeWithoutHoldingTheWindowUp();
   void tiles_followInputWithinAFrame();
+  void strokes_arePaintedWhileLabelsAreMade();
 };
 
 void LatencyTest::window_answersWhileAMethodRuns() {
@@ -228,6 +265,35 @@ void LatencyTest::tiles_followInputWithinAFrame() {
   });
 
   QVERIFY2(percentile(ms, 0.95) < kFrame, qPrintable(told(ms)));
+}
+
+void LatencyTest::strokes_arePaintedWhileLabelsAreMade() {
+  constexpr int moves = 300;
+  WindowFixture f;
+  scenes::RenderOptions options;
+  options.grid = {3, 3};
+  options.height = options.width = 1024;
+  f.window.open(f.writeScene("objects", options));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.segment().labeler().has_input(), 60'000);
+  f.window.actions().find("annotate.mode")->trigger();
+  f.window.actions().find("segment.live")->trigger();
+  const LiveLabeler& labeler = f.window.segment().labeler();
+  QTRY_VERIFY_WITH_TIMEOUT(labeler.labeling(f.window.session().view()), 60'000);
+  const std::uint64_t state = f.window.document().document()->state();
+
+  double share = 0;
+  const auto ages = measured_calmly("event latency while a live labeling runs", [&] {
+    Painter painter(f.window);
+    auto measured = latencies(
+        f.window, [&](int number) { painter.move(number); },
+        [&] { return painter.moves() >= moves; });
+    share = painter.shareWhileLabeling();
+    return measured;
+  });
+
+  QVERIFY(f.window.document().document()->state() != state);
+  QVERIFY2(share > 0.9, qPrintable(QString("labels were made for %1 of the time").arg(share)));
+  QVERIFY2(percentile(ages, 0.95) < kFrame, qPrintable(told(ages)));
 }
 
 QTEST_MAIN(LatencyTest)
