@@ -48,8 +48,8 @@ struct RayLabelingInput {
 
 struct RayLabeling {
   ViewStack<std::int32_t> labels;  ///< Ids, `[v][u][y][x]`, of the views asked for.
-  double energy = 0;   ///< Of the labels, by the problem solved: of all views, or of all tracks.
-  double bound = 0;    ///< No labeling has less energy in that problem.
+  double energy = 0;   ///< Of the labels of each view as its problem was solved, summed up.
+  double bound = 0;    ///< No labeling has less energy in these problems.
   int iterations = 0;  ///< The most that any of its parts took.
   std::vector<std::string> notes;  ///< A sentence each.
 
@@ -73,11 +73,12 @@ struct RayLabeling {
 /// limit μ → ∞, one unknown for each scene point, carried from five views solved to all others, is
 /// as quick, but carries labels along wrong disparities too: right / consistent, percent, of Views
 /// | of that | of this: demo 256 px with estimate 93.79 / 98.98 | 93.34 / 99.41 | 93.87 / 99.25,
-/// with image 95.79 / 99.29 | 95.65 / 99.63 | 95.85 / 99.52; objects 99.913 / 99.89 | 99.888
-/// / 99.88 | 99.914 / 99.91. Costs averaged over all 81 views or those of the ray's EPIs did no
-/// better. Energy and bound are sums over the views as solved, before the vote. Throws InvalidInput
-/// if parts of the input are missing or do not fit, Cancelled. Ends each solver after its next
-/// iteration at `progress.finish_requested()`.
+/// with image 95.79 / 99.29 | 95.65 / 99.63 | 95.87 / 99.52; objects 99.913 / 99.89 | 99.888
+/// / 99.88 | 99.914 / 99.91; a rendered still life with estimate 96.75 / 99.37 | 96.56 / 99.52
+/// | 96.76 / 99.54, with image 94.94 / 99.47 | 94.90 / 99.7 | 94.98 / 99.70. Costs averaged over
+/// all 81 views or those of the ray's EPIs did no better. Energy and bound are sums over the views
+/// as solved, before the vote. Throws InvalidInput if parts of the input are missing or do not fit,
+/// Cancelled. Ends each solver after its next iteration at `progress.finish_requested()`.
 [[nodiscard]] RayLabeling label_rays(const RayLabelingInput& input, LabelCoupling coupling,
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);
