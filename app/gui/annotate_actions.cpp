@@ -256,6 +256,13 @@ void add_scribble_file_actions(ActionTable& table, MainWindow& window) {
              .icon = "open",
              .keys = {},
              .run = [&files] { files.importDialog(); }});
+  table.add({.id = "file.compare_labels",
+             .menu = menu,
+             .text = tr("Compare with true labels…"),
+             .tip = tr("Holds the segmentation against GT_LABELS of another file"),
+             .icon = "open",
+             .keys = {},
+             .run = [&files] { files.compareDialog(); }});
   table.add({.id = "file.export_scribbles",
              .menu = menu,
              .text = tr("Export scribbles as pictures…"),

@@ -207,6 +207,32 @@ void AnnotationFiles::importFrom(const QString& path) {
       });
 }
 
+void AnnotationFiles::compareDialog() {
+  if (!session_.scene()) return;
+  auto* dialog =
+      new QFileDialog(panels_.viewer->window(), tr("Compare with true labels"), QString(),
+                      tr("Labels of the archive (*.h5 *.hdf5);;All files (*)"));
+  dialog->setObjectName("compare_labels");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::compareWith);
+  dialog->open();
+}
+
+void AnnotationFiles::compareWith(const QString& path) {
+  if (!session_.scene()) return;
+  jobs_.start<TrueLabelsPtr>(
+      Lane::Load, tr("Reading %1").arg(QFileInfo(path).fileName()),
+      [scene = session_.scene(), path](const Progress& progress) -> TrueLabelsPtr {
+        return std::make_shared<ViewStack<std::int32_t>>(
+            io::read_true_labels(path_of(path), *scene, progress));
+      },
+      [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
+        session_.set_true_labels(labels, generation);
+        emit compared(path);
+      });
+}
+
 void AnnotationFiles::leave(std::function<void()> go_on) {
   document_.endStroke();
   if (!document_.hasUnsavedChanges()) {

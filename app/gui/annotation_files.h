@@ -18,8 +18,8 @@ class QMessageBox;
 namespace episcope {
 
 /// Saves, exports and imports scribbles in the background, and sees to it that nobody loses any by
-/// leaving the light field. Files and pictures keep to the views as they are stored, also at a focus
-/// plane (shear.h).
+/// leaving the light field. Files and pictures keep to the views as they are stored, also at a
+/// focus plane (shear.h).
 class AnnotationFiles : public QObject {
   Q_OBJECT
 
@@ -39,6 +39,9 @@ class AnnotationFiles : public QObject {
   void importDialog();
   /// From an HDF5 file of labels, or the folder of an exported picture.
   void importFrom(const QString& path);
+  /// Compares the segmentation with GT_LABELS of another file.
+  void compareDialog();
+  void compareWith(const QString& path);
   /// Calls `go_on` at once if nothing is unsaved; else asks whether to save or to discard first. It
   /// is never called if the user stays or saving fails.
   void leave(std::function<void()> go_on);
@@ -46,6 +49,7 @@ class AnnotationFiles : public QObject {
  signals:
   void written(const QString& path);
   void imported(const QString& path);
+  void compared(const QString& path);
   void hint(const QString& sentence);
 
  private:

@@ -259,6 +259,9 @@ void MainWindow::connectFiles() {
   connect(annotation_files_, &AnnotationFiles::imported, this, [this](const QString& path) {
     panels_.messages->showMessage(Severity::Success, tr("Imported: %1").arg(path));
   });
+  connect(annotation_files_, &AnnotationFiles::compared, this, [this](const QString& path) {
+    panels_.messages->showMessage(Severity::Success, tr("Labels are compared with %1").arg(path));
+  });
   connect(recovery_, &RecoveryController::recovered, this, [this](const QString& name) {
     annotate_->setAnnotating(true);
     panels_.messages->showMessage(Severity::Success,
@@ -309,9 +312,10 @@ void MainWindow::updateActions() {
   actions_->find("view.focus_apply")->setEnabled(focus_->canApply());
   actions_->find("view.focus_undo")->setEnabled(focus_->canUndo());
   actions_->find("file.conventions")->setEnabled(!opener_->reopenable().isEmpty());
-  for (const char* id : {"file.save_scribbles", "file.save_scribbles_as", "file.export_scribbles",
-                         "file.import_scribbles", "file.save_picture", "file.close",
-                         "file.open_result", "estimate.run", "estimate.copy_command"}) {
+  for (const char* id :
+       {"file.save_scribbles", "file.save_scribbles_as", "file.export_scribbles",
+        "file.import_scribbles", "file.compare_labels", "file.save_picture", "file.close",
+        "file.open_result", "estimate.run", "estimate.copy_command"}) {
     actions_->find(id)->setEnabled(has_scene);
   }
 }
@@ -361,7 +365,9 @@ void MainWindow::showAbout() {
 }
 
 void MainWindow::escape() {
-  if (annotate_->cancelStroke() || segment_->cancel() || browse_->endWhatIsInHand() || compare_->leave()) return;
+  if (annotate_->cancelStroke() || segment_->cancel() || browse_->endWhatIsInHand() ||
+      compare_->leave())
+    return;
   if (const quint64 job = jobs_->newest()) {
     jobs_->cancel(job);
   } else {

@@ -18,11 +18,10 @@ namespace {
 using render::Quantity;
 
 constexpr Quantity kQuantities[] = {
-    Quantity::Disparity,     Quantity::Background, Quantity::Layers,
-    Quantity::Confidence,    Quantity::Truth,      Quantity::SignedError,
-    Quantity::AbsoluteError, Quantity::BadPixels,  Quantity::Labels,
-    Quantity::Segmentation,  Quantity::Probability, Quantity::Uncertainty,
-    Quantity::Edges,         Quantity::WrongLabels};
+    Quantity::Disparity, Quantity::Background,   Quantity::Layers,        Quantity::Confidence,
+    Quantity::Truth,     Quantity::SignedError,  Quantity::AbsoluteError, Quantity::BadPixels,
+    Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,   Quantity::Uncertainty,
+    Quantity::Edges,     Quantity::WrongLabels};
 
 constexpr std::size_t kKeptPictures = 4;
 
@@ -69,13 +68,14 @@ void OverlayController::update(Parts parts) {
       quantity_ = Quantity::Disparity;
     }
   }
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Segmentation)) {
+  const Parts of_labels = Part::Segmentation | Part::TrueLabels;
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | of_labels)) {
     if (!isAvailable(quantity_)) quantity_ = Quantity::View;
     if (!session_.compared()) shows_difference_ = false;
     showAvailable();
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations |
-                    Part::Segmentation)) {
+                    of_labels)) {
     draw();
   }
 }
@@ -95,7 +95,7 @@ bool OverlayController::isAvailable(Quantity quantity) const {
     case Quantity::Truth:
       return scene->truth->has_disparity();
     case Quantity::Labels:
-      return !scene->truth->labels.empty();
+      return session_.true_labels() != nullptr;
     case Quantity::Edges:
       return true;
     case Quantity::Segmentation:
@@ -103,7 +103,7 @@ bool OverlayController::isAvailable(Quantity quantity) const {
     case Quantity::Uncertainty:
       return is_segmented;
     case Quantity::WrongLabels:
-      return is_segmented && !scene->truth->labels.empty();
+      return is_segmented && session_.true_labels() != nullptr;
     case Quantity::Background:
       return shown && !shown->estimate->layered.background.empty();
     case Quantity::Layers:
@@ -165,8 +165,7 @@ OverlayChoice OverlayController::choiceA() const {
 
 OverlayChoice OverlayController::choiceB() const {
   if (is_of_segmentation(quantity_)) {
-    const bool shows_truth =
-        quantity_ == Quantity::Segmentation && isAvailable(Quantity::Labels);
+    const bool shows_truth = quantity_ == Quantity::Segmentation && isAvailable(Quantity::Labels);
     return {shows_truth ? Quantity::Labels : Quantity::View, 0, 0};
   }
   if (const EstimateEntry* compared = session_.compared()) return {quantity_, compared->id, 0};

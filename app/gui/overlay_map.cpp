@@ -77,8 +77,8 @@ Result layer_count(const EstimatePtr& estimate, ViewIndex view) {
 
 Result labels_overlay(const OverlaySource& source) {
   auto overlay = std::make_shared<OverlayMap>();
-  overlay->labels = source.truth->labels.view(source.view);
-  overlay->owners[0] = source.truth;
+  overlay->labels = source.true_labels->view(source.view);
+  overlay->owners[0] = source.true_labels;
   return overlay;
 }
 
@@ -119,14 +119,14 @@ bool is_of_segmentation(Quantity quantity) {
 std::optional<OverlaySource> overlay_source(Session& session, const OverlayChoice& choice,
                                             ViewIndex view) {
   if (!session.scene()) return std::nullopt;
-  OverlaySource source{choice, view, {}, {}, {}, {}, {}, {}};
+  OverlaySource source{choice, view, {}, {}, {}, {}, {}, {}, {}};
   if (is_of_segmentation(choice.quantity)) return segment_source(session, std::move(source));
   switch (choice.quantity) {
     case Quantity::View:
       return std::nullopt;
     case Quantity::Labels:
-      source.truth = session.scene()->truth;
-      if (!source.truth->labels.contains(view)) return std::nullopt;
+      source.true_labels = session.true_labels();
+      if (!source.true_labels || !source.true_labels->contains(view)) return std::nullopt;
       return source;
     case Quantity::Truth:
       source.truth = session.scene()->truth;

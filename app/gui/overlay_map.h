@@ -46,6 +46,7 @@ struct OverlaySource {
   EvaluationPtr evaluation;
   LightFieldPtr light_field;
   SegmentationPtr segmentation;
+  TrueLabelsPtr true_labels;
   friend bool operator==(const OverlaySource&, const OverlaySource&) = default;
 };
 

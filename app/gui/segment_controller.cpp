@@ -18,8 +18,8 @@ QString percent(double share) {
 }  // namespace
 
 SegmentController::SegmentController(Session& session, DocumentController& document,
-                                     AnnotateController& annotate, Jobs& jobs,
-                                     const Panels& panels, QObject* parent)
+                                     AnnotateController& annotate, Jobs& jobs, const Panels& panels,
+                                     QObject* parent)
     : QObject(parent),
       session_(session),
       document_(document),
@@ -33,13 +33,12 @@ SegmentController::SegmentController(Session& session, DocumentController& docum
   panels_.segment->setParameters(labeler_schema().descriptions());
   panels_.segment->setSources(source_.sources(), source_.choice());
   connect(&document_, &DocumentController::replaced, this, &SegmentController::noteInput);
-  connect(&document_, &DocumentController::changed, this, [this](const DocumentChange& change) {
-    change.views.empty() ? publish() : noteInput();
-  });
+  connect(&document_, &DocumentController::changed, this,
+          [this](const DocumentChange& change) { change.views.empty() ? publish() : noteInput(); });
   connect(&source_, &LabelingSource::changed, this, [this] {
     panels_.segment->setSources(source_.sources(), source_.choice());
-    const bool is_same = live_.has_input() &&
-                         live_.input()->disparity == source_.find(live_.input()->parameters.features);
+    const bool is_same = live_.has_input() && live_.input()->disparity ==
+                                                  source_.find(live_.input()->parameters.features);
     is_same ? showState() : noteInput();
   });
   connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
@@ -72,6 +71,8 @@ void SegmentController::update(Parts parts) {
   } else if (parts.has(Part::View)) {
     if (is_live_) begin();
     publish();
+  } else if (parts.has(Part::TrueLabels) && session_.segmentation()) {
+    score();
   }
 }
 
@@ -212,7 +213,7 @@ QString SegmentController::missing() const {
 void SegmentController::showState() {
   const auto seconds = [this] { return tr("%1 s").arg(seconds_, 0, 'f', 1); };
   const bool is_labeled = live_.labeling(session_.view()) != nullptr;
-  QString text = !is_labeled                           ? tr("idle")
+  QString text = !is_labeled                            ? tr("idle")
                  : live_.is_up_to_date(session_.view()) ? tr("idle · %1").arg(seconds())
                                                         : tr("out of date");
   ChipMood mood =
@@ -252,22 +253,26 @@ void SegmentController::showState() {
 
 void SegmentController::score() {
   const SegmentationPtr segmentation = session_.segmentation();
-  if (segmentation->labeling == scored_ && session_.view() == scored_view_) return;
+  const TrueLabelsPtr& truth = session_.true_labels();
+  if (segmentation->labeling == scored_ && session_.view() == scored_view_ &&
+      truth == scored_truth_) {
+    return;
+  }
   scored_ = segmentation->labeling;
+  scored_truth_ = truth;
   scored_view_ = session_.view();
   scores_.clear();
   score_job_.drop();
   if (!scored_) return;
   score_job_.start<Scores>(
-      [scene = session_.scene(), segmentation, view = scored_view_](const Progress& progress) {
+      [truth, segmentation, view = scored_view_](const Progress& progress) {
         Scores scores;
         const ViewStack<std::int32_t>& labels = segmentation->labeling->labels;
-        const ViewStack<std::int32_t>& truth = scene->truth->labels;
-        if (!truth.empty() && truth.contains(view)) {
-          scores.view = judge_labels(labels.view(view), truth.view(view)).share();
+        if (truth && truth->contains(view)) {
+          scores.view = judge_labels(labels.view(view), truth->view(view)).share();
         }
         if (labels.grid().count() == 1) return scores;
-        if (!truth.empty()) scores.all = judge_labels(labels, truth).share();
+        if (truth) scores.all = judge_labels(labels, *truth).share();
         if (segmentation->disparity) {
           scores.consistency =
               label_consistency(labels, *segmentation->disparity, progress).share();

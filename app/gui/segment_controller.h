@@ -79,6 +79,7 @@ class SegmentController : public QObject {
   double seconds_ = 0;      // that the newest ones took
   QString scores_;
   LabelingPtr scored_;
+  TrueLabelsPtr scored_truth_;
   ViewIndex scored_view_;
   std::shared_ptr<const LabelingInput> tried_all_;
   LatestJob score_job_;

@@ -64,8 +64,8 @@ std::optional<OverlaySource> segment_source(const Session& session, OverlaySourc
     if (std::ranges::find(ids, source.segmentation->label) == ids.end()) return std::nullopt;
   }
   if (quantity == Quantity::WrongLabels) {
-    source.truth = session.scene()->truth;
-    if (!source.truth->labels.contains(source.view)) return std::nullopt;
+    source.true_labels = session.true_labels();
+    if (!source.true_labels || !source.true_labels->contains(source.view)) return std::nullopt;
   }
   return source;
 }
@@ -86,7 +86,7 @@ std::shared_ptr<const OverlayMap> make_segment_map(const OverlaySource& source) 
     return overlay;
   }
   if (source.choice.quantity == Quantity::WrongLabels) {
-    fill_wrong(labeling.labels.view(view), source.truth->labels.view(view), *overlay);
+    fill_wrong(labeling.labels.view(view), source.true_labels->view(view), *overlay);
   } else if (source.choice.quantity == Quantity::Probability) {
     overlay->computed = probability_of(source.segmentation->label, view, labeling.probabilities);
   } else {

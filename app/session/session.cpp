@@ -36,6 +36,8 @@ void Session::open(std::shared_ptr<const Scene> scene, std::string input,
   conventions_ = std::move(conventions);
   if (!scene_) return;
   known_range_ = known_disparity_range(*scene_);
+  const GroundTruthPtr& truth = scene_->truth;
+  if (!truth->labels.empty()) true_labels_ = TrueLabelsPtr(truth, &truth->labels);
   view_ = scene_->light_field->center();
   cross_hair_ = {scene_->light_field->height() / 2, scene_->light_field->width() / 2};
 }
@@ -45,6 +47,7 @@ void Session::close() {
   estimates_.clear();
   scene_.reset();
   segmentation_.reset();
+  true_labels_.reset();
   input_.clear();
   conventions_ = {};
   shown_ = compared_ = 0;
@@ -53,7 +56,7 @@ void Session::close() {
   focus_px_ = 0;
   ++generation_;
   changed(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-          Part::CrossHair | Part::Focus | Part::Segmentation);
+          Part::CrossHair | Part::Focus | Part::Segmentation | Part::TrueLabels);
 }
 
 LightFieldPtr Session::light_field() const {
@@ -160,6 +163,12 @@ void Session::set_segmentation(SegmentationPtr segmentation) {
   if (!scene_) return;
   segmentation_ = std::move(segmentation);
   changed(Part::Segmentation);
+}
+
+void Session::set_true_labels(TrueLabelsPtr labels, std::uint64_t generation) {
+  if (generation != generation_) return;
+  true_labels_ = std::move(labels);
+  changed(Part::TrueLabels);
 }
 
 void Session::set_view(ViewIndex view) {

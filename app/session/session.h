@@ -14,6 +14,9 @@
 
 namespace episcope {
 
+/// True labels of the centre view or of all.
+using TrueLabelsPtr = std::shared_ptr<const ViewStack<std::int32_t>>;
+
 /// An estimate of the session. Ids are never given twice.
 struct EstimateEntry {
   int id = 0;
@@ -78,6 +81,12 @@ class Session {
   void set_segmentation(SegmentationPtr segmentation);
   [[nodiscard]] const SegmentationPtr& segmentation() const { return segmentation_; }
 
+  /// Compares with other labels than those that came with the scene, until another is opened.
+  /// Dropped if `generation` is a former one.
+  void set_true_labels(TrueLabelsPtr labels, std::uint64_t generation);
+  /// Null if there are none.
+  [[nodiscard]] const TrueLabelsPtr& true_labels() const { return true_labels_; }
+
   /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
   /// else those of the first estimate. It does not change with the shown estimate.
   [[nodiscard]] Interval disparity_range() const;
@@ -109,6 +118,7 @@ class Session {
   int compared_ = 0;
   bool is_compared_chosen_ = false;
   SegmentationPtr segmentation_;
+  TrueLabelsPtr true_labels_;
   ViewIndex view_;
   PixelIndex cross_hair_;
   double focus_px_ = 0;

@@ -57,9 +57,9 @@ struct RayLabeling {
   [[nodiscard]] double relative_gap() const;
 };
 
-/// Labels of all views that have probabilities. The energy is that of algorithms.md §8.3: per-view
+/// Labels of all views that have probabilities. The energy is that of [WSG13]: per-view
 /// TV weighted by edges (J_st), variation along the lines of horizontal and vertical EPIs
-/// (J_xs, J_yt) and one label for each ray, relaxed to the simplex [WSG13].
+/// (J_xs, J_yt) and one label for each ray, relaxed to the simplex.
 ///
 /// `Rays` does it in two steps. Each view is solved by itself (engine/solvers/simplex_labeling.h),
 /// the cost of a ray being the mean over the rays of the same scene point in the nearest 5×5 views,

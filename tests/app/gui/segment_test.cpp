@@ -3,10 +3,12 @@
 #include "app/gui/segment_controller.h"
 
 #include "app/gui/action_table.h"
+#include "app/gui/annotation_files.h"
 #include "app/gui/export_controller.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
 #include "engine/io/labeling_file.h"
+#include "engine/io/write_scene.h"
 #include "tests/app/gui/annotating.h"
 #include "widgets/segment_panel.h"
 
@@ -42,6 +44,7 @@ class SegmentTest : public QObject {
   void oneLabel_isAHintAndNoError();
   void overlays_areDrawn();
   void recolouredLabel_isSeenAtOnce();
+  void labels_areComparedWithThoseOfAnotherFile();
   void allViews_areExportedAndReadAgain();
   void otherScene_dropsEverything();
   void escape_endsALabeling();
@@ -155,6 +158,40 @@ void SegmentTest::recolouredLabel_isSeenAtOnce() {
 
   QTRY_COMPARE(f.window.overlay().picture().pixelColor(0, 0), QColor(1, 2, 3));
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));
+}
+
+void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
+  Segmenting f;
+  f.trigger("segment.update");
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QTRY_VERIFY(f.panel().note().startsWith("right:"));
+  const QString before = f.panel().note();
+  // All that is there is the thing in the middle.
+  Scene other = *f.window.session().scene();
+  auto truth = std::make_shared<GroundTruth>();
+  truth->labels = other.truth->labels.clone();
+  const ViewIndex view = f.view();
+  const int middle = truth->labels.view(view).at(40, 40);
+  std::fill_n(truth->labels.data(), truth->labels.size(), middle);
+  other.truth = truth;
+  QDir().mkpath(f.path("other"));
+  io::write_archive(f.path("other/lf.h5").toStdString(), other, Progress(1));
+  const auto labels = f.segment().labeler().labeling(view)->labels.view(view);
+  const auto right = std::count(labels.data, labels.data + labels.size(), middle);
+
+  QSignalSpy failed(&f.window.jobs(), &Jobs::failed);
+  f.window.annotationFiles().compareWith(f.path("other/lf.h5"));
+  QTRY_COMPARE(failed.size(), 1);
+  QCOMPARE(f.panel().note(), before);
+
+  f.window.annotationFiles().compareWith(f.path("other/labels.h5"));
+  QTRY_VERIFY(f.panel().note() != before);
+
+  const QString share = QString::number(
+      100.0 * static_cast<double>(right) / static_cast<double>(labels.size()), 'f', 1);
+  QVERIFY2(f.panel().note().contains(share), qPrintable(f.panel().note() + " " + share));
+  QVERIFY(f.window.overlay().isAvailable(Quantity::Labels));
+  QVERIFY(f.window.overlay().isAvailable(Quantity::WrongLabels));
 }
 
 void SegmentTest::allViews_areExportedAndReadAgain() {
