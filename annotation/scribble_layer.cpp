@@ -59,8 +59,7 @@ int ScribbleLayer::label_at(ViewIndex view, PixelIndex pixel) const {
 std::vector<ViewIndex> ScribbleLayer::painted_views() const {
   std::vector<ViewIndex> painted;
   for (int i = 0; i < grid_.count(); ++i) {
-    if (!is_blank(views_[static_cast<std::size_t>(i)]))
-      painted.push_back(grid_.view_at(i));
+    if (!is_blank(views_[static_cast<std::size_t>(i)])) painted.push_back(grid_.view_at(i));
   }
   return painted;
 }

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHandleHeight = 9;
 constexpr double kHandleHalfWidth = 6;
-constexpr double kReach = 7;          // of the mouse to a handle, logical pixels
+constexpr double kReach = 7;           // of the mouse to a handle, logical pixels
 constexpr double kLeastShare = 0.005;  // of the axis that a range keeps
 
 }  // namespace
@@ -97,9 +97,9 @@ void HistogramView::paintHandles(QPainter& painter) const {
     painter.setPen(QPen(palette().color(QPalette::WindowText), 1));
     painter.setBrush(palette().color(QPalette::Button));
     const double top = inside.bottom() + 1;
-    painter.drawPolygon(QPolygonF({QPointF(x, top), QPointF(x + kHandleHalfWidth - 1,
-                                                            top + kHandleHeight - 1),
-                                   QPointF(x - kHandleHalfWidth + 1, top + kHandleHeight - 1)}));
+    painter.drawPolygon(
+        QPolygonF({QPointF(x, top), QPointF(x + kHandleHalfWidth - 1, top + kHandleHeight - 1),
+                   QPointF(x - kHandleHalfWidth + 1, top + kHandleHeight - 1)}));
   }
 }
 

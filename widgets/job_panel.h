@@ -21,9 +21,9 @@ class ElidedLabel;
 /// nothing can be said.
 [[nodiscard]] QString time_left_text(double fraction, double seconds);
 
-/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job that
-/// can end early has a button for that beside it. Shows a quiet line when there are none. However
-/// many there are, it grows to a few rows only: the rest is scrolled to.
+/// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job
+/// that can end early has a button for that beside it. Shows a quiet line when there are none.
+/// However many there are, it grows to a few rows only: the rest is scrolled to.
 class JobPanel : public QWidget {
   Q_OBJECT
 

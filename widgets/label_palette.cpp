@@ -51,8 +51,8 @@ LabelPalette::LabelPalette(QWidget* parent)
       tree_(new QTreeWidget(this)),
       hint_(new QLabel(this)),
       add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
-      rename_(make_tool_button(
-          {"labels.rename", "rename", tr("Rename this label"), tr("Rename")}, this)),
+      rename_(make_tool_button({"labels.rename", "rename", tr("Rename this label"), tr("Rename")},
+                               this)),
       remove_(make_tool_button(
           {"labels.remove", "trash", tr("Remove this label and what is painted with it (Delete)"),
            tr("Remove")},

@@ -72,7 +72,8 @@ MetricTable::MetricTable(QWidget* parent)
       table_(new QTableWidget(this)),
       empty_(
           new QLabel(tr("Metrics appear here once there is a result and a ground truth."), this)),
-      copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV (Ctrl+C)"), tr("CSV")}, this)),
+      copy_csv_(make_tool_button({"metrics.copyCsv", "copy", tr("Copy as CSV (Ctrl+C)"), tr("CSV")},
+                                 this)),
       copy_latex_(
           make_tool_button({"metrics.copyLatex", "copy", tr("Copy as LaTeX"), tr("LaTeX")}, this)),
       save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save")},
@@ -207,7 +208,10 @@ void MetricTable::setSides(quint64 a, quint64 b) {
     QTableWidgetItem* item = table_->item(row, 0);
     const quint64 id = item->data(kIdRole).toULongLong();
     if (id == a) table_->selectRow(row);
-    item->setIcon(side_icon(b == 0 ? Side::None : id == a ? Side::A : id == b ? Side::B : Side::None));
+    item->setIcon(side_icon(b == 0    ? Side::None
+                            : id == a ? Side::A
+                            : id == b ? Side::B
+                                      : Side::None));
   }
   fitColumns();
 }

@@ -23,10 +23,10 @@ namespace {
 using render::Quantity;
 
 constexpr Quantity kQuantities[] = {
-    Quantity::View,       Quantity::Disparity, Quantity::Background,  Quantity::Layers,
-    Quantity::Confidence, Quantity::Truth,     Quantity::SignedError, Quantity::AbsoluteError,
-    Quantity::BadPixels,  Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,
-    Quantity::Uncertainty, Quantity::Edges,    Quantity::WrongLabels};
+    Quantity::View,        Quantity::Disparity, Quantity::Background,   Quantity::Layers,
+    Quantity::Confidence,  Quantity::Truth,     Quantity::SignedError,  Quantity::AbsoluteError,
+    Quantity::BadPixels,   Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,
+    Quantity::Uncertainty, Quantity::Edges,     Quantity::WrongLabels};
 constexpr double kFocusStep = 0.01;  // px a slider step.
 
 int slider_value(double focus_px) {

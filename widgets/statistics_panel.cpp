@@ -54,16 +54,16 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
 
 void StatisticsPanel::setSummary(const Summary& summary) {
   const auto& statistics = summary.statistics;
-  const QString title = summary.unit.isEmpty() ? summary.title
-                                               : tr("%1 [%2]").arg(summary.title, summary.unit);
+  const QString title =
+      summary.unit.isEmpty() ? summary.title : tr("%1 [%2]").arg(summary.title, summary.unit);
   title_->setFullText(tr("%1 · in sight").arg(title));
   histogram_->setHistogram(statistics.histogram, summary.shading);
   const double numbers[] = {statistics.min, statistics.median, statistics.mean, statistics.max};
   for (std::size_t i = 0; i < std::size(numbers); ++i) {
     values_[i]->setText(statistics.count == 0 ? QString("–") : number_text(numbers[i]));
   }
-  values_[kBad]->setText(
-      summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2) : QString("–"));
+  values_[kBad]->setText(summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2)
+                                             : QString("–"));
   values_[kInvalid]->setText(QLocale::c().toString(static_cast<qulonglong>(statistics.invalid)));
   updateColors();
 }

@@ -138,8 +138,8 @@ void TileWall::arrange() {
   if (count() == 0 || room.isEmpty()) return;
   const LinkedZoom before = zoom();
   const QSize picture = tile(0)->picture().isNull() ? QSize(1, 1) : tile(0)->picture().size();
-  columns_ = std::min(best_columns(count(), picture, room),
-                      std::max(1, room.width() / kLeastWidth));
+  columns_ =
+      std::min(best_columns(count(), picture, room), std::max(1, room.width() / kLeastWidth));
   const int rows = (count() + columns_ - 1) / columns_;
   const QSize size(room.width() / columns_ - kGap,
                    std::max(kLeastHeight, room.height() / rows - kGap));
@@ -147,9 +147,8 @@ void TileWall::arrange() {
   verticalScrollBar()->setSingleStep(size.height() + kGap);
   is_following_ = true;
   for (int i = 0; i < count(); ++i) {
-    tile(i)->setGeometry(QRect(QPoint(i % columns_ * (size.width() + kGap),
-                                      i / columns_ * (size.height() + kGap)),
-                               size));
+    tile(i)->setGeometry(QRect(
+        QPoint(i % columns_ * (size.width() + kGap), i / columns_ * (size.height() + kGap)), size));
   }
   is_following_ = false;
   setZoom(before);

@@ -14,7 +14,7 @@ struct Tile {
   quint64 id = 0;
   QString caption;
   Side side = Side::None;
-  QImage picture;                       ///< Null: still being made.
+  QImage picture;                         ///< Null: still being made.
   ViewCanvas::PixelText pixel_text = {};  ///< Printed when zoomed in far enough; may be empty.
 };
 
@@ -43,7 +43,9 @@ class TileWall : public QScrollArea {
   [[nodiscard]] int count() const { return static_cast<int>(ids_.size()); }
   [[nodiscard]] int columns() const { return columns_; }
   /// In the order given to `setTiles`.
-  [[nodiscard]] ViewCanvas* tile(int index) const { return tiles_[static_cast<std::size_t>(index)]; }
+  [[nodiscard]] ViewCanvas* tile(int index) const {
+    return tiles_[static_cast<std::size_t>(index)];
+  }
   /// What zoom commands act on: the tile under the mouse, else the first; null without tiles.
   [[nodiscard]] ViewCanvas* active() const;
 

@@ -22,9 +22,10 @@ class BrushTool;
 /// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
 ///
 /// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
-/// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view. Keys
-/// are left to the host, whose commands call the slots. With a tool in hand, the left and right
-/// buttons belong to it, Ctrl+click moves the cross-hair, and Ctrl+Shift+wheel changes its size.
+/// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view.
+/// Keys are left to the host, whose commands call the slots. With a tool in hand, the left and
+/// right buttons belong to it, Ctrl+click moves the cross-hair, and Ctrl+Shift+wheel changes its
+/// size.
 class ViewCanvas : public QWidget {
   Q_OBJECT
 

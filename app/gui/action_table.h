@@ -24,12 +24,12 @@ enum class KeyScope {
 
 /// One command: all that menus, tool bars, tool tips, the list of keys and the palette show of it.
 struct Command {
-  QString id;  ///< "view.next_column"
+  QString id;    ///< "view.next_column"
   QString menu;  ///< "View"; "View › Zoom" for a menu in a menu that has commands already.
   QString text;  ///< As in the menu, without mnemonic.
   QString tip;   ///< A sentence on what it does.
   QString icon;  ///< Of resources/icons; may be empty.
-  QList<QKeySequence> keys;  ///< Until the user gives it others.
+  QList<QKeySequence> keys;   ///< Until the user gives it others.
   std::function<void()> run;  ///< May be empty: whoever needs it listens to the action.
   KeyScope scope = KeyScope::Window;
   bool is_checkable = false;

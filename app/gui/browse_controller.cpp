@@ -126,8 +126,7 @@ void BrowseController::startThumbnails() {
       },
       [this, grid = session_.light_field()->grid()](Pictures pictures) {
         for (int i = 0; i < grid.count(); ++i) {
-          panels_.view_grid->setThumbnail(grid.view_at(i),
-                                          to_qimage(std::move(pictures[i])));
+          panels_.view_grid->setThumbnail(grid.view_at(i), to_qimage(std::move(pictures[i])));
         }
       });
 }

@@ -23,8 +23,8 @@ constexpr quint64 kViewTile = 0;
 constexpr quint64 kTruthTile = std::numeric_limits<quint64>::max();
 
 bool is_of_a_result(Quantity quantity) {
-  return quantity != Quantity::View && quantity != Quantity::Truth && quantity != Quantity::Labels &&
-         !is_of_segmentation(quantity);
+  return quantity != Quantity::View && quantity != Quantity::Truth &&
+         quantity != Quantity::Labels && !is_of_segmentation(quantity);
 }
 
 QStringList value_text(const OverlayMap& map, int y, int x) {
@@ -176,16 +176,15 @@ std::vector<CompareController::Entry> CompareController::sides() const {
   std::vector<Entry> entries;
   for (const Side side : {Side::A, Side::B}) {
     const OverlayChoice choice = side == Side::A ? overlay_.choiceA() : overlay_.choiceB();
-    entries.push_back({static_cast<quint64>(side), overlay_.describe(choice), side,
-                       request(choice), {}});
+    entries.push_back(
+        {static_cast<quint64>(side), overlay_.describe(choice), side, request(choice), {}});
   }
   return entries;
 }
 
 QString CompareController::captionOf(const EstimateEntry& entry) const {
   const QString name = QString::fromStdString(entry.name);
-  const auto evaluation =
-      session_.evaluation({entry.id, judged_view(session_), Protocol::Vmv2013});
+  const auto evaluation = session_.evaluation({entry.id, judged_view(session_), Protocol::Vmv2013});
   const auto mse = evaluation ? find_metric(evaluation->metrics, "mse_100") : std::nullopt;
   return mse ? tr("%1 · MSE %2").arg(name).arg(*mse, 0, 'f', 2) : name;
 }
@@ -193,8 +192,8 @@ QString CompareController::captionOf(const EstimateEntry& entry) const {
 std::vector<CompareController::Entry> CompareController::everything() const {
   std::vector<Entry> entries = {{kViewTile, tr("view"), Side::None, request(std::nullopt), {}}};
   if (session_.has_truth(session_.view())) {
-    entries.push_back({kTruthTile, tr("truth"), Side::None,
-                       request(OverlayChoice{Quantity::Truth, 0, 0}), {}});
+    entries.push_back(
+        {kTruthTile, tr("truth"), Side::None, request(OverlayChoice{Quantity::Truth, 0, 0}), {}});
   }
   const EstimateEntry* shown = session_.shown();
   const EstimateEntry* compared = session_.compared();
@@ -209,7 +208,8 @@ std::vector<CompareController::Entry> CompareController::everything() const {
     const Side side = is_compared                         ? Side::B
                       : compared && shown->id == entry.id ? Side::A
                                                           : Side::None;
-    entries.push_back({static_cast<quint64>(entry.id), captionOf(entry), side, request(choice), {}});
+    entries.push_back(
+        {static_cast<quint64>(entry.id), captionOf(entry), side, request(choice), {}});
   }
   return entries;
 }

@@ -50,13 +50,14 @@ void add_runs(ActionTable& table, MainWindow& window) {
              .icon = "tiles",
              .keys = {tr("Shift+U")},
              .run = [&segment] { segment.segmentAllViews(); }});
-  table.add({.id = "segment.export",
-             .menu = menu,
-             .text = tr("Export segmentation…"),
-             .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
-             .icon = "export",
-             .keys = {},
-             .run = [&window] { window.exporter().exportSegmentationDialog(); }});
+  table.add(
+      {.id = "segment.export",
+       .menu = menu,
+       .text = tr("Export segmentation…"),
+       .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
+       .icon = "export",
+       .keys = {},
+       .run = [&window] { window.exporter().exportSegmentationDialog(); }});
 }
 
 void add_overlays(ActionTable& table, MainWindow& window) {

@@ -75,12 +75,12 @@ void StatisticsController::begin() {
       is_result ? session_.evaluation({choice_.estimate, session_.view(), Protocol::Vmv2013})
                 : nullptr;
   job_.start<Counted>(
-      [map = map_, region, evaluation, shown = overlay_.shadingOf(choice_).range](
-          const Progress& progress) {
+      [map = map_, region, evaluation,
+       shown = overlay_.shadingOf(choice_).range](const Progress& progress) {
         progress.check();
-        return Counted{render::region_statistics({map->map, map->valid, map->inside}, region, shown,
-                                                 kBars),
-                       bad_percent(evaluation, region)};
+        return Counted{
+            render::region_statistics({map->map, map->valid, map->inside}, region, shown, kBars),
+            bad_percent(evaluation, region)};
       },
       [this](const Counted& counted) { show(counted); });
 }

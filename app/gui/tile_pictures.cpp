@@ -39,10 +39,10 @@ std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requ
     const TileRequest& request = requests[static_cast<std::size_t>(i)];
     TilePicture& picture = pictures[static_cast<std::size_t>(i)];
     if (request.source) picture.map = make_overlay_map(*request.source);
-    picture.picture = blend(
-        render::shade_view(*request.light_field, request.view),
-        picture.map ? shade_overlay(*picture.map, request.shading) : Image<std::uint8_t>(),
-        request.opacity);
+    picture.picture =
+        blend(render::shade_view(*request.light_field, request.view),
+              picture.map ? shade_overlay(*picture.map, request.shading) : Image<std::uint8_t>(),
+              request.opacity);
   });
   return pictures;
 }

@@ -23,9 +23,9 @@ enum class LiveState : std::uint8_t {
   Failed      ///< `sentence` says why.
 };
 
-/// Segments the view that is looked at, in the background, of which only the newest request matters:
-/// a new one cancels that under way, within 200 ms. It has a thread of its own, of lower priority
-/// than the owner's. All members are for the owner's thread.
+/// Segments the view that is looked at, in the background, of which only the newest request
+/// matters: a new one cancels that under way, within 200 ms. It has a thread of its own, of lower
+/// priority than the owner's. All members are for the owner's thread.
 class LiveLabeler {
  public:
   /// Views whose labels are kept, so that going to and fro need not wait.

@@ -41,7 +41,8 @@ bool is_same_scene(const LabelingInput& a, const LabelingInput& b) {
 
 bool is_same(const LabelingInput& a, const LabelingInput& b) {
   const Schema<LabelerParameters> schema = labeler_schema();
-  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters) && *a.scribbles == *b.scribbles;
+  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters) &&
+         *a.scribbles == *b.scribbles;
 }
 
 LabelerParameters possible_parameters(const LabelingInput& input) {
@@ -53,8 +54,7 @@ LabelerParameters possible_parameters(const LabelingInput& input) {
 }
 
 LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
-                       const std::function<void(LabelingPtr)>& on_draft,
-                       const Progress& progress) {
+                       const std::function<void(LabelingPtr)>& on_draft, const Progress& progress) {
   return std::make_shared<const Labeling>(
       labeler.label(scribbles_of(*input.scribbles), possible_parameters(input), {view, {1, 1}},
                     progress, [&](const Labeling& draft) { on_draft(copy(draft)); }));
@@ -62,10 +62,9 @@ LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex v
 
 LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress) {
   Labeler labeler = new_labeler(input);
-  return std::make_shared<const Labeling>(labeler.label(scribbles_of(*input.scribbles),
-                                                        possible_parameters(input),
-                                                        {{0, 0}, input.light_field->grid()},
-                                                        progress));
+  return std::make_shared<const Labeling>(
+      labeler.label(scribbles_of(*input.scribbles), possible_parameters(input),
+                    {{0, 0}, input.light_field->grid()}, progress));
 }
 
 }  // namespace episcope

@@ -34,8 +34,8 @@ struct LabelingInput {
 
 /// Segments one view while somebody paints: `on_draft` gets the most probable label of each pixel
 /// if smoothing is still to come. `labeler` keeps features between calls and must be that of the
-/// input's light field, disparity and edges. The labeling covers the view alone. Throws InvalidInput
-/// unless two labels are painted, Cancelled.
+/// input's light field, disparity and edges. The labeling covers the view alone. Throws
+/// InvalidInput unless two labels are painted, Cancelled.
 [[nodiscard]] LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
                                      const std::function<void(LabelingPtr)>& on_draft,
                                      const Progress& progress);

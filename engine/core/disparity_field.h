@@ -25,9 +25,7 @@ struct DisparityField {
   ViewStack<std::uint8_t> valid;  ///< Same shape, 0 = invalid; empty = all valid.
 
   [[nodiscard]] bool empty() const { return disparity.empty(); }
-  [[nodiscard]] bool contains(ViewIndex view) const {
-    return !empty() && disparity.contains(view);
-  }
+  [[nodiscard]] bool contains(ViewIndex view) const { return !empty() && disparity.contains(view); }
   /// Precondition: `contains(view)`.
   [[nodiscard]] DisparityView view(ViewIndex view) const {
     return {disparity.view(view),

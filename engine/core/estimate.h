@@ -23,12 +23,12 @@ struct Estimate {
   ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
   LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
 
-  std::string method;       ///< Id as in `episcope-cli methods`; of foreign results any name.
-  ParameterSet parameters;  ///< Every parameter of the method with the value used.
-  Interval range{};         ///< Disparity range searched, px per view step; {0, 0} = unknown.
-  double seconds = 0;       ///< Wall-clock time; 0 = unknown.
-  std::string version;      ///< Of Episcope.
-  std::string source;       ///< Path or name of the light field.
+  std::string method;             ///< Id as in `episcope-cli methods`; of foreign results any name.
+  ParameterSet parameters;        ///< Every parameter of the method with the value used.
+  Interval range{};               ///< Disparity range searched, px per view step; {0, 0} = unknown.
+  double seconds = 0;             ///< Wall-clock time; 0 = unknown.
+  std::string version;            ///< Of Episcope.
+  std::string source;             ///< Path or name of the light field.
   std::uint64_t source_hash = 0;  ///< LightField::sample_hash, 0 = unknown.
   std::vector<std::string> notes;  ///< What a user should know of this run: gap, unsolved views.
 

@@ -31,9 +31,7 @@ struct ImageView {
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(height) * width * channels;
   }
-  operator ImageView<const T>() const
-    requires(!std::is_const_v<T>)
-  {
+  operator ImageView<const T>() const requires(!std::is_const_v<T>) {
     return {data, height, width, channels, row_stride};
   }
 };

@@ -58,7 +58,8 @@ class JobRunner {
         [done = std::move(done), outcome] { done(std::move(*outcome)); }, std::move(on_progress));
   }
 
-  /// Asks a queued or running job to stop; its outcome says whether it did. Unknown ids are ignored.
+  /// Asks a queued or running job to stop; its outcome says whether it did. Unknown ids are
+  /// ignored.
   void cancel(JobId id);
   /// Asks a running job for the best result so far (Progress::finish_requested); a queued one ends
   /// after its first look. Unknown ids are ignored.

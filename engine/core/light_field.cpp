@@ -31,7 +31,8 @@ LightField::LightField(Samples samples, LightFieldInfo info)
         height_ = stack.height();
         width_ = stack.width();
         channels_ = stack.channels();
-        if (stack.empty() || stack.size() == 0) throw InvalidInput("the light field has no samples");
+        if (stack.empty() || stack.size() == 0)
+          throw InvalidInput("the light field has no samples");
         if (!(stack.first() == ViewIndex{})) {
           throw InvalidInput("the views of a light field must begin at view (0, 0)");
         }

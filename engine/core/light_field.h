@@ -31,8 +31,7 @@ struct LightFieldInfo {
 /// (x − d·(u − u_c), y − d·(v − v_c)): see CameraGrid for d.
 class LightField {
  public:
-  using Samples =
-      std::variant<ViewStack<std::uint8_t>, ViewStack<std::uint16_t>, ViewStack<float>>;
+  using Samples = std::variant<ViewStack<std::uint8_t>, ViewStack<std::uint16_t>, ViewStack<float>>;
 
   /// Throws InvalidInput if the stack is empty, has other than 1 or 3 channels or does not begin at
   /// view (0, 0).

@@ -54,11 +54,17 @@ void Progress::check() const {
   if (shared_->stop.stop_requested()) throw Cancelled{};
 }
 
-bool Progress::stop_requested() const { return shared_->stop.stop_requested(); }
+bool Progress::stop_requested() const {
+  return shared_->stop.stop_requested();
+}
 
-bool Progress::finish_requested() const { return shared_->finish.stop_requested(); }
+bool Progress::finish_requested() const {
+  return shared_->finish.stop_requested();
+}
 
-int Progress::threads() const { return is_alone_ ? 1 : shared_->threads; }
+int Progress::threads() const {
+  return is_alone_ ? 1 : shared_->threads;
+}
 
 Progress Progress::part(double begin, double end) const {
   Progress inner = *this;

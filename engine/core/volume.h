@@ -32,9 +32,7 @@ struct VolumeView {
   [[nodiscard]] std::size_t size() const {
     return static_cast<std::size_t>(height) * layers * width;
   }
-  operator VolumeView<const T>() const
-    requires(!std::is_const_v<T>)
-  {
+  operator VolumeView<const T>() const requires(!std::is_const_v<T>) {
     return {data, height, layers, width};
   }
 };

@@ -30,9 +30,8 @@ void raise_row(const float* r, double power, int width, float* raised) {
 }
 
 // Denoises every view of `estimate` in place; returns the largest relative gap.
-double denoise_views(const LightField& lf, const DenoiseParameters& parameters,
-                                  float least_weight, Estimate& estimate,
-                                  const Progress& progress) {
+double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float least_weight,
+                     Estimate& estimate, const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
   const ViewIndex first = disparity.first();

@@ -41,10 +41,10 @@ struct EpiCParameters : EpiSParameters {
 ///
 /// Defaults: λ = 0.06, p = 6, β = 30. Of the sets tried (λ 0.03 to 0.3, p 2 to 12, β 15 to 30) on
 /// edge, bars, objects and demo with noise of 0, 2 and 5/255 the one that is better than EPI_S on
-/// all, mean over views and every single view looked at: at 96 px its MSE is 0.36 times that of EPI_S
-/// in the centre view, 0.53 times over all (geometric means). β = 20 has less on average (0.30) but
-/// spoils single views, on whose edge a column of pixels is undecided; p = 4 has fewer pixels that
-/// are wrong by 0.07 px on slanted ground (still_life 4 %, now 6 %).
+/// all, mean over views and every single view looked at: at 96 px its MSE is 0.36 times that of
+/// EPI_S in the centre view, 0.53 times over all (geometric means). β = 20 has less on average
+/// (0.30) but spoils single views, on whose edge a column of pixels is undecided; p = 4 has fewer
+/// pixels that are wrong by 0.07 px on slanted ground (still_life 4 %, now 6 %).
 ///
 /// The centre view alone needs all others as well: they are computed and dropped.
 /// The form of the constraint in the original paper was not recovered.

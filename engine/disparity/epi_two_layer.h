@@ -6,8 +6,8 @@
 
 namespace episcope {
 
-/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, of the denoising, and of the
-/// two layers.
+/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, of the denoising, and of
+/// the two layers.
 struct EpiTwoLayerParameters : EpiLParameters, DenoiseParameters {
   EpiTwoLayerParameters() { max_iterations = 30; }
 

@@ -29,8 +29,8 @@ struct TitledTable {
 
 /// As figure 7 of the paper: a scene a line, an entry a column, best entry first; then the average
 /// and the rank, and between them, if averages leave scenes out, that of all scenes an entry has
-/// with their number. Gaps are "–"; the note says which scenes the averages leave out and for whom. The
-/// least score of each line is stressed. Entries and scenes without any score are left out.
+/// with their number. Gaps are "–"; the note says which scenes the averages leave out and for whom.
+/// The least score of each line is stressed. Entries and scenes without any score are left out.
 [[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);
 
 /// As figure 8: rank, algorithm, average MSE × 100, speed class by the mean time of its scenes,

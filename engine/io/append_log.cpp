@@ -49,8 +49,7 @@ void AppendLog::read_lines() {
 void AppendLog::append(const std::string& line) {
   const off_t size = ::lseek(file_.id(), 0, SEEK_END);
   errno = 0;
-  if (size >= 0 && write_all(file_.id(), bytes_of(line + "\n")) && ::fsync(file_.id()) == 0)
-    return;
+  if (size >= 0 && write_all(file_.id(), bytes_of(line + "\n")) && ::fsync(file_.id()) == 0) return;
   const IoError error = write_error(path_);
   // What cannot be taken back now is dropped when the log is opened again.
   [[maybe_unused]] const int ignored = size < 0 ? -1 : ::ftruncate(file_.id(), size);

@@ -23,8 +23,8 @@ struct ArchiveTruth {
 /// the centre view is read. Throws IoError, Cancelled.
 [[nodiscard]] ArchiveTruth read_archive_depth(const Hdf5Input& file,
                                               const LightField::Samples& samples,
-                                              const OpenOptions& options,
-                                              ConventionReport& report, const Progress& progress);
+                                              const OpenOptions& options, ConventionReport& report,
+                                              const Progress& progress);
 
 /// Camera attributes as stored, on the root or on LF; an unknown camera if they are missing, if one
 /// is not finite, or if the file states that it has none.

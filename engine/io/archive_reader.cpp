@@ -189,8 +189,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
   scale_float_samples(samples, report);
   progress.step("reading depth");
-  ArchiveTruth depth =
-      read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
+  ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
   ArchiveLabels labels;
   if (options.needs_truth) {
@@ -202,8 +201,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                     std::move(labels.labels),
                     {}};
   info.camera = depth.camera;
-  assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)},
-           options, scene, progress);
+  assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)}, options,
+           scene, progress);
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);

@@ -16,7 +16,6 @@ struct SceneParts {
 /// The end of reading a light field: brings the parts into the house order, turns samples that are
 /// no numbers into 0, and puts light field and truth, if it is needed, into `scene`, whose
 /// report is continued. Throws Cancelled.
-void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
-              const Progress& progress);
+void assemble(SceneParts parts, const OpenOptions& options, Scene& scene, const Progress& progress);
 
 }  // namespace episcope::io

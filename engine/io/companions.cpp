@@ -117,10 +117,9 @@ void write_edge_weights(const std::filesystem::path& path, const ViewStack<float
                         const Scene& scene, const Progress& progress) {
   progress.check();
   const LightField& field = *scene.light_field;
-  const Hdf5Shape shape{static_cast<std::size_t>(weights.grid().v),
-                        static_cast<std::size_t>(weights.grid().u),
-                        static_cast<std::size_t>(weights.height()),
-                        static_cast<std::size_t>(weights.width())};
+  const Hdf5Shape shape{
+      static_cast<std::size_t>(weights.grid().v), static_cast<std::size_t>(weights.grid().u),
+      static_cast<std::size_t>(weights.height()), static_cast<std::size_t>(weights.width())};
   if (weights.channels() != 1 || shape != stack_shape(field)) {
     throw IoError(path, "edge weights of the shape " + shape_text(shape) +
                             " do not fit the light field of " + shape_text(stack_shape(field)) +

@@ -24,8 +24,8 @@ namespace episcope::io {
                                                  const Scene& scene, const Progress& progress);
 
 /// Writes edge weights of all views as EDGE_WEIGHTS in the order of views that the files of `scene`
-/// have, so that they may lie beside them. Atomic. Throws IoError, also if they do not fit the light
-/// field; Cancelled.
+/// have, so that they may lie beside them. Atomic. Throws IoError, also if they do not fit the
+/// light field; Cancelled.
 void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
                         const Scene& scene, const Progress& progress);
 

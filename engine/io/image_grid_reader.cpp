@@ -35,7 +35,9 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
   scale_float_samples(samples, report);
   GroundTruth truth;
   if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
-  assemble({std::move(samples), std::move(truth), std::move(info),
+  assemble({std::move(samples),
+            std::move(truth),
+            std::move(info),
             {{}, "rows and columns are as the names say"}},
            options, scene, progress);
   return scene;

@@ -281,7 +281,8 @@ struct Labeler::State {
     const int down = grid.u > 1 ? 0 : 1;
     const int across = 1 - down;
     const ViewIndex first{std::max(view.v - down, 0), std::max(view.u - across, 0)};
-    const ViewIndex last{std::min(view.v + down, grid.v - 1), std::min(view.u + across, grid.u - 1)};
+    const ViewIndex last{std::min(view.v + down, grid.v - 1),
+                         std::min(view.u + across, grid.u - 1)};
     return {first, {last.v - first.v + 1, last.u - first.u + 1}};
   }
 };

@@ -47,18 +47,18 @@ struct Labeling {
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
 /// strokes: what does not depend on them, edges and the features of views, is kept between calls
-/// (features of as many views as fit `kKeptBytes`, until many views are asked for at once), and so is
-/// the forest while it would be the same.
+/// (features of as many views as fit `kKeptBytes`, until many views are asked for at once), and so
+/// is the forest while it would be the same.
 ///
 /// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all painted
 /// views, as many of each label; it votes on the pixels of the views asked for by their features
 /// (engine/labeling/pixel_features.h). Its votes are weighed by how near the strokes of each label
 /// are along surfaces, exp(−nearness·excess) (engine/labeling/stroke_distance.h), for a forest
 /// knows nothing of what lies between a pixel and a stroke. Labels are then made consistent
-/// (engine/labeling/ray_labeling.h). A single view asked for with `rayspace` goes by its rays in the
-/// views beside it, for somebody waits; all views by those of all. Centre view, percentage right by
-/// two | eight neighbours: still life 95.83 | 95.83, demo 93.1 | 93.6; processor time with features
-/// 3.5 | 6.6 s.
+/// (engine/labeling/ray_labeling.h). A single view asked for with `rayspace` goes by its rays in
+/// the views beside it, for somebody waits; all views by those of all. Centre view, percentage
+/// right by two | eight neighbours: still life 95.83 | 95.83, demo 93.1 | 93.6; processor time with
+/// features 3.5 | 6.6 s.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighing by distance is ours: centre
 /// view, not regularised, percentage right without | with it, mean of three seeds: still life,

@@ -23,8 +23,8 @@ enum class Quantity {
   AbsoluteError,
   BadPixels,
   Labels,
-  Background,  ///< Disparity of what is seen through a surface.
-  Layers,      ///< Number of surfaces, 1 or 2.
+  Background,    ///< Disparity of what is seen through a surface.
+  Layers,        ///< Number of surfaces, 1 or 2.
   Segmentation,  ///< Labels learnt from scribbles.
   Probability,   ///< Of one label, 0 … 1.
   Uncertainty,   ///< How undecided labels are, 0 … 1.

@@ -80,8 +80,8 @@ int main(int argc, char** argv) {
   (void)bench::demo_768();  // rendered before anything is timed
   const std::vector<std::string> wanted(argv + 1, argv + argc);
   for (const Estimator& estimator : registered_estimators()) {
-    const bool is_wanted = wanted.empty() || std::count(wanted.begin(), wanted.end(),
-                                                        estimator.info.id) > 0;
+    const bool is_wanted =
+        wanted.empty() || std::count(wanted.begin(), wanted.end(), estimator.info.id) > 0;
     if (is_wanted) print_slowest(estimator);
   }
   return 0;

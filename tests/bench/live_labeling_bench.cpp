@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Labels of the centre view of 9×9 views of 512×512 pixels after a stroke, as the window asks for
 // them: the draft, the refined labels, and those of another view after the same strokes; against a
-// labeler that knows nothing yet, in the same run. The demo scene (11 labels), or the archive folder
-// still_life (13) where EPISCOPE_SHARED_DATA names its parent.
+// labeler that knows nothing yet, in the same run. The demo scene (11 labels), or the archive
+// folder still_life (13) where EPISCOPE_SHARED_DATA names its parent.
 #include "engine/disparity/registry.h"
 #include "engine/evaluation/label_accuracy.h"
 #include "engine/io/open.h"

@@ -50,8 +50,8 @@ const Volume<float>& costs() {
 SimplexResult solve(int iterations, double gap) {
   static SimplexSolver solver(kSize, kLabels, kSize);
   static Image<int> labels(kSize, kSize);
-  return solver.solve({costs().view(), {}, kSmoothness}, {iterations, gap, 1000000, {}},
-                      Progress(), labels.view());
+  return solver.solve({costs().view(), {}, kSmoothness}, {iterations, gap, 1000000, {}}, Progress(),
+                      labels.view());
 }
 
 // One iteration as one writes it down: isotropic TV, two duals.

@@ -123,8 +123,8 @@ class ThemeTest : public QObject {
 
     const QRect frame = style.subElementRect(QStyle::SE_CheckBoxIndicator, &option, &box);
     const QColor window = palette.color(QPalette::Window);
-    for (const QPoint at : {QPoint(frame.left(), frame.center().y()),
-                            QPoint(frame.center().x(), frame.bottom())}) {
+    for (const QPoint at :
+         {QPoint(frame.left(), frame.center().y()), QPoint(frame.center().x(), frame.bottom())}) {
       const QColor color = drawn.pixelColor(at);
       QVERIFY2(theme::contrast_ratio(window, color) >= kSeen, qPrintable(color.name()));
     }

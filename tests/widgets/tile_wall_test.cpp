@@ -16,8 +16,11 @@ namespace {
 std::vector<Tile> make_tiles(int count) {
   std::vector<Tile> tiles;
   for (int i = 0; i < count; ++i) {
-    tiles.push_back({static_cast<quint64>(10 + i), QString("result %1").arg(i), Side::None,
-                     coordinate_picture(60, 60), {}});
+    tiles.push_back({static_cast<quint64>(10 + i),
+                     QString("result %1").arg(i),
+                     Side::None,
+                     coordinate_picture(60, 60),
+                     {}});
   }
   return tiles;
 }

@@ -118,7 +118,8 @@ void ActionTableTest::palette_findsAndRunsACommand() {
   QTest::keyClick(edit, Qt::Key_Return);
 
   auto* canvas = f.window.panels().canvas;
-  QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(), 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(),
+                            30000);
 }
 
 namespace {
@@ -168,8 +169,8 @@ void ActionTableTest::changedKey_worksIsShownAndRemembered() {
 void ActionTableTest::keysOfTheView_areThoseOfTheTable_data() {
   QTest::addColumn<QString>("id");
   QTest::addColumn<bool>("in_grid");
-  for (const char* id : {"view.zoom_in", "view.zoom_out", "view.fit", "view.actual_size",
-                         "view.play"}) {
+  for (const char* id :
+       {"view.zoom_in", "view.zoom_out", "view.fit", "view.actual_size", "view.play"}) {
     QTest::newRow(id) << QString(id) << false;
   }
   for (const char* id : {"view.left", "view.right_most", "view.up", "view.down", "view.center"}) {

@@ -160,7 +160,8 @@ void CompareTest::tilesOfErrors_differByResult() {
   // White is no error, red is too far: the second result is redder in the middle of the picture.
   const auto color = [&f](int tile) { return f.wall()->tile(tile)->picture().pixelColor(48, 48); };
   QTRY_VERIFY_WITH_TIMEOUT(color(2) != color(3), 30000);
-  QCOMPARE(f.wall()->tile(0)->picture(), f.canvas()->picture().convertToFormat(QImage::Format_RGB32));
+  QCOMPARE(f.wall()->tile(0)->picture(),
+           f.canvas()->picture().convertToFormat(QImage::Format_RGB32));
 }
 
 void CompareTest::newResult_joinsTheTiles() {

@@ -162,10 +162,10 @@ class Painter {
     constexpr int kMoves = 15;
     ViewCanvas* canvas = window_.panels().canvas;
     const int stroke = number / kMoves;
-    const QPoint at =
-        canvas->positionOf({80 + stroke * 131 % 800 + 3 * (number % kMoves),
-                            80 + stroke * 197 % 600 + 20 * (number % kMoves)})
-            .toPoint();
+    const QPoint at = canvas
+                          ->positionOf({80 + stroke * 131 % 800 + 3 * (number % kMoves),
+                                        80 + stroke * 197 % 600 + 20 * (number % kMoves)})
+                          .toPoint();
     if (number % kMoves == 0) {
       QTest::mousePress(canvas, Qt::LeftButton, {}, at);
     } else if (number % kMoves == kMoves - 1) {

@@ -385,7 +385,8 @@ void MainWindowTest::anotherScene_dropsResults() {
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.session().generation() > former, 30000);
   QVERIFY(f.window.session().estimates().empty());
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(), 0, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(),
+                            0, 30000);
 }
 
 void MainWindowTest::closedScene_leavesTheEmptyWindow() {

@@ -86,7 +86,8 @@ class BuiltinViewsTest : public QObject {
 
     // Linear interpolation and occlusion leave a few grey levels; bars have occlusion everywhere.
     QVERIFY2(right_way < (id == "bars" ? 9 : 4), qPrintable(QString::number(right_way)));
-    QVERIFY2(wrong_way > 1.5 * right_way, qPrintable(QString("%1 %2").arg(right_way).arg(wrong_way)));
+    QVERIFY2(wrong_way > 1.5 * right_way,
+             qPrintable(QString("%1 %2").arg(right_way).arg(wrong_way)));
   }
 
   void planes_agreeAlongEveryRay_data() {

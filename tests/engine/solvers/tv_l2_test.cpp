@@ -291,9 +291,8 @@ void TvL2Test::solve_endsEarlyWhenAskedToFinish() {
   finish.request_stop();
   Image<float> u(40, 50);
 
-  const TvL2Result result =
-      TvL2Solver(40, 50).solve(images.problem(), {100000, 0, 10},
-                               Progress({}, finish.get_token(), {}, 1), u.view());
+  const TvL2Result result = TvL2Solver(40, 50).solve(
+      images.problem(), {100000, 0, 10}, Progress({}, finish.get_token(), {}, 1), u.view());
 
   QCOMPARE(result.iterations, 1);
   QVERIFY(result.gap > 0);
