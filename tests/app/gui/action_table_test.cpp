@@ -119,7 +119,7 @@ void ActionTableTest::palette_findsAndRunsACommand() {
 
   auto* canvas = f.window.panels().canvas;
   QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(),
-                            30000);
+                            kPatience);
 }
 
 namespace {
@@ -161,7 +161,7 @@ void ActionTableTest::changedKey_worksIsShownAndRemembered() {
   canvas->zoomIn();
   f.window.activateWindow();
   QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
-  QTRY_VERIFY_WITH_TIMEOUT(canvas->isFitted(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->isFitted(), kPatience);
   MainWindow next;
   QCOMPARE(next.actions().find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
 }
@@ -191,7 +191,7 @@ void ActionTableTest::keysOfTheView_areThoseOfTheTable() {
   QWidget* focused = in_grid ? static_cast<QWidget*>(panels.view_grid->cells()) : panels.canvas;
   focused->setFocus();
   f.window.activateWindow();
-  QTRY_VERIFY_WITH_TIMEOUT(focused->hasFocus(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(focused->hasFocus(), kPatience);
   const QSignalSpy ran(table.find(id), &QAction::triggered);
   const QKeyCombination own = table.keys(id).front()[0];
   const auto press = [&](QKeyCombination key) {

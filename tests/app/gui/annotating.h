@@ -13,7 +13,6 @@ namespace episcope {
 class Annotating : public WindowFixture {
  public:
   static constexpr ViewIndex kCenter{4, 4};
-  static constexpr int kPatience = 20'000;  // ms
 
   /// On a small built-in scene; nothing is painted on `edge`.
   explicit Annotating(const std::string& id = "edge");

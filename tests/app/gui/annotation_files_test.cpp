@@ -107,7 +107,7 @@ void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
   box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
   QVERIFY(box);
   box->button(QMessageBox::Discard)->click();
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), 30'000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), kPatience);
   QTRY_VERIFY(f.window.document().document());
   QVERIFY(f.document().scribbles().painted_views().empty());
   // The journal of what was discarded is gone.

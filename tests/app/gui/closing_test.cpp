@@ -64,7 +64,7 @@ void ClosingTest::whileTheNextSceneLoads() {
   f->window.open(f->writeScene("slant", mediumOptions()));
 
   // The preview of the next scene over the former one.
-  QTRY_VERIFY_WITH_TIMEOUT(f->window.panels().canvas->picture().width() == 256, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.panels().canvas->picture().width() == 256, kPatience);
   f.reset();
   QCoreApplication::processEvents(QEventLoop::AllEvents);
 }
@@ -83,7 +83,7 @@ void ClosingTest::whileTilesAreMade() {
   auto f = std::make_unique<WindowFixture>();
   f->openSmall();
   f->runAndWait();
-  QTRY_VERIFY_WITH_TIMEOUT(f->window.actions().find("compare.tiles")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.actions().find("compare.tiles")->isEnabled(), kPatience);
 
   f->window.compare().setMode(CompareMode::Wall);
   f.reset();

@@ -37,7 +37,8 @@ class Compared : public WindowFixture {
     // The session tells the window of them one turn later.
     const auto* tree = window.findChild<QTreeWidget*>("results.tree");
     [&] {
-      QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), static_cast<int>(offsets.size()), 30000);
+      QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), static_cast<int>(offsets.size()),
+                                kPatience);
     }();
     window.panels().canvas->setFocus();
   }
@@ -105,18 +106,18 @@ class CompareTest : public QObject {
 
 void CompareTest::keyG_showsTheViewTheTruthAndEveryResult() {
   Compared f({0.1F, 0.2F});
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.tiles")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.tiles")->isEnabled(), kPatience);
 
   f.key(Qt::Key_G);
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, kPatience);
   QVERIFY(f.wall()->isVisible());
   QVERIFY(!f.canvas()->isVisible());
   QVERIFY(f.window.actions().find("compare.tiles")->isChecked());
   for (int i = 0; i < 4; ++i) QCOMPARE(f.wall()->tile(i)->picture().size(), QSize(96, 96));
 
   f.key(Qt::Key_G);
-  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), kPatience);
   QVERIFY(!f.wall()->isVisible());
 }
 
@@ -125,7 +126,7 @@ void CompareTest::tiles_keepTheRegionInSight() {
   f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 4, {30, 40}});
 
   f.trigger("compare.tiles");
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, kPatience);
   QCOMPARE(f.wall()->zoom().center, QPointF(30, 40));
   QVERIFY(std::abs(f.wall()->zoom().relative_scale - 4) < 1e-6);
 
@@ -137,13 +138,13 @@ void CompareTest::tiles_keepTheRegionInSight() {
 void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
   Compared f({0.1F, 0.2F, 0.3F});
   f.trigger("compare.tiles");
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 5, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 5, kPatience);
 
   click_pixel(f.wall()->tile(2), {20, 33});  // after the view and the truth
 
   QCOMPARE(f.session().shown()->id, f.ids[0]);
   QVERIFY(f.session().cross_hair() == (PixelIndex{20, 33}));
-  QTRY_VERIFY_WITH_TIMEOUT(f.wall()->tile(4)->crossHair() == (PixelIndex{20, 33}), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.wall()->tile(4)->crossHair() == (PixelIndex{20, 33}), kPatience);
 
   QTest::mouseDClick(f.wall()->tile(3), Qt::LeftButton);
   QCOMPARE(f.session().shown()->id, f.ids[1]);
@@ -153,13 +154,13 @@ void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
 void CompareTest::tilesOfErrors_differByResult() {
   Compared f({0.0F, 0.15F});
   f.trigger("compare.tiles");
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, kPatience);
 
   f.window.overlay().setQuantity(render::Quantity::SignedError);
 
   // White is no error, red is too far: the second result is redder in the middle of the picture.
   const auto color = [&f](int tile) { return f.wall()->tile(tile)->picture().pixelColor(48, 48); };
-  QTRY_VERIFY_WITH_TIMEOUT(color(2) != color(3), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(color(2) != color(3), kPatience);
   QCOMPARE(f.wall()->tile(0)->picture(),
            f.canvas()->picture().convertToFormat(QImage::Format_RGB32));
 }
@@ -167,27 +168,27 @@ void CompareTest::tilesOfErrors_differByResult() {
 void CompareTest::newResult_joinsTheTiles() {
   Compared f({0.1F});
   f.trigger("compare.tiles");
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, kPatience);
 
   f.add(0.2F);
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, kPatience);
   f.session().remove_estimate(f.ids[0]);
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, kPatience);
 }
 
 void CompareTest::escape_leavesTheTiles() {
   Compared f({0.1F});
   f.trigger("compare.tiles");
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, kPatience);
 
   f.key(Qt::Key_Escape);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.canvas()->isVisible(), kPatience);
 }
 
 void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
   f.trigger("compare.wipe");
   QVERIFY(f.canvas()->wipePosition().has_value());
   const int width = f.canvas()->width();
@@ -201,7 +202,7 @@ void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
   QTest::mouseRelease(f.canvas(), Qt::LeftButton, {}, {width / 4, 40});
 
   QVERIFY(std::abs(*f.canvas()->wipePosition() - 0.25) < 0.01);
-  QTRY_VERIFY_WITH_TIMEOUT(color() != of_a, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(color() != of_a, kPatience);
   QVERIFY(f.session().view() == (ViewIndex{4, 4}));  // it was no parallax
   f.trigger("compare.wipe");
   QVERIFY(!f.canvas()->wipePosition());
@@ -210,11 +211,11 @@ void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
 
 void CompareTest::sideBySide_showsAAndB() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.sides")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.sides")->isEnabled(), kPatience);
 
   f.key(Qt::Key_H);
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 2, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 2, kPatience);
   QVERIFY(f.wall()->tile(0)->picture() != f.wall()->tile(1)->picture());
   const int shown = f.session().shown()->id;
   click_pixel(f.wall()->tile(1), {20, 33});
@@ -223,7 +224,7 @@ void CompareTest::sideBySide_showsAAndB() {
 
 void CompareTest::flip_marksWhichOneIsSeen() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
   const QImage of_a = f.canvas()->grab().toImage();
   const QRect badge(0, 0, 26, 26);
 
@@ -239,11 +240,11 @@ void CompareTest::flip_marksWhichOneIsSeen() {
 void CompareTest::difference_isOfAAndB() {
   Compared f({0.0F, 0.5F, 0.75F});
   f.session().compare_with(f.ids[0]);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.difference")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.difference")->isEnabled(), kPatience);
 
   f.key(Qt::Key_D);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().valueAt({48, 48}).has_value(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().valueAt({48, 48}).has_value(), kPatience);
   QVERIFY(std::abs(*f.window.overlay().valueAt({48, 48}) - 0.75) < 1e-5);
   QVERIFY(f.window.panels().color_bar->range() == (Interval{-0.2, 0.2}));  // a range of its own
 }
@@ -251,14 +252,14 @@ void CompareTest::difference_isOfAAndB() {
 void CompareTest::clickOnAMark_choosesB() {
   Compared f({0.1F, 0.2F, 0.3F});
   auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
-  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 3, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), 3, kPatience);
 
   QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, mark_of(*tree, 0));
 
   QCOMPARE(f.session().shown()->id, f.ids[2]);
   QCOMPARE(f.session().compared()->id, f.ids[0]);
   const auto* b = f.window.findChild<QComboBox*>("compare.b");
-  QTRY_COMPARE_WITH_TIMEOUT(b->currentData().toInt(), f.ids[0], 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(b->currentData().toInt(), f.ids[0], kPatience);
 }
 
 void CompareTest::chosenB_staysWhenAnotherIsShown() {
@@ -277,8 +278,8 @@ void CompareTest::rowOfTheMetricTable_showsItsResult() {
   Compared f({0.1F, 0.2F});
   f.window.panels().tabs->setCurrentIndex(1);
   auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, 30000);
-  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, kPatience);
 
   QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
                     table->visualItemRect(table->item(0, 0)).center());
@@ -292,7 +293,7 @@ void CompareTest::metricTable_isCopiedByKey() {
   Compared f({0.1F, 0.2F});
   f.window.panels().tabs->setCurrentIndex(1);
   auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, kPatience);
   f.window.activateWindow();
   table->setFocus();
 
@@ -307,17 +308,17 @@ void CompareTest::statistics_areOfWhatIsInSight() {
   Compared f({0.25F});
   f.window.overlay().setQuantity(render::Quantity::SignedError);
   const auto& known = f.window.statistics().statistics();
-  QTRY_VERIFY_WITH_TIMEOUT(known && known->count + known->invalid == 96U * 96U, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(known && known->count + known->invalid == 96U * 96U, kPatience);
   QVERIFY(std::abs(known->median - -0.25) < 1e-5);
   QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().statistics->text().contains("bad 100.00 %"),
-                            qPrintable(f.window.panels().statistics->text()), 30000);
+                            qPrintable(f.window.panels().statistics->text()), kPatience);
 
   f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 6, {48, 48}});
 
   const QRect seen = f.canvas()->visiblePixels();
   QVERIFY(seen.width() < 40);
   QTRY_VERIFY_WITH_TIMEOUT(
-      known && known->count == static_cast<std::size_t>(seen.width() * seen.height()), 30000);
+      known && known->count == static_cast<std::size_t>(seen.width() * seen.height()), kPatience);
 }
 
 void CompareTest::automaticRange_isThatOfWhatIsInSight() {
@@ -329,17 +330,17 @@ void CompareTest::automaticRange_isThatOfWhatIsInSight() {
 
   const ColorBar* bar = f.window.panels().color_bar;
   // Zero stays in the middle.
-  QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, kPatience);
   QVERIFY(std::abs(bar->range().min - -0.25) < 0.01);
   f.key(Qt::Key_R);
-  QTRY_VERIFY_WITH_TIMEOUT(bar->range() == own, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(bar->range() == own, kPatience);
 }
 
 void CompareTest::draggedHandle_changesTheColours() {
   Compared f({0.25F});
   f.window.panels().tabs->setCurrentIndex(1);
   auto* view = f.window.findChild<HistogramView*>();
-  QTRY_VERIFY_WITH_TIMEOUT(!view->histogram().counts.empty() && view->isVisible(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!view->histogram().counts.empty() && view->isVisible(), kPatience);
   const QImage before = f.window.overlay().picture();
   const Interval range = view->range();
   const QPoint from(static_cast<int>(view->xOf(range.max)), view->height() / 2);
@@ -350,7 +351,7 @@ void CompareTest::draggedHandle_changesTheColours() {
 
   QVERIFY(view->range().max < range.max);
   QCOMPARE(view->range().min, range.min);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
 }
 
 void CompareTest::valuesOfAAndB_comeFirst() {
@@ -359,7 +360,7 @@ void CompareTest::valuesOfAAndB_comeFirst() {
     return f.window.panels().values->text().indexOf(name);
   };
 
-  QTRY_VERIFY_WITH_TIMEOUT(place("off 3 ") > 0, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(place("off 3 ") > 0, kPatience);
   QVERIFY(place("off 3 ") < place("off 2 "));
 }
 
@@ -375,12 +376,12 @@ void CompareTest::withoutResults_nothingCanBeCompared() {
 void CompareTest::closedScene_leavesEveryMode() {
   for (const char* id : {"compare.tiles", "compare.sides", "compare.wipe"}) {
     Compared f({0.1F, 0.2F});
-    QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find(id)->isEnabled(), 30000);
+    QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find(id)->isEnabled(), kPatience);
     f.trigger(id);
 
     f.trigger("file.close");
 
-    QTRY_COMPARE_WITH_TIMEOUT(f.canvas()->state(), ViewCanvas::State::Empty, 30000);
+    QTRY_COMPARE_WITH_TIMEOUT(f.canvas()->state(), ViewCanvas::State::Empty, kPatience);
     QVERIFY2(f.canvas()->isVisible(), id);
     QCOMPARE(f.window.compare().mode(), CompareMode::Single);
   }

@@ -38,7 +38,7 @@ void choose(QDialog* dialog, const char* name, int steps_down) {
   auto* box = dialog->findChild<QComboBox*>(name);
   QVERIFY(box);
   dialog->activateWindow();
-  QTRY_COMPARE_WITH_TIMEOUT(QApplication::activeWindow(), dialog, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(QApplication::activeWindow(), dialog, kPatience);
   box->setFocus();
   QTest::keyClick(box, Qt::Key_Home);
   for (int i = 0; i < steps_down; ++i) QTest::keyClick(box, Qt::Key_Down);
@@ -56,7 +56,7 @@ void apply(MainWindow& window, QDialog* dialog) {
   const auto before = window.session().generation();
   click(dialog, "conventions.apply");
   QTRY_VERIFY_WITH_TIMEOUT(window.session().generation() > before && window.session().scene(),
-                           60'000);
+                           kScenePatience);
 }
 
 QString order_shown(const MainWindow& window) {
@@ -109,7 +109,7 @@ void ConventionsTest::chosenOrder_readsTheFileAgain() {
   const auto after = f.window.session().light_field()->view<std::uint8_t>({0, 8});
   QVERIFY(std::equal(first.data, first.data + first.size(), after.data));
   QTRY_VERIFY2_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"),
-                            qPrintable(order_shown(f.window)), 30000);
+                            qPrintable(order_shown(f.window)), kPatience);
 }
 
 void ConventionsTest::choice_isRememberedForItsFileOnly() {
@@ -121,10 +121,11 @@ void ConventionsTest::choice_isRememberedForItsFileOnly() {
   apply(f.window, dialog);
 
   f.openSmall("slant");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("slant") != std::string::npos, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("slant") != std::string::npos,
+                           kPatience);
   QVERIFY(f.window.session().conventions().flip == Flip::Auto);
   f.openSmall("edge");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("edge") != std::string::npos, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("edge") != std::string::npos, kPatience);
 
   QVERIFY(f.window.session().conventions().flip == Flip::V);
   QVERIFY(f.window.session().scene()->convention.reversed_v);
@@ -137,8 +138,8 @@ void ConventionsTest::allAutomatic_forgetsTheChoice() {
   QVERIFY(dialog);
   choose(dialog, "conventions.order", 4);
   apply(f.window, dialog);
-  QTRY_VERIFY_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"), 30000);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), kPatience);
 
   dialog = open_dialog(f.window);
   QVERIFY(dialog);
@@ -146,7 +147,7 @@ void ConventionsTest::allAutomatic_forgetsTheChoice() {
   click(dialog, "conventions.reset");
   apply(f.window, dialog);
 
-  QTRY_VERIFY_WITH_TIMEOUT(!order_shown(f.window).contains("(set by you)"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!order_shown(f.window).contains("(set by you)"), kPatience);
   QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
 }
 
@@ -163,7 +164,7 @@ void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
     for (const auto* label : f.window.panels().info->findChildren<QLabel*>()) all += label->text();
     return all;
   };
-  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("(set by you)"), qPrintable(text()), 30000);
+  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("(set by you)"), qPrintable(text()), kPatience);
 }
 
 void ConventionsTest::copiedCommand_readsAlike() {
@@ -190,7 +191,7 @@ void ConventionsTest::cancel_changesNothing() {
 
   QTest::keyClick(dialog, Qt::Key_Escape);
 
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), kPatience);
   QCOMPARE(f.window.session().generation(), before);
   QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
 }
@@ -199,7 +200,7 @@ void ConventionsTest::builtinScene_hasNoChoice() {
   WindowFixture f;
   QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
   f.window.open("demo:fronto");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 120'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
 
   QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
 }
@@ -207,7 +208,7 @@ void ConventionsTest::builtinScene_hasNoChoice() {
 void ConventionsTest::gridOfOddNames_opensByPattern() {
   WindowFixture f;
   f.window.open(write_odd_grid(f.path("odd")));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), kPatience);
   QVERIFY(f.window.session().scene());
   // Left alone, a reader takes the first number for the row.
   QVERIFY(f.window.session().light_field()->grid() == (GridShape{4, 3}));
@@ -219,7 +220,7 @@ void ConventionsTest::gridOfOddNames_opensByPattern() {
   apply(f.window, dialog);
 
   QVERIFY(f.window.session().light_field()->grid() == (GridShape{3, 4}));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.Names"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.Names"), kPatience);
 }
 
 void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
@@ -227,7 +228,7 @@ void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
   const QString folder = write_odd_grid(f.path("odd"));
   QVERIFY(QFile::copy(folder + "/take-1of1-final.png", folder + "/take-7of9-final.png"));
   f.window.open(folder);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), kPatience);
   QVERIFY(!f.window.session().scene());
 }
 
@@ -240,7 +241,7 @@ void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
 
   f.window.open(folder);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, kScenePatience);
   QVERIFY(!overrules(f.window.session().conventions()));
   const auto& warnings = f.window.session().scene()->convention.warnings;
   QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {

@@ -23,7 +23,6 @@ namespace {
 
 using render::Quantity;
 
-constexpr int kPatience = 20'000;  // ms
 
 class Weighted : public WindowFixture {
  public:

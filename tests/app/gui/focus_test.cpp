@@ -43,12 +43,12 @@ class Focused : public WindowFixture {
   }
   QAction* action(const char* id) { return window.actions().find(id); }
   void waitFor(double baked_px) {
-    QTRY_COMPARE_WITH_TIMEOUT(baked(), baked_px, 30000);
-    QTRY_COMPARE_WITH_TIMEOUT(session().estimates().size(), 1U, 30000);
+    QTRY_COMPARE_WITH_TIMEOUT(baked(), baked_px, kPatience);
+    QTRY_COMPARE_WITH_TIMEOUT(session().estimates().size(), 1U, kPatience);
   }
   void clickApply() {
     auto* button = window.findChild<QToolButton*>("button.view.focus_apply");
-    QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), 30000);
+    QTRY_VERIFY_WITH_TIMEOUT(button->isEnabled(), kPatience);
     QTest::mouseClick(button, Qt::LeftButton);
   }
 };
@@ -105,8 +105,8 @@ void FocusTest::appliedFocus_keepsThePlace() {
   QVERIFY(f.session().view() == kView);
   QVERIFY(f.session().cross_hair() == kPixel);
   QCOMPARE(f.session().focus_px(), 0.0);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().overlay_bar->focus(), 0.0, 30000);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().overlay_bar->focus(), 0.0, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), kPatience);
 }
 
 void FocusTest::undo_bringsTheFileBack() {
@@ -120,7 +120,7 @@ void FocusTest::undo_bringsTheFileBack() {
   f.clickApply();
   f.waitFor(0.75);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.action("view.focus_undo")->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.action("view.focus_undo")->isEnabled(), kPatience);
   f.action("view.focus_undo")->trigger();
   f.waitFor(0);
 
@@ -140,11 +140,11 @@ void FocusTest::whileAMethodRuns_itIsRefused() {
   f.clickApply();
 
   QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().messages->text().contains("running"),
-                            qPrintable(f.window.panels().messages->text()), 30000);
+                            qPrintable(f.window.panels().messages->text()), kPatience);
   QCOMPARE(f.baked(), 0.0);
   QCOMPARE(f.window.jobs().count(), 1);
   f.window.jobs().cancelLane(Lane::Estimate);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
 }
 
 void FocusTest::whatIsPainted_isNotLost() {
@@ -156,7 +156,7 @@ void FocusTest::whatIsPainted_isNotLost() {
 
   const MessageBar* messages = f.window.panels().messages;
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("painted"), qPrintable(messages->text()),
-                            30000);
+                            kPatience);
   QCOMPARE(f.baked(), 0.0);
   QVERIFY(f.window.document().hasUnsavedChanges());
 }
@@ -172,7 +172,7 @@ void FocusTest::whatIsPaintedAtAPlane_isSavedWhereItBelongs() {
   QCOMPARE(f.document().scribbles().label_at(corner, {40, 20}), 1);
 
   f.key(Qt::Key_S, Qt::ControlModifier);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
   const ScribbleLayer painted = f.document().scribbles();
   f.trigger("view.focus_undo");
   f.waitFor(0);

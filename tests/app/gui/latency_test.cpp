@@ -30,8 +30,8 @@ using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr auto kInterval = std::chrono::milliseconds(5);
-constexpr int kInputsPerEvent = 4;  // every fourth event is an input that redraws the window
-constexpr double kFrame = 16;       // ms
+constexpr int kInputsPerEvent = 4;         // every fourth event is an input that redraws the window
+constexpr double kFrame = 16 * kSlowdown;  // ms
 constexpr int kAttempts = 4;
 
 // What a user does: moves the mouse over the view, and steps through the views.
@@ -66,7 +66,7 @@ std::vector<double> latencies(MainWindow& window, const std::function<void(int)>
       std::this_thread::sleep_for(kInterval);
     }
   });
-  [&] { QTRY_VERIFY_WITH_TIMEOUT(has_ended(), 120'000); }();
+  [&] { QTRY_VERIFY_WITH_TIMEOUT(has_ended(), kScenePatience); }();
   ends = true;
   clock.join();
   QCoreApplication::processEvents();  // the last of them still refer to `ages`
@@ -212,7 +212,7 @@ void LatencyTest::window_answersWhileAMethodRuns() {
   WindowFixture f;
   scenes::RenderOptions options;  // 9×9 views of 512×512
   f.window.open(f.writeScene("edge", options));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
 
   const auto ages =
       measured_calmly("event latency during EPI_L", [&] { return latencies_during_run(f.window); });
@@ -230,9 +230,9 @@ void LatencyTest::overlays_areMadeWithoutHoldingTheWindowUp() {
   options.height = options.width = 1024;
   f.window.resize(2560, 1440);
   f.window.open(f.writeScene("edge", options));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
   add_results(f.window.session(), 2);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kScenePatience);
 
   const auto ages = measured_calmly("event latency while overlays of 1024x1024 change", [&] {
     int given = 0;
@@ -247,11 +247,11 @@ void LatencyTest::overlays_areMadeWithoutHoldingTheWindowUp() {
 void LatencyTest::tiles_followInputWithinAFrame() {
   WindowFixture f;
   f.window.open(f.writeScene("edge", scenes::RenderOptions()));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
   add_results(f.window.session(), 10);
   TileWall* wall = f.window.panels().wall;
   f.window.compare().setMode(CompareMode::Wall);
-  QTRY_COMPARE_WITH_TIMEOUT(wall->count(), 12, 60'000);
+  QTRY_COMPARE_WITH_TIMEOUT(wall->count(), 12, kScenePatience);
 
   const auto ms = measured_calmly("12 tiles of 512x512 pixels", [&] {
     std::vector<double> frames;
@@ -274,11 +274,11 @@ void LatencyTest::strokes_arePaintedWhileLabelsAreMade() {
   options.grid = {3, 3};
   options.height = options.width = 1024;
   f.window.open(f.writeScene("objects", options));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.segment().labeler().has_input(), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.segment().labeler().has_input(), kScenePatience);
   f.window.actions().find("annotate.mode")->trigger();
   f.window.actions().find("segment.live")->trigger();
   const LiveLabeler& labeler = f.window.segment().labeler();
-  QTRY_VERIFY_WITH_TIMEOUT(labeler.labeling(f.window.session().view()), 60'000);
+  QTRY_VERIFY_WITH_TIMEOUT(labeler.labeling(f.window.session().view()), kScenePatience);
   const std::uint64_t state = f.window.document().document()->state();
 
   double share = 0;

@@ -106,8 +106,8 @@ void MainWindowTest::builtinScene_isEstimatedAtOnce() {
 
   f.window.open("demo:fronto");
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, 120'000);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
   QVERIFY(f.window.actions().find("overlay.signed_error")->isEnabled());
 }
 
@@ -125,7 +125,7 @@ void MainWindowTest::run_listsItsResultWithItsError() {
     return text;
   };
   QTRY_VERIFY2_WITH_TIMEOUT(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
-                            qPrintable(row_text()), 30000);
+                            qPrintable(row_text()), kPatience);
   QCOMPARE(f.window.overlay().quantity(), render::Quantity::Disparity);
 }
 
@@ -133,13 +133,13 @@ void MainWindowTest::errorOverlay_isOneClickAway() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
   const QImage before = f.window.overlay().picture();
   const QImage canvas_before = f.window.panels().canvas->grab().toImage();
 
   click_action(f.window, "overlay.signed_error");
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
   QVERIFY(f.window.panels().canvas->grab().toImage() != canvas_before);
   QVERIFY(f.window.actions().find("overlay.signed_error")->isChecked());
 }
@@ -151,14 +151,14 @@ void MainWindowTest::arrows_changeTheView() {
   const Session& session = f.window.session();
   canvas->setFocus();
   f.window.activateWindow();
-  QTRY_VERIFY_WITH_TIMEOUT(canvas->hasFocus(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->hasFocus(), kPatience);
   const QImage before = canvas->picture();
 
   QTest::keyClick(canvas, Qt::Key_Right);
   QVERIFY(session.view() == (ViewIndex{4, 5}));
   QTest::keyClick(canvas, Qt::Key_Up);
   QVERIFY(session.view() == (ViewIndex{3, 5}));
-  QTRY_VERIFY_WITH_TIMEOUT(canvas->picture() != before, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->picture() != before, kPatience);
   QTest::keyClick(canvas, Qt::Key_Left, Qt::ShiftModifier);
   QVERIFY(session.view() == (ViewIndex{3, 0}));
   QTest::keyClick(canvas, Qt::Key_Home);
@@ -175,7 +175,7 @@ void MainWindowTest::click_movesTheCrossHairAndTheEpis() {
   click_pixel(f.window.panels().canvas, {20, 33});
 
   QVERIFY(f.window.session().cross_hair() == (PixelIndex{20, 33}));
-  QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, kPatience);
 }
 
 void MainWindowTest::shiftClick_focusesAtThePixel() {
@@ -197,7 +197,7 @@ void MainWindowTest::valuesAtTheCursor_areRead() {
   QTest::mouseMove(canvas, canvas->positionOf({20, 33}).toPoint());
 
   const auto text = [&f] { return f.window.panels().values->text(); };
-  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("x 33 y 20"), qPrintable(text()), 30000);
+  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("x 33 y 20"), qPrintable(text()), kPatience);
   QVERIFY2(text().contains("truth") && text().contains("EPI_L"), qPrintable(text()));
 }
 
@@ -207,11 +207,11 @@ void MainWindowTest::heldTab_flips() {
   f.runAndWait();
   auto* canvas = f.window.panels().canvas;
   canvas->setFocus();
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
   const QImage before = f.window.overlay().picture();
 
   QTest::keyPress(canvas, Qt::Key_Tab);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
   QTest::keyRelease(canvas, Qt::Key_Tab);
 
   QCOMPARE(f.window.overlay().picture(), before);
@@ -225,7 +225,7 @@ void MainWindowTest::exportedResult_readsBack() {
   const QString path = f.path("résult 1.h5");
 
   f.window.exporter().exportResult(shown.id, path);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), kPatience);
 
   const Estimate read = io::read_result(path.toStdString(), {9, 9});
   QCOMPARE(read.method, std::string("epi_l"));
@@ -251,7 +251,7 @@ void MainWindowTest::exportedMap_marksInvalidPixels() {
       f.window.session().add_estimate(estimate, {-1, 1}, f.window.session().generation());
 
   f.window.exporter().exportResult(id, f.path("map.pfm"));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains("map.pfm"), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains("map.pfm"), kPatience);
 
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
@@ -263,8 +263,8 @@ void MainWindowTest::savedPicture_isTheShownOne() {
   f.openSmall();
 
   f.window.exporter().savePicture(f.path("view.png"));
-  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("view.png")), 30000);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("view.png")), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
 
   const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
   QCOMPARE(saved, f.window.panels().canvas->picture().convertToFormat(QImage::Format_RGB888));
@@ -278,7 +278,8 @@ void MainWindowTest::failedExport_isTold() {
   f.window.exporter().savePicture(path);
 
   const MessageBar* messages = f.window.panels().messages;
-  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(path), qPrintable(messages->text()), 30000);
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(path), qPrintable(messages->text()),
+                            kPatience);
   QCOMPARE(messages->severity(), Severity::Error);
 }
 
@@ -295,7 +296,7 @@ void MainWindowTest::brokenFile_isToldAndKeepsTheScene() {
 
   const MessageBar* messages = f.window.panels().messages;
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
-                            30000);
+                            kPatience);
   QVERIFY(messages->isVisible());
   QCOMPARE(f.window.session().scene(), scene);
   QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Picture);
@@ -306,7 +307,8 @@ void MainWindowTest::brokenFile_withoutScene_isDrawnAsError() {
 
   f.window.open("/no/such/place");
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Failed, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Failed,
+                            kPatience);
 }
 
 void MainWindowTest::droppedFile_isOpened() {
@@ -320,7 +322,7 @@ void MainWindowTest::droppedFile_isOpened() {
   QVERIFY(enter.isAccepted());
   QCoreApplication::sendEvent(&f.window, &drop);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, kPatience);
 }
 
 void MainWindowTest::openedResult_isListed() {
@@ -329,11 +331,11 @@ void MainWindowTest::openedResult_isListed() {
   f.runAndWait();
   const QString path = f.path("result.h5");
   f.window.exporter().exportResult(f.window.session().shown()->id, path);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), kPatience);
 
   f.window.opener().openResult(path);
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, kPatience);
   QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
 }
 
@@ -346,7 +348,7 @@ void MainWindowTest::resultOfAnotherLightField_isRefused() {
 
   const MessageBar* messages = f.window.panels().messages;
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("40×50"), qPrintable(messages->text()),
-                            30000);
+                            kPatience);
   QVERIFY(f.window.session().estimates().empty());
 }
 
@@ -367,9 +369,9 @@ void MainWindowTest::escape_cancelsTheRun() {
   QCOMPARE(f.window.jobs().count(), 2);
 
   QTest::keyClick(canvas, Qt::Key_Escape);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 1, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 1, kPatience);
   QTest::keyClick(canvas, Qt::Key_Escape);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
 
   QVERIFY(f.window.session().estimates().empty());
   QVERIFY(f.window.panels().messages->text().isEmpty());
@@ -383,10 +385,10 @@ void MainWindowTest::anotherScene_dropsResults() {
 
   f.window.open(f.writeScene("slant", WindowFixture::smallOptions()));
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().generation() > former, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().generation() > former, kPatience);
   QVERIFY(f.window.session().estimates().empty());
   QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(),
-                            0, 30000);
+                            0, kPatience);
 }
 
 void MainWindowTest::closedScene_leavesTheEmptyWindow() {
@@ -395,7 +397,7 @@ void MainWindowTest::closedScene_leavesTheEmptyWindow() {
 
   f.window.actions().find("file.close")->trigger();
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Empty, 30000);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Empty, kPatience);
   QCOMPARE(f.window.windowTitle(), QString("Episcope"));
 }
 
@@ -426,7 +428,7 @@ void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   auto* tabs = f.window.panels().tabs->tabBar();
   QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
-  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, kPatience);
 
   const QStringList wanted = {"Result",        "2013\nMSE",     "2016\nMSE", "2016\nbad .07",
                               "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
@@ -448,7 +450,7 @@ void MainWindowTest::largerWindow_givesItsRoomToTheView() {
 
   f.window.resize(2560, 1440);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().canvas->width() > view + 1000, 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().canvas->width() > view + 1000, kPatience);
   QCOMPARE(f.window.panels().info->width(), side);
   QCOMPARE(f.window.panels().tabs->width(), tabs);
 }

@@ -8,6 +8,7 @@
 #include "app/gui/main_window.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
+#include "tests/patience.h"
 #include "widgets/view_canvas.h"
 
 #include <QAction>
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {
   window.document().setJournalFolder(argv[1]);
   window.show();
   window.open(argv[2]);
-  if (!QTest::qWaitFor([&] { return window.document().document(); }, 30'000)) return 3;
+  if (!QTest::qWaitFor([&] { return window.document().document(); }, kPatience)) return 3;
   window.annotate().setAnnotating(true);
   for (int number = 0;; ++number) {
     paint(window, number);

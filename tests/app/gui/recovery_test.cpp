@@ -39,7 +39,7 @@ Painted paint_and_kill(WindowFixture& f, const QString& light_field) {
                                    light_field, f.path("settings of the dead")});
   QByteArray told;
   int lines = 0;
-  while (lines < kStrokes && (program.canReadLine() || program.waitForReadyRead(30'000))) {
+  while (lines < kStrokes && (program.canReadLine() || program.waitForReadyRead(kPatience))) {
     if (!program.canReadLine()) continue;
     told = program.readLine();
     ++lines;
@@ -84,7 +84,7 @@ void RecoveryTest::killedWindow_losesAtMostTheStrokeInProgress() {
           f.window.panels().recovery->text().contains("edge"));
   button(f, "message.action")->click();
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), 30'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
   const AnnotationDocument& document = *f.window.document().document();
   const std::size_t steps = document.history().applied_count();
   QVERIFY2(steps == painted.steps || steps == painted.steps + 1 || steps == painted.steps + 2,
@@ -120,9 +120,9 @@ void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {
   auto dying = std::make_unique<WindowFixture>();
   dying->window.document().setJournalFolder(f.window.document().journalFolder());
   dying->window.open(f.writeScene("edge", WindowFixture::smallOptions()));
-  QTRY_VERIFY_WITH_TIMEOUT(dying->window.document().document(), 30'000);
+  QTRY_VERIFY_WITH_TIMEOUT(dying->window.document().document(), kPatience);
   dying->window.opener().reopenAt(0.5, nullptr);
-  QTRY_COMPARE_WITH_TIMEOUT(dying->window.session().scene()->convention.focus_px, 0.5, 30'000);
+  QTRY_COMPARE_WITH_TIMEOUT(dying->window.session().scene()->convention.focus_px, 0.5, kPatience);
   QTRY_VERIFY(dying->window.document().document());
   dying->trigger("annotate.mode");
   dying->drag({40, 20}, {40, 60});
@@ -132,7 +132,7 @@ void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {
   QTRY_VERIFY(f.window.panels().recovery->isVisible());
   button(f, "message.action")->click();
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), 30'000);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
   QCOMPARE(f.window.session().scene()->convention.focus_px, 0.5);
   QCOMPARE(f.document().scribbles().label_at({4, 4}, {40, 41}), 1);
   f.window.document().discardChanges();

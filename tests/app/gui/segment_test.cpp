@@ -22,8 +22,6 @@ namespace {
 
 using render::Quantity;
 
-constexpr int kPatience = Annotating::kPatience;
-
 class Segmenting : public Annotating {
  public:
   explicit Segmenting(const std::string& id = "objects") : Annotating(id) {}

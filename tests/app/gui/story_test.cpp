@@ -26,7 +26,6 @@ using namespace episcope;
 
 namespace {
 
-constexpr int kPatience = 120'000;  // ms, for 81 views of 512×512 on a busy machine
 constexpr ViewIndex kCenter{4, 4};
 const QColor kColor(12, 200, 96);
 
@@ -36,8 +35,8 @@ class User : public WindowFixture {
   void openFolder(const QString& folder) {
     window.open(folder);  // as named in the command line
     QTRY_VERIFY2_WITH_TIMEOUT(window.document().document(),
-                              qPrintable(window.panels().messages->text()), kPatience);
-    QTRY_COMPARE_WITH_TIMEOUT(window.jobs().count(), 0, kPatience);
+                              qPrintable(window.panels().messages->text()), kScenePatience);
+    QTRY_COMPARE_WITH_TIMEOUT(window.jobs().count(), 0, kScenePatience);
     key(Qt::Key_B);
   }
   int addLabel(const QString& name, const QColor& color) {
@@ -53,7 +52,7 @@ class User : public WindowFixture {
   }
   void segment(Qt::Key how) {
     key(how);
-    QTRY_VERIFY_WITH_TIMEOUT(isSegmented(), kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(isSegmented(), kScenePatience);
   }
   /// A pixel at these parts of the height and the width.
   PixelIndex pixel(double y, double x) {
@@ -155,7 +154,7 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
   // Carried to all views by the truth: there is no estimate.
   user.key(Qt::Key_C);
   QTRY_VERIFY_WITH_TIMEOUT(
-      user.window.scribbles().carried() && !user.window.scribbles().isCarrying(), kPatience);
+      user.window.scribbles().carried() && !user.window.scribbles().isCarrying(), kScenePatience);
   QVERIFY(user.window.scribbles().carried()->painted_views().size() > 70);
 
   // Segmented live, again after a stroke, and once more by hand.
@@ -165,7 +164,7 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
   user.key(Qt::Key_X);
   user.paint(0.2, 0.1, 0.3);
   QCOMPARE(user.painted(0.2, 0.2), wall);
-  QTRY_VERIFY_WITH_TIMEOUT(user.isSegmented(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(user.isSegmented(), kScenePatience);
   user.key(Qt::Key_L);
   user.segment(Qt::Key_U);
   const PixelIndex on_stroke = user.pixel(0.06, 0.3);
@@ -173,7 +172,7 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
 
   QVERIFY(user.window.isWindowModified());
   user.key(Qt::Key_S, Qt::ControlModifier);
-  QTRY_VERIFY_WITH_TIMEOUT(!user.window.isWindowModified(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!user.window.isWindowModified(), kScenePatience);
 
   User other;
   other.openFolder(folder);

@@ -57,17 +57,17 @@ QString WindowFixture::writeScene(const std::string& id,
 void WindowFixture::openSmall(const std::string& id) {
   window.open(writeScene(id, smallOptions()));
   // The session tells the window of its scene one turn later.
-  QTRY_VERIFY_WITH_TIMEOUT(window.actions().find("estimate.run")->isEnabled(), 60'000);
-  QTRY_COMPARE_WITH_TIMEOUT(window.panels().canvas->picture().size(), QSize(96, 96), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(window.panels().canvas->picture().size(), QSize(96, 96), kPatience);
 }
 
 void WindowFixture::runAndWait() {
   const std::size_t before = window.session().estimates().size();
   auto* run = window.findChild<QAbstractButton*>("method.run");
   QVERIFY(run);
-  QTRY_VERIFY_WITH_TIMEOUT(run->isEnabled(), 30000);
+  QTRY_VERIFY_WITH_TIMEOUT(run->isEnabled(), kPatience);
   QTest::mouseClick(run, Qt::LeftButton);
-  QTRY_COMPARE_WITH_TIMEOUT(window.session().estimates().size(), before + 1, 60'000);
+  QTRY_COMPARE_WITH_TIMEOUT(window.session().estimates().size(), before + 1, kScenePatience);
 }
 
 bool WindowFixture::isSegmented() {

@@ -5,6 +5,7 @@
 #include "app/gui/main_window.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
+#include "tests/patience.h"
 
 #include <QPoint>
 #include <QString>

@@ -3,6 +3,7 @@
 #include "app/session/journal_records.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
+#include "tests/patience.h"
 
 #include <QProcess>
 #include <QTemporaryDir>
@@ -224,7 +225,7 @@ class JournalTest : public QObject {
                     {QString::fromStdString(folder().string()), QString::number(seed)});
       QVERIFY(program.waitForStarted());
       while (program.canReadLine() ? program.readLine().toInt() < 40 * (round + 1)
-                                   : program.waitForReadyRead(20000)) {
+                                   : program.waitForReadyRead(kPatience)) {
       }
       QVERIFY(left_journals(folder()).empty());  // it is alive
       ::kill(static_cast<pid_t>(program.processId()), SIGKILL);

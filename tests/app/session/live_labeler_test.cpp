@@ -4,6 +4,7 @@
 #include "annotation/exchange.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/app/session/turned_loop.h"
+#include "tests/patience.h"
 
 #include <QTest>
 
@@ -13,8 +14,6 @@
 using namespace episcope;
 
 namespace {
-
-constexpr int kPatience = 30'000;  // ms
 
 struct Fixture {
   std::shared_ptr<const Scene> scene = tiny_scene("objects");
