@@ -16,7 +16,7 @@ LayeredSweep::LayeredSweep(int height, int layers, int width) : height_(height) 
   const std::size_t size = static_cast<std::size_t>(height) * row_size();
   phi_ = make_large<float>(size + 2 * kLayerRowUnit);
   duals_ = make_large<float>(kPairKinds * size + 2 * kLayerRowUnit);
-  edges_.resize(2 * static_cast<std::size_t>(bands()) * row_size() + 2 * kLayerRowUnit);
+  edges_.resize(static_cast<std::size_t>(bands()) * edges_size() + kLayerRowUnit);
   nothing_.resize(static_cast<std::size_t>(row_size()) + 2 * kLayerRowUnit);
   std::fill_n(phi_.get(), kLayerRowUnit, 0.0F);
   std::fill_n(duals_.get(), kLayerRowUnit, 0.0F);
@@ -65,7 +65,7 @@ PairDuals LayeredSweep::duals_above(int y, const PairLimits& limits) {
 
 float* LayeredSweep::ahead(int y, float* scratch) {
   const Band all = band(y / kBandRows);
-  float* const edges = edges_.data() + kLayerRowUnit + 2 * (y / kBandRows) * row_size();
+  float* const edges = edges_.data() + kLayerRowUnit + (y / kBandRows) * edges_size();
   if (y == all.begin) return edges;
   if (y == all.end - 1) return edges + row_size();
   return scratch + kLayerRowUnit + (y & 1) * row_size();

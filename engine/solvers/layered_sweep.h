@@ -59,6 +59,8 @@ class LayeredSweep {
  private:
   // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
   [[nodiscard]] float* ahead(int y, float* scratch);
+  // Kernels read a lane beyond a row: it must not be where another thread writes.
+  [[nodiscard]] long edges_size() const { return 2 * row_size() + kLayerRowUnit; }
 
   LayeredShape shape_;
   int height_;
