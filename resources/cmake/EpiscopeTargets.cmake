@@ -99,4 +99,7 @@ function(episcope_add_test name)
   # QtTest has a limit of its own, five minutes for each function.
   list(APPEND environment "QTEST_FUNCTION_TIMEOUT=${ARG_TIMEOUT}000")
   set_tests_properties(${name} PROPERTIES TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${environment}")
+  if("${ARG_LINK}" MATCHES "episcope_(window|widgets)")
+    set_tests_properties(${name} PROPERTIES LABELS window)
+  endif()
 endfunction()
