@@ -87,7 +87,6 @@ void write(const Request& request, const Labeling& labeling, const Scribbles& sc
   stored.parameters = labeler_schema().values(request.parameters);
   stored.source = source_text(request.input, request.output);
   stored.seconds = labeling.seconds;
-  stored.notes = labeling.notes;
   io::ViewProbabilities probabilities;
   if (!request.is_without_probabilities) {
     probabilities = [&](ViewIndex view) { return labeling.probabilities.view(view).view(); };

@@ -15,7 +15,6 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   stored.parameters = segmentation.parameters;
   stored.source = source;
   stored.seconds = labeling.seconds;
-  stored.notes = labeling.notes;
   io::write_labeling(
       path, stored,
       [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); }, progress);

@@ -63,9 +63,6 @@ void write_provenance(Hdf5Output& file, const StoredLabeling& labeling) {
   file.set_text("/", "source", labeling.source);
   file.set_text("/", "version", kVersion);
   file.set_number("/", "seconds", labeling.seconds);
-  std::string notes;
-  for (const std::string& note : labeling.notes) notes += (notes.empty() ? "" : "\n") + note;
-  if (!notes.empty()) file.set_text("/", "notes", notes);
   const ViewIndex first = labeling.labels.first();
   file.set_integers(kLabels, "first_view", {first.v, first.u});
 }

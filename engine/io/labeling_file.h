@@ -23,7 +23,6 @@ struct StoredLabeling {
   ParameterSet parameters;
   std::string source;  ///< Path or name of the light field.
   double seconds = 0;
-  std::vector<std::string> notes;
 };
 
 /// Probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1, labels as in
@@ -33,8 +32,8 @@ using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex
 /// Writes a segmentation in the house order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
-/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`,
-/// `notes`. Atomic. Throws IoError, Cancelled.
+/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`.
+/// Atomic. Throws IoError, Cancelled.
 void write_labeling(const std::filesystem::path& path, const StoredLabeling& labeling,
                     const ViewProbabilities& probabilities, const Progress& progress);
 

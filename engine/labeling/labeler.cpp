@@ -272,7 +272,6 @@ struct Labeler::State {
     }
     labeling.labels = std::move(result.labels);
     labeling.gap = result.relative_gap();
-    labeling.notes = std::move(result.notes);
   }
 
   /// The view and those beside it in its row; in a grid of one column, above and below.

@@ -42,7 +42,6 @@ struct Labeling {
   bool is_draft = false;             ///< Whether the labels are still to be regularised.
   double gap = 0;                    ///< Relative duality gap of the regulariser.
   double seconds = 0;                ///< Wall-clock time.
-  std::vector<std::string> notes;    ///< A sentence each.
 };
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many

@@ -7,8 +7,6 @@
 #include "engine/labeling/label_probabilities.h"
 
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace episcope {
 
@@ -51,7 +49,6 @@ struct RayLabeling {
   double energy = 0;   ///< Of the labels of each view as its problem was solved, summed up.
   double bound = 0;    ///< No labeling has less energy in these problems.
   int iterations = 0;  ///< The most that any of its parts took.
-  std::vector<std::string> notes;  ///< A sentence each.
 
   /// (energy − bound)/|energy|.
   [[nodiscard]] double relative_gap() const;
