@@ -24,6 +24,16 @@ std::filesystem::path path_of(const QString& path) {
   return path.toStdString();
 }
 
+/// Asks for a file to read; opened by the caller.
+QFileDialog* reading_dialog(const char* name, const QString& title, const QString& filter,
+                            QWidget* parent) {
+  auto* dialog = new QFileDialog(parent, title, QString(), filter);
+  dialog->setObjectName(name);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  return dialog;
+}
+
 }  // namespace
 
 AnnotationFiles::AnnotationFiles(Session& session, Jobs& jobs, DocumentController& document,
@@ -165,13 +175,11 @@ void AnnotationFiles::exportPictures(const QString& folder) {
 
 void AnnotationFiles::importDialog() {
   if (!document_.document()) return;
-  auto* dialog = new QFileDialog(
-      panels_.viewer->window(), tr("Import scribbles"), QString(),
+  QFileDialog* dialog = reading_dialog(
+      "import_scribbles", tr("Import scribbles"),
       tr("Labels of the archive, or a picture of those exported (*.h5 *.hdf5 scribbles_*.png);;All "
-         "files (*)"));
-  dialog->setObjectName("import_scribbles");
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
+         "files (*)"),
+      panels_.viewer->window());
   connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::importFrom);
   dialog->open();
 }
@@ -209,12 +217,9 @@ void AnnotationFiles::importFrom(const QString& path) {
 
 void AnnotationFiles::compareDialog() {
   if (!session_.scene()) return;
-  auto* dialog =
-      new QFileDialog(panels_.viewer->window(), tr("Compare with true labels"), QString(),
-                      tr("Labels of the archive (*.h5 *.hdf5);;All files (*)"));
-  dialog->setObjectName("compare_labels");
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
+  QFileDialog* dialog = reading_dialog("compare_labels", tr("Compare with true labels"),
+                                       tr("Labels of the archive (*.h5 *.hdf5);;All files (*)"),
+                                       panels_.viewer->window());
   connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::compareWith);
   dialog->open();
 }
@@ -228,7 +233,8 @@ void AnnotationFiles::compareWith(const QString& path) {
             io::read_true_labels(path_of(path), *scene, progress));
       },
       [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
-        session_.set_true_labels(labels, generation);
+        if (generation != session_.generation()) return;
+        session_.set_true_labels(labels);
         emit compared(path);
       });
 }

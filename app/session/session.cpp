@@ -165,8 +165,8 @@ void Session::set_segmentation(SegmentationPtr segmentation) {
   changed(Part::Segmentation);
 }
 
-void Session::set_true_labels(TrueLabelsPtr labels, std::uint64_t generation) {
-  if (generation != generation_) return;
+void Session::set_true_labels(TrueLabelsPtr labels) {
+  if (!scene_) return;
   true_labels_ = std::move(labels);
   changed(Part::TrueLabels);
 }

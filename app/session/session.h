@@ -82,8 +82,7 @@ class Session {
   [[nodiscard]] const SegmentationPtr& segmentation() const { return segmentation_; }
 
   /// Compares with other labels than those that came with the scene, until another is opened.
-  /// Dropped if `generation` is a former one.
-  void set_true_labels(TrueLabelsPtr labels, std::uint64_t generation);
+  void set_true_labels(TrueLabelsPtr labels);
   /// Null if there are none.
   [[nodiscard]] const TrueLabelsPtr& true_labels() const { return true_labels_; }
 
