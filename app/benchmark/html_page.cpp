@@ -152,7 +152,7 @@ std::string numbers_text(const BenchmarkResult& result) {
     add("MSE×100 " + fixed_text(*mse, kScoreDigits));
   }
   for (const char* layer : {"foreground", "background"}) {
-    const auto mse = find_metric(result.vmv2013, std::string(layer) + "_mse_100");
+    const auto mse = find_metric(result.vmv2013, std::string("mse_100_") + layer);
     if (mse) add(std::string(layer) + " MSE×100 " + fixed_text(*mse, kScoreDigits));
   }
   if (const auto bad = find_metric(result.benchmark2016, "badpix_0070")) {

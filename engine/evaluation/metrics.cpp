@@ -114,6 +114,30 @@ void require_comparable(const DisparityView& estimate, const DisparityView& trut
   }
 }
 
+/// None if no pixel can be judged.
+std::optional<Evaluation> evaluate_if_any(
+    const DisparityView& estimate, const DisparityView& truth,
+    const std::map<std::string, Image<std::uint8_t>>& regions, const EvaluationOptions& options) {
+  require_comparable(estimate, truth);
+  const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
+  Evaluation evaluation =
+      measure_errors(estimate, truth, is_benchmark ? kBenchmarkBorder : 0, options.invalid);
+  if (std::find(evaluation.judged.begin(), evaluation.judged.end(), 1) == evaluation.judged.end()) {
+    return std::nullopt;
+  }
+  append(evaluation.metrics, "mse_100", mse_100(evaluation, options.invalid, 0));
+  if (is_benchmark) {
+    append_bad_pixels(evaluation, options.invalid);
+    append(evaluation.metrics, "q_25_100", q_25_100(evaluation, options.invalid));
+  } else {
+    append(evaluation.metrics, "mse_100_inset15",
+           mse_100(evaluation, options.invalid, kBenchmarkBorder));
+  }
+  append(evaluation.metrics, "density", density(evaluation));
+  if (is_benchmark) append_region_metrics(evaluation, {estimate, truth, regions, options});
+  return evaluation;
+}
+
 // Whether a map has a value there; a map that is missing has none.
 bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
   return field.contains(view) && field.view(view).is_valid(y, x);
@@ -160,27 +184,14 @@ std::optional<double> find_metric(const Metrics& metrics, const std::string& key
 Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
                     const std::map<std::string, Image<std::uint8_t>>& regions,
                     const EvaluationOptions& options) {
-  require_comparable(estimate, truth);
-  const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
-  Evaluation evaluation =
-      measure_errors(estimate, truth, is_benchmark ? kBenchmarkBorder : 0, options.invalid);
-  if (std::find(evaluation.judged.begin(), evaluation.judged.end(), 1) == evaluation.judged.end()) {
-    throw InvalidInput("no pixel of the " + size_text(truth.disparity) + " px can be judged by " +
-                       protocol_name(options.protocol) +
-                       (is_benchmark ? ", which ignores a border of 15 px" : "") +
-                       ": the truth has no value there");
-  }
-  append(evaluation.metrics, "mse_100", mse_100(evaluation, options.invalid, 0));
-  if (is_benchmark) {
-    append_bad_pixels(evaluation, options.invalid);
-    append(evaluation.metrics, "q_25_100", q_25_100(evaluation, options.invalid));
-  } else {
-    append(evaluation.metrics, "mse_100_inset15",
-           mse_100(evaluation, options.invalid, kBenchmarkBorder));
-  }
-  append(evaluation.metrics, "density", density(evaluation));
-  if (is_benchmark) append_region_metrics(evaluation, {estimate, truth, regions, options});
-  return evaluation;
+  auto evaluation = evaluate_if_any(estimate, truth, regions, options);
+  if (evaluation) return std::move(*evaluation);
+  throw InvalidInput("no pixel of the " + size_text(truth.disparity) + " px can be judged by " +
+                     protocol_name(options.protocol) +
+                     (options.protocol == Protocol::Benchmark2016
+                          ? ", which ignores a border of 15 px"
+                          : "") +
+                     ": the truth has no value there");
 }
 
 LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const GroundTruth& truth,
@@ -192,14 +203,21 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
                          " lacks two layers of estimate and truth to compare");
     }
   }
-  return {
-      evaluate(estimate.foreground.view(view), truth.foreground.view(view), truth.regions, options),
+  const DisparityView near = estimate.foreground.view(view);
+  LayeredEvaluation evaluation{
+      evaluate(near, truth.foreground.view(view), truth.regions, options),
       evaluate(estimate.background.view(view), truth.background.view(view), truth.regions, options),
+      {},
       layers_right(estimate, truth, view)};
+  if (truth.field.contains(view)) {
+    evaluation.single = evaluate_if_any(near, truth.field.view(view), truth.regions, options);
+  }
+  return evaluation;
 }
 
 Metrics layered_metrics(const LayeredEvaluation& evaluation) {
   Metrics metrics;
+  if (evaluation.single) metrics = evaluation.single->metrics;
   const auto append_layer = [&metrics](const Metrics& layer, const char* suffix) {
     for (const auto& [key, value] : layer) metrics.emplace_back(key + suffix, value);
   };

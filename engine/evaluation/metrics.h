@@ -78,12 +78,16 @@ struct Evaluation {
 struct LayeredEvaluation {
   Evaluation foreground;
   Evaluation background;
+  /// Where the truth is one surface: the foreground, as the one map of those who know but one. None
+  /// if there is no such truth.
+  std::optional<Evaluation> single;
   /// % of the pixels of any truth whose number of layers is right; two where both truths have a
   /// value. None if the estimate does not tell the number.
   std::optional<double> layers_right;
 };
 
-/// All numbers of both: keys end in "_foreground" and "_background"; then "layers_right".
+/// All numbers: those of one surface as of any other estimate; those of both layers, whose keys end
+/// in "_foreground" and "_background"; then "layers_right".
 [[nodiscard]] Metrics layered_metrics(const LayeredEvaluation& evaluation);
 
 /// Throws InvalidInput if estimate or truth lacks a layer in `view`, and as `evaluate`.

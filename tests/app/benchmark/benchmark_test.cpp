@@ -2,6 +2,7 @@
 #include "app/benchmark/benchmark.h"
 
 #include "app/benchmark/html_page.h"
+#include "app/benchmark/report_files.h"
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/workload.h"
 #include "app/session/judgement.h"
@@ -122,6 +123,32 @@ class BenchmarkTest : public QObject {
     QVERIFY(QString::fromStdString(first.failures()[0]).contains("too large a shift"));
     QVERIFY(!first.searched[2].mse_100);
     QCOMPARE(runs_, 5);
+  }
+
+  void twoLayers_areJudgedWithTheOthersAndByThemselves() {
+    scene_ = "transparent";
+    options_.methods = {find_estimator("epi_l"), find_estimator("epi_two_layer")};
+    const BenchmarkReport report = run();
+    scene_ = "edge";
+
+    // No gap: where one surface is seen, both are judged by the same pixels.
+    const auto tables = report_tables(report);
+    const auto row = [&tables](const char* title, const char* line) {
+      for (const TitledTable& titled : tables) {
+        if (titled.title.find(title) == std::string::npos) continue;
+        for (const auto& cells : titled.table.rows) {
+          if (cells[0] == line) return cells;
+        }
+      }
+      return std::vector<std::string>();
+    };
+    QCOMPARE(row("as figure 7", "average").size(), std::size_t{3});
+    QVERIFY(!row("as figure 7", "average")[1].starts_with("–"));
+    for (const char* layer : {"foreground", "background"}) {
+      QCOMPARE(row(layer, "edge").size(), std::size_t{2});
+      QVERIFY(row(layer, "edge")[1] != "–");
+      QVERIFY(html_page(report, {}).find(std::string(layer) + " MSE×100") != std::string::npos);
+    }
   }
 
   void sceneThatCannotBeRead_doesNotStopTheOthers() {

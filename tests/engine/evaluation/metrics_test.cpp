@@ -445,6 +445,15 @@ class MetricsTest : public QObject {
     QCOMPARE(find_metric(metrics, "mse_100_foreground").value(), 25.0);
     QCOMPARE(find_metric(metrics, "mse_100_background").value(), 0.0);
     QVERIFY(find_metric(metrics, "layers_right") && !find_metric(metrics, "mse_100"));
+    // Where one surface is seen the foreground is judged as any other map.
+    truth.field = field(1.2F, true);
+    QCOMPARE(metric(evaluate_layers(estimate, truth, {0, 0}, {}).single.value(), "density"), 100.0);
+    QVERIFY(std::abs(find_metric(layered_metrics(evaluate_layers(estimate, truth, {0, 0}, {})),
+                                 "mse_100")
+                         .value() -
+                     9) < 1e-3);
+    std::fill_n(truth.field.valid.data(), 16, std::uint8_t{0});
+    QVERIFY(!evaluate_layers(estimate, truth, {0, 0}, {}).single);
     estimate.layers = {};
     QVERIFY(!find_metric(layered_metrics(evaluate_layers(estimate, truth, {0, 0}, {})),
                          "layers_right"));
