@@ -138,6 +138,12 @@ std::optional<Evaluation> evaluate_if_any(
   return evaluation;
 }
 
+// The centre view: the truth covers all views or that one.
+ViewIndex center_of(const DisparityField& truth) {
+  const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
+  return {first.v + center.v, first.u + center.u};
+}
+
 // Whether a map has a value there; a map that is missing has none.
 bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
   return field.contains(view) && field.view(view).is_valid(y, x);
@@ -203,14 +209,16 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
                          " lacks two layers of estimate and truth to compare");
     }
   }
+  const std::map<std::string, Image<std::uint8_t>> no_regions;
+  const auto& regions = view == center_of(truth.foreground) ? truth.regions : no_regions;
   const DisparityView near = estimate.foreground.view(view);
   LayeredEvaluation evaluation{
-      evaluate(near, truth.foreground.view(view), truth.regions, options),
-      evaluate(estimate.background.view(view), truth.background.view(view), truth.regions, options),
+      evaluate(near, truth.foreground.view(view), regions, options),
+      evaluate(estimate.background.view(view), truth.background.view(view), regions, options),
       {},
       layers_right(estimate, truth, view)};
   if (truth.field.contains(view)) {
-    evaluation.single = evaluate_if_any(near, truth.field.view(view), truth.regions, options);
+    evaluation.single = evaluate_if_any(near, truth.field.view(view), regions, options);
   }
   return evaluation;
 }

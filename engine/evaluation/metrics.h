@@ -90,6 +90,7 @@ struct LayeredEvaluation {
 /// in "_foreground" and "_background"; then "layers_right".
 [[nodiscard]] Metrics layered_metrics(const LayeredEvaluation& evaluation);
 
+/// Region masks of the truth count in its centre view only.
 /// Throws InvalidInput if estimate or truth lacks a layer in `view`, and as `evaluate`.
 [[nodiscard]] LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate,
                                                 const GroundTruth& truth, ViewIndex view,

@@ -460,6 +460,30 @@ class MetricsTest : public QObject {
     QVERIFY_EXCEPTION_THROWN((void)evaluate_layers({}, truth, {0, 0}, {}), InvalidInput);
   }
 
+  void layers_useRegionsInTheCentreViewAlone() {
+    const auto field = [] {
+      DisparityField made{ViewStack<float>({1, 3}, kSize, kSize),
+                          ViewStack<std::uint8_t>({1, 3}, kSize, kSize)};
+      std::fill_n(made.disparity.data(), made.disparity.size(), 0.5F);
+      std::fill_n(made.valid.data(), made.valid.size(), std::uint8_t{1});
+      return made;
+    };
+    GroundTruth truth;
+    truth.foreground = field();
+    truth.background = field();
+    truth.regions = everywhere("planes");
+    const LayeredDisparity estimate{field(), field(), {}};
+    const EvaluationOptions options{Protocol::Benchmark2016, {}, {}};
+    const auto has_region = [&](ViewIndex view) {
+      return find_metric(layered_metrics(evaluate_layers(estimate, truth, view, options)),
+                         "bumpiness_planes_100_0050_background")
+          .has_value();
+    };
+
+    QVERIFY(has_region({0, 1}));
+    QVERIFY(!has_region({0, 0}) && !has_region({0, 2}));
+  }
+
   void wrongInput_isRefused() {
     const auto small = map_of([](int, int) { return 0; }, 20, 20);
     QVERIFY_EXCEPTION_THROWN((void)judge(small, constant(0), Protocol::Vmv2013), InvalidInput);
