@@ -94,7 +94,8 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     }
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kLeastWeight)};
   };
-  label_globally(lf, {stereo.view, stereo.labels, costs, mean_of(means), place}, parameters,
+  const double unit = parameters.profile == "paper" ? kPaperSmoothness : 1;
+  label_globally(lf, {stereo.view, stereo.labels, costs, unit * mean_of(means), place}, parameters,
                  estimate, progress.part(0.31, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));
   return estimate;

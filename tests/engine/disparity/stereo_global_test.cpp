@@ -47,6 +47,8 @@ class StereoGlobalTest : public QObject {
   void slant_isPlacedBetweenLabels();
   void paperProfile_keepsLabels_data() { add_views(); }
   void paperProfile_keepsLabels();
+  void paperProfile_keepsThinBars_data() { add_views(); }
+  void paperProfile_keepsThinBars();
   void anyView_isEstimated();
   void threads_changeNothing();
 };
@@ -86,6 +88,22 @@ void StereoGlobalTest::paperProfile_keepsLabels() {
   const float* const map = estimate.field.disparity.data();
   const std::set<float> values(map, map + estimate.field.disparity.size());
   QVERIFY(values.size() > 1 && values.size() <= 16);
+}
+
+// Uncapped costs ask for less smoothness than the default of the other profile.
+void StereoGlobalTest::paperProfile_keepsThinBars() {
+  const Scene scene = render("bars", 96, 96, {5, 5});
+  const auto error = [&](const ParameterSet& values) {
+    const auto paper = stereo_global_schema(fetched()).parse(values);
+    return mse(scene, estimate_stereo_global(*scene.light_field, fetched(), paper, Progress()));
+  };
+  const std::pair<std::string, ParameterValue> profile{"profile", std::string("paper")};
+  const double of_default = StereoGlobalParameters{}.smoothness;
+
+  const double paper = error({profile});
+  const double as_tuned = error({profile, {"smoothness", of_default / kPaperSmoothness}});
+
+  QVERIFY2(paper < 0.95 * as_tuned, qPrintable(QString("%1, %2").arg(paper).arg(as_tuned)));
 }
 
 void StereoGlobalTest::anyView_isEstimated() {
