@@ -10,6 +10,8 @@
 #include <QClipboard>
 #include <QGuiApplication>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
@@ -31,9 +33,14 @@ EstimateRequest request_of(const RunRequest& request) {
   return {request.method, request.values, views_of(request.all_views)};
 }
 
-// What sets this run apart from others: parameters that are not at their defaults.
+// What sets this run apart from others: whether it was cut short, and parameters that are not at
+// their defaults.
 QString parameter_text(const Estimate& estimate) {
   QStringList texts;
+  const auto& notes = estimate.notes;
+  if (std::find(notes.begin(), notes.end(), kTakenEarly) != notes.end()) {
+    texts << EstimateController::tr("ended early");
+  }
   for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
     texts << QString::fromStdString(key + " " + to_text(value));
   }

@@ -21,7 +21,11 @@ struct FinishedEstimate {
   Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
 };
 
-/// Runs a method of the registry. Throws what the method throws, Unavailable for an unknown one.
+/// Note of an estimate that somebody asked for before the method was done.
+inline constexpr const char* kTakenEarly = "ended early";
+
+/// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
+/// in its notes. Throws what the method throws, Unavailable for an unknown one.
 [[nodiscard]] FinishedEstimate run_estimator(const LightField& light_field,
                                              const EstimateRequest& request,
                                              const Progress& progress);

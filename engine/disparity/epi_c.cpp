@@ -120,7 +120,9 @@ double improve(const Work& work, const std::vector<ViewIndex>& views, const Prog
   std::vector<double> gaps(views.size());
   parallel_for_workers(static_cast<int>(views.size()), progress, [&]() -> std::function<void(int)> {
     auto step = std::make_shared<ViewStep>(work);
-    return [&, step](int i) { gaps[i] = step->improve(views[i], progress); };
+    return [&, step](int i) {
+      if (!progress.finish_requested()) gaps[i] = step->improve(views[i], progress);
+    };
   });
   return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());
 }
@@ -173,7 +175,7 @@ double order_views(const LightField& lf, const EpiCParameters& parameters,
   const double steps = 2.0 * sweeps;
   if (sweeps > 0) give_way(work.u, work.confidence, progress.part(0, 0.02));
   const Progress fitting = progress.part(0.02, 1);
-  for (int i = 0; i < 2 * sweeps; ++i) {
+  for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
       progress.step("ordering, sweep " + std::to_string(i / 2 + 1) + " of " +
                     std::to_string(sweeps) + (i > 0 ? text_of(", gap %.1e", gap, 0) : ""));
@@ -231,7 +233,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
                         const Progress& progress) {
   Estimate estimate =
       estimate_orientations(lf, parameters, ViewSelection::All, progress.part(0, 0.08));
-  if (parameters.check_lines) {
+  if (parameters.check_lines && !progress.finish_requested()) {
     progress.step("checking lines");
     lower_confidence(lf, estimate, progress.part(0.08, 0.13));
   }
@@ -241,7 +243,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
   const double before = ordering_violations(u, progress.part(0.25, 0.26));
   if (parameters.sweeps > 0) {
     const double gap = order_views(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
-    estimate.notes = {gap_note(gap)};
+    if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98));
   estimate.notes.push_back(text_of("ordering violated by %.3f %% of the lines, %.3f %% before",

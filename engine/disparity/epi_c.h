@@ -55,7 +55,8 @@ struct EpiCParameters : EpiSParameters {
 
 /// The part after EPI_L alone: improves `estimate.field`, a first guess, such that it follows
 /// `observed` with weights from `estimate.confidence`; both cover all views. Returns the largest
-/// relative duality gap of the last sweep, 0 without sweeps. Throws Cancelled.
+/// relative duality gap of the last sweep, 0 without sweeps. At `progress.finish_requested()` views
+/// that are not reached stay as they are. Throws Cancelled.
 double order_views(const LightField& light_field, const EpiCParameters& parameters,
                    const ViewStack<float>& observed, Estimate& estimate, const Progress& progress);
 

@@ -5,6 +5,7 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace episcope;
@@ -86,6 +87,8 @@ class EpiCTest : public QObject {
   void occludedScene_isBetterThanBySmoothing();
   void noise_isWornDown();
   void notes_tellViolationsAndGap();
+  void finishing_givesWhatThereIs_data();
+  void finishing_givesWhatThereIs();
   void centerAlone_isThatOfAllViews();
   void anyThreadCount_givesTheSame();
   void singleRowOrColumn_runs_data();
@@ -184,6 +187,37 @@ void EpiCTest::notes_tellViolationsAndGap() {
   QCOMPARE(estimate.notes.size(), std::size_t{2});
   QVERIFY(QString::fromStdString(estimate.notes[0]).startsWith("largest relative duality gap "));
   QVERIFY(QString::fromStdString(estimate.notes[1]).startsWith("ordering violated by "));
+}
+
+void EpiCTest::finishing_givesWhatThereIs_data() {
+  QTest::addColumn<QString>("stage");
+  QTest::addColumn<QString>("next");
+  QTest::newRow("at once") << QString() << "checking lines";
+  QTest::newRow("denoising") << "denoising"
+                             << "ordering, sweep 1";
+  QTest::newRow("ordering") << "ordering, sweep 1"
+                            << "ordering, sweep 2";
+}
+
+// Whoever asks for the result so far does not wait for further stages.
+void EpiCTest::finishing_givesWhatThereIs() {
+  QFETCH(QString, stage);
+  QFETCH(QString, next);
+  const Scene scene = render("edge", 48, 48, {5, 5});
+  std::stop_source finish;
+  QStringList stages;
+  const auto listener = [&](const ProgressState& state) {
+    stages << QString::fromStdString(state.step);
+    if (stages.back().startsWith(stage)) finish.request_stop();
+  };
+  if (stage.isEmpty()) finish.request_stop();
+
+  const Estimate estimate = epi_c(scene, parameters(), Progress({}, finish.get_token(), listener));
+
+  QVERIFY(all_finite(estimate.field.disparity));
+  QVERIFY2(std::none_of(stages.begin(), stages.end(),
+                        [&](const QString& each) { return each.startsWith(next); }),
+           qPrintable(stages.join("; ")));
 }
 
 void EpiCTest::centerAlone_isThatOfAllViews() {
