@@ -3,10 +3,10 @@
 
 #include "widgets/color_ramp.h"
 #include "widgets/icon.h"
+#include "widgets/number_spin.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
-#include <QDoubleSpinBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -19,14 +19,12 @@
 namespace episcope {
 namespace {
 
-QDoubleSpinBox* make_end(const char* name, const QString& tip, QWidget* parent) {
-  auto* spin = new QDoubleSpinBox(parent);
+NumberSpin* make_end(const char* name, const QString& tip, QWidget* parent) {
+  auto* spin = new NumberSpin(parent);
   spin->setObjectName(name);
-  spin->setLocale(QLocale::c());
   spin->setRange(-1e4, 1e4);
   spin->setDecimals(3);
   spin->setButtonSymbols(QAbstractSpinBox::NoButtons);
-  spin->setKeyboardTracking(false);
   spin->setMinimumWidth(46);
   spin->setMaximumWidth(72);
   spin->setToolTip(tip);
@@ -75,8 +73,8 @@ ColorBar::ColorBar(QWidget* parent)
   layout->addLayout(ends, 2, 0);
   layout->addLayout(foot, 3, 0);
 
-  connect(min_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
-  connect(max_, &QDoubleSpinBox::valueChanged, this, &ColorBar::editRange);
+  connect(min_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
+  connect(max_, &NumberSpin::valueChanged, this, &ColorBar::editRange);
   connect(lock_, &QToolButton::toggled, this, [this](bool locked) {
     setRangeLocked(locked);
     emit rangeLockToggled(locked);

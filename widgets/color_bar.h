@@ -7,13 +7,13 @@
 #include <QWidget>
 
 class QAction;
-class QDoubleSpinBox;
 class QLabel;
 class QToolButton;
 
 namespace episcope {
 
 class ColorRamp;
+class NumberSpin;
 
 /// Legend of an overlay: name and unit, the colour map between two range ends that can be edited,
 /// the colour of invalid pixels, a lock, and a button for the automatic range. Setters never emit.
@@ -47,8 +47,8 @@ class ColorBar : public QWidget {
 
   QLabel* title_;
   ColorRamp* ramp_;
-  QDoubleSpinBox* min_;
-  QDoubleSpinBox* max_;
+  NumberSpin* min_;
+  NumberSpin* max_;
   QLabel* invalid_;
   QToolButton* lock_;
   QToolButton* automatic_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/overlay_bar.h"
 
+#include "widgets/number_spin.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
 #include <QAction>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSignalBlocker>
@@ -84,7 +84,7 @@ OverlayBar::OverlayBar(QWidget* parent)
       quantity_(new QComboBox(this)),
       opacity_(new QSlider(Qt::Horizontal, this)),
       focus_slider_(new QSlider(Qt::Horizontal, this)),
-      focus_spin_(new QDoubleSpinBox(this)),
+      focus_spin_(new NumberSpin(this)),
       row_(new QHBoxLayout(this)) {
   setObjectName("overlayBar");
   quantity_->setObjectName("overlay.quantity");
@@ -103,11 +103,9 @@ OverlayBar::OverlayBar(QWidget* parent)
       tr("Focus plane: shears EPIs and view so that this disparity stands upright "
          "(Alt+wheel, Shift+click)"));
   focus_spin_->setObjectName("overlay.focusSpin");
-  focus_spin_->setLocale(QLocale::c());
   focus_spin_->setDecimals(2);
   focus_spin_->setSingleStep(0.05);
   focus_spin_->setSuffix(tr(" px"));
-  focus_spin_->setKeyboardTracking(false);
   auto* reset =
       make_tool_button({"overlay.focusReset", "reset", tr("Focus plane back to 0 px")}, this);
 
@@ -138,7 +136,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   connect(opacity_, &QSlider::valueChanged, this, [this] { emit opacityChanged(opacity()); });
   connect(focus_slider_, &QSlider::valueChanged, this,
           [this](int value) { changeFocus(value * kFocusStep); });
-  connect(focus_spin_, &QDoubleSpinBox::valueChanged, this, &OverlayBar::changeFocus);
+  connect(focus_spin_, &NumberSpin::valueChanged, this, &OverlayBar::changeFocus);
   connect(reset, &QToolButton::clicked, this, [this] { changeFocus(0); });
 }
 

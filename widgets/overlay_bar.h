@@ -10,12 +10,13 @@
 
 class QAction;
 class QComboBox;
-class QDoubleSpinBox;
 class QHBoxLayout;
 class QLabel;
 class QSlider;
 
 namespace episcope {
+
+class NumberSpin;
 
 /// Name of a quantity for users; "none" for Quantity::View.
 [[nodiscard]] QString quantity_label(render::Quantity quantity);
@@ -66,7 +67,7 @@ class OverlayBar : public QWidget {
   QComboBox* quantity_;
   QSlider* opacity_;
   QSlider* focus_slider_;
-  QDoubleSpinBox* focus_spin_;
+  NumberSpin* focus_spin_;
   QHBoxLayout* row_;
 };
 

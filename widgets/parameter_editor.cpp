@@ -2,11 +2,11 @@
 #include "widgets/parameter_editor.h"
 
 #include "widgets/number_scale.h"
+#include "widgets/number_spin.h"
 #include "widgets/theme.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -20,6 +20,8 @@
 
 namespace episcope {
 namespace {
+
+constexpr int kLeastDecimals = 2;
 
 QString text_of(const std::string& text) {
   return QString::fromStdString(text);
@@ -55,11 +57,10 @@ class WheelGuard : public QObject {
   QWidget* control_;
 };
 
-QDoubleSpinBox* make_spin(const ParameterDescription& description, const char* control,
-                          QWidget* parent) {
-  auto* spin = new QDoubleSpinBox(parent);
+NumberSpin* make_spin(const ParameterDescription& description, const char* control,
+                      QWidget* parent) {
+  auto* spin = new NumberSpin(parent);
   spin->setObjectName(control_name(description, control));
-  spin->setLocale(QLocale::c());
   const bool is_integer = std::holds_alternative<int>(description.default_value);
   const NumberScale scale(description);
   spin->setDecimals(is_integer ? 0 : scale.decimals());
@@ -67,7 +68,7 @@ QDoubleSpinBox* make_spin(const ParameterDescription& description, const char* c
   spin->setSingleStep(is_integer ? 1 : (description.max - description.min) / 100);
   if (description.logarithmic) spin->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
   if (!description.unit.empty()) spin->setSuffix(' ' + text_of(description.unit));
-  spin->setKeyboardTracking(false);
+  spin->setLeastDecimals(kLeastDecimals);
   new WheelGuard(spin);
   return spin;
 }
@@ -95,7 +96,7 @@ class NumberEditor : public ParameterEditor {
     spin_->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("00.00 1/00000000")));
     connect(slider_, &QSlider::valueChanged, this,
             [this](int position) { edit(rounded(scale_.value(position))); });
-    connect(spin_, &QDoubleSpinBox::valueChanged, this, [this](double value) { edit(value); });
+    connect(spin_, &NumberSpin::valueChanged, this, [this](double value) { edit(value); });
     NumberEditor::setValue(description.default_value);
   }
 
@@ -130,7 +131,7 @@ class NumberEditor : public ParameterEditor {
   ParameterDescription description_;
   NumberScale scale_;
   QSlider* slider_;
-  QDoubleSpinBox* spin_;
+  NumberSpin* spin_;
   Number value_{};
 };
 
@@ -228,10 +229,10 @@ class IntervalEditor : public ParameterEditor {
       max_->setEnabled(!checked);
       emit edited();
     });
-    connect(min_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    connect(min_, &NumberSpin::valueChanged, this, [this](double value) {
       edit({value, std::max(ends_.max, value + least())});
     });
-    connect(max_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
+    connect(max_, &NumberSpin::valueChanged, this, [this](double value) {
       edit({std::min(ends_.min, value - least()), value});
     });
   }
@@ -275,8 +276,8 @@ class IntervalEditor : public ParameterEditor {
   Interval domain_;
   Interval ends_;
   QCheckBox* automatic_;
-  QDoubleSpinBox* min_;
-  QDoubleSpinBox* max_;
+  NumberSpin* min_;
+  NumberSpin* max_;
 };
 
 /// "auto", or row and column of a view.

@@ -2,6 +2,7 @@
 #include "widgets/point_cloud_panel.h"
 
 #include "widgets/color_ramp.h"
+#include "widgets/number_text.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
@@ -129,8 +130,8 @@ QWidget* PointCloudPanel::makeLegend() {
 
 void PointCloudPanel::setLegend(const QString& title, const render::Shading& shading) {
   legend_title_->setText(title);
-  legend_min_->setText(QString::number(shading.range.min, 'f', 2));
-  legend_max_->setText(QString::number(shading.range.max, 'f', 2));
+  legend_min_->setText(number_text(shading.range.min, 2));
+  legend_max_->setText(number_text(shading.range.max, 2));
   ramp_->setShading(shading);
   legend_->setVisible(!title.isEmpty());
 }

@@ -6,6 +6,7 @@
 #include "engine/core/epi.h"
 #include "engine/render/shade.h"
 #include "widgets/epi_pane.h"
+#include "widgets/number_text.h"
 #include "widgets/overlay_bar.h"
 #include "widgets/picture.h"
 #include "widgets/view_canvas.h"
@@ -54,7 +55,7 @@ void BrowseController::connectEpis() {
     connect(panels_.canvas, &ViewCanvas::transformChanged, pane, &EpiPane::setCanvasTransform);
     connect(pane, &EpiPane::transformChanged, panels_.canvas, &ViewCanvas::setCanvasTransform);
     connect(pane, &EpiPane::disparityMeasured, this, [this](double disparity_px) {
-      emit hint(tr("Measured disparity: %1 px per view").arg(disparity_px, 0, 'f', 3));
+      emit hint(tr("Measured disparity: %1 px per view").arg(number_text(disparity_px)));
     });
   }
   connect(panels_.horizontal_epi, &EpiPane::positionClicked, this, [this](int x, int u) {

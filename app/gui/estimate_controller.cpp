@@ -5,6 +5,7 @@
 #include "engine/disparity/registry.h"
 #include "widgets/job_panel.h"
 #include "widgets/method_panel.h"
+#include "widgets/number_text.h"
 #include "widgets/result_list.h"
 
 #include <QClipboard>
@@ -55,13 +56,12 @@ QString detail_text(const Estimate& estimate) {
                               : EstimateController::tr("%1×%2 views").arg(grid.v).arg(grid.u));
   if (estimate.range.length() > 0) {
     lines << EstimateController::tr("Searched %1 … %2 px")
-                 .arg(estimate.range.min, 0, 'f', 2)
-                 .arg(estimate.range.max, 0, 'f', 2);
+                 .arg(number_text(estimate.range.min, 2), number_text(estimate.range.max, 2));
   }
   for (const auto& [key, value] : estimate.parameters) {
     lines << QString::fromStdString(key + " " + to_text(value));
   }
-  for (const std::string& note : estimate.notes) lines << QString::fromStdString(note);
+  for (const std::string& note : estimate.notes) lines << with_minus(QString::fromStdString(note));
   return lines.join('\n');
 }
 

@@ -6,6 +6,8 @@
 
 #include <QCoreApplication>
 
+#include <cmath>
+
 namespace episcope {
 namespace {
 
@@ -45,18 +47,24 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
   return parts.isEmpty() ? text("none") : parts.join(", ");
 }
 
+// Four digits, and no exponent where whole numbers say as much.
+QString measure(double value) {
+  return std::abs(value) >= 1000 && std::abs(value) < 1e7
+             ? number_text(value, 0)
+             : with_minus(QString::number(value, 'g', 4));
+}
+
 QString camera_text(const CameraGrid& camera) {
   if (!camera.is_known()) return text("unknown: disparity only, no depth");
   QString line = text("B·f %1, shift %2 px")
-                     .arg(camera.baseline * camera.focal_length, 0, 'g', 4)
-                     .arg(camera.shift, 0, 'g', 4);
-  if (camera.cam_distance) line += text(", Z₀ %1").arg(*camera.cam_distance, 0, 'g', 4);
+                     .arg(measure(camera.baseline * camera.focal_length), measure(camera.shift));
+  if (camera.cam_distance) line += text(", Z₀ %1").arg(measure(*camera.cam_distance));
   return line;
 }
 
 // Readers speak of a choice made by hand; here it is known whose hand it was.
 QString by_whom(QString finding) {
-  return finding.replace(", as chosen by hand", text(" (set by you)"));
+  return with_minus(finding.replace(", as chosen by hand", text(" (set by you)")));
 }
 
 QString names_text(const io::OpenOptions& conventions) {
@@ -96,7 +104,7 @@ SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back(
-      {text("Order"), by_whom(utf8(convention.order)), utf8(convention.order_check)});
+      {text("Order"), by_whom(utf8(convention.order)), with_minus(utf8(convention.order_check))});
   info.rows.push_back(
       {text("Camera"), camera_text(light_field.info().camera), by_whom(utf8(convention.units))});
   info.rows.push_back({text("Format"), utf8(convention.format), {}});
