@@ -290,9 +290,12 @@ QString MetricTable::toLatex() const {
 
 void MetricTable::copyCsv() {
   QGuiApplication::clipboard()->setText(toCsv());
+  emit copied(tr("CSV"));
 }
+
 void MetricTable::copyLatex() {
   QGuiApplication::clipboard()->setText(toLatex());
+  emit copied(tr("LaTeX"));
 }
 
 }  // namespace episcope

@@ -58,6 +58,8 @@ class MetricTable : public QWidget {
  signals:
   void rowClicked(quint64 id);
   void compareRequested(quint64 id);
+  /// "CSV" or "LaTeX" is in the clipboard.
+  void copied(const QString& form);
   /// "csv" or "tex" with the text to be written by the host.
   void saveRequested(const QString& suffix, const QString& text);
 

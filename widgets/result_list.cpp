@@ -43,7 +43,7 @@ ResultList::ResultList(QWidget* parent)
       tree_(new QTreeWidget(this)),
       hint_(new QLabel(tr("No results yet. Run a method above."), this)),
       export_(make_tool_button(
-          {"results.export", "export", tr("Save this result as HDF5, PFM or PNG"), tr("Export")},
+          {"results.export", "export", tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
           this)),
       remove_(make_tool_button(
           {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),

@@ -81,7 +81,7 @@ std::string source_of(const Estimate& estimate, const fs::path& result) {
 }
 
 void note_other_source(const Estimate& estimate, const LightField& light_field, Job& job) {
-  if (estimate.source_hash == 0 || estimate.source_hash == light_field.sample_hash()) return;
+  if (!is_of_other_samples(estimate, light_field)) return;
   job.note("the result was estimated from other samples than those of " + light_field.info().name);
 }
 

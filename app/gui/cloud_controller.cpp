@@ -44,6 +44,10 @@ bool CloudController::isOnScreen() const {
 
 void CloudController::makePanel() {
   if (panel_) return;
+  // The first OpenGL widget has the window made anew, and placed by the desktop unless it says
+  // where it is.
+  QWidget* window = panels_.tabs->window();
+  window->move(window->pos());
   panel_ = new PointCloudPanel(panels_.cloud_tab);
   auto* layout = new QVBoxLayout(panels_.cloud_tab);
   layout->setContentsMargins(0, 0, 0, 0);

@@ -196,8 +196,14 @@ void MainWindow::connectControllers() {
   connect(estimate_, &EstimateController::hint, this, hint);
   connect(focus_, &FocusController::hint, this, hint);
   connect(exporter_, &ExportController::hint, this, hint);
-  connect(exporter_, &ExportController::written, this, [this](const QString& path) {
+  connect(metrics_, &MetricController::hint, this, hint);
+  const auto written = [this](const QString& path) {
     panels_.messages->showMessage(Severity::Success, tr("Written: %1").arg(path));
+  };
+  connect(exporter_, &ExportController::written, this, written);
+  connect(metrics_, &MetricController::written, this, written);
+  connect(opener_, &OpenController::warned, this, [this](const QString& sentence) {
+    panels_.messages->showMessage(Severity::Warning, sentence);
   });
   connect(estimate_, &EstimateController::exportRequested, exporter_,
           &ExportController::exportResultDialog);

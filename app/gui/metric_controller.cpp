@@ -62,6 +62,11 @@ MetricController::MetricController(Session& session, Jobs& jobs, const Panels& p
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
   connect(panels_.metrics, &MetricTable::compareRequested, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
+  connect(panels_.metrics, &MetricTable::copied, this, [this](const QString& form) {
+    const auto count = session_.estimates().size();
+    emit hint(count == 1 ? tr("Copied the numbers of one result as %1").arg(form)
+                         : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
+  });
   connect(panels_.metrics, &MetricTable::saveRequested, this, &MetricController::save);
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
@@ -124,7 +129,7 @@ void MetricController::save(const QString& suffix, const QString& text) {
           write_text_file(path, text);
           return true;
         },
-        [](bool) {});
+        [this, path](bool) { emit written(path); });
   });
   dialog->open();
 }

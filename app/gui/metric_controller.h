@@ -28,6 +28,11 @@ class MetricController : public QObject {
  public:
   MetricController(Session& session, Jobs& jobs, const Panels& panels, QObject* parent);
 
+ signals:
+  /// One sentence for the user.
+  void hint(const QString& sentence);
+  void written(const QString& path);
+
  private:
   void update(Parts parts);
   void fillTable();

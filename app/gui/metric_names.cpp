@@ -18,7 +18,7 @@ struct MetricName {
 
 // In the order of tables.
 constexpr MetricName kNames[] = {
-    {"mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE"),
+    {"mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE×100"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Mean squared error ×100, px²"), 3},
     {"badpix_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "bad .07"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels off by more than 0.07 px, in %")},

@@ -5,6 +5,7 @@
 #include "app/gui/queued_post.h"
 #include "app/gui/remembered_conventions.h"
 #include "app/session/load_scene.h"
+#include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
 #include "engine/io/result_file.h"
@@ -59,6 +60,20 @@ Image<std::uint8_t> rgba_of(const Image<std::uint8_t>& center) {
     }
   }
   return picture;
+}
+
+struct ReadEstimate : FinishedEstimate {
+  bool is_of_others = false;
+};
+
+ReadEstimate read_estimate(const LightField& light_field, const std::string& path,
+                           const Progress& progress) {
+  Estimate estimate = read_result_of(light_field, path);
+  progress.check();
+  check_fits(estimate, light_field, path);
+  const bool is_of_others = is_of_other_samples(estimate, light_field);
+  const Interval range = display_range(estimate);
+  return {{std::make_shared<const Estimate>(std::move(estimate)), range}, is_of_others};
 }
 
 ReadScene read_as_told(const std::string& input, const LoadOptions& options,
@@ -233,17 +248,17 @@ void OpenController::openResult(const QString& path) {
     return;
   }
   const std::uint64_t generation = session_.generation();
-  jobs_.start<FinishedEstimate>(
+  jobs_.start<ReadEstimate>(
       Lane::Load, tr("Opening %1").arg(short_name(path)),
       [light_field, path = path.toStdString()](const Progress& progress) {
-        Estimate estimate = io::read_result(path, light_field->grid(), light_field->info().name);
-        progress.check();
-        check_fits(estimate, *light_field, path);
-        const Interval range = display_range(estimate);
-        return FinishedEstimate{std::make_shared<const Estimate>(std::move(estimate)), range};
+        return read_estimate(*light_field, path, progress);
       },
-      [this, generation](const FinishedEstimate& read) {
+      [this, generation, name = short_name(path)](const ReadEstimate& read) {
         session_.add_estimate(read.estimate, read.display_range, generation);
+        if (!read.is_of_others) return;
+        emit warned(tr("%1 was estimated from other samples than those of this light field: its "
+                       "errors may say nothing.")
+                        .arg(name));
       });
 }
 

@@ -66,6 +66,8 @@ class OpenController : public QObject {
   /// What `reopenWith` would read may be another one, or none.
   void reopenableChanged();
   void previewing(bool is_previewing);
+  /// What was opened, and may not be what the user means.
+  void warned(const QString& sentence);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

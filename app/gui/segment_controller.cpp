@@ -213,7 +213,8 @@ QString SegmentController::missing() const {
 void SegmentController::showState() {
   const auto seconds = [this] { return tr("%1 s").arg(seconds_, 0, 'f', 1); };
   const bool is_labeled = live_.labeling(session_.view()) != nullptr;
-  QString text = !is_labeled                            ? tr("idle")
+  QString text = !session_.scene()                      ? QString()
+                 : !is_labeled                          ? tr("idle")
                  : live_.is_up_to_date(session_.view()) ? tr("idle · %1").arg(seconds())
                                                         : tr("out of date");
   ChipMood mood =

@@ -25,4 +25,8 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path) {
   return io::read_result(path, light_field.grid(), light_field.info().name);
 }
 
+bool is_of_other_samples(const Estimate& estimate, const LightField& light_field) {
+  return estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash();
+}
+
 }  // namespace episcope

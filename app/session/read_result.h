@@ -17,4 +17,8 @@ namespace episcope {
 [[nodiscard]] Estimate read_result_of(const LightField& light_field,
                                       const std::filesystem::path& path);
 
+/// Whether a result says that it was estimated from other samples than those of this light field.
+/// Reads all samples.
+[[nodiscard]] bool is_of_other_samples(const Estimate& estimate, const LightField& light_field);
+
 }  // namespace episcope

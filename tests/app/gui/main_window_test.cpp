@@ -15,6 +15,7 @@
 #include "widgets/job_panel.h"
 #include "widgets/message_bar.h"
 #include "widgets/overlay_bar.h"
+#include "widgets/segment_panel.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
 
@@ -75,6 +76,9 @@ class MainWindowTest : public QObject {
   void droppedFile_isOpened();
   void openedResult_isListed();
   void resultOfAnotherLightField_isRefused();
+  void resultOfOtherSamples_isOpenedWithAWarning();
+  void lightField_isNoResult();
+  void copiedMetrics_areTold();
   void escape_cancelsTheRun();
   void anotherScene_dropsResults();
   void closedScene_leavesTheEmptyWindow();
@@ -99,6 +103,7 @@ void MainWindowTest::emptyWindow_saysWhatToDo() {
   QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
   QVERIFY(!f.window.actions().find("estimate.run")->isEnabled());
   QVERIFY(!f.window.actions().find("overlay.signed_error")->isEnabled());
+  QVERIFY(f.window.panels().segment->state().isEmpty());  // nothing to segment
 }
 
 void MainWindowTest::builtinScene_isEstimatedAtOnce() {
@@ -339,6 +344,51 @@ void MainWindowTest::openedResult_isListed() {
   QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
 }
 
+void MainWindowTest::resultOfOtherSamples_isOpenedWithAWarning() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  Estimate foreign;
+  foreign.field.disparity = f.window.session().shown()->estimate->field.disparity.clone();
+  foreign.method = "epi_l";
+  foreign.source_hash = f.window.session().light_field()->sample_hash() + 1;
+  io::write_result(f.path("foreign.h5").toStdString(), foreign, Progress());
+
+  f.window.opener().openResult(f.path("foreign.h5"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, kPatience);
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("other samples"),
+                            qPrintable(messages->text()), kPatience);
+  QCOMPARE(messages->severity(), Severity::Warning);
+}
+
+// Its true depth would be taken for disparity.
+void MainWindowTest::lightField_isNoResult() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.opener().openResult(f.path("edge/lf.h5"));
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("no estimated disparity"),
+                            qPrintable(messages->text()), kPatience);
+  QVERIFY(f.window.session().estimates().empty());
+}
+
+void MainWindowTest::copiedMetrics_areTold() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("tab.compare");
+
+  f.click("metrics.copyLatex");
+
+  const QString text = f.window.panels().messages->text();
+  QVERIFY2(text.contains("Copied") && text.contains("LaTeX"), qPrintable(text));
+  QVERIFY(QGuiApplication::clipboard()->text().startsWith("\\begin{tabular}"));
+}
+
 void MainWindowTest::resultOfAnotherLightField_isRefused() {
   WindowFixture f;
   f.openSmall();
@@ -430,7 +480,7 @@ void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
   QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, kPatience);
 
-  const QStringList wanted = {"Result",        "2013\nMSE",     "2016\nMSE", "2016\nbad .07",
+  const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100", "2016\nbad .07",
                               "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
   for (int column = 0; column < wanted.size(); ++column) {
     QCOMPARE(table->horizontalHeaderItem(column)->text(), wanted[column]);
