@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_c.h"
 
+#include "engine/solvers/ordering_terms.h"
 #include "tests/engine/disparity/light_fields.h"
 
 #include <QtTest>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <vector>
 
 using namespace episcope;
 using namespace episcope::test;
@@ -78,6 +81,9 @@ class EpiCTest : public QObject {
 
  private slots:
   void plane_staysAsObserved();
+  void observation_isWhatRaysReturnTo();
+  void oneSweep_isThatOfTheDefinition();
+  void gap_isTheLargestOfAllViews();
   void truth_violatesNothing();
   void edgeOfTheBackground_isMovedBack();
   void ordering_isViolatedLess_data();
@@ -105,6 +111,100 @@ void EpiCTest::plane_staysAsObserved() {
     QVERIFY(largest_difference(estimate.field.disparity.view(view), filled(0.37F).view(view)) <
             1e-3);
   }
+}
+
+void EpiCTest::observation_isWhatRaysReturnTo() {
+  Estimate estimate;
+  estimate.field.disparity = filled(0.5F);
+  estimate.confidence = filled(1);
+  EpiCParameters p = parameters();
+  p.fall = 1e-3;  // else it takes many sweeps
+  order_views(plain_views(), p, filled(0.37F), estimate, Progress());
+  QVERIFY(largest_difference(estimate.field.disparity.view({2, 2}), filled(0.37F).view({2, 2})) <
+          1e-3);
+}
+
+// Two views of one row each and hardly any smoothing: each pixel minimises ½ w (u − f)² and the
+// majorisers of the lines that begin and end there, the left view before the right one.
+void EpiCTest::oneSweep_isThatOfTheDefinition() {
+  constexpr int width = 40;
+  const EpiCParameters p = [] {
+    EpiCParameters made = parameters();
+    made.lambda = 1e-6;
+    made.sweeps = 1;
+    made.max_iterations = 200;
+    return made;
+  }();
+  const OrderingPenalty penalty{static_cast<float>(p.rise), static_cast<float>(p.fall),
+                                static_cast<float>(p.softness)};
+  std::mt19937 random(9);
+  std::uniform_real_distribution<float> uniform;
+  ViewStack<float> f({1, 2}, 1, width);
+  Estimate estimate;
+  estimate.field.disparity = ViewStack<float>({1, 2}, 1, width);
+  estimate.confidence = ViewStack<float>({1, 2}, 1, width);
+  std::vector<double> u[2];
+  for (int i = 0; i < 2 * width; ++i) {
+    f.data()[i] = 3 * uniform(random) - 1;
+    estimate.field.disparity.data()[i] = f.data()[i] + 0.2F * uniform(random);
+    estimate.confidence.data()[i] = uniform(random);
+    u[i / width].push_back(estimate.field.disparity.data()[i]);
+  }
+  const LightField plain =
+      make_light_field({1, 2}, 1, width, 1, [](ViewIndex, int, int, int) { return 0.5F; });
+
+  // A point moves by −d from the left view to the right one.
+  for (int view = 0; view < 2; ++view) {
+    std::vector<double> pull(width), bend(width);
+    for (int from = 0; from < 2; ++from) {
+      for (int x = 0; x < width; ++x) {
+        const double at = x + (from == 0 ? -1 : 1) * u[from][x];
+        if (at < 0 || at > width - 1) continue;
+        const int tap = std::min(static_cast<int>(at), width - 2);
+        const double share = at - tap;
+        const auto& to = u[1 - from];
+        const auto a = static_cast<float>((1 - share) * to[tap] + share * to[tap + 1] - u[from][x]);
+        const double slope = penalty.slope(a), curvature = penalty.curvature(a);
+        if (from == view) {
+          pull[x] += slope;
+          bend[x] += curvature;
+        } else {
+          pull[tap] -= (1 - share) * slope;
+          pull[tap + 1] -= share * slope;
+          bend[tap] += (1 - share) * curvature;
+          bend[tap + 1] += share * curvature;
+        }
+      }
+    }
+    for (int x = 0; x < width; ++x) {
+      const double w =
+          std::max(1e-3, std::pow(estimate.confidence.view({0, view}).at(0, x), p.weight_power));
+      u[view][x] =
+          (w * f.view({0, view}).at(0, x) + bend[x] * u[view][x] + pull[x]) / (w + bend[x]);
+    }
+  }
+  order_views(plain, p, f, estimate, Progress());
+
+  for (int i = 0; i < 2 * width; ++i) {
+    const double off = estimate.field.disparity.data()[i] - u[i / width][i % width];
+    // λ moves a pixel by 2λ/(w + bend), 2e-3 at the least weight.
+    QVERIFY2(std::fabs(off) < 3e-3, qPrintable(QString("%1 at %2").arg(off).arg(i)));
+  }
+}
+
+void EpiCTest::gap_isTheLargestOfAllViews() {
+  const Scene scene = render("objects", 48, 60, {3, 3}, 0.6, 8);
+  EpiCParameters hasty = parameters(), patient = parameters();
+  hasty.max_iterations = 1;
+  patient.max_iterations = 200;
+  const auto gap = [&](const EpiCParameters& p) {
+    Estimate estimate = epi_s(scene);
+    const ViewStack<float> observed = estimate.field.disparity.clone();
+    return order_views(*scene.light_field, p, observed, estimate, Progress());
+  };
+  const double large = gap(hasty), small = gap(patient);
+  QVERIFY2(large > 1e-2, qPrintable(QString::number(large)));
+  QVERIFY2(small < 1e-3 && small > 0, qPrintable(QString::number(small)));
 }
 
 void EpiCTest::truth_violatesNothing() {

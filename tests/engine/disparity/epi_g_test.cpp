@@ -7,8 +7,10 @@
 #include <QtTest>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 using namespace episcope;
 using namespace episcope::test;
@@ -29,6 +31,27 @@ double mse(const Scene& scene, const Estimate& estimate) {
 
 }  // namespace
 
+// Without smoothness, each pixel by itself.
+EpiGParameters parameters_of_single_pixels() {
+  EpiGParameters p = parameters();
+  p.smoothness = 0;
+  p.settling = 0;
+  return p;
+}
+
+// What one direction says of a pixel.
+struct Said {
+  float disparity, weight;
+};
+
+std::array<Said, 2> said(const DirectionalOrientations& both, ViewIndex view, int y, int x) {
+  const auto of = [&](const Estimate& e) {
+    const float r = e.confidence.view(view).at(y, x);
+    return Said{e.field.disparity.view(view).at(y, x), r * r};
+  };
+  return {of(both.horizontal), of(both.vertical)};
+}
+
 class EpiGTest : public QObject {
   Q_OBJECT
 
@@ -39,6 +62,9 @@ class EpiGTest : public QObject {
   void slant_isPlacedBetweenLabels();
   void smoothness_doesNotDependOnLabelCount();
   void settlingZero_keepsLabels();
+  void settling_movesByAStepAtMost();
+  void labels_areCheapestByTheDefinition();
+  void placement_isTheMeanOfWhatAgrees();
   void note_tellsGapAndEnergy();
   void finishing_givesAnEstimate();
 };
@@ -126,6 +152,87 @@ void EpiGTest::settlingZero_keepsLabels() {
   const float* const map = estimate.field.disparity.data();
   const std::set<float> values(map, map + estimate.field.disparity.size());
   QVERIFY(values.size() > 5 && values.size() <= 32);
+}
+
+void EpiGTest::settling_movesByAStepAtMost() {
+  const Scene scene = render("objects", 48, 56, {5, 5}, 1, 5);
+  EpiGParameters labels = parameters(), settled = parameters();
+  labels.settling = 0;
+  settled.settling = 20;
+
+  const Estimate rough = estimate_epi_g(*scene.light_field, labels, Progress());
+  const Estimate smooth = estimate_epi_g(*scene.light_field, settled, Progress());
+
+  const float* const a = rough.field.disparity.data();
+  const float* const b = smooth.field.disparity.data();
+  float farthest = 0;
+  for (int i = 0; i < 48 * 56; ++i) farthest = std::max(farthest, std::fabs(a[i] - b[i]));
+  const float step = 2.4F / 31;
+  QVERIFY2(farthest < 1.0001F * step && farthest > 0.9F * step,
+           qPrintable(QString("%1 steps").arg(farthest / step)));
+}
+
+void EpiGTest::labels_areCheapestByTheDefinition() {
+  const Scene scene = render("objects", 40, 48, {5, 5}, 1, 8);
+  const ViewIndex view = scene.light_field->center();
+  const EpiGParameters p = parameters_of_single_pixels();
+
+  const Estimate estimate = estimate_epi_g(*scene.light_field, p, Progress());
+
+  const DirectionalOrientations both = estimate_directions(*scene.light_field, p, Progress());
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      const auto directions = said(both, view, y, x);
+      const auto cost = [&](double label) {
+        double sum = 0;
+        for (const Said& d : directions) {
+          sum += d.weight * std::min(std::fabs(label - d.disparity), p.truncation);
+        }
+        return sum;
+      };
+      double least = 1e9;
+      for (int l = 0; l < p.labels; ++l) least = std::min(least, cost(-1.2 + 2.4 * l / 31));
+      const double found = cost(std::as_const(estimate).field.disparity.view(view).at(y, x));
+      QVERIFY2(found < least + 1e-5, qPrintable(QString("%1, least %2").arg(found).arg(least)));
+      QCOMPARE(estimate.confidence.view(view).at(y, x),
+               std::max(both.horizontal.confidence.view(view).at(y, x),
+                        both.vertical.confidence.view(view).at(y, x)));
+    }
+  }
+}
+
+void EpiGTest::placement_isTheMeanOfWhatAgrees() {
+  const Scene scene = render("objects", 40, 48, {5, 5}, 1, 8);
+  const ViewIndex view = scene.light_field->center();
+  EpiGParameters p = parameters_of_single_pixels();
+  const Estimate labels = estimate_epi_g(*scene.light_field, p, Progress());
+  p.settling = 1e-3;  // hardly any smoothing
+
+  const Estimate placed = estimate_epi_g(*scene.light_field, p, Progress());
+
+  const DirectionalOrientations both = estimate_directions(*scene.light_field, p, Progress());
+  const float step = 2.4F / 31;
+  int judged = 0, outliers = 0;
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 48; ++x) {
+      const float label = labels.field.disparity.view(view).at(y, x);
+      float sum = 0, weight = 0;
+      for (const Said& d : said(both, view, y, x)) {
+        if (std::fabs(d.disparity - label) > step) {
+          outliers += d.weight > 0.3F ? 1 : 0;
+          continue;
+        }
+        sum += d.weight * d.disparity;
+        weight += d.weight;
+      }
+      if (weight < 0.3F || std::fabs(sum / weight) > 1.19F) continue;  // doubtful, or cut off
+      const float off = placed.field.disparity.view(view).at(y, x) - sum / weight;
+      // The label itself counts a hundredth; smoothing moves by less than 4·λ/weight.
+      QVERIFY2(std::fabs(off) < 5e-3F, qPrintable(QString::number(off)));
+      ++judged;
+    }
+  }
+  QVERIFY2(judged > 800 && outliers > 50, qPrintable(QString("%1 %2").arg(judged).arg(outliers)));
 }
 
 void EpiGTest::note_tellsGapAndEnergy() {

@@ -63,6 +63,7 @@ class StereoTest : public QObject {
   void refinement_isBetterThanNone();
   void everyView_canBeEstimated();
   void bands_areThoseOfTheVolume();
+  void seamsOfBands_doNotShow();
   void threads_changeNothing();
   void flatView_hasNoConfidence();
 };
@@ -187,6 +188,26 @@ void StereoTest::bands_areThoseOfTheVolume() {
         if (volume.view().at(y, l, x) < volume.view().at(y, best, x)) best = l;
       }
       QVERIFY(std::abs(map.at(y, x) - costs.labels[best]) < 1e-5F);
+    }
+  }
+}
+
+// The guided filter looks beyond a band: its rows must not know where they were cut.
+void StereoTest::seamsOfBands_doNotShow() {
+  const LightField& lf = *scene("objects").light_field;
+  StereoLocalParameters parameters;
+  parameters.range = Interval{-2, 2};
+  parameters.labels = 9;
+  const StereoCosts costs = prepare_stereo(lf, MatchedViews::CrossHair, parameters, Progress());
+  StereoCostRows whole(lf, costs), cut(lf, costs);
+  const VolumeView<const float> all = whole.compute(0, lf.height(), Progress());
+  for (const int y : {0, 16, 37, lf.height() - 16}) {
+    const VolumeView<const float> band = cut.compute(y, 16, Progress());
+    for (int row = 0; row < 16; ++row) {
+      for (int i = 0; i < band.layers * band.width; ++i) {
+        const float off = band.row(row, 0)[i] - all.row(y + row, 0)[i];
+        QVERIFY2(std::fabs(off) < 1e-6F, qPrintable(QString("row %1").arg(y + row)));
+      }
     }
   }
 }

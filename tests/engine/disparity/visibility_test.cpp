@@ -50,6 +50,7 @@ class VisibilityTest : public QObject {
   void raysSeenThrough_giveWay();
   void surerRays_stay();
   void oneView_isNotEnough();
+  void raysThatGiveWay_takeTheMedian();
   void anyThreadCount_givesTheSame();
 };
 
@@ -93,6 +94,18 @@ void VisibilityTest::oneView_isNotEnough() {
   stack.view({0, 4}).at(1, 20) = 0;
 
   QCOMPARE(give_way(stack, filled(1), Progress()), 0L);
+}
+
+// Three views show something farther where the line of the ray ends.
+void VisibilityTest::raysThatGiveWay_takeTheMedian() {
+  ViewStack<float> stack = filled(1);
+  stack.view({0, 0}).at(1, 24) = -0.9F;
+  stack.view({0, 1}).at(1, 23) = 0.5F;
+  stack.view({0, 6}).at(1, 18) = 0.2F;
+
+  give_way(stack, filled(1), Progress());
+
+  QCOMPARE(stack.view({0, 4}).at(1, 20), 0.2F);
 }
 
 void VisibilityTest::anyThreadCount_givesTheSame() {
