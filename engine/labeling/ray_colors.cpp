@@ -21,19 +21,30 @@ void store_view(const LightField& lf, ViewIndex view, ImageView<std::uint8_t> co
   }
 }
 
+std::unique_ptr<const ViewStack<std::uint8_t>> rounded_views(const LightField& lf, GridShape grid,
+                                                             ViewIndex first,
+                                                             const Progress& progress) {
+  auto colors = std::make_unique<ViewStack<std::uint8_t>>(grid, lf.height(), lf.width(),
+                                                          lf.channels(), first);
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = grid.view_at(i, first);
+    store_view(lf, view, colors->view(view));
+  });
+  return colors;
+}
+
 }  // namespace
 
 RayColors::RayColors(const LightField& light_field, GridShape grid, ViewIndex first,
                      const Progress& progress)
-    : colors_(grid, light_field.height(), light_field.width(), light_field.channels(), first) {
+    : colors_(std::get_if<ViewStack<std::uint8_t>>(&light_field.samples())) {
   for (int s = 0; s < kNoTrust; ++s) {
     table_[s] = std::exp(-static_cast<float>(s) / (2 * kSigma * kSigma));
   }
   table_[kNoTrust] = 0;
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i, first);
-    store_view(light_field, view, colors_.view(view));
-  });
+  if (colors_ != nullptr) return;
+  rounded_ = rounded_views(light_field, grid, first, progress);
+  colors_ = rounded_.get();
 }
 
 }  // namespace episcope

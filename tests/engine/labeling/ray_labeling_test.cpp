@@ -5,6 +5,7 @@
 #include "engine/labeling/boundary_weights.h"
 #include "engine/labeling/consistency.h"
 #include "engine/labeling/label_costs.h"
+#include "engine/labeling/ray_colors.h"
 #include "engine/scenes/builtin.h"
 #include "tests/engine/labeling/noisy_labels.h"
 
@@ -93,6 +94,7 @@ class RayLabelingTest : public QObject {
   void label_keepsIds();
   void label_certifiesItself();
   void trackCosts_areMeansOverVisibleRays();
+  void colors_doNotDependOnTheStoredType();
   void label_stopsOnRequest();
   void label_endsEarlyWhenAsked();
   void label_refusesBadInput();
@@ -276,6 +278,31 @@ void RayLabelingTest::trackCosts_areMeansOverVisibleRays() {
     }
   }
   QVERIFY(std::fabs(costs.view().at(17, 1, 14) - sum / 25) < 1e-4);
+}
+
+// Samples of 8 bits are looked into, others are rounded to 8 bits.
+void RayLabelingTest::colors_doNotDependOnTheStoredType() {
+  const Case noisy("objects");
+  const LightField& bytes = *noisy.scene.light_field;
+  ViewStack<float> samples(bytes.grid(), bytes.height(), bytes.width(), bytes.channels());
+  for (int i = 0; i < bytes.grid().count(); ++i) {
+    const Image<float> view = bytes.view_as_float(bytes.grid().view_at(i));
+    std::copy(view.begin(), view.end(), samples.view(bytes.grid().view_at(i)).data);
+  }
+  const LightField floats(std::move(samples), {});
+  const RayColors looked_into(bytes, {2, 2}, {1, 1}, Progress());
+  const RayColors rounded(floats, {2, 2}, {1, 1}, Progress());
+
+  int told_apart = 0;
+  for (int y = 0; y < bytes.height(); y += 3) {
+    const auto a = looked_into.pair({1, 1}, y, {2, 2}), b = rounded.pair({1, 1}, y, {2, 2});
+    for (int x = 0; x < bytes.width(); ++x) {
+      const float trust = looked_into.trust(a, x, y * bytes.width() + x);
+      QCOMPARE(rounded.trust(b, x, y * bytes.width() + x), trust);
+      told_apart += trust < 0.5F ? 1 : 0;
+    }
+  }
+  QVERIFY(told_apart > 0);
 }
 
 void RayLabelingTest::label_stopsOnRequest() {
