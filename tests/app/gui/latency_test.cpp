@@ -33,6 +33,7 @@ constexpr auto kInterval = std::chrono::milliseconds(5);
 constexpr int kInputsPerEvent = 4;         // every fourth event is an input that redraws the window
 constexpr double kFrame = 16 * kSlowdown;  // ms
 constexpr int kAttempts = 4;
+constexpr scenes::RenderOptions kLargeViews{{3, 3}, 1024, 1024};
 
 // What a user does: moves the mouse over the view, and steps through the views.
 void give_input(MainWindow& window, int number) {
@@ -210,9 +211,7 @@ class LatencyTest : public QObject {
 
 void LatencyTest::window_answersWhileAMethodRuns() {
   WindowFixture f;
-  scenes::RenderOptions options;  // 9×9 views of 512×512
-  f.window.open(f.writeScene("edge", options));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  f.openScene("edge", {});  // 9×9 views of 512×512
 
   const auto ages =
       measured_calmly("event latency during EPI_L", [&] { return latencies_during_run(f.window); });
@@ -225,12 +224,8 @@ void LatencyTest::window_answersWhileAMethodRuns() {
 void LatencyTest::overlays_areMadeWithoutHoldingTheWindowUp() {
   constexpr int inputs = 160;
   WindowFixture f;
-  scenes::RenderOptions options;
-  options.grid = {3, 3};
-  options.height = options.width = 1024;
   f.window.resize(2560, 1440);
-  f.window.open(f.writeScene("edge", options));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  f.openScene("edge", kLargeViews);
   add_results(f.window.session(), 2);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kScenePatience);
 
@@ -246,8 +241,7 @@ void LatencyTest::overlays_areMadeWithoutHoldingTheWindowUp() {
 
 void LatencyTest::tiles_followInputWithinAFrame() {
   WindowFixture f;
-  f.window.open(f.writeScene("edge", scenes::RenderOptions()));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  f.openScene("edge", {});
   add_results(f.window.session(), 10);
   TileWall* wall = f.window.panels().wall;
   f.window.compare().setMode(CompareMode::Wall);
@@ -270,10 +264,7 @@ void LatencyTest::tiles_followInputWithinAFrame() {
 void LatencyTest::strokes_arePaintedWhileLabelsAreMade() {
   constexpr int moves = 300;
   WindowFixture f;
-  scenes::RenderOptions options;
-  options.grid = {3, 3};
-  options.height = options.width = 1024;
-  f.window.open(f.writeScene("objects", options));
+  f.openScene("objects", kLargeViews);
   QTRY_VERIFY_WITH_TIMEOUT(f.window.segment().labeler().has_input(), kScenePatience);
   f.window.actions().find("annotate.mode")->trigger();
   f.window.actions().find("segment.live")->trigger();

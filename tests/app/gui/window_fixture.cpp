@@ -54,10 +54,14 @@ QString WindowFixture::writeScene(const std::string& id,
   return file;
 }
 
-void WindowFixture::openSmall(const std::string& id) {
-  window.open(writeScene(id, smallOptions()));
+void WindowFixture::openScene(const std::string& id, const scenes::RenderOptions& options) {
+  window.open(writeScene(id, options));
   // The session tells the window of its scene one turn later.
   QTRY_VERIFY_WITH_TIMEOUT(window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+}
+
+void WindowFixture::openSmall(const std::string& id) {
+  openScene(id, smallOptions());
   QTRY_COMPARE_WITH_TIMEOUT(window.panels().canvas->picture().size(), QSize(96, 96), kPatience);
 }
 

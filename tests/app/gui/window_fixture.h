@@ -24,7 +24,9 @@ class WindowFixture {
   /// 9×9 views of 96×96 pixels, with truth.
   [[nodiscard]] static scenes::RenderOptions smallOptions();
 
-  /// Opens a scene and waits until it is shown.
+  /// Opens a built-in scene of this size and waits until methods can run on it.
+  void openScene(const std::string& id, const scenes::RenderOptions& options);
+  /// Opens a scene of `smallOptions` and waits until it is shown.
   void openSmall(const std::string& id = "edge");
   /// Clicks Run and waits for the result.
   void runAndWait();
