@@ -68,6 +68,7 @@ void epi_l(benchmark::State& state) {
   const double best = measure(
       state, [&] { return estimate_epi_l(lf, parameters, ViewSelection::All, Progress()); });
   // Samples are read for each direction; results are written, then read and written in the merge.
+  // Bound by arithmetic: see structure_tensor in kernel_bench.
   const double bytes = 2.0 * static_cast<double>(lf.byte_size()) + 3 * result_bytes();
   state.counters["GB_per_s"] = bytes / best / 1e9;
   state.counters["of_copy"] = bytes / best / bench::copied_bytes_per_second();
