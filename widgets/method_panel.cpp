@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/method_panel.h"
 
+#include "widgets/aside_delegate.h"
 #include "widgets/icon.h"
 #include "widgets/parameter_form.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
 
+#include <QAbstractItemView>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QEvent>
@@ -19,6 +21,8 @@
 
 namespace episcope {
 namespace {
+
+constexpr int kListWidth = 560;  // names and what the methods do
 
 QPushButton* make_button(const char* name, const char* icon, const QString& text,
                          const QString& tip, QWidget* parent) {
@@ -47,6 +51,8 @@ MethodPanel::MethodPanel(QWidget* parent)
   setObjectName("methodPanel");
   method_->setObjectName("method.combo");
   method_->setToolTip(tr("Method of estimation"));
+  method_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, method_));
+  method_->view()->setMinimumWidth(kListWidth);
   summary_->setObjectName("method.summary");
   summary_->setWordWrap(true);
   reference_->setObjectName("method.reference");
@@ -111,8 +117,9 @@ void MethodPanel::setMethods(std::vector<MethodDescription> methods) {
   method_->clear();
   for (const auto& method : methods_) {
     method_->addItem(QString::fromStdString(method.name), QString::fromStdString(method.id));
-    method_->setItemData(method_->count() - 1, QString::fromStdString(method.summary),
-                         Qt::ToolTipRole);
+    for (const int role : {static_cast<int>(Qt::ToolTipRole), AsideDelegate::kAsideRole}) {
+      method_->setItemData(method_->count() - 1, QString::fromStdString(method.summary), role);
+    }
   }
   showMethod(method_->currentIndex());
 }
@@ -138,6 +145,7 @@ void MethodPanel::showMethod(int index) {
   scroll_->widget()->layout()->activate();
   scroll_->setMinimumWidth(scroll_->widget()->minimumSizeHint().width() +
                            scroll_->verticalScrollBar()->sizeHint().width());
+  updateGeometry();
   updateReset();
   setRunBlocked(blocked_);
 }
@@ -174,6 +182,19 @@ void MethodPanel::setRunBlocked(const QString& reason) {
 void MethodPanel::followTips(const QAction* cancel, const QAction* copy) {
   follow_tip(cancel_, cancel);
   follow_tip(copy_, copy);
+}
+
+QSize MethodPanel::sizeHint() const {
+  int height = -layout()->spacing();
+  for (int i = 0; i < layout()->count(); ++i) {
+    const QLayoutItem* item = layout()->itemAt(i);
+    if (item->isEmpty()) continue;
+    height += layout()->spacing();
+    height += item->widget() == scroll_   ? scroll_->widget()->sizeHint().height()
+              : item->hasHeightForWidth() ? item->heightForWidth(width())
+                                          : item->sizeHint().height();
+  }
+  return {QWidget::sizeHint().width(), height};
 }
 
 RunRequest MethodPanel::request() const {

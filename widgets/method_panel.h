@@ -62,6 +62,9 @@ class MethodPanel : public QWidget {
   [[nodiscard]] RunRequest request() const;
   [[nodiscard]] ParameterForm* form() const { return form_; }
 
+  /// As high as the whole form.
+  [[nodiscard]] QSize sizeHint() const override;
+
  signals:
   void runRequested(const episcope::RunRequest& request);
   void cancelRequested();

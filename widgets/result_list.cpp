@@ -41,10 +41,10 @@ QString seconds_text(double seconds) {
 ResultList::ResultList(QWidget* parent)
     : QWidget(parent),
       tree_(new QTreeWidget(this)),
-      hint_(new QLabel(tr("No results yet. Run a method above."), this)),
-      export_(make_tool_button(
-          {"results.export", "export", tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
-          this)),
+      hint_(new QLabel(this)),
+      export_(make_tool_button({"results.export", "export",
+                                tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
+                               this)),
       remove_(make_tool_button(
           {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),
       reuse_(make_tool_button(
@@ -75,6 +75,7 @@ ResultList::ResultList(QWidget* parent)
   connect_button(export_, &ResultList::exportRequested);
   connect_button(remove_, &ResultList::removeRequested);
   connect_button(reuse_, &ResultList::reuseRequested);
+  setExpecting(false);
   setResults({});
 }
 
@@ -140,6 +141,11 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
   hint_->setVisible(results.empty());
   setShown(shown_, compared_);
   updateButtons();
+}
+
+void ResultList::setExpecting(bool is_expecting) {
+  hint_->setText(is_expecting ? tr("The result appears here.")
+                              : tr("No results yet. Run a method above."));
 }
 
 void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> compared) {

@@ -33,6 +33,8 @@ class ResultList : public QWidget {
   explicit ResultList(QWidget* parent = nullptr);
 
   void setResults(const std::vector<ResultRow>& results);
+  /// Whether a method runs whose result will come; an empty list says so.
+  void setExpecting(bool is_expecting);
   /// Marks the row whose picture is on screen and the one it is compared with; none = no mark.
   void setShown(std::optional<quint64> id, std::optional<quint64> compared = std::nullopt);
 

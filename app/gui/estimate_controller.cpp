@@ -122,9 +122,15 @@ void EstimateController::run(const EstimateRequest& request) {
       [this, generation](const FinishedEstimate& finished) {
         session_.add_estimate(finished.estimate, finished.display_range, generation);
       },
-      [this] { panels_.method->setRunning(jobs_.count(Lane::Estimate) > 0); });
+      [this] { showRunning(); });
   if (info.iterative) panels_.jobs->setIterative(job);
-  panels_.method->setRunning(true);
+  showRunning();
+}
+
+void EstimateController::showRunning() {
+  const bool is_running = jobs_.count(Lane::Estimate) > 0;
+  panels_.method->setRunning(is_running);
+  panels_.results->setExpecting(is_running);
 }
 
 void EstimateController::cancel() {

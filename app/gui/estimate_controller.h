@@ -37,6 +37,7 @@ class EstimateController : public QObject {
 
  private:
   void update(Parts parts);
+  void showRunning();
   void listResults();
   void copyCommandOf(const EstimateEntry& entry);
   void copy(const std::string& command);

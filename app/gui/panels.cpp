@@ -6,6 +6,7 @@
 #include "widgets/color_bar.h"
 #include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
+#include "widgets/fitting_splitter.h"
 #include "widgets/info_panel.h"
 #include "widgets/job_panel.h"
 #include "widgets/label_palette.h"
@@ -35,9 +36,8 @@ namespace {
 constexpr int kLeftWidth = 205;
 constexpr int kRightWidth = 362;
 constexpr int kCenterWidth = 720;
-constexpr int kEpiWidth = 145;  // of the vertical EPI and the legend under it
-constexpr int kMethodHeight = 440;
-constexpr int kResultsHeight = 260;
+constexpr int kEpiWidth = 145;      // of the vertical EPI and the legend under it
+constexpr int kLeastResults = 150;  // height of a list of five
 
 QString text(const char* source) {
   return QCoreApplication::translate("episcope::MainWindow", source);
@@ -95,13 +95,11 @@ QWidget* make_left(Panels& panels, QWidget* parent) {
 }
 
 QWidget* make_estimate_tab(Panels& panels, QWidget* parent) {
-  auto* tab = new QSplitter(Qt::Vertical, parent);
+  auto* tab = new FittingSplitter(kLeastResults, parent);
   panels.method = new MethodPanel(tab);
   panels.results = new ResultList(tab);
   tab->addWidget(panels.method);
   tab->addWidget(panels.results);
-  tab->setSizes({kMethodHeight, kResultsHeight});
-  tab->setChildrenCollapsible(false);
   return tab;
 }
 

@@ -26,6 +26,8 @@
 #include <QFile>
 #include <QMimeData>
 #include <QRegularExpression>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -79,6 +81,7 @@ class MainWindowTest : public QObject {
   void resultOfOtherSamples_isOpenedWithAWarning();
   void lightField_isNoResult();
   void copiedMetrics_areTold();
+  void formOfTheFirstMethod_isSeenWhole();
   void escape_cancelsTheRun();
   void anotherScene_dropsResults();
   void closedScene_leavesTheEmptyWindow();
@@ -387,6 +390,17 @@ void MainWindowTest::copiedMetrics_areTold() {
   const QString text = f.window.panels().messages->text();
   QVERIFY2(text.contains("Copied") && text.contains("LaTeX"), qPrintable(text));
   QVERIFY(QGuiApplication::clipboard()->text().startsWith("\\begin{tabular}"));
+}
+
+void MainWindowTest::formOfTheFirstMethod_isSeenWhole() {
+  WindowFixture f;
+  f.openSmall();
+
+  const auto* scroll = f.window.findChild<QScrollArea*>("method.scroll");
+
+  QTRY_COMPARE_WITH_TIMEOUT(scroll->verticalScrollBar()->maximum(), 0, kPatience);
+  // Nor is room wasted under it.
+  QVERIFY(scroll->viewport()->height() < scroll->widget()->sizeHint().height() + 40);
 }
 
 void MainWindowTest::resultOfAnotherLightField_isRefused() {
