@@ -2,6 +2,7 @@
 #include "app/gui/command_palette.h"
 
 #include "app/gui/action_table.h"
+#include "widgets/aside_delegate.h"
 
 #include <QAction>
 #include <QKeyEvent>
@@ -40,6 +41,7 @@ CommandPalette::CommandPalette(const ActionTable& table, QWidget* parent)
   edit_->installEventFilter(this);
   list_->setObjectName("command_palette.list");
   list_->setFocusPolicy(Qt::NoFocus);
+  list_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::End, list_));
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(edit_);
   layout->addWidget(list_);
@@ -64,11 +66,10 @@ void CommandPalette::filter(const QString& text) {
     const QAction* action = table_.find(command.id);
     if (!action->isEnabled() || !matches(command.menu + ' ' + command.text, text)) continue;
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-    auto* item = new QListWidgetItem(
-        QStringLiteral("%1: %2%3")
-            .arg(command.menu, command.text, keys.isEmpty() ? QString() : "    " + keys),
-        list_);
+    auto* item =
+        new QListWidgetItem(QStringLiteral("%1: %2").arg(command.menu, command.text), list_);
     item->setData(kActionIdRole, command.id);
+    item->setData(AsideDelegate::kAsideRole, keys);
     item->setToolTip(command.tip);
   }
   list_->setCurrentRow(0);

@@ -118,7 +118,7 @@ void add_choice_actions(ActionTable& table, MainWindow& window) {
   table.add({.id = "compare.flip",
              .menu = menu,
              .text = tr("Flip to B"),
-             .tip = tr("Shows B, the compared result, while the key is held in the view"),
+             .tip = tr("Shows B, the compared result, while the key is held in the view or a list"),
              .icon = "",
              .keys = {Qt::Key_Tab},
              .run = [&overlay] { overlay.setFlipped(!overlay.isFlipped()); },

@@ -37,11 +37,14 @@
 #include "widgets/job_panel.h"
 #include "widgets/message_bar.h"
 #include "widgets/method_panel.h"
+#include "widgets/metric_table.h"
 #include "widgets/overlay_bar.h"
+#include "widgets/result_list.h"
 #include "widgets/value_bar.h"
 #include "widgets/view_canvas.h"
 #include "widgets/view_grid.h"
 
+#include <QAbstractItemView>
 #include <QAction>
 #include <QActionGroup>
 #include <QCloseEvent>
@@ -107,7 +110,9 @@ MainWindow::MainWindow(QWidget* parent)
   connectAnnotation();
   connectFiles();
   installEventFilter(opener_);
-  panels_.canvas->installEventFilter(this);
+  flippers_ = {panels_.canvas, panels_.results->findChild<QAbstractItemView*>(),
+               panels_.metrics->findChild<QAbstractItemView*>()};
+  for (QWidget* each : flippers_) each->installEventFilter(this);
   connect(actions_, &ActionTable::keysChanged, this, &MainWindow::showInvitation);
   showInvitation();
   session_->on_changed([this](Parts parts) {
@@ -383,7 +388,8 @@ void MainWindow::escape() {
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
   const bool is_press = event->type() == QEvent::KeyPress;
-  if (watched == panels_.canvas && (is_press || event->type() == QEvent::KeyRelease)) {
+  const bool is_flipper = std::find(flippers_.begin(), flippers_.end(), watched) != flippers_.end();
+  if (is_flipper && (is_press || event->type() == QEvent::KeyRelease)) {
     const auto* key = static_cast<QKeyEvent*>(event);
     for (const QKeySequence& flip : actions_->keys("compare.flip")) {
       // Modifiers may be let go before the key.
@@ -396,7 +402,7 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
       return true;
     }
   }
-  if (watched == panels_.canvas && event->type() == QEvent::FocusOut) overlay_->setFlipped(false);
+  if (is_flipper && event->type() == QEvent::FocusOut) overlay_->setFlipped(false);
   return QMainWindow::eventFilter(watched, event);
 }
 

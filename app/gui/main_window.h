@@ -91,6 +91,7 @@ class MainWindow : public QMainWindow {
   void restoreLayout();
 
   Panels panels_;
+  std::vector<QWidget*> flippers_;  // where the key that flips to B is heard while it is held
   std::unique_ptr<Session> session_;
   Jobs* jobs_;
   BrowseController* browse_;

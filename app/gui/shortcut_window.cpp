@@ -9,6 +9,7 @@
 #include <QHeaderView>
 #include <QKeySequenceEdit>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTreeWidget>
@@ -39,14 +40,18 @@ QTreeWidgetItem* add_group(QTreeWidget* tree, const QString& title) {
 }  // namespace
 
 ShortcutWindow::ShortcutWindow(ActionTable& table, QWidget* parent)
-    : QDialog(parent), table_(table), tree_(new QTreeWidget(this)) {
+    : QDialog(parent), table_(table), find_(new QLineEdit(this)), tree_(new QTreeWidget(this)) {
   setObjectName("shortcut_window");
   setWindowTitle(tr("Keys and mouse"));
   tree_->setObjectName("keys.tree");
   tree_->setHeaderLabels({tr("Key"), tr("What it does")});
   tree_->setRootIsDecorated(false);
   tree_->setItemsExpandable(false);
+  find_->setObjectName("keys.find");
+  find_->setPlaceholderText(tr("Find a key or a command"));
+  find_->setClearButtonEnabled(true);
   auto* layout = new QVBoxLayout(this);
+  layout->addWidget(find_);
   layout->addWidget(tree_, 1);
   layout->addWidget(makeEditor());
   fillGestures();
@@ -59,8 +64,9 @@ ShortcutWindow::ShortcutWindow(ActionTable& table, QWidget* parent)
     updateEditor();
   });
   connect(tree_, &QTreeWidget::itemActivated, edit_, qOverload<>(&QWidget::setFocus));
+  connect(find_, &QLineEdit::textChanged, this, &ShortcutWindow::filter);
   connect(&table_, &ActionTable::keysChanged, this, &ShortcutWindow::showKeys);
-  resize(620, 680);
+  resize(700, 680);
 }
 
 QWidget* ShortcutWindow::makeEditor() {
@@ -152,6 +158,21 @@ void ShortcutWindow::showKeys() {
     }
   }
   updateEditor();
+}
+
+void ShortcutWindow::filter(const QString& text) {
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* group = tree_->topLevelItem(i);
+    bool is_empty = true;
+    for (int row = 0; row < group->childCount(); ++row) {
+      QTreeWidgetItem* item = group->child(row);
+      const bool is_found = item->text(0).contains(text, Qt::CaseInsensitive) ||
+                            item->text(1).contains(text, Qt::CaseInsensitive);
+      item->setHidden(!is_found);
+      is_empty &= !is_found;
+    }
+    group->setHidden(is_empty);
+  }
 }
 
 QString ShortcutWindow::command() const {

@@ -7,6 +7,7 @@
 
 class QKeySequenceEdit;
 class QLabel;
+class QLineEdit;
 class QPushButton;
 class QTreeWidget;
 class QTreeWidgetItem;
@@ -30,12 +31,15 @@ class ShortcutWindow : public QDialog {
   void fillCommands();
   QWidget* makeEditor();
   void showKeys();
+  /// Leaves the rows that hold the text.
+  void filter(const QString& text);
   /// Of the selected row; empty on gestures.
   [[nodiscard]] QString command() const;
   void updateEditor();
   void setKey();
 
   ActionTable& table_;
+  QLineEdit* find_;
   QTreeWidget* tree_;
   QKeySequenceEdit* edit_ = nullptr;
   QLabel* hint_ = nullptr;

@@ -34,6 +34,7 @@ class ActionTableTest : public QObject {
   void everyCommand_hasTextAndTip();
   void everyCommand_isInAMenu();
   void everyCommandWithKeys_isInTheShortcutWindow();
+  void listOfKeys_isSearched();
   void palette_findsAndRunsACommand();
   void changedKey_worksIsShownAndRemembered();
   void keysOfTheView_areThoseOfTheTable_data();
@@ -99,6 +100,21 @@ void ActionTableTest::everyCommandWithKeys_isInTheShortcutWindow() {
     const auto rows = tree->findItems(command.tip, Qt::MatchExactly | Qt::MatchRecursive, 1);
     QVERIFY2(rows.size() == 1, qPrintable(command.id));
   }
+}
+
+void ActionTableTest::listOfKeys_isSearched() {
+  WindowFixture f;
+  f.window.actions().find("help.keys")->trigger();
+  const auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
+  auto* tree = dialog->findChild<QTreeWidget*>("keys.tree");
+
+  QTest::keyClicks(dialog->findChild<QLineEdit*>("keys.find"), "parallax");
+
+  int rows = 0;
+  for (QTreeWidgetItemIterator each(tree, QTreeWidgetItemIterator::NotHidden); *each; ++each) {
+    rows += (*each)->childCount() == 0 ? 1 : 0;
+  }
+  QCOMPARE(rows, 1);
 }
 
 void ActionTableTest::palette_findsAndRunsACommand() {

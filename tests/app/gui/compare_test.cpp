@@ -91,6 +91,8 @@ class CompareTest : public QObject {
   void wipe_showsBRightOfADividerThatCanBeDragged();
   void sideBySide_showsAAndB();
   void flip_marksWhichOneIsSeen();
+  void flip_isHeardInLists_data();
+  void flip_isHeardInLists();
   void difference_isOfAAndB();
   void clickOnAMark_choosesB();
   void chosenB_staysWhenAnotherIsShown();
@@ -235,6 +237,26 @@ void CompareTest::flip_marksWhichOneIsSeen() {
 
   QVERIFY(of_a.copy(badge) != of_b.copy(badge));
   QCOMPARE(f.canvas()->grab().toImage(), of_a);
+}
+
+void CompareTest::flip_isHeardInLists_data() {
+  QTest::addColumn<QString>("list");
+  QTest::newRow("results") << "results.tree";
+  QTest::newRow("metrics") << "metrics.table";
+}
+
+// Where a result was chosen the keyboard stays: the key that flips must not leave it.
+void CompareTest::flip_isHeardInLists() {
+  QFETCH(QString, list);
+  Compared f({0.0F, 0.5F});
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
+  auto* widget = f.window.findChild<QWidget*>(list);
+
+  QTest::keyPress(widget, Qt::Key_Tab);
+  QVERIFY(f.window.overlay().isFlipped());
+  QTest::keyRelease(widget, Qt::Key_Tab);
+
+  QVERIFY(!f.window.overlay().isFlipped());
 }
 
 void CompareTest::difference_isOfAAndB() {
