@@ -25,7 +25,7 @@ p { margin: .3rem 0; max-width: 75ch; } .faint { color: var(--faint); }
 table { border-collapse: collapse; margin: .5rem 0; font-variant-numeric: tabular-nums; }
 th, td { padding: .25rem .7rem; text-align: right; white-space: nowrap;
   border-bottom: 1px solid var(--line); }
-th:first-child, td:first-child, td.text { text-align: left; }
+th:first-child, td:first-child, .text { text-align: left; }
 th { font-weight: 600; border-bottom-width: 2px; cursor: pointer; }
 tbody tr:nth-child(even) { background: var(--band); }
 td.best { font-weight: 700; color: var(--best); }
@@ -105,14 +105,19 @@ bool is_summary(const std::vector<std::string>& row) {
   return row.front().starts_with("average") || row.front() == "rank";
 }
 
+// Of a column: whether words stand in it rather than numbers.
+bool holds_words(const std::string& header) {
+  return header.ends_with("parameters") || header == "speed" || header == "all views";
+}
+
 std::string row_html(const TitledTable& titled, std::size_t row) {
   std::string html = "<tr>";
   const auto& cells = titled.table.rows[row];
   for (std::size_t column = 0; column < cells.size(); ++column) {
     const bool is_best = std::find(titled.best.begin(), titled.best.end(),
                                    std::pair(row, column)) != titled.best.end();
-    const bool is_text = titled.table.header[column].ends_with("parameters");
-    html += is_best ? "<td class=\"best\">" : is_text ? "<td class=\"text\">" : "<td>";
+    const bool has_words = holds_words(titled.table.header[column]);
+    html += is_best ? "<td class=\"best\">" : has_words ? "<td class=\"text\">" : "<td>";
     html += escaped(cells[column]) + "</td>";
   }
   return html + "</tr>\n";
@@ -121,7 +126,10 @@ std::string row_html(const TitledTable& titled, std::size_t row) {
 std::string table_html(const TitledTable& titled) {
   std::string html = "<h2>" + escaped(titled.title) + "</h2>\n" + paragraph(titled.note, "faint") +
                      "<div class=\"wide\"><table>\n<thead><tr>";
-  for (const auto& cell : titled.table.header) html += "<th>" + escaped(cell) + "</th>";
+  for (const auto& cell : titled.table.header) {
+    html += holds_words(cell) ? "<th class=\"text\">" : "<th>";
+    html += escaped(cell) + "</th>";
+  }
   html += "</tr></thead>\n<tbody>\n";
   std::string summary;
   for (std::size_t row = 0; row < titled.table.rows.size(); ++row) {
@@ -221,7 +229,8 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
       std::string(kStyle) + "\n</style>\n</head>\n<body>\n<h1>Disparity benchmark</h1>\n" +
       paragraph(
           std::to_string(report.scenes.size()) +
-              " scenes, judged in the centre view. "
+              (report.scenes.size() == 1 ? " scene" : " scenes") +
+              ", judged in the centre view. "
               "Mean squared errors are in px² × 100; less is better, the best is bold. Made by "
               "Episcope " +
               kVersion +

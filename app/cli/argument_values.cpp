@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments.h"
 #include "app/cli/usage_error.h"
+#include "engine/core/parameter.h"
 
 #include <charconv>
 #include <cmath>
@@ -52,7 +53,7 @@ int parse_integer(const std::string& option, const std::string& text, int min, i
 double parse_real(const std::string& option, const std::string& text, double min, double max) {
   const auto number = number_in<double>(text);
   if (!number || !(*number >= min && *number <= max)) {
-    refuse(option, text, "a number from " + std::to_string(min) + " to " + std::to_string(max));
+    refuse(option, text, "a number from " + to_text(min) + " to " + to_text(max));
   }
   return *number;
 }

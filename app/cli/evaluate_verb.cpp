@@ -156,7 +156,7 @@ void print_answer(const Request& request, const std::vector<Row>& rows, ViewInde
   } else {
     std::cout << request.protocol << " against " << request.truth << ", view " << view_text(view)
               << "\n\n"
-              << table_to_text(turned(table));  // a metric a line, a result a column
+              << table_to_narrow_text(table);
   }
 }
 

@@ -37,7 +37,7 @@ std::string list_of_scenes() {
 
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser("synthesize", {list_of_scenes(),
-                                  "episcope-cli synthesize edge -o edge/lf.h5 --views 9x9 "
+                                  "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
                                   "--size 256x256"});
   parser.positional("SCENE", request.scene, "Id of a built-in scene");
   parser.required_option("-o,--output", request.output, "OUT.h5", "Light field to write");

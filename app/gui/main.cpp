@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
+#include "engine/core/parameter.h"
 #include "engine/core/version.h"
 #include "widgets/outlined_style.h"
 #include "widgets/theme.h"
@@ -27,6 +28,19 @@ bool set_theme(const QString& name) {
   return name == "system";
 }
 
+int fail(const QString& sentence) {
+  std::fprintf(stderr, "episcope: %s\n", qPrintable(sentence));
+  return kUsageError;
+}
+
+QString no_option(const QString& name) {
+  const std::string nearest =
+      episcope::nearest_name(name.toStdString(), {"theme", "help", "version"});
+  const QString sentence = QString("there is no option '--%1'; ").arg(name);
+  return sentence + (nearest.empty() ? QString("see episcope --help")
+                                     : QString("did you mean '--%1'?").arg(nearest.c_str()));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -38,20 +52,23 @@ int main(int argc, char** argv) {
   QCommandLineParser parser;
   parser.setApplicationDescription(
       "Views, EPIs, disparity and labels of 4D light fields. Without INPUT, opens the demo.");
-  parser.addHelpOption();
-  parser.addVersionOption();
+  const QCommandLineOption help = parser.addHelpOption();
+  const QCommandLineOption version = parser.addVersionOption();
   parser.addPositionalArgument(
       "INPUT", "an lf.h5, a scene folder, an image grid, demo or demo:<scene>", "[INPUT]");
   const QCommandLineOption theme("theme", "Colours: light, dark or those of the desktop.",
                                  "light|dark|system", "system");
   parser.addOption(theme);
-  parser.process(application);
+  if (!parser.parse(application.arguments())) {
+    const QStringList unknown = parser.unknownOptionNames();
+    return fail(unknown.isEmpty() ? parser.errorText() : no_option(unknown.front()));
+  }
+  if (parser.isSet(help)) parser.showHelp();
+  if (parser.isSet(version)) parser.showVersion();
   const QStringList inputs = parser.positionalArguments();
   if (!set_theme(parser.value(theme)) || inputs.size() > 1) {
-    std::fprintf(stderr, "episcope: %s\n",
-                 inputs.size() > 1 ? "only one INPUT can be open; start it again for each"
-                                   : "--theme must be light, dark or system");
-    return kUsageError;
+    return fail(inputs.size() > 1 ? "only one INPUT can be open; start it again for each"
+                                  : "--theme must be light, dark or system");
   }
 
   episcope::MainWindow window;

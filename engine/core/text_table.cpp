@@ -24,6 +24,8 @@ std::string latex_cell(const std::string& text) {
       i += times.size() - 1;
     } else if (c == '\\') {
       escaped += "\\textbackslash{}";
+    } else if (c == '<' || c == '>' || c == '|') {  // other glyphs in the usual font
+      escaped += c == '<' ? "\\textless{}" : c == '>' ? "\\textgreater{}" : "\\textbar{}";
     } else if (c == '~' || c == '^') {
       escaped += std::string("\\") + c + "{}";
     } else {
@@ -91,6 +93,21 @@ std::string table_to_text(const TextTable& table) {
   write(table.header);
   for (const auto& row : table.rows) write(row);
   return text;
+}
+
+std::string table_to_narrow_text(const TextTable& table) {
+  const auto width = [](const std::string& text) {
+    std::size_t widest = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin);
+      widest = std::max(widest, letters_in(text.substr(begin, end - begin)));
+      begin = end + 1;
+    }
+    return widest;
+  };
+  const std::string upright = table_to_text(table);
+  const std::string lying = table_to_text(turned(table));
+  return width(lying) <= width(upright) ? lying : upright;
 }
 
 std::string table_to_csv(const TextTable& table) {

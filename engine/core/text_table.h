@@ -14,6 +14,8 @@ struct TextTable {
 
 /// Columns aligned for people: the first to the left, the others to the right.
 [[nodiscard]] std::string table_to_text(const TextTable& table);
+/// The same, turned where that makes shorter lines, as it does for a few rows of many columns.
+[[nodiscard]] std::string table_to_narrow_text(const TextTable& table);
 /// RFC 4180, "." as the decimal point.
 [[nodiscard]] std::string table_to_csv(const TextTable& table);
 /// A `tabular` with rules of booktabs.

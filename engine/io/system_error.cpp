@@ -11,10 +11,11 @@ namespace {
 
 constexpr std::uintmax_t kNearlyNothing = 1 << 20;
 
+// Pseudo file systems report no capacity at all.
 bool is_disk_full(const std::filesystem::path& path) {
   std::error_code error;
   const auto space = std::filesystem::space(path.parent_path(), error);
-  return !error && space.available < kNearlyNothing;
+  return !error && space.capacity > 0 && space.available < kNearlyNothing;
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ void require_readable_file(const std::filesystem::path& path) {
 
 IoError write_error(const std::filesystem::path& path) {
   const int code = errno;
-  if (code == ENOSPC || code == EDQUOT || is_disk_full(path)) {
+  const bool is_forbidden = code == EACCES || code == EPERM || code == EROFS;
+  if (code == ENOSPC || code == EDQUOT || (!is_forbidden && is_disk_full(path))) {
     return {path, "the disk is full; free some space or choose another folder"};
   }
   if (code == EFBIG) {

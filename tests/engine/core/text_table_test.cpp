@@ -39,6 +39,19 @@ class TextTableTest : public QObject {
     QCOMPARE(table.rows, (std::vector<std::vector<std::string>>{{"a", "1", "3"}, {"b", "2", "4"}}));
   }
 
+  void latex_writesBracketsAsTheyAre() {
+    const QString text = QString::fromStdString(table_to_latex({{"<a|b>"}, {}}));
+    QVERIFY(text.contains("\\textless{}a\\textbar{}b\\textgreater{}"));
+  }
+
+  void narrowText_isTurnedWhereThatIsShorter() {
+    const TextTable few{{"file", "first metric", "second metric"}, {{"x", "1", "2"}}};
+    QCOMPARE(table_to_narrow_text(few), table_to_text(turned(few)));
+    TextTable many{{"file", "a"}, {}};
+    for (int i = 0; i < 20; ++i) many.rows.push_back({"a file of this name", "1"});
+    QCOMPARE(table_to_narrow_text(many), table_to_text(many));
+  }
+
   void fixedText_keepsItsDigits() {
     QCOMPARE(fixed_text(0.25, 3), std::string("0.250"));
     QCOMPARE(fixed_text(1e300, 0).size(), std::size_t{301});
