@@ -62,6 +62,16 @@ void select_row(const float* const* tensor, int stride, const float* taps, float
   }
 }
 
+using SelectRow = void (*)(const float* const* tensor, int stride, const float* taps,
+                           float noise_energy, const Shear& shear, int length,
+                           float* __restrict const* best);
+// By the number of taps.
+constexpr SelectRow kSelectRows[] = {nullptr,        select_row<1>,  select_row<2>,  select_row<3>,
+                                     select_row<4>,  select_row<5>,  select_row<6>,  select_row<7>,
+                                     select_row<8>,  select_row<9>,  select_row<10>, select_row<11>,
+                                     select_row<12>, select_row<13>, select_row<14>};
+static_assert(sizeof(kSelectRows) / sizeof(SelectRow) == kMaxTaps + 2);
+
 void select(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
   for (int r = block.first_row; r < block.last_row; ++r) {
     // The payload pixel x of row r stands at x + k·(r − center) of the sheared coordinates.
@@ -76,54 +86,8 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
                                     block.tensor[2] + from};
     float* const best[4] = {block.best[0] + to, block.best[1] + to, block.best[2] + to,
                             block.best[3] + to};
-    const auto run = [&](auto kernel) {
-      kernel(tensor, block.stride, taps.values, filters.noise_energy, shear, block.length, best);
-    };
-    switch (2 * filters.integrate.radius + (half ? 2 : 1)) {
-      case 1:
-        run(select_row<1>);
-        break;
-      case 2:
-        run(select_row<2>);
-        break;
-      case 3:
-        run(select_row<3>);
-        break;
-      case 4:
-        run(select_row<4>);
-        break;
-      case 5:
-        run(select_row<5>);
-        break;
-      case 6:
-        run(select_row<6>);
-        break;
-      case 7:
-        run(select_row<7>);
-        break;
-      case 8:
-        run(select_row<8>);
-        break;
-      case 9:
-        run(select_row<9>);
-        break;
-      case 10:
-        run(select_row<10>);
-        break;
-      case 11:
-        run(select_row<11>);
-        break;
-      case 12:
-        run(select_row<12>);
-        break;
-      case 13:
-        run(select_row<13>);
-        break;
-      default:
-        static_assert(kMaxTaps == 13);
-        run(select_row<14>);
-        break;
-    }
+    kSelectRows[2 * filters.integrate.radius + (half ? 2 : 1)](
+        tensor, block.stride, taps.values, filters.noise_energy, shear, block.length, best);
   }
 }
 

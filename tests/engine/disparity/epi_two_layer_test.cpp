@@ -54,6 +54,9 @@ class EpiTwoLayerTest : public QObject {
   void opaqueScenes_haveOneLayer_data();
   void opaqueScenes_haveOneLayer();
   void layers_areOrderedAndAgreeOutside();
+  void layers_areExactWithinTheirRegion();
+  void surfaceSmoothness_concernsTheForegroundAlone();
+  void layers_stayWithinTheRange();
   void opaqueScene_comesOutAsByEpiS();
   void threadsAndCentre_changeNothing();
 };
@@ -119,6 +122,64 @@ void EpiTwoLayerTest::layers_areOrderedAndAgreeOutside() {
     QVERIFY(count == 1 || count == 2);
     QVERIFY(count == 2 ? near >= far : near == far);
     QVERIFY(far >= estimate.range.min - 1e-5 && near <= estimate.range.max + 1e-5);
+  }
+}
+
+// However much a surface is smoothed, it may jump at its border: pulled to what lies around, it
+// would be off by λ·perimeter/area, 0.04 px.
+void EpiTwoLayerTest::layers_areExactWithinTheirRegion() {
+  const Scene scene = render("transparent", 96, 96, {7, 7});
+  const ViewIndex view = scene.light_field->center();
+  const Estimate estimate = run(scene, ViewSelection::Center);
+  const ImageView<const std::uint8_t> layers = estimate.layered.layers.view(view);
+  const auto mse_100 = [&](const DisparityField& field, const DisparityField& truth) {
+    double sum = 0, count = 0;
+    for (int y = 0; y < layers.height; ++y) {
+      for (int x = 0; x < layers.width; ++x) {
+        if (layers.at(y, x) != 2 || !truth.view(view).is_valid(y, x)) continue;
+        const double off =
+            field.view(view).disparity.at(y, x) - truth.view(view).disparity.at(y, x);
+        sum += 100 * off * off;
+        count += 1;
+      }
+    }
+    return count > 4000 ? sum / count : 1e9;
+  };
+  const double near = mse_100(estimate.layered.foreground, scene.truth->foreground);
+  const double far = mse_100(estimate.layered.background, scene.truth->background);
+  QVERIFY2(near < 0.005 && far < 0.01, qPrintable(QString("%1 %2").arg(near).arg(far)));
+}
+
+void EpiTwoLayerTest::surfaceSmoothness_concernsTheForegroundAlone() {
+  const Scene scene = render("transparent", 72, 72, {5, 5}, 1, 2);
+  EpiTwoLayerParameters rough, smooth;
+  rough.layer_smoothness = 1;
+  smooth.layer_smoothness = 10;
+  const auto layers_of = [&](const EpiTwoLayerParameters& p) {
+    return estimate_epi_two_layer(*scene.light_field, p, ViewSelection::Center, Progress()).layered;
+  };
+  const LayeredDisparity a = layers_of(rough), b = layers_of(smooth);
+  QVERIFY(same_bytes(a.background.disparity, b.background.disparity));
+  const ViewIndex view = scene.light_field->center();
+  const double moved =
+      largest_difference(a.foreground.disparity.view(view), b.foreground.disparity.view(view));
+  QVERIFY2(moved > 0.01, qPrintable(QString::number(moved)));
+}
+
+void EpiTwoLayerTest::layers_stayWithinTheRange() {
+  const Scene scene = render("transparent", 64, 64, {5, 5});
+  const DisparityView near = scene.truth->foreground.view({2, 2});
+  const DisparityView far = scene.truth->background.view({2, 2});
+  EpiTwoLayerParameters p;
+  p.range = Interval{far.disparity.at(32, 32) + 0.1, near.disparity.at(32, 32) - 0.1};
+  QVERIFY(near.is_valid(32, 32) && p.range->length() > 0.5);
+  const Estimate estimate =
+      estimate_epi_two_layer(*scene.light_field, p, ViewSelection::All, Progress());
+  for (const ViewStack<float>* layer :
+       {&estimate.layered.foreground.disparity, &estimate.layered.background.disparity}) {
+    const auto [least, most] = std::minmax_element(layer->data(), layer->data() + layer->size());
+    QVERIFY(*least >= static_cast<float>(p.range->min) &&
+            *most <= static_cast<float>(p.range->max));
   }
 }
 
