@@ -9,6 +9,7 @@
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/evaluation/parameter_search.h"
+#include "engine/io/result_file.h"
 #include "tests/app/session/tiny_scene.h"
 
 #include <QTemporaryDir>
@@ -79,8 +80,8 @@ class BenchmarkTest : public QObject {
 
   void anyChange_isRunAgain_data() {
     QTest::addColumn<QString>("change");
-    for (const char* change :
-         {"samples", "truth", "revision", "default", "views", "map", "method"}) {
+    for (const char* change : {"samples", "truth", "camera", "range", "region", "revision",
+                               "default", "views", "map", "method"}) {
       QTest::newRow(change) << change;
     }
   }
@@ -89,7 +90,7 @@ class BenchmarkTest : public QObject {
     run();
 
     if (change == "samples") scene_ = "slant";
-    if (change == "truth") edit_truth_ = true;
+    edited_ = change;
     if (change == "revision") options_.methods = {counting_method("counting", runs_, 2)};
     if (change == "default") options_.methods[0].parameters[0].default_value = 0.4;
     if (change == "views") options_.views = ViewSelection::Center;
@@ -97,7 +98,7 @@ class BenchmarkTest : public QObject {
     if (change == "method") options_.methods = {counting_method("other", runs_)};
     run();
     scene_ = "edge";
-    edit_truth_ = false;
+    edited_.clear();
 
     QCOMPARE(runs_, 2);
   }
@@ -170,6 +171,27 @@ class BenchmarkTest : public QObject {
     QVERIFY(fs::exists(options_.folder / "scenes/edge-2/counting-error.png"));
   }
 
+  void submissionOfOtherSamples_isNoted() {
+    const fs::path theirs = fs::path(folder_->path().toStdString()) / "theirs";
+    fs::create_directories(theirs);
+    options_.submissions = {theirs};
+    const auto scene = tiny_scene();
+    for (const bool same : {true, false}) {
+      const EstimatePtr map = shifted_truth(*scene, 0.1F);
+      auto estimate = std::make_shared<Estimate>();
+      estimate->field.disparity = map->field.disparity.clone();
+      estimate->method = "theirs";
+      estimate->source_hash = same ? scene->light_field->sample_hash() : 1;
+      io::write_result(theirs / "edge.h5", *estimate, Progress());
+
+      const BenchmarkReport report = run();
+
+      QCOMPARE(report.results.size(), std::size_t{2});
+      QVERIFY(std::abs(*find_metric(report.results[1].vmv2013, "mse_100") - 1) < 1e-3);
+      QCOMPARE(report.results[1].notes.empty(), same);
+    }
+  }
+
   void foldersOfOtherThings_areRefused() {
     fs::create_directories(options_.folder);
     std::ofstream(options_.folder / "thesis.tex") << "years of work";
@@ -239,12 +261,18 @@ class BenchmarkTest : public QObject {
       Scene scene = *tiny_scene(scene_);
       LightFieldInfo info = scene.light_field->info();
       info.name = input;
+      if (edited_ == "camera") info.camera.baseline += 1;
+      if (edited_ == "range") info.disparity_range = Interval{-2, 2};
       auto samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone();
       scene.light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
-      if (edit_truth_) {
+      if (edited_ == "truth" || edited_ == "region") {
         auto truth = std::make_shared<GroundTruth>();
         truth->field.disparity = scene.truth->field.disparity.clone();
-        truth->field.disparity.view(scene.light_field->center()).at(3, 4) += 1;
+        truth->field.valid = scene.truth->field.valid.clone();
+        truth->regions = scene.truth->regions;
+        const ViewIndex center = scene.light_field->center();
+        if (edited_ == "truth") truth->field.disparity.view(center).at(3, 4) += 1;
+        if (edited_ == "region") truth->regions.at("planes").at(3, 4) ^= 1;
         scene.truth = truth;
       }
       return scene;
@@ -255,7 +283,7 @@ class BenchmarkTest : public QObject {
   std::unique_ptr<QTemporaryDir> folder_;
   BenchmarkOptions options_;
   std::string scene_ = "edge";
-  bool edit_truth_ = false;
+  QString edited_;  // what the scene is loaded with another value of
   int runs_ = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 using namespace episcope;
@@ -36,6 +37,16 @@ LightField sum_of(double a, double b, double mix, GridShape grid = {9, 9}) {
     const double u = view.u - center.u, v = view.v - center.v;
     return static_cast<float>(0.5 + mix * texture(x + a * u, y + a * v, 1) +
                               (1 - mix) * texture(x + b * u, y + b * v, 2));
+  });
+}
+
+// The same with noise, which horizontal and vertical EPIs disagree by.
+LightField noisy(const LightField& lf) {
+  const ViewStack<float> samples = float_samples(lf);
+  std::mt19937 random(6);
+  std::normal_distribution<float> noise(0, 0.012F);
+  return like(lf, [&](ViewIndex view, int y, int x, int c) {
+    return samples.view(view).at(y, x, c) + noise(random);
   });
 }
 
@@ -117,18 +128,20 @@ void DoubleOrientationTest::sums_areTakenApart() {
 }
 
 void DoubleOrientationTest::transposing_changesNothing() {
-  const LightField lf = sum_of(0.5, -0.3, 0.5);
+  const LightField lf = noisy(sum_of(0.5, -0.3, 0.5));
   const DoubleLayers straight = measure(lf);
   const DoubleLayers turned = measure(transposed(lf));
-  double largest = 0;
+  std::vector<double> offs;
   for (int y = kInset; y < kSize - kInset; ++y) {
     for (int x = kInset; x < kSize - kInset; ++x) {
       const double off = straight.near.view({4, 4}).at(y, x) - turned.near.view({4, 4}).at(x, y);
-      largest = std::max(largest, std::fabs(off));
+      offs.push_back(std::fabs(off));
     }
   }
-  // Merging weights confidences of 8 bits.
-  QVERIFY2(largest < 5e-3, qPrintable(QString::number(largest)));
+  // Merging weights confidences of 8 bits; directions that all but agree may be taken for agreeing.
+  std::sort(offs.begin(), offs.end());
+  const double most = offs[offs.size() * 98 / 100];
+  QVERIFY2(most < 5e-3, qPrintable(QString::number(most)));
 }
 
 void DoubleOrientationTest::wholeShear_shiftsBoth() {

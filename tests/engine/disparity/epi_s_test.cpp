@@ -6,6 +6,7 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace episcope;
@@ -58,6 +59,8 @@ class EpiSTest : public QObject {
   void noisyScene_isBetterThanLocal();
   void frontoPlane_staysWithinLimit();
   void smoothing_growsWithLambda();
+  void weights_areConfidencesRaisedAtLeastSoMuch();
+  void gap_isTheLargestOfAllViews();
   void least_lambda_leavesLocalResult();
   void confidence_isThatOfLocalResult();
   void plainMethod_runs();
@@ -93,6 +96,39 @@ void EpiSTest::frontoPlane_staysWithinLimit() {
                             scene.truth->field.view({4, 4}), 15);
   QVERIFY2(std::fabs(off.bias) < 0.005 && off.mse_100 < 0.01,
            qPrintable(QString("bias %1, MSE %2").arg(off.bias).arg(off.mse_100)));
+}
+
+void EpiSTest::weights_areConfidencesRaisedAtLeastSoMuch() {
+  Image<float> confidence(1, 3), weights(1, 3);
+  confidence.at(0, 0) = 0.9F;
+  confidence.at(0, 1) = 0.1F;
+  for (const double power : {6.0, 2.5, 0.0}) {
+    fill_data_weights(confidence, {power, 0.02F}, weights);
+    for (int x = 0; x < 3; ++x) {
+      const double raised = std::pow(confidence.at(0, x), power);
+      QVERIFY(std::fabs(weights.at(0, x) - std::max(raised, 0.02)) < 1e-6);
+    }
+  }
+}
+
+// The second view is flat: nothing is left to be done there.
+void EpiSTest::gap_isTheLargestOfAllViews() {
+  const LightField lf =
+      make_light_field({1, 2}, 24, 30, 1, [](ViewIndex, int, int, int) { return 0.5F; });
+  Estimate estimate;
+  estimate.field.disparity = ViewStack<float>({1, 2}, 24, 30);
+  estimate.confidence = ViewStack<float>({1, 2}, 24, 30);
+  std::fill_n(estimate.confidence.data(), estimate.confidence.size(), 1.0F);
+  for (std::size_t i = 0; i < estimate.confidence.size(); ++i) {
+    estimate.field.disparity.data()[i] = i < 24 * 30 ? static_cast<float>(i * i % 7) : 0.25F;
+  }
+  EpiSParameters hasty = parameters();
+  hasty.max_iterations = 1;
+
+  denoise(lf, hasty, estimate, Progress());
+
+  const QString note = QString::fromStdString(estimate.notes.back());
+  QVERIFY2(note.section(' ', -1).toDouble() > 1e-3, qPrintable(note));
 }
 
 void EpiSTest::smoothing_growsWithLambda() {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi_two_layer.h"
 
+#include "engine/disparity/disparity_range.h"
 #include "engine/disparity/epi_s.h"
+#include "engine/disparity/layer_range.h"
 #include "tests/engine/disparity/light_fields.h"
 
 #include <QtTest>
@@ -57,6 +59,7 @@ class EpiTwoLayerTest : public QObject {
   void layers_areExactWithinTheirRegion();
   void surfaceSmoothness_concernsTheForegroundAlone();
   void layers_stayWithinTheRange();
+  void range_isWidenedToBothLayers();
   void opaqueScene_comesOutAsByEpiS();
   void threadsAndCentre_changeNothing();
 };
@@ -180,6 +183,22 @@ void EpiTwoLayerTest::layers_stayWithinTheRange() {
     const auto [least, most] = std::minmax_element(layer->data(), layer->data() + layer->size());
     QVERIFY(*least >= static_cast<float>(p.range->min) &&
             *most <= static_cast<float>(p.range->max));
+  }
+}
+
+void EpiTwoLayerTest::range_isWidenedToBothLayers() {
+  for (const double scale : {1.0, 3.0}) {
+    const Scene scene = render("transparent", kSize, kSize, {9, 9}, scale);
+    const EpiTwoLayerParameters p;
+    const TensorScales scales{p.double_inner_scale, p.double_outer_scale, p.view_scale,
+                              p.cross_scale,        p.double_contrast,    p.noise};
+    const Interval single = search_range(*scene.light_field, {}, Progress());
+
+    const Interval both = search_layer_range(*scene.light_field, p, scales, Progress());
+
+    QVERIFY(both.min <= single.min && both.max >= single.max);
+    QVERIFY(both.min <= scene.truth->background.view({4, 4}).disparity.at(64, 64));
+    QVERIFY(both.max >= scene.truth->foreground.view({4, 4}).disparity.at(64, 64));
   }
 }
 

@@ -57,6 +57,7 @@ class LiftedLabelingTest : public QObject {
   void solve_closesTheGap_data();
   void solve_closesTheGap();
   void bound_staysBelowEnergyAndGapFalls();
+  void solve_keepsTheBestOfAllLooks();
   void solve_ignoresConstantsPerPixel();
   void solve_ignoresScaleOfCosts();
   void solve_mirrorsWithTheLabels();
@@ -177,6 +178,24 @@ void LiftedLabelingTest::bound_staysBelowEnergyAndGapFalls() {
     QVERIFY(result.bound <= result.energy * (1 + 1e-6));
     QVERIFY(result.relative_gap() < gap);
     gap = result.relative_gap();
+  }
+}
+
+// Over-relaxed, neither energy nor bound improves with every iteration.
+void LiftedLabelingTest::solve_keepsTheBestOfAllLooks() {
+  Labeling labeling = disk_costs(40, 16, 50);
+  labeling.smoothness = 0.3;
+  LiftedResult before;
+  before.energy = std::numeric_limits<double>::infinity();
+  before.bound = -before.energy;
+
+  for (int iterations = 1; iterations <= 60; ++iterations) {
+    const LiftedResult result =
+        solve_lifted_labeling(labeling.problem(), {iterations, 0, 1}, Progress(1));
+    QVERIFY(result.energy <= before.energy && result.bound >= before.bound);
+    QCOMPARE(labeling_energy(labeling.problem(), result.labels), result.energy);
+    before.energy = result.energy;
+    before.bound = result.bound;
   }
 }
 

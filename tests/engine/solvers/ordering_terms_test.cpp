@@ -56,6 +56,8 @@ class OrderingTermsTest : public QObject {
   void adjoint_isTheTranspose();
   void shiftedImage_hasNoDifference();
   void lineBeyondTheImage_isLeftOut();
+  void pull_isTheSlopeOfTheEnergy_data() { add_directions(); }
+  void pull_isTheSlopeOfTheEnergy();
   void pull_boundsTheEnergy_data() { add_directions(); }
   void pull_boundsTheEnergy();
   void followingThePull_lowersTheEnergy_data() { add_directions(); }
@@ -113,6 +115,30 @@ void OrderingTermsTest::lineBeyondTheImage_isLeftOut() {
   for (int x = 0; x < kWidth; ++x) {
     QVERIFY(std::isnan(difference.at(kHeight - 1, x)));
     QCOMPARE(difference.at(kHeight - 2, x), 2.0F);
+  }
+}
+
+void OrderingTermsTest::pull_isTheSlopeOfTheEnergy() {
+  const LineStep step = fetched();
+  const OrderingPenalty penalty{0.02F, 0.5F, 0.05F};
+  const Image<float> slopes = noise(1, 2), from = noise(2, 0.2F), to = noise(3, 0.2F);
+  Image<float> curvature(kHeight, kWidth), of_from(kHeight, kWidth), of_to(kHeight, kWidth);
+  add_pull_on_from(slopes, from, to, step, penalty, {curvature.view(), of_from.view()});
+  add_pull_on_to(slopes, from, to, step, penalty, {curvature.view(), of_to.view()});
+  for (std::size_t i = 0; i < from.size(); i += 3) {
+    const auto slope = [&](bool on_from) {
+      double energy[2];
+      for (const int side : {0, 1}) {
+        Image<float> moved = on_from ? from : to;
+        moved.data()[i] += side == 0 ? -1e-3F : 1e-3F;
+        energy[side] = on_from ? ordering_energy(slopes, moved, to, step, penalty)
+                               : ordering_energy(slopes, from, moved, step, penalty);
+      }
+      return (energy[1] - energy[0]) / 2e-3;
+    };
+    // The penalty bends within a step: by 10·1e-3 for each line that ends there.
+    QVERIFY(std::fabs(slope(true) + of_from.data()[i]) < 0.01);
+    QVERIFY(std::fabs(slope(false) + of_to.data()[i]) < 0.02);
   }
 }
 
