@@ -74,9 +74,13 @@ void HistogramView::paintBars(QPainter& painter) const {
   if (most == 0) return;
   const QRectF inside = area();
   const double width = inside.width() / static_cast<double>(histogram_.counts.size());
+  QPolygonF outline;  // bars as dark as the ground have nothing else
   for (std::size_t i = 0; i < histogram_.counts.size(); ++i) {
-    if (histogram_.counts[i] == 0) continue;
     const double left = inside.left() + static_cast<double>(i) * width;
+    if (histogram_.counts[i] == 0) {
+      outline << QPointF(left, inside.bottom()) << QPointF(left + width, inside.bottom());
+      continue;
+    }
     // By the square root: small heaps, which errors are, stay in sight beside a large one.
     const double part = std::sqrt(histogram_.counts[i] / static_cast<double>(most));
     const double height = std::max(1.0, part * (inside.height() - 2));
@@ -84,7 +88,11 @@ void HistogramView::paintBars(QPainter& painter) const {
         shading_.map.color(valueAt(left + width / 2), shading_.range.min, shading_.range.max);
     painter.fillRect(QRectF(left, inside.bottom() - height, width + 0.5, height),
                      QColor(red, green, blue));
+    const double top = inside.bottom() - height;
+    outline << QPointF(left, top) << QPointF(left + width, top);
   }
+  painter.setPen(theme::kCanvasMuted);
+  painter.drawPolyline(outline);
 }
 
 void HistogramView::paintHandles(QPainter& painter) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/tile_wall.h"
 
+#include "widgets/theme.h"
+
 #include <QResizeEvent>
 #include <QScrollBar>
 
@@ -50,6 +52,9 @@ TileWall::TileWall(QWidget* parent) : QScrollArea(parent), wall_(new QWidget) {
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setWidget(wall_);
+  QPalette ground;  // what no tile covers looks as the tiles do
+  ground.setColor(QPalette::Window, theme::kCanvas);
+  setPalette(ground);
   setFocusPolicy(Qt::StrongFocus);
 }
 

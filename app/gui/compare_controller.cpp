@@ -2,6 +2,7 @@
 #include "app/gui/compare_controller.h"
 
 #include "app/gui/estimate_controller.h"
+#include "app/gui/value_controller.h"
 #include "widgets/compare_bar.h"
 #include "widgets/epi_pane.h"
 #include "widgets/number_text.h"
@@ -250,7 +251,11 @@ void CompareController::fillWall() {
     Tile tile{entry.id, entry.caption, entry.side, entry.picture.picture, {}};
     if (const auto map = entry.picture.map) {
       tile.pixel_text = [map](int y, int x) { return value_text(*map, y, x); };
-    } else if (entry.request.source || entry.id != kViewTile) {
+    } else if (!entry.request.source && entry.id == kViewTile) {
+      tile.pixel_text = [request = entry.request](int y, int x) {
+        return sample_texts(*request.light_field, request.view, {y, x});
+      };
+    } else {
       tile.caption = tr("%1 · not known for this view").arg(entry.caption);
     }
     tiles.push_back(std::move(tile));

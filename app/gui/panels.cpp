@@ -34,7 +34,7 @@ namespace episcope {
 namespace {
 
 constexpr int kLeftWidth = 205;
-constexpr int kRightWidth = 362;
+constexpr int kRightWidth = 372;
 constexpr int kCenterWidth = 720;
 constexpr int kEpiWidth = 145;      // of the vertical EPI and the legend under it
 constexpr int kLeastResults = 150;  // height of a list of five

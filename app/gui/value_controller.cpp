@@ -14,31 +14,12 @@
 namespace episcope {
 namespace {
 
-struct Samples {
-  QStringList texts;  // one a channel, as stored
-  QColor color;
-};
-
-Samples samples_at(const LightField& light_field, ViewIndex view, PixelIndex pixel) {
-  Samples samples;
-  std::visit(
-      [&](const auto& stack) {
-        const auto image = stack.view(view);
-        for (int c = 0; c < image.channels; ++c) {
-          const auto value = image.at(pixel.y, pixel.x, c);
-          samples.texts << (std::is_floating_point_v<decltype(value + 0)>
-                                ? QString::number(static_cast<double>(value), 'f', 3)
-                                : QString::number(static_cast<double>(value), 'f', 0));
-        }
-      },
-      light_field.samples());
+QColor color_at(const LightField& light_field, ViewIndex view, PixelIndex pixel) {
   float normalized[3] = {};
   light_field.read_row(view, pixel.y, pixel.x, pixel.x + 1, normalized);
   if (light_field.channels() == 1) normalized[1] = normalized[2] = normalized[0];
   const auto bounded = [](float value) { return std::clamp(value, 0.0F, 1.0F); };
-  samples.color =
-      QColor::fromRgbF(bounded(normalized[0]), bounded(normalized[1]), bounded(normalized[2]));
-  return samples;
+  return QColor::fromRgbF(bounded(normalized[0]), bounded(normalized[1]), bounded(normalized[2]));
 }
 
 // Of many results, a line has room for a few: A and B before the others.
@@ -55,6 +36,21 @@ std::vector<const EstimateEntry*> shown_first(const Session& session) {
 }
 
 }  // namespace
+
+QStringList sample_texts(const LightField& light_field, ViewIndex view, PixelIndex pixel) {
+  QStringList texts;
+  std::visit(
+      [&](const auto& stack) {
+        const auto image = stack.view(view);
+        for (int c = 0; c < image.channels; ++c) {
+          const auto value = image.at(pixel.y, pixel.x, c);
+          const int decimals = std::is_floating_point_v<decltype(value + 0)> ? 3 : 0;
+          texts << QString::number(static_cast<double>(value), 'f', decimals);
+        }
+      },
+      light_field.samples());
+  return texts;
+}
 
 ValueController::ValueController(Session& session, const OverlayController& overlay,
                                  const Panels& panels, QObject* parent)
@@ -78,11 +74,10 @@ void ValueController::show() {
     return;
   }
   const ViewIndex view = session_.view();
-  const Samples samples = samples_at(*light_field, view, pixel);
   PixelReading reading;
   reading.pixel = pixel;
-  reading.samples = samples.texts.join(' ');
-  reading.color = samples.color;
+  reading.samples = sample_texts(*light_field, view, pixel).join(' ');
+  reading.color = color_at(*light_field, view, pixel);
   const GroundTruth& truth = *session_.scene()->truth;
   const DisparityPair of_truth = disparities_at(truth, view, pixel);
   reading.has_truth = truth.field.contains(view) || truth.foreground.contains(view);
@@ -105,7 +100,7 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
     const auto value = overlay_.valueAt(pixel);
     if (value) return {number_text(*value)};
   }
-  return samples_at(*light_field, session_.view(), pixel).texts;
+  return sample_texts(*light_field, session_.view(), pixel);
 }
 
 }  // namespace episcope

@@ -12,6 +12,10 @@
 
 namespace episcope {
 
+/// The samples of a pixel, one text a channel, as they are stored.
+[[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
+                                       PixelIndex pixel);
+
 /// Reads out what is known of the pixel under the cursor (of the cross-hair while the cursor is
 /// elsewhere), and prints values into large pixels.
 class ValueController : public QObject {

@@ -2,10 +2,12 @@
 #include "widgets/histogram_view.h"
 
 #include "widgets/statistics_panel.h"
+#include "widgets/theme.h"
 
 #include <QSignalSpy>
 #include <QTest>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace episcope;
@@ -44,6 +46,21 @@ class HistogramViewTest : public QObject {
 
     QVERIFY(std::abs(last_range(edited).min - -0.2) < 0.01);
     QCOMPARE(last_range(edited).max, 0.5);
+  }
+
+  void barAsDarkAsTheGround_isSeen() {
+    HistogramView view;
+    view.resize(412, 100);
+    view.setHistogram({{-1, 1}, {9, 0, 0, 0}}, {render::color_map("grey"), {0, 1}});
+
+    const QImage picture = view.grab().toImage();
+
+    const QColor ground = picture.pixelColor(206, 50);
+    double best = 1;
+    for (int y = 0; y < 8; ++y) {  // where the bar ends
+      best = std::max(best, theme::contrast_ratio(ground, picture.pixelColor(50, y)));
+    }
+    QVERIFY2(best > 3, qPrintable(QString::number(best)));
   }
 
   void dragBetweenTheHandles_movesBoth() {

@@ -85,6 +85,7 @@ class CompareTest : public QObject {
   void keyG_showsTheViewTheTruthAndEveryResult();
   void tiles_keepTheRegionInSight();
   void clickOnATile_showsItsResultAndMovesTheCrossHair();
+  void tileOfTheView_printsItsSamples();
   void tilesOfErrors_differByResult();
   void newResult_joinsTheTiles();
   void escape_leavesTheTiles();
@@ -151,6 +152,23 @@ void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
   QTest::mouseDClick(f.wall()->tile(3), Qt::LeftButton);
   QCOMPARE(f.session().shown()->id, f.ids[1]);
   QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+}
+
+void CompareTest::tileOfTheView_printsItsSamples() {
+  Compared f({0.1F});
+  f.trigger("compare.tiles");
+  QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 3, kPatience);
+  ViewCanvas* tile = f.wall()->tile(0);
+
+  f.wall()->setZoom({100 / tile->fitScale(), {30.5, 40.5}});  // 100 pixels of the screen a pixel
+
+  const QPoint middle = tile->positionOf({40, 30}).toPoint();
+  const QImage pixel = tile->grab(QRect(middle - QPoint(40, 40), QSize(80, 80))).toImage();
+  bool is_flat = true;
+  for (int y = 0; y < pixel.height(); ++y) {
+    for (int x = 0; x < pixel.width(); ++x) is_flat &= pixel.pixel(x, y) == pixel.pixel(0, 0);
+  }
+  QVERIFY(!is_flat);
 }
 
 void CompareTest::tilesOfErrors_differByResult() {
