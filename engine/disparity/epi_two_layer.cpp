@@ -18,6 +18,10 @@ namespace {
 
 // Variation of the surface across the border of its region, and of either layer at least.
 constexpr float kBorderWeight = 0.02F;
+// Coherence and confidence that noise alone reaches (measured), and the weight of one layer where
+// nothing else is seen.
+constexpr float kNoiseFit = 0.3F;
+constexpr float kOneLayer = 0.02F;
 // The region must be right to a pixel, not to a thousandth.
 constexpr int kRegionIterations = 10;
 constexpr double kRegionGap = 1e-3;
@@ -76,10 +80,11 @@ void ViewSolver::find_region(const LayeredView& view) {
     const float r = space_.coherence.data()[i];
     const float c = confidence(view, i);
     const float share = single_misfit_share(r, c);
-    space_.data.data()[i] =
+    const float score =
         share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
-    const float trust = std::max(r, c);
-    space_.weight.data()[i] = std::max(trust * trust, DataWeight{}.least);
+    const float fit = std::max((std::max(r, c) - kNoiseFit) / (1 - kNoiseFit), 0.0F);
+    space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
+    space_.weight.data()[i] = fit + kOneLayer;
   }
   segment(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
           {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());

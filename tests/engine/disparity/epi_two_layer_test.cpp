@@ -4,6 +4,7 @@
 #include "engine/disparity/disparity_range.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/layer_range.h"
+#include "engine/scenes/sensor_noise.h"
 #include "tests/engine/disparity/light_fields.h"
 
 #include <QtTest>
@@ -55,6 +56,7 @@ class EpiTwoLayerTest : public QObject {
   void transparentPane_isFound();
   void opaqueScenes_haveOneLayer_data();
   void opaqueScenes_haveOneLayer();
+  void noisyWall_hasOneLayer();
   void layers_areOrderedAndAgreeOutside();
   void layers_areExactWithinTheirRegion();
   void surfaceSmoothness_concernsTheForegroundAlone();
@@ -110,6 +112,22 @@ void EpiTwoLayerTest::opaqueScenes_haveOneLayer() {
   const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
   QVERIFY2(doubles < 0.01 * static_cast<double>(layers.size()),
            qPrintable(QString::number(doubles)));
+}
+
+// Where nothing but noise is seen, neither one orientation fits nor two.
+void EpiTwoLayerTest::noisyWall_hasOneLayer() {
+  constexpr int size = 96;
+  const LightField wall =
+      make_light_field({9, 9}, size, size, 3, [](auto view, int y, int x, int c) {
+        const std::uint64_t ray = (std::uint64_t(view.v * 9 + view.u) * size + y) * size + x;
+        return 0.7F + 3 / 255.0F * scenes::sensor_noise(1, ray * 3 + c);
+      });
+  EpiTwoLayerParameters parameters;
+  parameters.range = Interval{-1.5, 1.5};
+  const Estimate estimate =
+      estimate_epi_two_layer(wall, parameters, ViewSelection::Center, Progress());
+  const auto& layers = estimate.layered.layers;
+  QCOMPARE(std::count(layers.data(), layers.data() + layers.size(), 2), 0);
 }
 
 void EpiTwoLayerTest::layers_areOrderedAndAgreeOutside() {
