@@ -27,7 +27,8 @@ void write_map(const std::filesystem::path& path, const DisparityView& view) {
       if (view.is_valid(y, x)) map.at(y, x) = view.disparity.at(y, x);
     }
   }
-  path.extension() == ".pfm" ? io::write_pfm(path, map) : io::write_tiff(path, map);
+  QString::fromStdString(path.extension()).toLower() == ".pfm" ? io::write_pfm(path, map)
+                                                               : io::write_tiff(path, map);
 }
 
 void write_cloud(const std::filesystem::path& path, const LightField& light_field, ViewIndex view,
@@ -60,6 +61,12 @@ void ExportController::ask(const QString& title, const QString& name, const QStr
   dialog->setAcceptMode(QFileDialog::AcceptSave);
   dialog->setDefaultSuffix(QFileInfo(name).suffix());
   dialog->selectFile(name);
+  connect(dialog, &QFileDialog::filterSelected, dialog, [dialog](const QString& chosen) {
+    const QString suffix = chosen.section("*.", 1).section(')', 0, 0);
+    const QString old_name = dialog->selectedFiles().value(0);
+    dialog->setDefaultSuffix(suffix);
+    dialog->selectFile(QFileInfo(old_name).completeBaseName() + '.' + suffix);
+  });
   connect(dialog, &QFileDialog::fileSelected, this, write);
   dialog->open();
 }
@@ -92,13 +99,20 @@ void ExportController::savePictureDialog() {
       tr("PNG (*.png)"), [this](const QString& path) { savePicture(path); });
 }
 
+bool ExportController::hasForm(const QString& path, const QStringList& suffixes) {
+  if (suffixes.contains(QFileInfo(path).suffix(), Qt::CaseInsensitive)) return true;
+  emit refused(tr("%1 was not written: this is written as .%2; name it so.")
+                   .arg(QFileInfo(path).fileName(), suffixes.join(", .")));
+  return false;
+}
+
 void ExportController::exportResult(int estimate, const QString& path) {
   const EstimateEntry* entry = session_.find_estimate(estimate);
-  if (!entry) return;
+  if (!entry || !hasForm(path, {"h5", "pfm", "tiff", "ply"})) return;
   const QString suffix = QFileInfo(path).suffix().toLower();
   const std::filesystem::path file = path.toStdString();
   const EstimatePtr result = entry->estimate;
-  if (suffix != "pfm" && suffix != "tiff" && suffix != "ply") {
+  if (suffix == "h5") {
     startWriting(path, [file, result](const Progress& progress) {
       io::write_result(file, *result, progress);
     });
@@ -134,7 +148,7 @@ void ExportController::exportSegmentationDialog() {
 
 void ExportController::exportSegmentation(const QString& path) {
   const SegmentationPtr segmentation = session_.segmentation();
-  if (!segmentation || !segmentation->labeling) return;
+  if (!segmentation || !segmentation->labeling || !hasForm(path, {"h5", "png"})) return;
   const std::filesystem::path file = path.toStdString();
   if (QFileInfo(path).suffix().toLower() != "png") {
     startWriting(path, [file, segmentation, source = session_.input()](const Progress& progress) {
@@ -150,7 +164,7 @@ void ExportController::exportSegmentation(const QString& path) {
 
 void ExportController::savePicture(const QString& path) {
   QImage picture = panels_.canvas->picture().convertToFormat(QImage::Format_ARGB32_Premultiplied);
-  if (picture.isNull()) return;
+  if (picture.isNull() || !hasForm(path, {"png"})) return;
   if (!overlay_.picture().isNull()) {
     QPainter painter(&picture);
     painter.setOpacity(panels_.canvas->overlayOpacity());

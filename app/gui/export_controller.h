@@ -29,7 +29,7 @@ class ExportController : public QObject {
   /// Asks where to write the segmentation: .h5, or .png of this view.
   void exportSegmentationDialog();
 
-  /// Writes without asking. The suffix of `path` says the form.
+  /// Writes without asking. The suffix of `path` says the form; an unknown one is refused.
   void exportResult(int estimate, const QString& path);
   /// Labels and probabilities of what is segmented (.h5), or labels of this view in their colours.
   void exportSegmentation(const QString& path);
@@ -38,11 +38,15 @@ class ExportController : public QObject {
 
  signals:
   void hint(const QString& sentence);
+  /// Nothing is written, and why.
+  void refused(const QString& sentence);
   void written(const QString& path);
 
  private:
   void ask(const QString& title, const QString& name, const QString& filter,
            const std::function<void(const QString&)>& write);
+  /// Whether the name ends as one of the forms does; else it is refused.
+  [[nodiscard]] bool hasForm(const QString& path, const QStringList& suffixes);
   void startWriting(const QString& path, std::function<void(const Progress&)> write);
 
   Session& session_;

@@ -207,9 +207,11 @@ void MainWindow::connectControllers() {
   };
   connect(exporter_, &ExportController::written, this, written);
   connect(metrics_, &MetricController::written, this, written);
-  connect(opener_, &OpenController::warned, this, [this](const QString& sentence) {
+  const auto warn = [this](const QString& sentence) {
     panels_.messages->showMessage(Severity::Warning, sentence);
-  });
+  };
+  connect(opener_, &OpenController::warned, this, warn);
+  connect(exporter_, &ExportController::refused, this, warn);
   connect(estimate_, &EstimateController::exportRequested, exporter_,
           &ExportController::exportResultDialog);
   connect(overlay_, &OverlayController::choiceChanged, this, &MainWindow::updateActions);

@@ -24,6 +24,8 @@
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QMimeData>
 #include <QRegularExpression>
 #include <QScrollArea>
@@ -71,6 +73,8 @@ class MainWindowTest : public QObject {
   void heldTab_flips();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
+  void unknownSuffix_isNotWritten();
+  void chosenForm_namesTheFile();
   void savedPicture_isTheShownOne();
   void failedExport_isTold();
   void brokenFile_isToldAndKeepsTheScene();
@@ -264,6 +268,34 @@ void MainWindowTest::exportedMap_marksInvalidPixels() {
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
   QCOMPARE(map.at(9, 9), scene.truth->field.view({4, 4}).disparity.at(9, 9));
+}
+
+void MainWindowTest::unknownSuffix_isNotWritten() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+
+  f.window.exporter().exportResult(f.window.session().shown()->id, f.path("result.jpg"));
+
+  const MessageBar* messages = f.window.panels().messages;
+  QVERIFY2(messages->text().contains(".pfm"), qPrintable(messages->text()));
+  QCOMPARE(messages->severity(), Severity::Warning);
+  QCOMPARE(f.window.jobs().count(), 0);
+}
+
+void MainWindowTest::chosenForm_namesTheFile() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.window.exporter().exportShownDialog();
+  auto* dialog = f.window.findChild<QFileDialog*>();
+  const QStringList forms = dialog->nameFilters();
+
+  emit dialog->filterSelected(forms[1]);
+
+  QVERIFY2(forms[1].contains("*.pfm"), qPrintable(forms[1]));
+  QCOMPARE(QFileInfo(dialog->selectedFiles().value(0)).suffix(), QString("pfm"));
+  QCOMPARE(dialog->defaultSuffix(), QString("pfm"));
 }
 
 void MainWindowTest::savedPicture_isTheShownOne() {
