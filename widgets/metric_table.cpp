@@ -3,6 +3,7 @@
 
 #include "engine/core/text_table.h"
 #include "widgets/icon.h"
+#include "widgets/number_text.h"
 #include "widgets/side.h"
 #include "widgets/theme.h"
 #include "widgets/tool_button.h"
@@ -76,7 +77,7 @@ MetricTable::MetricTable(QWidget* parent)
                                  this)),
       copy_latex_(
           make_tool_button({"metrics.copyLatex", "copy", tr("Copy as LaTeX"), tr("LaTeX")}, this)),
-      save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save")},
+      save_(make_tool_button({"metrics.save", "export", tr("Save as CSV or LaTeX"), tr("Save…")},
                              this)) {
   setObjectName("metricTable");
   empty_->setObjectName("metrics.empty");
@@ -86,8 +87,9 @@ MetricTable::MetricTable(QWidget* parent)
   auto* menu = new QMenu(save_);
   menu->addAction(tr("CSV…"), this, [this] { emit saveRequested("csv", toCsv()); });
   menu->addAction(tr("LaTeX…"), this, [this] { emit saveRequested("tex", toLatex()); });
-  save_->setMenu(menu);
-  save_->setPopupMode(QToolButton::InstantPopup);
+  // No menu of the button's own, whose arrow would stand below the text.
+  connect(save_, &QToolButton::clicked, menu,
+          [this, menu] { menu->popup(save_->mapToGlobal(QPoint(0, save_->height()))); });
   auto* row = new QHBoxLayout;
   row->setSpacing(2);
   for (auto* button : {copy_csv_, copy_latex_, save_}) row->addWidget(button);
@@ -190,7 +192,7 @@ void MetricTable::fillRow(int row, const MetricRow& values) {
     const bool is_text = value.typeId() == QMetaType::QString;
     item->setText(is_absent(value) ? QString("–")
                   : is_text        ? value.toString()
-                                   : QString::number(value.toDouble(), 'f', columns_[i].decimals));
+                                   : number_text(value.toDouble(), columns_[i].decimals));
     item->setTextAlignment((is_text ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     item->setData(kValueRole, value);
     item->setData(kIdRole, values.id);

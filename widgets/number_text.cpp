@@ -4,11 +4,18 @@
 #include <QRegularExpression>
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope {
+namespace {
+
+constexpr double kLongest = 1e7;  // from here on digits before the point say nothing
+
+}  // namespace
 
 QString number_text(double value, int decimals) {
-  QString text = QString::number(value, 'f', decimals);
+  const bool is_long = std::abs(value) >= kLongest;
+  QString text = is_long ? QString::number(value, 'g', 4) : QString::number(value, 'f', decimals);
   if (!text.startsWith('-')) return text;
   text.remove(0, 1);
   const bool is_zero =

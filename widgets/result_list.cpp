@@ -2,6 +2,7 @@
 #include "widgets/result_list.h"
 
 #include "widgets/icon.h"
+#include "widgets/number_text.h"
 #include "widgets/side.h"
 #include "widgets/tool_button.h"
 
@@ -124,7 +125,7 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     // As tall as the row with the icon.
     item->setSizeHint(kMark, {0, fontMetrics().height() + kRowPadding});
     item->setText(kMethod, result.method);
-    item->setText(kMse, result.mse_100 ? QString::number(*result.mse_100, 'f', 2) : "–");
+    item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");
     item->setText(kSeconds, seconds_text(result.seconds));
     item->setText(kParameters, result.parameters);
     item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);

@@ -16,6 +16,12 @@
 #include <cmath>
 
 namespace episcope {
+namespace {
+
+// Truth may hold marks for "nothing" that are no disparity.
+constexpr double kFarthestFocus = 100;
+
+}  // namespace
 
 BrowseController::BrowseController(Session& session, const Panels& panels, QObject* parent)
     : QObject(parent),
@@ -112,7 +118,8 @@ void BrowseController::showScene() {
     return;
   }
   const Interval range = session_.disparity_range();
-  const double reach = std::ceil(std::max({1.0, std::abs(range.min), std::abs(range.max)}));
+  const double reach = std::ceil(
+      std::clamp(std::max(std::abs(range.min), std::abs(range.max)), 1.0, kFarthestFocus));
   panels_.overlay_bar->setFocusRange({-reach, reach});
   startThumbnails();
   panels_.canvas->zoomToFit();

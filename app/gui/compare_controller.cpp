@@ -187,7 +187,7 @@ QString CompareController::captionOf(const EstimateEntry& entry) const {
   const QString name = QString::fromStdString(entry.name);
   const auto evaluation = session_.evaluation({entry.id, judged_view(session_), Protocol::Vmv2013});
   const auto mse = evaluation ? find_metric(evaluation->metrics, "mse_100") : std::nullopt;
-  return mse ? tr("%1 · MSE×100 %2").arg(name).arg(*mse, 0, 'f', 2) : name;
+  return mse ? tr("%1 · MSE×100 %2").arg(name, number_text(*mse, 2)) : name;
 }
 
 std::vector<CompareController::Entry> CompareController::everything() const {

@@ -49,9 +49,8 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
 
 // Four digits, and no exponent where whole numbers say as much.
 QString measure(double value) {
-  return std::abs(value) >= 1000 && std::abs(value) < 1e7
-             ? number_text(value, 0)
-             : with_minus(QString::number(value, 'g', 4));
+  return std::abs(value) >= 1000 ? number_text(value, 0)
+                                 : with_minus(QString::number(value, 'g', 4));
 }
 
 QString camera_text(const CameraGrid& camera) {

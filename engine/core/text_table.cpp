@@ -15,13 +15,16 @@ std::string csv_cell(const std::string& text) {
 }
 
 std::string latex_cell(const std::string& text) {
-  static const std::string times = "×";
+  static const std::string times = "×", minus = "−";
   std::string escaped;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     if (text.compare(i, times.size(), times) == 0) {
       escaped += "$\\times$";
       i += times.size() - 1;
+    } else if (text.compare(i, minus.size(), minus) == 0) {
+      escaped += "$-$";
+      i += minus.size() - 1;
     } else if (c == '\\') {
       escaped += "\\textbackslash{}";
     } else if (c == '<' || c == '>' || c == '|') {  // other glyphs in the usual font

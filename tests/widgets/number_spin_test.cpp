@@ -68,6 +68,11 @@ class NumberSpinTest : public QObject {
     QCOMPARE(spin.text(), QString("30.00"));
   }
 
+  void hugeNumber_staysShort() {
+    QCOMPARE(number_text(-1e30), QStringLiteral("−1e+30"));
+    QCOMPARE(number_text(123456.789, 2), QString("123456.79"));
+  }
+
   void sentence_keepsHyphensThatAreNoMinus() {
     QCOMPARE(with_minus("-1.2 … 1.5 px (-3)"), QStringLiteral("−1.2 … 1.5 px (−3)"));
     for (const char* kept : {"gap 1.3e-02", "out_00-12.png", "epi-2", "2021-05-06", "a/-1.png"}) {

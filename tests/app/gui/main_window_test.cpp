@@ -21,11 +21,13 @@
 
 #include <QAction>
 #include <QClipboard>
+#include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QLabel>
 #include <QMimeData>
 #include <QRegularExpression>
 #include <QScrollArea>
@@ -73,6 +75,7 @@ class MainWindowTest : public QObject {
   void heldTab_flips();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
+  void hugeTruth_leavesTheLayoutAlone();
   void unknownSuffix_isNotWritten();
   void chosenForm_namesTheFile();
   void savedPicture_isTheShownOne();
@@ -268,6 +271,29 @@ void MainWindowTest::exportedMap_marksInvalidPixels() {
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
   QCOMPARE(map.at(9, 9), scene.truth->field.view({4, 4}).disparity.at(9, 9));
+}
+
+void MainWindowTest::hugeTruth_leavesTheLayoutAlone() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const int width = f.window.panels().canvas->width();
+  auto scene = std::make_shared<Scene>(
+      scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress()));
+  auto truth = std::make_shared<GroundTruth>();
+  truth->field.disparity = scene->truth->field.disparity.clone();
+  truth->field.disparity.view({4, 4}).at(0, 0) = 1e30F;
+  scene->truth = truth;
+
+  f.window.session().open(scene, "edge");
+  f.window.overlay().setQuantity(render::Quantity::Truth);
+  f.trigger("tab.compare");
+
+  const auto* focus = f.window.findChild<QDoubleSpinBox*>("overlay.focusSpin");
+  QTRY_COMPARE_WITH_TIMEOUT(focus->maximum(), 100.0, kPatience);
+  const auto* max = f.window.findChild<QLabel*>("statistics.max");
+  QTRY_VERIFY2_WITH_TIMEOUT(max->text().startsWith("1e"), qPrintable(max->text()), kPatience);
+  QCOMPARE(f.window.panels().canvas->width(), width);
 }
 
 void MainWindowTest::unknownSuffix_isNotWritten() {

@@ -29,8 +29,9 @@ class TextTableTest : public QObject {
     QVERIFY(text.contains("a\\_b\\&c\\%d\\#e\\$f\\{g\\}h\\~{}i\\^{}j\\textbackslash{}k & 1 \\\\"));
   }
 
-  void latex_writesTheTimesSign() {
+  void latex_writesTimesAndMinus() {
     QVERIFY(QString::fromStdString(table_to_latex({{"MSE×100"}, {}})).contains("MSE$\\times$100"));
+    QVERIFY(QString::fromStdString(table_to_latex({{"−1.5"}, {}})).contains("$-$1.5"));
   }
 
   void turned_exchangesRowsAndColumns() {
