@@ -4,6 +4,7 @@
 #include "engine/core/isa.h"
 #include "engine/core/parallel.h"
 #include "engine/core/quantile.h"
+#include "engine/disparity/box_mean.h"
 #include "engine/disparity/line_residual_kernel.h"
 #include "engine/disparity/packed_views.h"
 
@@ -140,17 +141,6 @@ void measure_gradients(const ImageView<const std::uint32_t>& view, Gradients& gr
   }
 }
 
-// Mean of `sums` over rows or columns [x − radius, x + radius] that exist.
-void box_row(const float* in, int width, float* out) {
-  for (int x = 0; x < width; ++x) {
-    const int begin = std::max(x - kTextureRadius, 0);
-    const int end = std::min(x + kTextureRadius + 1, width);
-    float sum = 0;
-    for (int i = begin; i < end; ++i) sum += in[i];
-    out[x] = sum / static_cast<float>(end - begin);
-  }
-}
-
 class TextureTrust {
  public:
   TextureTrust(int height, int width)
@@ -169,7 +159,7 @@ class TextureTrust {
       const float* const mean = gradients_.mean.row(i);
       for (int x = 0; x < width; ++x) column_[x] += mean[x];
     }
-    box_row(column_.data(), width, window_.data());
+    box_mean_row(column_.data(), width, kTextureRadius, window_.data());
     const float* const own = gradients_.own.row(y);
     const float rows = 1.0F / static_cast<float>(end - begin);
     for (int x = 0; x < width; ++x) {

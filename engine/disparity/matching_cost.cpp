@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 
 namespace episcope {
@@ -35,6 +36,10 @@ struct AxisShift {
   int origin = 0;  // Pixels from the reference pixel to the first tap.
   int taps = 1;
   std::array<float, kMaxTaps> weights{1};
+  // Share of the variance of noise that the weights leave.
+  [[nodiscard]] double noise_left() const {
+    return std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+  }
   int first = 0, last = 0;  // Reference pixels whose sample lies within the image.
 };
 
@@ -129,7 +134,7 @@ struct MatchingCostRows::State {
 
   int tile_rows = 0;
   int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
-  std::vector<float> reference_samples, samples, lines, sums;
+  std::vector<float> reference_samples, noise, samples, lines, sums;
 
   State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
         const std::vector<float>& disparities);
@@ -166,6 +171,7 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
   sample_pitch = rounded_up(kTileColumns + kSpread + kMaxTaps) + kMatchingSlack;
   const auto channels = static_cast<std::size_t>(lf.channels());
   reference_samples.resize(channels * tile_rows * reference_pitch + kMatchingSlack);
+  noise.resize(static_cast<std::size_t>(tile_rows) * reference_pitch + kMatchingSlack);
   const std::size_t sample_rows = tile_rows + kSpread + kMaxTaps;
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
@@ -180,6 +186,9 @@ void MatchingCostRows::State::read_reference(const Tile& tile) {
                (static_cast<std::size_t>(c) * tile_rows + y) * reference_pitch;
     }
     planes.read(reference, tile.y + y, tile.x, tile.x + tile.columns, out.data());
+    if (!cost.noise) continue;
+    std::copy_n(cost.noise->row(tile.y + y) + tile.x, tile.columns,
+                noise.data() + static_cast<std::size_t>(y) * reference_pitch);
   }
 }
 
@@ -245,6 +254,9 @@ void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, 
   std::copy(column.weights.begin(), column.weights.end(), work.column_weights);
   work.lines = lines.data();
   work.line_pitch = sample_pitch;
+  const double lost = 1 - row.noise_left() * column.noise_left();
+  work.noise = noise.data();
+  work.noise_lost = static_cast<float>(work.channels * std::max(lost, 0.0));
   work.cap = static_cast<float>(cost.cap);
   work.costs = sums.data() + static_cast<std::size_t>(label) * cost_pitch;
   work.cost_pitch = static_cast<long>(labels) * cost_pitch;

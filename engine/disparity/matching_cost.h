@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/image.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/volume.h"
@@ -25,6 +26,9 @@ struct MatchingCost {
   Interpolation interpolation = Interpolation::Cubic;
   /// ε: no single view costs more; infinity = uncapped.
   double cap = std::numeric_limits<double>::infinity();
+  /// Variance of the noise of one sample at each pixel of the reference view, `[y][x]`; null =
+  /// none.
+  std::shared_ptr<const Image<float>> noise = nullptr;
 };
 
 /// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.
@@ -54,6 +58,10 @@ class MatchingCostRows {
 /// image, samples in [0, 1], Euclidean norm over the channels, v_n the way from the reference to
 /// view n (u and v axes of the house: a point moves by −d per step). Labels are disparities, px per
 /// view step. Where no view sees the point at a label, the cost is the largest possible.
+/// With `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
+/// interpolation: what noise it averages away is put back. Otherwise, where noise outweighs
+/// texture, labels that move views by whole pixels cost more than those between (Σw² = 0.41 at half
+/// a pixel on both axes), whatever the truth is.
 /// Memory: height · width · labels · 4 bytes. Throws InvalidInput as MatchingCostRows, Cancelled.
 ///
 /// The paper's equations do not say what becomes of samples beyond the image. They are skipped and

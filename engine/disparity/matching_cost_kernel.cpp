@@ -35,12 +35,14 @@ void interpolate_rows(const float* samples, long pitch, const float* weights, in
 struct Line {
   const float* samples[3];
   const float* reference[3];
+  const float* noise;
   float* costs;
 };
 
 Line make_line(const MatchingTile& tile, int y) {
   Line line{};
   line.costs = tile.costs + y * tile.cost_pitch;
+  line.noise = tile.noise + static_cast<long>(y) * tile.reference_pitch;
   for (int c = 0; c < tile.channels; ++c) {
     const float* row = tile.samples[c] + static_cast<long>(y) * tile.sample_pitch;
     line.reference[c] = tile.reference[c] + static_cast<long>(y) * tile.reference_pitch;
@@ -59,8 +61,8 @@ Line make_line(const MatchingTile& tile, int y) {
 }
 
 template <int kTaps, int kChannels>
-inline Vec distance(const Line& line, int x, const Vec* weights) {
-  Vec sum{};
+inline Vec distance(const Line& line, int x, const Vec* weights, Vec noise_lost) {
+  Vec sum = noise_lost * load(line.noise + x);
   for (int c = 0; c < kChannels; ++c) {
     const Vec difference =
         weigh<kTaps>(line.samples[c] + x, 1, weights) - load(line.reference[c] + x);
@@ -73,18 +75,18 @@ template <int kTaps, int kChannels>
 void add_line(const MatchingTile& tile, const Line& line) {
   Vec weights[kTaps];
   for (int i = 0; i < kTaps; ++i) weights[i] = splat(tile.column_weights[i]);
-  const Vec cap = splat(tile.cap);
+  const Vec lost = splat(tile.noise_lost), cap = splat(tile.cap);
   const bool whole = tile.first_column == 0 && tile.last_column == tile.columns;
   if (whole) {
     for (int x = 0; x < tile.columns; x += kLanes) {
-      const Vec cost = least(distance<kTaps, kChannels>(line, x, weights), cap);
+      const Vec cost = least(distance<kTaps, kChannels>(line, x, weights, lost), cap);
       store(line.costs + x, load(line.costs + x) + cost);
     }
     return;
   }
   const Vec numbers = lane_numbers();
   for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
-    const Vec cost = least(distance<kTaps, kChannels>(line, x, weights), cap);
+    const Vec cost = least(distance<kTaps, kChannels>(line, x, weights, lost), cap);
     const Vec column = numbers + static_cast<float>(x);
     const IntVec seen = (column >= static_cast<float>(tile.first_column)) &
                         (column < static_cast<float>(tile.last_column));

@@ -28,12 +28,14 @@ struct MatchingTile {
   float* lines = nullptr;  ///< Scratch: `channels` rows of `line_pitch` lanes.
   int line_pitch = 0;
 
+  const float* noise = nullptr;  ///< Variance at each reference pixel, one plane like `reference`.
+  float noise_lost = 0;          ///< How much of it is added to squared differences.
   float cap = 0;
   float* costs = nullptr;  ///< Added to.
   long cost_pitch = 0;
 };
 
-/// Adds min(cap, |samples − reference|) to the costs.
+/// Adds min(cap, √(|samples − reference|² + noise_lost·noise)) to the costs.
 struct MatchingKernel {
   void (*add)(const MatchingTile&);
 };

@@ -4,10 +4,12 @@
 #include "engine/core/parallel.h"
 #include "engine/core/quantile.h"
 #include "engine/disparity/disparity_range.h"
+#include "engine/disparity/local_noise.h"
 
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <memory>
 
 namespace episcope {
 namespace {
@@ -17,11 +19,19 @@ constexpr int kProbedRows = 24;
 // ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
 constexpr double kLeastCap = 0.015;
+// The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
+// more for what is not noise in it. One channel leaves half of that.
+constexpr double kResidualOfNoise = 2.8;
 // Of the guided filter, variance of samples in [0, 1].
 constexpr double kRegularization = 1e-3;
 
-// The residual of prepare_stereo. The cross-hair tells as much of noise as all views.
-double residual(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
+// The residuals of prepare_stereo: over all pixels, and of the quarter that matches best.
+struct Residuals {
+  double median = 0, lower_quartile = 0;
+};
+
+// The cross-hair tells as much of noise as all views.
+Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
   const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
   const int rows = std::min(kProbedRows, lf.height());
   std::vector<float> least(static_cast<std::size_t>(rows) * lf.width());
@@ -39,7 +49,19 @@ double residual(const LightField& lf, const StereoCosts& costs, const Progress& 
       }
     };
   });
-  return quantile(least, 0.5);
+  Residuals residuals;
+  residuals.median = quantile(least, 0.5);
+  residuals.lower_quartile = quantile(least, 0.25);
+  return residuals;
+}
+
+// What interpolation takes away of it need not be put back where the view is smoother.
+std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
+                                              const Progress& progress) {
+  const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
+  auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, view, progress));
+  for (float& variance : *noise) variance = std::min(variance, static_cast<float>(sigma * sigma));
+  return noise;
 }
 
 }  // namespace
@@ -62,10 +84,14 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   costs.matching.interpolation =
       parameters.interpolation == "cubic" ? Interpolation::Cubic : Interpolation::Bilinear;
   costs.matching.cap = parameters.epsilon;
-  if (parameters.epsilon == 0) {
+  if (parameters.profile != "paper") {
     progress.step("noise");
-    const double noise = residual(lf, costs, progress.part(0.5, 0.9));
-    costs.matching.cap = std::clamp(kCapInResiduals * noise, kLeastCap, kUncapped);
+    const Residuals residuals = find_residuals(lf, costs, progress.part(0.5, 0.8));
+    costs.matching.noise =
+        noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    if (parameters.epsilon == 0) {
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kLeastCap, kUncapped);
+    }
   }
   if (parameters.aggregation > 0) {
     costs.guide = std::make_shared<GuideImage>(lf, costs.view, parameters.aggregation,

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
@@ -121,6 +122,7 @@ class MatchingCostTest : public QObject {
   void plane_costsNothingAtItsLabel();
   void crossHair_hasSixteenNeighbours();
   void cap_ignoresOneViewTurnedWhite();
+  void noise_favoursNoLabel();
   void bothKinds_agreeOnOneRowOfViews();
   void rows_areThoseOfTheWholeVolume();
   void threads_changeNothing();
@@ -236,6 +238,31 @@ void MatchingCostTest::cap_ignoresOneViewTurnedWhite() {
   };
   QCOMPARE(right_with(0.02), 33 * 4);
   QVERIFY(right_with(kNoCap) < 33);
+}
+
+// Without a word of the noise, moving views by half pixels averages it away and looks like a match.
+void MatchingCostTest::noise_favoursNoLabel() {
+  const LightField noise = unrelated_views({5, 5});
+  const auto ratio_with = [&](std::shared_ptr<const Image<float>> variance) {
+    MatchingCost cost;
+    cost.noise = std::move(variance);
+    const Volume<float> costs = costs_of(noise, noise.center(), cost, {0, 0.5F});
+    double whole = 0, half = 0;
+    for (int y = 0; y < noise.height(); ++y) {
+      for (int x = 0; x < noise.width(); ++x) {
+        whole += costs.view().at(y, 0, x);
+        half += costs.view().at(y, 1, x);
+      }
+    }
+    return half / whole;
+  };
+  // Of numbers evenly spread over [0, 1].
+  const auto variance = std::make_shared<Image<float>>(noise.height(), noise.width(), 1, 1.0F / 12);
+
+  const double without = ratio_with(nullptr), with = ratio_with(variance);
+
+  QVERIFY2(without < 0.93, qPrintable(QString::number(without)));
+  QVERIFY2(std::fabs(with - 1) < 0.02, qPrintable(QString::number(with)));
 }
 
 void MatchingCostTest::bothKinds_agreeOnOneRowOfViews() {
