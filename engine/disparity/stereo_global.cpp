@@ -61,7 +61,7 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   add_global_labeling_parameters(schema);
   add_stereo_cost_parameters(schema);
   schema.search("smoothness", {0.25, 0.5, 1, 2, 4, 8})
-      .search("edge_strength", {0, 10})
+      .search("edge_strength", {0, 20})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
       .completed_by([views](StereoGlobalParameters& p) {
         if (p.profile != "paper") return;

@@ -25,6 +25,8 @@ struct StereoGlobalParameters : StereoCostParameters, GlobalLabelingParameters {
 /// mean over all pixels and labels, u among the labels (label_globally). Then each pixel settles
 /// between labels: towards the parabola through the costs of its label and the neighbours', trusted
 /// by confidence². Confidence: 1 − cost of the label / mean cost over the labels.
+/// β = 20 as in ST_*_S: with 10, background between blades and twigs is joined to them (MSE×100 of a
+/// rendered thicket 13.7, with 20 9.7; of cotton 1.85, 0.67; of a noisy scene .16, .21).
 /// ε, energy, gap and iterations are in the notes. Takes 6 floats for each pixel and label.
 /// Throws InvalidInput as `prepare_stereo`, Cancelled.
 /// Reference: the paper, equation (5).
