@@ -16,6 +16,8 @@ namespace {
 
 // Rows in which the residual is measured.
 constexpr int kProbedRows = 24;
+// At least so many labels there: between coarse ones the residual is not that of noise.
+constexpr int kProbedLabels = 64;
 // ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
 constexpr double kLeastCap = 0.015;
@@ -33,12 +35,13 @@ struct Residuals {
 // The cross-hair tells as much of noise as all views.
 Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
   const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  const std::vector<float> labels = equidistant_labels(
+      costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
   const int rows = std::min(kProbedRows, lf.height());
   std::vector<float> least(static_cast<std::size_t>(rows) * lf.width());
   parallel_for_workers(rows, progress, [&]() -> std::function<void(int)> {
-    auto matching = std::make_shared<MatchingCostRows>(lf, costs.view, probe, costs.labels);
-    auto row =
-        std::make_shared<Volume<float>>(1, static_cast<int>(costs.labels.size()), lf.width());
+    auto matching = std::make_shared<MatchingCostRows>(lf, costs.view, probe, labels);
+    auto row = std::make_shared<Volume<float>>(1, static_cast<int>(labels.size()), lf.width());
     return [&, matching, row](int i) {
       matching->compute((2 * i + 1) * lf.height() / (2 * rows), row->view(), progress);
       float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
