@@ -6,8 +6,13 @@
 
 namespace episcope {
 
-Interval extent(const DisparityView& view) {
-  Interval range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+namespace {
+
+// Of no pixel at all.
+constexpr Interval kNothing{std::numeric_limits<double>::max(),
+                            std::numeric_limits<double>::lowest()};
+
+Interval widened(Interval range, const DisparityView& view) {
   for (int y = 0; y < view.disparity.height; ++y) {
     for (int x = 0; x < view.disparity.width; ++x) {
       if (!view.is_valid(y, x)) continue;
@@ -15,17 +20,29 @@ Interval extent(const DisparityView& view) {
       range = {std::min(range.min, value), std::max(range.max, value)};
     }
   }
+  return range;
+}
+
+Interval or_none(Interval range) {
   return range.min <= range.max ? range : Interval{};
 }
 
+}  // namespace
+
+Interval extent(const DisparityView& view) {
+  return or_none(widened(kNothing, view));
+}
+
 Interval known_disparity_range(const Scene& scene) {
-  const DisparityField& truth = scene.truth->field;
-  if (!truth.empty()) {
-    const ViewIndex center = scene.light_field->center();
-    const Interval range =
-        extent(truth.view(truth.contains(center) ? center : truth.disparity.first()));
-    if (range.length() > 0) return range;
+  const GroundTruth& truth = *scene.truth;
+  const ViewIndex center = scene.light_field->center();
+  Interval range = kNothing;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty()) continue;
+    range =
+        widened(range, field->view(field->contains(center) ? center : field->disparity.first()));
   }
+  if (or_none(range).length() > 0) return range;
   return scene.light_field->info().disparity_range.value_or(Interval{});
 }
 
