@@ -248,6 +248,42 @@ class BenchmarkTest : public QObject {
     QCOMPARE(seen[2], 1.0);
   }
 
+  void workload_ofNothingKnownIsDividedEvenly() {
+    double seen = -1;
+    const Progress progress(std::stop_token{},
+                            [&](const ProgressState& state) { seen = state.fraction; });
+    Workload workload(progress);
+    for (int i = 0; i < 2; ++i) workload.expect(0);
+
+    workload.next("first").report(1);
+
+    QCOMPARE(seen, 0.5);
+  }
+
+  void submissionsOfOneName_areToldApart() {
+    for (const char* folder : {"a/theirs", "b/theirs", "c/counting"}) {
+      const fs::path path = fs::path(folder_->path().toStdString()) / folder;
+      fs::create_directories(path);
+      options_.submissions.push_back(path);
+    }
+
+    const BenchmarkReport report = run();
+
+    std::vector<std::string> entries;
+    for (const auto& result : report.results) entries.push_back(result.entry);
+    QCOMPARE(entries, (std::vector<std::string>{"counting", "theirs", "theirs-2", "counting-2"}));
+  }
+
+  // All of it is the border that the protocol of 2016 ignores: that is no problem of the scene.
+  void viewsOfTwoBorders_areJudgedByOneProtocol() {
+    size_ = 2 * kBenchmarkBorder;
+    const BenchmarkReport report = run();
+    size_ = 0;
+
+    QVERIFY(report.results[0].problem.empty());
+    QVERIFY(!report.results[0].vmv2013.empty() && report.results[0].benchmark2016.empty());
+  }
+
   void everyMethod_searchesAtMostSixtyPoints() {
     for (const Estimator& method : registered_estimators()) {
       QVERIFY2(search_grid(method.parameters).size() <= kMostSearchPoints, method.info.id.c_str());
@@ -258,7 +294,7 @@ class BenchmarkTest : public QObject {
   BenchmarkReport run() {
     const SceneLoader load = [this](const std::string& input, const Progress&) {
       if (input == "missing") throw IoError(input, "is not there");
-      Scene scene = *tiny_scene(scene_);
+      Scene scene = size_ == 0 ? *tiny_scene(scene_) : small_scene();
       LightFieldInfo info = scene.light_field->info();
       info.name = input;
       if (edited_ == "camera") info.camera.baseline += 1;
@@ -280,9 +316,17 @@ class BenchmarkTest : public QObject {
     return run_benchmark(options_, load, Progress());
   }
 
+  [[nodiscard]] Scene small_scene() const {
+    scenes::RenderOptions options;
+    options.grid = {3, 3};
+    options.height = options.width = size_;
+    return scenes::render_builtin(scene_, options, Progress());
+  }
+
   std::unique_ptr<QTemporaryDir> folder_;
   BenchmarkOptions options_;
   std::string scene_ = "edge";
+  int size_ = 0;    // of views; 0 = as in tiny_scene
   QString edited_;  // what the scene is loaded with another value of
   int runs_ = 0;
 };

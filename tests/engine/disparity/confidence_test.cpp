@@ -6,6 +6,7 @@
 
 #include <QtTest>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -51,6 +52,7 @@ class ConfidenceTest : public QObject {
   void noise_hasLittleConfidence();
   void cleanTexture_hasConfidence();
   void disparityBeyondRange_hasNoConfidence();
+  void range_isNeverLeft();
   void faintTexture_losesConfidence();
   void confidence_liesInUnitInterval();
   void epiL_isTheSameForAnyThreadCount();
@@ -99,6 +101,22 @@ void ConfidenceTest::disparityBeyondRange_hasNoConfidence() {
       const bool in_range = map.at(y, x) >= range.min && map.at(y, x) <= range.max;
       QVERIFY(in_range || r.at(y, x) == 0);
     }
+  }
+}
+
+void ConfidenceTest::range_isNeverLeft() {
+  const Scene scene = render("objects", 48, 56, {5, 5}, 1, 5);
+  const Interval range{-0.3, 0.4};
+  for (const bool smooth : {false, true}) {
+    const Estimate estimate =
+        smooth ? estimate_epi_s(*scene.light_field, with_range<EpiSParameters>(range),
+                                ViewSelection::All, Progress())
+               : estimate_epi_l(*scene.light_field, with_range<EpiLParameters>(range),
+                                ViewSelection::All, Progress());
+    const ViewStack<float>& map = estimate.field.disparity;
+    const auto [least, most] = std::minmax_element(map.data(), map.data() + map.size());
+    QCOMPARE(*least, static_cast<float>(range.min));
+    QCOMPARE(*most, static_cast<float>(range.max));
   }
 }
 

@@ -1,66 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/metrics.h"
 #include "engine/core/error.h"
-#include "engine/evaluation/bumpiness.h"
 #include "engine/evaluation/error_maps.h"
-#include "engine/evaluation/normals.h"
+#include "tests/engine/evaluation/judged_maps.h"
 
 #include <QtTest>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 using namespace episcope;
-
-namespace {
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr int kSize = 50;  // 20×20 px inside the border of benchmark2016
-
-using PixelFunction = std::function<double(int y, int x)>;
-
-Image<float> map_of(const PixelFunction& value, int height = kSize, int width = kSize) {
-  Image<float> map(height, width);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) map.at(y, x) = static_cast<float>(value(y, x));
-  }
-  return map;
-}
-
-Image<float> constant(float value) {
-  return map_of([value](int, int) { return value; });
-}
-
-DisparityView whole(const Image<float>& map) {
-  return {map.view(), {}};
-}
-
-Evaluation judge(const Image<float>& estimate, const Image<float>& truth, Protocol protocol,
-                 InvalidEstimates invalid = InvalidEstimates::Bad,
-                 const std::map<std::string, Image<std::uint8_t>>& regions = {}) {
-  return evaluate(whole(estimate), whole(truth), regions, {protocol, invalid, {}});
-}
-
-double metric(const Evaluation& evaluation, const char* key) {
-  return find_metric(evaluation.metrics, key).value_or(std::numeric_limits<double>::infinity());
-}
-
-std::map<std::string, Image<std::uint8_t>> everywhere(const char* region) {
-  return {{region, Image<std::uint8_t>(kSize, kSize, 1, 1)}};
-}
-
-/// A bumpy pair of truth and estimate with some missing values.
-Image<float> wavy_truth() {
-  return map_of([](int y, int x) { return std::sin(0.3 * x) + 0.2 * std::cos(0.7 * y); });
-}
-Image<float> rough_estimate() {
-  return map_of([](int y, int x) {
-    return (x * y) % 17 == 3 ? kNan : std::sin(0.3 * x + 0.02 * y) + 0.1 * ((x * 7 + y * 3) % 5);
-  });
-}
-
-}  // namespace
+using namespace episcope::test;
 
 class MetricsTest : public QObject {
   Q_OBJECT
@@ -200,6 +150,19 @@ class MetricsTest : public QObject {
     QCOMPARE(int{bad.judged.at(20, 30)}, 1);
     QCOMPARE(bad.signed_error.at(20, 30), 2.0F);
     QCOMPARE(compatible.signed_error.at(20, 30), 0.0F);
+    QCOMPARE(int{shown_mask(bad).at(20, 30)}, 0);
+    QCOMPARE(int{shown_mask(bad).at(21, 30)}, 1);
+    QCOMPARE(int{shown_mask(bad).at(3, 3)}, 0);
+  }
+
+  // However small the error of the farthest disparity would be.
+  void q25_countsMissingValuesBehindAllOthers() {
+    const auto truth = map_of([](int, int x) { return x < 25 ? 1.0 : 3.0; });
+    const auto estimate = map_of([](int, int x) { return x < 25 ? kNan : 3.5; });
+
+    const auto bad = judge(estimate, truth, Protocol::Benchmark2016);
+
+    QCOMPARE(metric(bad, "q_25_100"), 50.0);
   }
 
   void estimateWithoutAnyValue_isWorst() {
@@ -276,144 +239,6 @@ class MetricsTest : public QObject {
         rule == InvalidEstimates::Bad) {
       QCOMPARE(metric(evaluation, "badpix_0070"), 100.0 * bad / judged);
     }
-  }
-
-  void hessianNorm_isFourTimesTheDerivative_data() {
-    QTest::addColumn<double>("xx");
-    QTest::addColumn<double>("xy");
-    QTest::addColumn<double>("yy");
-    QTest::newRow("along x") << 0.3 << 0.0 << 0.0;
-    QTest::newRow("along y") << 0.0 << 0.0 << -0.2;
-    QTest::newRow("mixed") << 0.0 << 0.25 << 0.0;
-    QTest::newRow("all") << 0.1 << -0.2 << 0.3;
-  }
-  void hessianNorm_isFourTimesTheDerivative() {
-    QFETCH(double, xx);
-    QFETCH(double, xy);
-    QFETCH(double, yy);
-    Image<double> map(12, 11);
-    for (int y = 0; y < map.height(); ++y) {
-      for (int x = 0; x < map.width(); ++x) {
-        map.at(y, x) = 0.5 * xx * x * x + xy * x * y + 0.5 * yy * y * y + 0.7 * x - 2 * y + 5;
-      }
-    }
-
-    const auto norm = hessian_norm(map);
-
-    const double expected = 4 * std::sqrt(xx * xx + 2 * xy * xy + yy * yy);
-    for (int y = 2; y < map.height() - 2; ++y) {
-      for (int x = 2; x < map.width() - 2; ++x) {
-        QVERIFY(std::abs(norm.at(y, x) - expected) < 1e-5);
-      }
-    }
-  }
-
-  void hessianNorm_reflectsTheBorder() {
-    Image<double> map(1, 3);
-    map.at(0, 0) = 0;
-    map.at(0, 1) = 1;
-    map.at(0, 2) = 4;
-
-    const auto norm = hessian_norm(map);
-
-    // (0 | 0 1 4 | 4): dx = 1, 4, 3; reflected (1 | 1 4 3 | 3): dxx = 3, 2, −1.
-    QCOMPARE(norm.at(0, 0), 3.0F);
-    QCOMPARE(norm.at(0, 1), 2.0F);
-    QCOMPARE(norm.at(0, 2), 1.0F);
-  }
-
-  void bumpiness_isClippedMeanOfKnownHessian() {
-    // Error 0.5·a·x²: norm 4a. Left half of the region gentle (0.01), right half beyond the clip.
-    const double gentle = 0.0025;
-    const auto truth = constant(0);
-    const auto estimate =
-        map_of([&](int, int x) { return x < 25 ? 0.5 * gentle * x * x : 10.0 * ((x / 3) % 2); });
-    std::map<std::string, Image<std::uint8_t>> regions;
-    regions["planes"] = Image<std::uint8_t>(kSize, kSize);
-    regions["smooth_surfaces"] = Image<std::uint8_t>(kSize, kSize);
-    for (int y = 0; y < kSize; ++y) {
-      for (int x = 0; x < 23; ++x) regions["planes"].at(y, x) = 255;
-      for (int x = 27; x < kSize; ++x) regions["smooth_surfaces"].at(y, x) = 1;
-    }
-
-    const auto evaluation =
-        judge(estimate, truth, Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
-
-    // Float samples of 0.5·a·x² below 1 carry errors of 6e-8, times 4·4.
-    QVERIFY(std::abs(metric(evaluation, "bumpiness_planes_100_0050") - 100 * 4 * gentle) < 1e-3);
-    QVERIFY(std::abs(metric(evaluation, "bumpiness_contin_surfaces_100_0050") - 5) < 1e-5);
-  }
-
-  void fineStructures_countTheirSideOfTheError() {
-    auto truth = constant(0);
-    for (int x = 15; x < 35; ++x) {
-      truth.at(15, x) = -0.15F;                         // not beyond the threshold
-      truth.at(16, x) = std::nextafter(-0.15F, -1.0F);  // estimate too near: fattening
-      truth.at(17, x) = 0.15F;                          // not beyond the threshold
-      truth.at(18, x) = truth.at(19, x) = 0.2F;         // estimate too far: thinning
-    }
-    auto regions = everywhere("fine");
-    regions.merge(everywhere("fine_surrounding"));
-
-    const auto evaluation =
-        judge(constant(0), truth, Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
-
-    QCOMPARE(metric(evaluation, "fine_fattening_0150"), 5.0);
-    QCOMPARE(metric(evaluation, "fine_thinning_0150"), 10.0);
-  }
-
-  void discontinuities_countInsideTheirRegionOnly() {
-    auto estimate = constant(0);
-    std::map<std::string, Image<std::uint8_t>> regions;
-    regions["discontinuities"] = Image<std::uint8_t>(kSize, kSize);
-    for (int x = 15; x < 25; ++x) regions["discontinuities"].at(20, x) = 255;
-    estimate.at(20, 15) = estimate.at(30, 30) = 1;
-
-    const auto evaluation =
-        judge(estimate, constant(0), Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
-
-    QCOMPARE(metric(evaluation, "discontinuities_0070"), 10.0);
-    QVERIFY(!find_metric(evaluation.metrics, "bumpiness_planes_100_0050"));
-    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150"));
-  }
-
-  void emptyRegion_addsNoMetric() {
-    std::map<std::string, Image<std::uint8_t>> regions;
-    regions["fine"] = Image<std::uint8_t>(kSize, kSize);
-    regions["planes"] = Image<std::uint8_t>(kSize, kSize);
-
-    const auto evaluation =
-        judge(constant(0), constant(0), Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
-
-    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150"));
-    QVERIFY(!find_metric(evaluation.metrics, "bumpiness_planes_100_0050"));
-  }
-
-  void angleBetweenNormals_isThatOfThePlanes() {
-    // Depth planes Z = Z0 + s·X on points X = x·Z/(2·(w − 1)·f): 1/Z is affine in x.
-    CameraGrid camera;
-    camera.baseline = 100;
-    camera.focal_length = 1.0;
-    camera.shift = 10;
-    const auto plane = [&](double slope) {
-      Image<double> map(40, 40);
-      for (int y = 0; y < 40; ++y) {
-        for (int x = 0; x < 40; ++x) {
-          const double ray = 0.5 * x / (39 * camera.focal_length);
-          const double depth = 10 / (1 - slope * ray);
-          map.at(y, x) = camera.disparity_from_depth(depth);
-        }
-      }
-      return map;
-    };
-
-    const auto angle = angle_between_normals(plane(0), plane(0.5), camera);
-
-    // Differences of three pixels lie in the plane itself, so the normal is exact but for the
-    // averaging across rows: 0.05° leaves room for that.
-    const double expected = std::atan(0.5) * 180 / std::acos(-1.0);
-    QVERIFY(std::abs(angle.at(20, 20) - expected) < 0.05);
-    QVERIFY(std::abs(angle.at(10, 30) - expected) < 0.05);
   }
 
   void layers_areJudgedByTheirOwnMask() {
