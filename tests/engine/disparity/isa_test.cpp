@@ -2,9 +2,11 @@
 // The kernels of every instruction set give the same maps. A process uses one set for all its life,
 // so this program runs itself with another and compares.
 #include "engine/core/isa.h"
+#include "engine/disparity/epi_c.h"
 #include "engine/disparity/epi_l.h"
 #include "engine/disparity/epi_s.h"
 #include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/stereo_global.h"
 #include "engine/disparity/stereo_local.h"
 #include "tests/engine/disparity/light_fields.h"
 
@@ -21,8 +23,8 @@ namespace {
 constexpr int kHeight = 61;
 constexpr int kWidth = 75;
 
-// Maps of EPI_L, their confidence, the maps of EPI_S and those of both layers, one behind the
-// other; then that of ST_AV_S.
+// Maps of EPI_L, their confidence, the maps of EPI_S, EPI_C and those of both layers, one behind
+// the other; then those of ST_AV_S and ST_CH_G.
 QByteArray computed_maps() {
   const Scene scene = render("objects", kHeight, kWidth, {5, 7});
   EpiSParameters parameters;
@@ -31,18 +33,26 @@ QByteArray computed_maps() {
       estimate_epi_l(*scene.light_field, parameters, ViewSelection::All, Progress());
   const Estimate smooth =
       estimate_epi_s(*scene.light_field, parameters, ViewSelection::All, Progress());
+  EpiCParameters ordering;
+  ordering.range = parameters.range;
+  const Estimate ordered =
+      estimate_epi_c(*scene.light_field, ordering, ViewSelection::All, Progress());
   StereoSmoothParameters stereo;
   stereo.range = parameters.range;
   const Estimate matched =
       estimate_stereo_smooth(*scene.light_field, MatchedViews::All, stereo, Progress());
+  StereoGlobalParameters global;
+  global.range = parameters.range;
+  const Estimate labeled =
+      estimate_stereo_global(*scene.light_field, MatchedViews::CrossHair, global, Progress());
   const Scene pane = render("transparent", kHeight, kWidth, {5, 7});
   const Estimate layers =
       estimate_epi_two_layer(*pane.light_field, {}, ViewSelection::All, Progress());
   QByteArray bytes;
   for (const ViewStack<float>* stack :
        {&local.field.disparity, &local.confidence, &smooth.field.disparity,
-        &layers.layered.foreground.disparity, &layers.layered.background.disparity,
-        &matched.field.disparity}) {
+        &ordered.field.disparity, &layers.layered.foreground.disparity,
+        &layers.layered.background.disparity, &matched.field.disparity, &labeled.field.disparity}) {
     bytes.append(reinterpret_cast<const char*>(stack->data()),
                  static_cast<qsizetype>(stack->size() * sizeof(float)));
   }
@@ -95,9 +105,10 @@ void IsaTest::everyInstructionSet_givesTheSameMaps() {
   static const std::vector<float> best = as_floats(computed_maps());
   const std::vector<float> other = as_floats(maps_under(isa.toLatin1().constData()));
   QCOMPARE(other.size(), best.size());
+  constexpr std::size_t maps = 6;  // of all views
   const std::size_t pixels = std::size_t{kHeight} * kWidth;
-  const std::size_t end = best.size() - pixels;
-  const std::size_t part = end / 5;
+  const std::size_t end = best.size() - 2 * pixels;
+  const std::size_t part = end / maps;
   std::size_t differ = 0;
   for (std::size_t i = 0; i < 2 * part; ++i) {
     QVERIFY(std::isfinite(other[i]));
@@ -107,19 +118,19 @@ void IsaTest::everyInstructionSet_givesTheSameMaps() {
     if (confident && std::fabs(best[i] - other[i]) > 2e-3F) ++differ;
   }
   QVERIFY2(differ < part / 1000, qPrintable(QString("EPI_L: %1 of %2").arg(differ).arg(part)));
-  for (int map = 2; map < 5; ++map) {
+  const auto mean_difference = [&](std::size_t first, std::size_t count) {
     double sum = 0;
-    for (std::size_t i = map * part; i < (map + 1) * part; ++i) {
-      sum += std::fabs(best[i] - other[i]);
-    }
-    const double mean_difference = sum / static_cast<double>(part);
-    QVERIFY2(mean_difference < 1e-3,
-             qPrintable(QString("smoothed map %1: %2").arg(map).arg(mean_difference)));
+    for (std::size_t i = first; i < first + count; ++i) sum += std::fabs(best[i] - other[i]);
+    return sum / static_cast<double>(count);
+  };
+  for (std::size_t map = 2; map < maps; ++map) {
+    const double mean = mean_difference(map * part, part);
+    QVERIFY2(mean < 1e-3, qPrintable(QString("smoothed map %1: %2").arg(map).arg(mean)));
   }
-  double stereo_sum = 0;
-  for (std::size_t i = end; i < best.size(); ++i) stereo_sum += std::fabs(best[i] - other[i]);
-  const double stereo_mean = stereo_sum / static_cast<double>(pixels);
-  QVERIFY2(stereo_mean < 1e-3, qPrintable(QString("ST_AV_S: %1").arg(stereo_mean)));
+  for (const std::size_t first : {end, end + pixels}) {
+    const double mean = mean_difference(first, pixels);
+    QVERIFY2(mean < 1e-3, qPrintable(QString("stereo: %1").arg(mean)));
+  }
 }
 
 int main(int argc, char** argv) {
