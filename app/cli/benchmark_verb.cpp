@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 namespace episcope::cli {
@@ -105,6 +106,19 @@ void print_answer(const Request& request, const BenchmarkReport& report) {
             << " points searched, " << report.reused << " taken from before\n";
 }
 
+// What a scene does to every method is said once.
+void note_problems(const BenchmarkReport& report, Job& job) {
+  std::map<std::pair<std::string, std::string>, std::string> entries;  // by scene and problem
+  for (const auto& result : report.results) {
+    if (result.problem.empty() || result.has_failed) continue;
+    std::string& names = entries[{result.scene, result.problem}];
+    names += (names.empty() ? "" : ", ") + result.entry;
+  }
+  for (const auto& [where, names] : entries) {
+    job.note(names + " on " + where.first + ": " + where.second);
+  }
+}
+
 }  // namespace
 
 void run_benchmark(const VerbArguments& arguments, std::stop_token stop) {
@@ -118,11 +132,7 @@ void run_benchmark(const VerbArguments& arguments, std::stop_token stop) {
     return scene;
   };
   const BenchmarkReport report = episcope::run_benchmark(options, load, job.progress());
-  for (const auto& result : report.results) {
-    if (!result.problem.empty() && !result.has_failed) {
-      job.note(result.entry + " on " + result.scene + ": " + result.problem);
-    }
-  }
+  note_problems(report, job);
   job.finish();
   require_success(report, request.output);
   print_answer(request, report);

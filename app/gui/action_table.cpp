@@ -132,7 +132,7 @@ void ActionTable::fillMenus(QMenuBar& bar) const {
       const qsizetype split = command.menu.indexOf(kSubmenu);
       QMenu* above = split < 0 ? nullptr : menus[command.menu.left(split)];
       menu = above ? above->addMenu(command.menu.mid(split + kSubmenu.size()))
-                   : bar.addMenu(command.menu);
+                   : bar.addMenu('&' + command.menu);  // all begin differently
       menu->setObjectName("menu." + command.menu);
       menu->setToolTipsVisible(true);
     }

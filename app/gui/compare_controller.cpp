@@ -256,7 +256,7 @@ void CompareController::fillWall() {
         return sample_texts(*request.light_field, request.view, {y, x});
       };
     } else {
-      tile.caption = tr("%1 · not known for this view").arg(entry.caption);
+      tile.caption = tr("%1 · no such map of this view").arg(entry.caption);
     }
     tiles.push_back(std::move(tile));
   }

@@ -296,7 +296,7 @@ void OverlayController::showCaption(const OverlayChoice& choice) const {
   QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
   if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
   if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
-    caption += tr(" · not known for this view");
+    caption += tr(" · no such map of this view");
   }
   const bool has_sides = choice.subtracted == 0 && (is_flipped_ || session_.compared());
   panels_.canvas->setCaption(caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);

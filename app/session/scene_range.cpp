@@ -42,7 +42,8 @@ Interval known_disparity_range(const Scene& scene) {
     range =
         widened(range, field->view(field->contains(center) ? center : field->disparity.first()));
   }
-  if (or_none(range).length() > 0) return range;
+  // A point that moves farther than the image from view to view is a mark for "nothing".
+  if (range.length() > 0 && range.length() < scene.light_field->width()) return range;
   return scene.light_field->info().disparity_range.value_or(Interval{});
 }
 

@@ -6,8 +6,8 @@
 namespace episcope {
 
 /// Disparities of a scene for display: those of the truth, in both layers if it has two, in the
-/// centre view (or the view it covers), else those that the files promise; {0, 0} if neither is
-/// known.
+/// centre view (or the view it covers) unless they cannot be, else those that the files promise;
+/// {0, 0} if neither is known.
 [[nodiscard]] Interval known_disparity_range(const Scene& scene);
 
 /// Disparities that the valid pixels of one view lie in; {0, 0} if none is valid. Linear in pixels.

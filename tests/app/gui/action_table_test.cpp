@@ -82,6 +82,12 @@ void ActionTableTest::everyCommand_isInAMenu() {
   for (const QMenu* menu : f.window.menuBar()->findChildren<QMenu*>()) {
     for (QAction* action : menu->actions()) in_menus.insert(action);
   }
+  QSet<QChar> letters;
+  for (const QAction* menu : f.window.menuBar()->actions()) {
+    QVERIFY2(menu->text().startsWith('&'), qPrintable(menu->text()));
+    letters.insert(menu->text()[1]);
+  }
+  QCOMPARE(letters.size(), f.window.menuBar()->actions().size());
   for (const Command& command : f.window.actions().commands()) {
     QVERIFY2(in_menus.contains(f.window.actions().find(command.id)), qPrintable(command.id));
   }

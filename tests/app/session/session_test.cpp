@@ -41,6 +41,7 @@ class SessionTest : public QObject {
   void evaluation_ofRemovedEstimate_isForgotten();
   void evaluation_withoutTruth_isNotBegun();
   void disparityRange_doesNotFollowTheShownEstimate();
+  void disparityRange_ignoresTruthThatCannotBe();
 };
 
 void SessionTest::changes_areGatheredAndToldOnce() {
@@ -189,6 +190,21 @@ void SessionTest::disparityRange_doesNotFollowTheShownEstimate() {
 
   f.session.add_estimate(estimate, {-2, 3}, f.session.generation());
   f.session.add_estimate(estimate, {-9, 9}, f.session.generation());
+
+  QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
+}
+
+// 1e30 for "nothing" would make one colour of all disparities.
+void SessionTest::disparityRange_ignoresTruthThatCannotBe() {
+  Fixture f;
+  auto scene = std::make_shared<Scene>(*tiny_scene());
+  auto truth = std::make_shared<GroundTruth>();
+  truth->field.disparity = scene->truth->field.disparity.clone();
+  truth->field.disparity.view({1, 1}).at(0, 0) = 1e30F;
+  scene->truth = truth;
+
+  f.session.open(scene, "x");
+  f.session.add_estimate(shifted_truth(*scene, 0), {-2, 3}, f.session.generation());
 
   QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
 }
