@@ -50,8 +50,8 @@ LightField noisy(const LightField& lf) {
   });
 }
 
-DoubleLayers measure(const LightField& lf, int threads = 0) {
-  const TensorScales scales{0.8, 2, 1.8, 1, 10, 0.15};
+DoubleLayers measure(const LightField& lf, int threads = 0, double view_scale = 1.8) {
+  const TensorScales scales{0.8, 2, view_scale, 1, 10, 0.15};
   return measure_double_layers(lf, scales, {{-3.5, 3.5}, 0.15}, lf.grid(), {}, Progress(threads));
 }
 
@@ -85,6 +85,7 @@ class DoubleOrientationTest : public QObject {
   void sums_areTakenApart_data();
   void sums_areTakenApart();
   void transposing_changesNothing();
+  void integrationAlongTheViews_wearsNoiseDown();
   void wholeShear_shiftsBoth();
   void oneLayer_hasNoConfidence();
   void threads_changeNothing();
@@ -142,6 +143,19 @@ void DoubleOrientationTest::transposing_changesNothing() {
   std::sort(offs.begin(), offs.end());
   const double most = offs[offs.size() * 98 / 100];
   QVERIFY2(most < 5e-3, qPrintable(QString::number(most)));
+}
+
+void DoubleOrientationTest::integrationAlongTheViews_wearsNoiseDown() {
+  const LightField lf = noisy(sum_of(0.5, -0.3, 0.5));
+  const Quality with = quality(measure(lf), {4, 4}, 0.5, -0.3);
+  const Quality without = quality(measure(lf, 0, 0), {4, 4}, 0.5, -0.3);
+  const QString text = QString("%1 %2, without %3 %4")
+                           .arg(with.median_near)
+                           .arg(with.median_far)
+                           .arg(without.median_near)
+                           .arg(without.median_far);
+  QVERIFY2(with.median_near < 0.8 * without.median_near, qPrintable(text));
+  QVERIFY2(with.median_far < 0.8 * without.median_far, qPrintable(text));
 }
 
 void DoubleOrientationTest::wholeShear_shiftsBoth() {
