@@ -10,6 +10,7 @@
 #include "app/gui/main_window.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/segment_actions.h"
+#include "app/gui/theme_choice.h"
 
 #include <QAction>
 #include <QTabWidget>
@@ -193,6 +194,7 @@ void add_actions(ActionTable& table, MainWindow& window) {
   add_annotate_actions(table, window);
   add_segment_actions(table, window);
   add_tab_actions(table, window);
+  add_theme_actions(table);
   add_help_actions(table, window);
 }
 

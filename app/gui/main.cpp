@@ -1,32 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
+#include "app/gui/theme_choice.h"
 #include "engine/core/parameter.h"
 #include "engine/core/version.h"
-#include "widgets/outlined_style.h"
-#include "widgets/theme.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
-#include <QStyle>
 
 #include <cstdio>
 
 namespace {
 
 constexpr int kUsageError = 2;
-
-bool set_theme(const QString& name) {
-  const bool is_own = name == "light" || name == "dark";
-  if (is_own || QApplication::style()->name() == "fusion") {
-    QApplication::setStyle(new episcope::OutlinedStyle);
-  }
-  if (is_own) {
-    QApplication::setPalette(name == "light" ? episcope::theme::light_palette()
-                                             : episcope::theme::dark_palette());
-    return true;
-  }
-  return name == "system";
-}
 
 int fail(const QString& sentence) {
   std::fprintf(stderr, "episcope: %s\n", qPrintable(sentence));
@@ -57,7 +42,7 @@ int main(int argc, char** argv) {
   parser.addPositionalArgument(
       "INPUT", "an lf.h5, a scene folder, an image grid, demo or demo:<scene>", "[INPUT]");
   const QCommandLineOption theme("theme", "Colours: light, dark or those of the desktop.",
-                                 "light|dark|system", "system");
+                                 "light|dark|system", episcope::remembered_theme());
   parser.addOption(theme);
   if (!parser.parse(application.arguments())) {
     const QStringList unknown = parser.unknownOptionNames();
@@ -66,7 +51,7 @@ int main(int argc, char** argv) {
   if (parser.isSet(help)) parser.showHelp();
   if (parser.isSet(version)) parser.showVersion();
   const QStringList inputs = parser.positionalArguments();
-  if (!set_theme(parser.value(theme)) || inputs.size() > 1) {
+  if (!episcope::apply_theme(parser.value(theme)) || inputs.size() > 1) {
     return fail(inputs.size() > 1 ? "only one INPUT can be open; start it again for each"
                                   : "--theme must be light, dark or system");
   }

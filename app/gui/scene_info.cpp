@@ -61,6 +61,11 @@ QString camera_text(const CameraGrid& camera) {
   return line;
 }
 
+QString megabytes(std::size_t bytes) {
+  const double count = static_cast<double>(bytes) / 1e6;
+  return QString::number(count, 'f', count < 10 ? 1 : 0);
+}
+
 // Readers speak of a choice made by hand; here it is known whose hand it was.
 QString by_whom(QString finding) {
   return with_minus(finding.replace(", as chosen by hand", text(" (set by you)")));
@@ -87,7 +92,7 @@ SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
                        text("%1×%2 px, %3 MB")
                            .arg(light_field.width())
                            .arg(light_field.height())
-                           .arg(light_field.byte_size() / 1'000'000),
+                           .arg(megabytes(light_field.byte_size())),
                        {}});
   info.rows.push_back({text("Samples"), sample_text(light_field), {}});
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/action_table.h"
 
+#include "app/gui/theme_choice.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
+#include "widgets/method_panel.h"
+#include "widgets/theme.h"
 #include "widgets/view_canvas.h"
 #include "widgets/view_grid.h"
 #include "widgets/view_grid_cells.h"
@@ -36,6 +39,7 @@ class ActionTableTest : public QObject {
   void everyCommandWithKeys_isInTheShortcutWindow();
   void listOfKeys_isSearched();
   void palette_findsAndRunsACommand();
+  void chosenColours_areAppliedAndRemembered();
   void changedKey_worksIsShownAndRemembered();
   void keysOfTheView_areThoseOfTheTable_data();
   void keysOfTheView_areThoseOfTheTable();
@@ -121,6 +125,23 @@ void ActionTableTest::listOfKeys_isSearched() {
     rows += (*each)->childCount() == 0 ? 1 : 0;
   }
   QCOMPARE(rows, 1);
+}
+
+void ActionTableTest::chosenColours_areAppliedAndRemembered() {
+  const QPalette before = QApplication::palette();
+  WindowFixture f;
+  QVERIFY(f.window.actions().find("theme.system")->isChecked());
+
+  f.trigger("theme.dark");
+
+  QVERIFY(theme::is_dark(QApplication::palette()));
+  QTRY_VERIFY_WITH_TIMEOUT(theme::is_dark(f.window.panels().method->palette()), kPatience);
+  QCOMPARE(remembered_theme(), QString("dark"));
+  f.trigger("theme.light");
+  QTRY_VERIFY_WITH_TIMEOUT(!theme::is_dark(f.window.panels().method->palette()), kPatience);
+  f.trigger("theme.system");
+  QCOMPARE(QApplication::palette().color(QPalette::Window), before.color(QPalette::Window));
+  QVERIFY(!apply_theme("blue"));
 }
 
 void ActionTableTest::palette_findsAndRunsACommand() {
