@@ -46,6 +46,7 @@ class StereoGlobalTest : public QObject {
   void noisyScene_isBetterThanLocal();
   void slant_isPlacedBetweenLabels_data() { add_views(); }
   void slant_isPlacedBetweenLabels();
+  void flatPatch_isPlacedByItsSurroundings();
   void confidence_isThatOfTheLocalMethod_data() { add_views(); }
   void confidence_isThatOfTheLocalMethod();
   void paperProfile_keepsLabels_data() { add_views(); }
@@ -77,6 +78,31 @@ void StereoGlobalTest::slant_isPlacedBetweenLabels() {
       mse(scene, estimate_stereo_global(*scene.light_field, fetched(), parameters(), Progress()));
 
   QVERIFY2(error < 0.02, qPrintable(QString::number(error)));
+}
+
+// Costs of a patch without texture say nothing of places between labels: it must take that of the
+// plane around it, a fifth of a label beside the nearest one, 0.06 px.
+void StereoGlobalTest::flatPatch_isPlacedByItsSurroundings() {
+  constexpr double d = 0.37;
+  const LightField lf = make_light_field({5, 5}, 48, 48, 1, [](ViewIndex view, int y, int x, int) {
+    const double py = y + d * (view.v - 2), px = x + d * (view.u - 2);
+    const bool is_patch = std::fabs(py - 24) < 9 && std::fabs(px - 24) < 9;
+    const double texture = 0.2 * std::sin(0.9 * px) + 0.2 * std::sin(0.8 * py);
+    return static_cast<float>(0.5 + (is_patch ? 0 : texture));
+  });
+  StereoGlobalParameters p = parameters();
+  p.range = Interval{-1, 1};
+  p.labels = 8;
+
+  const Estimate estimate = estimate_stereo_global(lf, MatchedViews::All, p, Progress());
+
+  double sum = 0;
+  for (int y = 18; y < 31; ++y) {
+    for (int x = 18; x < 31; ++x) {
+      sum += std::fabs(estimate.field.disparity.view({2, 2}).at(y, x) - d) / (13 * 13);
+    }
+  }
+  QVERIFY2(sum < 0.02, qPrintable(QString::number(sum)));
 }
 
 void StereoGlobalTest::confidence_isThatOfTheLocalMethod() {
