@@ -17,15 +17,17 @@ namespace {
 // Width of a histogram cell, px per view step.
 constexpr double kCell = 0.05;
 // Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
-// coherence long before it spoils orientations (at 10/255, none of the built-in scenes has 1 %
-// above 0.95, and those above 0.6 still end within 0.1 px of the true range).
-constexpr std::array<float, 5> kCoherent{0.95F, 0.9F, 0.8F, 0.7F, 0.6F};
+// coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
+// of the true range. To begin higher would leave out regions that are seen less well than others.
+constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
 // Share of the pixels that are enough.
-constexpr double kEnough = 0.1;
-// Share of the coherent pixels that may lie beyond either end of the range.
+constexpr double kEnough = 0.2;
+// The range begins and ends with the first run of so many cells that holds this share of the
+// coherent pixels. Orientations that noise alone gives are spread thinly over all disparities; what
+// is seen lies close together, and counts even where few of its pixels are coherent. Half of the
+// run is the margin.
+constexpr int kRun = 4;
 constexpr double kTail = 0.002;
-// Added to both ends: what the tails and the histogram leave out.
-constexpr double kMargin = 0.1;
 // EPIs looked at in each direction, and how many vertical ones stand side by side.
 constexpr int kLines = 48;
 constexpr int kColumns = 32;
@@ -125,14 +127,16 @@ std::vector<Findings> collect(const LightField& lf, StructureTensor::Direction d
   return findings;
 }
 
-double quantile_cell(const Histogram& histogram, double share) {
-  const double wanted = share * total(histogram);
+// How many cells lie before the first run that holds enough.
+template <class Cells>
+int cells_to_skip(Cells begin, Cells end, double enough) {
   double sum = 0;
-  for (std::size_t i = 0; i < histogram.size(); ++i) {
-    sum += histogram[i];
-    if (sum > wanted) return static_cast<double>(i);
+  for (Cells cell = begin; cell != end; ++cell) {
+    sum += *cell;
+    if (cell - begin >= kRun) sum -= *(cell - kRun);
+    if (sum >= enough) return std::max(0, static_cast<int>(cell - begin) + 1 - kRun);
   }
-  return static_cast<double>(histogram.size()) - 1;
+  return 0;
 }
 
 }  // namespace
@@ -151,9 +155,10 @@ Interval find_disparity_range(const LightField& lf, const Progress& progress, do
   const Histogram sum = most_coherent(findings);
   constexpr double least = 100;
   if (total(sum) < least) return {-1, 1};
-  const double low = quantile_cell(sum, kTail) * kCell - limit;
-  const double high = (quantile_cell(sum, 1 - kTail) + 1) * kCell - limit;
-  return {std::max(-limit, low - kMargin), std::min(limit, high + kMargin)};
+  const double tail = kTail * total(sum);
+  const double low = cells_to_skip(sum.begin(), sum.end(), tail) * kCell - limit;
+  const double high = limit + kCell - cells_to_skip(sum.rbegin(), sum.rend(), tail) * kCell;
+  return {low, std::min(limit, high)};
 }
 
 Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,

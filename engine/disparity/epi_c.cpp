@@ -256,7 +256,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
 Estimator epi_c_estimator() {
   return make_estimator<EpiCParameters>(
       {"epi_c", "EPI_C", "EPI_L, denoised over all views with occlusion ordering along the lines",
-       "Goldluecke and Wanner 2013 [GW13]", true, true},
+       "Goldluecke and Wanner 2013 [GW13]", true, true, 2},
       epi_c_schema(), estimate_epi_c);
 }
 

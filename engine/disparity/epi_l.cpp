@@ -222,7 +222,7 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
 Estimator epi_l_estimator() {
   return make_estimator<EpiLParameters>(
       {"epi_l", "EPI_L", "Orientation of lines on epipolar plane images (structure tensor), local",
-       "Wanner and Goldluecke 2012 [WG12]", true},
+       "Wanner and Goldluecke 2012 [WG12]", true, false, 2},
       epi_l_schema(), estimate_epi_l);
 }
 

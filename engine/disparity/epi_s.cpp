@@ -24,7 +24,7 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
 Estimator epi_s_estimator() {
   return make_estimator<EpiSParameters>(
       {"epi_s", "EPI_S", "EPI_L, denoised view by view with total variation (TV-L2)",
-       "Wanner and Goldluecke 2013 [WG13]", true, true},
+       "Wanner and Goldluecke 2013 [WG13]", true, true, 2},
       epi_s_schema(), estimate_epi_s);
 }
 

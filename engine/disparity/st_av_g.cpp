@@ -8,7 +8,7 @@ namespace episcope {
 Estimator st_av_g_estimator() {
   return make_estimator<StereoGlobalParameters>(
       {"st_av_g", "ST_AV_G", "Globally optimal labeling on the matching costs of ST_AV_L",
-       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, true, 2},
+       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, true, 3},
       stereo_global_schema(MatchedViews::All),
       [](const LightField& light_field, const StereoGlobalParameters& parameters, ViewSelection,
          const Progress& progress) {

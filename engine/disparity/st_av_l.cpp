@@ -8,7 +8,7 @@ namespace episcope {
 Estimator st_av_l_estimator() {
   return make_estimator<StereoLocalParameters>(
       {"st_av_l", "ST_AV_L", "Multi-view stereo over all views, local",
-       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, false, 2},
+       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, false, 3},
       stereo_local_schema(MatchedViews::All),
       [](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
          const Progress& progress) {

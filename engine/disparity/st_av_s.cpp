@@ -8,7 +8,7 @@ namespace episcope {
 Estimator st_av_s_estimator() {
   return make_estimator<StereoSmoothParameters>(
       {"st_av_s", "ST_AV_S", "ST_AV_L, denoised with total variation (TV-L2)",
-       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, true, 2},
+       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, true, 3},
       stereo_smooth_schema(MatchedViews::All),
       [](const LightField& light_field, const StereoSmoothParameters& parameters, ViewSelection,
          const Progress& progress) {

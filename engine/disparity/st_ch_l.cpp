@@ -8,7 +8,7 @@ namespace episcope {
 Estimator st_ch_l_estimator() {
   return make_estimator<StereoLocalParameters>(
       {"st_ch_l", "ST_CH_L", "Multi-view stereo over the views of the cross-hair, local",
-       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, false, 2},
+       "Wanner, Meister and Goldluecke 2013 [WMG13]", false, false, 3},
       stereo_local_schema(MatchedViews::CrossHair),
       [](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
          const Progress& progress) {

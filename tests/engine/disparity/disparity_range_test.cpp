@@ -49,6 +49,7 @@ class DisparityRangeTest : public QObject {
   void foundRange_holdsTheTruth_data();
   void foundRange_holdsTheTruth();
   void foundRange_ofOneRowOfCameras();
+  void foundRange_holdsWhatIsSeenBadly();
   void foundRange_withoutTextureIsDefault();
   void foundRange_isTheSameForAnyThreadCount();
   void foundRange_ofSmallLightFieldIsFinite();
@@ -102,6 +103,24 @@ void DisparityRangeTest::foundRange_ofOneRowOfCameras() {
   const Interval found = find_disparity_range(*scene.light_field, Progress());
   QVERIFY2(found.min <= -1.8 && found.min > -2.6 && found.max >= 1.8 && found.max < 2.6,
            qPrintable(text(found)));
+}
+
+// A rich plane at 0, and a near strip of weak texture under noise (7 % of the pixels, d = 1.5).
+void DisparityRangeTest::foundRange_holdsWhatIsSeenBadly() {
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 0.015F);
+  const LightField lf =
+      make_light_field({9, 9}, 128, 128, 1, [&](ViewIndex view, int y, int x, int) {
+        const bool near = y >= 119;
+        const double d = near ? 1.5 : 0, px = x + d * (view.u - 4), py = y + d * (view.v - 4);
+        const double texture =
+            std::sin(0.5 * px) + std::sin(0.47 * py) + std::sin(0.31 * px + 0.2 * py);
+        return static_cast<float>(0.5 + (near ? 0.05 : 0.15) * texture) + noise(random);
+      });
+
+  const Interval found = find_disparity_range(lf, Progress());
+
+  QVERIFY2(found.max >= 1.5 && found.max < 2.1 && found.min > -0.6, qPrintable(text(found)));
 }
 
 void DisparityRangeTest::foundRange_withoutTextureIsDefault() {
