@@ -46,7 +46,12 @@ QString absolute(const QString& input) {
 bool is_result(const QString& path) {
   const QString suffix = QFileInfo(path).suffix().toLower();
   if (suffix == "pfm" || suffix == "tif" || suffix == "tiff") return QFileInfo(path).isFile();
-  return suffix == "h5" && io::is_result_file(path.toStdString());
+  if (suffix != "h5" && suffix != "hdf5") return false;
+  try {
+    return io::is_result_file(path.toStdString());
+  } catch (const std::exception&) {
+    return false;  // opening it will tell what is wrong
+  }
 }
 
 Image<std::uint8_t> rgba_of(const Image<std::uint8_t>& center) {

@@ -82,6 +82,7 @@ class MainWindowTest : public QObject {
   void failedExport_isTold();
   void brokenFile_isToldAndKeepsTheScene();
   void brokenFile_withoutScene_isDrawnAsError();
+  void brokenFile_ofTheDialog_isTold();
   void droppedFile_isOpened();
   void openedResult_isListed();
   void resultOfAnotherLightField_isRefused();
@@ -403,6 +404,25 @@ void MainWindowTest::openedResult_isListed() {
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, kPatience);
   QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
+}
+
+// It has the signature of HDF5, and ends there.
+void MainWindowTest::brokenFile_ofTheDialog_isTold() {
+  WindowFixture f;
+  f.openSmall();
+  QFile file(f.path("broken.h5"));
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray("\x89HDF\r\n\x1a\n").append(QByteArray(200, '\0')));
+  file.close();
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>();
+
+  emit dialog->fileSelected(file.fileName());
+
+  const MessageBar* messages = f.window.panels().messages;
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
+                            kPatience);
+  QCOMPARE(messages->severity(), Severity::Error);
 }
 
 void MainWindowTest::resultOfOtherSamples_isOpenedWithAWarning() {
