@@ -190,13 +190,13 @@ void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& 
   const ViewStack<float>& disparity = estimate.field.disparity;
   const float variance = noise_variance(views, disparity);
   const float noise = kLeastDifference * kLeastDifference + variance;
-  const GridShape grid = lf.grid();
+  const GridShape grid = disparity.grid();
   parallel_for_workers(grid.count(), progress.part(0.2, 1), [&]() -> std::function<void(int)> {
     auto residuals = std::make_shared<Residuals>(views, disparity);
     auto texture = std::make_shared<TextureTrust>(lf.height(), lf.width());
     auto trust = std::make_shared<std::vector<float>>(lf.width());
     return [&, residuals, texture, trust](int i) {
-      const ViewIndex view = grid.view_at(i);
+      const ViewIndex view = grid.view_at(i, disparity.first());
       residuals->begin(view);
       texture->begin(views.view(view));
       const ImageView<float> confidence = estimate.confidence.view(view);

@@ -4,6 +4,7 @@
 #include "engine/core/estimate.h"
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
+#include "engine/core/schema.h"
 
 namespace episcope {
 
@@ -27,7 +28,17 @@ namespace episcope {
 /// Measured, MSE×100 of the centre view of EPI_C without sweeps (`sweeps` 0), `check_lines` off and
 /// on: bars 3.30, 0.37; objects 0.70, 0.13; demo 1.40, 0.29 (256 px); still_life 1.62, 0.66; cotton
 /// 2.79, 0.92; objects with noise of 5/255 0.89, 0.59.
-/// The estimate must cover all views. Memory: 4 bytes a ray. Throws Cancelled.
+/// The estimate must cover the centre view. Memory: 4 bytes a ray of the light field. Throws
+/// Cancelled.
 void lower_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
+
+/// Whether a method lowers confidence so.
+template <class P>
+void add_check_lines(Schema<P>& schema) {
+  schema.flag("check_lines", &P::check_lines,
+              {"Check lines",
+               "Trust estimates less where the other views show another colour along the line, or "
+               "where the texture is a neighbour's"});
+}
 
 }  // namespace episcope

@@ -218,11 +218,8 @@ Schema<EpiCParameters> epi_c_schema() {
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
                {"Sweeps", "Times that every view is fitted to its neighbours; 0 = not at all"},
-               {0, 50})
-      .flag("check_lines", &P::check_lines,
-            {"Check lines",
-             "Trust estimates less where the other views show another colour along the line, or "
-             "where the texture is a neighbour's"});
+               {0, 50});
+  add_check_lines(schema);
   add_denoise_parameters(schema);
   add_epi_l_parameters(schema);
   schema.search("lambda", {0.03, 0.06, 0.12, 0.24}).search("fall", {0.03, 0.1, 0.3});

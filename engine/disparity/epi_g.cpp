@@ -2,11 +2,13 @@
 #include "engine/disparity/epi_g.h"
 
 #include "engine/core/parallel.h"
+#include "engine/disparity/data_trust.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/matching_cost.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace episcope {
 namespace {
@@ -54,6 +56,14 @@ class DirectionalData {
     return volume;
   }
 
+  [[nodiscard]] double mean_weight() const {
+    double sum = 0;
+    for (const Direction& direction : directions_) {
+      sum = std::accumulate(direction.weight.begin(), direction.weight.end(), sum);
+    }
+    return sum / (2.0 * static_cast<double>(directions_[0].weight.size()));
+  }
+
   // The mean of the directions that agree with the label.
   [[nodiscard]] Placement place(int y, int x, float label, float step) const {
     float sum = kLeastWeight * label, weight = kLeastWeight;
@@ -82,8 +92,9 @@ Schema<EpiGParameters> epi_g_schema() {
             {0.01, 5, true})
       .real("weight_power", &P::weight_power,
             {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16});
+  add_check_lines(schema);
   add_epi_l_parameters(schema);
-  schema.search("smoothness", {0.5, 1, 2, 4, 8})
+  schema.search("smoothness", {0.75, 1.5, 3, 6, 12})
       .search("weight_power", {0, 2, 8})
       .search("truncation", {0.1, 0.3, 1});
   return schema;
@@ -91,8 +102,12 @@ Schema<EpiGParameters> epi_g_schema() {
 
 Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
                         const Progress& progress) {
-  const DirectionalOrientations directions =
-      estimate_directions(lf, parameters, progress.part(0, 0.1));
+  DirectionalOrientations directions = estimate_directions(lf, parameters, progress.part(0, 0.06));
+  if (parameters.check_lines) {
+    progress.step("checking lines");
+    lower_confidence(lf, directions.horizontal, progress.part(0.06, 0.08));
+    lower_confidence(lf, directions.vertical, progress.part(0.08, 0.1));
+  }
   const ViewIndex view = lf.center();
   Estimate estimate;
   estimate.range = directions.horizontal.range;
@@ -105,7 +120,7 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
   const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
-  label_globally(lf, {view, labels, costs.view(), 1, place}, parameters, estimate,
+  label_globally(lf, {view, labels, costs.view(), data.mean_weight(), place}, parameters, estimate,
                  progress.part(0.12, 1));
   return estimate;
 }
@@ -113,7 +128,7 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
 Estimator epi_g_estimator() {
   return make_estimator<EpiGParameters>(
       {"epi_g", "EPI_G", "Globally optimal labeling of what the epipolar plane images say",
-       "Wanner and Goldluecke 2012 [WG12]", false, true, 2},
+       "Wanner and Goldluecke 2012 [WG12]", false, true, 3},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

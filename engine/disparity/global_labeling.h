@@ -55,8 +55,8 @@ void add_global_labeling_parameters(Schema<P>& schema) {
       .real("smoothness", &P::smoothness,
             {"Smoothness λ",
              "Weight of the total variation of the labeling, per px of disparity and in units of "
-             "the data: costs over their mean, estimates by their coherence; it depends on neither "
-             "the number of labels nor the contrast"},
+             "the data: costs over their mean, estimates over their mean trust; it depends on "
+             "neither the number of labels nor the contrast"},
             {0, 100})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
