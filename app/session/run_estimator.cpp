@@ -12,8 +12,9 @@ FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequ
   const Estimator estimator = find_estimator(request.method);
   Estimate estimate = estimator.run(light_field, request.parameters, request.views, progress);
   estimate.source_hash = light_field.sample_hash();
-  if (progress.finish_requested() && estimator.info.iterative)
+  if (progress.finish_requested() && estimator.info.iterative) {
     estimate.notes.push_back(kTakenEarly);
+  }
   progress.check();
   const Interval range = display_range(estimate);
   return {std::make_shared<const Estimate>(std::move(estimate)), range};

@@ -151,17 +151,11 @@ class TextureTrust {
   void begin(const ImageView<const std::uint32_t>& view) { measure_gradients(view, gradients_); }
 
   void multiply_row(int y, float noise, float* trust) {
-    const int height = gradients_.own.height(), width = gradients_.own.width();
-    const int begin = std::max(y - kTextureRadius, 0);
-    const int end = std::min(y + kTextureRadius + 1, height);
-    std::fill(column_.begin(), column_.end(), 0.0F);
-    for (int i = begin; i < end; ++i) {
-      const float* const mean = gradients_.mean.row(i);
-      for (int x = 0; x < width; ++x) column_[x] += mean[x];
-    }
+    const int width = gradients_.own.width();
+    const int rows_summed = sum_rows(gradients_.mean, y, kTextureRadius, column_.data());
     box_mean_row(column_.data(), width, kTextureRadius, window_.data());
     const float* const own = gradients_.own.row(y);
-    const float rows = 1.0F / static_cast<float>(end - begin);
+    const float rows = 1.0F / static_cast<float>(rows_summed);
     for (int x = 0; x < width; ++x) {
       const float share = kTextureGain * (own[x] + noise) / (rows * window_[x] + noise);
       trust[x] *= std::min(share, 1.0F);
@@ -186,26 +180,30 @@ void line_trust_row(const float* residual, int width, float variance, float nois
 }  // namespace
 
 void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
-  const PackedViews views = pack_views(lf, progress.part(0, 0.2));
+  lower_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
+}
+
+void lower_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
+  const int height = views.height(), width = views.width();
   const ViewStack<float>& disparity = estimate.field.disparity;
   const float variance = noise_variance(views, disparity);
   const float noise = kLeastDifference * kLeastDifference + variance;
   const GridShape grid = disparity.grid();
-  parallel_for_workers(grid.count(), progress.part(0.2, 1), [&]() -> std::function<void(int)> {
+  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
     auto residuals = std::make_shared<Residuals>(views, disparity);
-    auto texture = std::make_shared<TextureTrust>(lf.height(), lf.width());
-    auto trust = std::make_shared<std::vector<float>>(lf.width());
+    auto texture = std::make_shared<TextureTrust>(height, width);
+    auto trust = std::make_shared<std::vector<float>>(width);
     return [&, residuals, texture, trust](int i) {
       const ViewIndex view = grid.view_at(i, disparity.first());
       residuals->begin(view);
       texture->begin(views.view(view));
       const ImageView<float> confidence = estimate.confidence.view(view);
-      for (int y = 0; y < lf.height(); ++y) {
+      for (int y = 0; y < height; ++y) {
         if (y % 16 == 0) progress.check();
-        line_trust_row(residuals->row(y), lf.width(), variance, noise, trust->data());
+        line_trust_row(residuals->row(y), width, variance, noise, trust->data());
         texture->multiply_row(y, noise, trust->data());
         float* const row = confidence.row(y);
-        for (int x = 0; x < lf.width(); ++x) row[x] *= std::sqrt(std::sqrt((*trust)[x]));
+        for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt((*trust)[x]));
       }
     };
   });

@@ -5,6 +5,9 @@
 #include "engine/core/light_field.h"
 #include "engine/core/progress.h"
 #include "engine/core/schema.h"
+#include "engine/core/view_stack.h"
+
+#include <cstdint>
 
 namespace episcope {
 
@@ -31,6 +34,10 @@ namespace episcope {
 /// The estimate must cover the centre view. Memory: 4 bytes a ray of the light field. Throws
 /// Cancelled.
 void lower_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
+
+/// The same with views packed before (pack_views), for several estimates of one light field.
+void lower_confidence(const ViewStack<std::uint32_t>& packed_views, Estimate& estimate,
+                      const Progress& progress);
 
 /// Whether a method lowers confidence so.
 template <class P>

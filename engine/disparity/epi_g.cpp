@@ -5,6 +5,7 @@
 #include "engine/disparity/data_trust.h"
 #include "engine/disparity/denoise.h"
 #include "engine/disparity/matching_cost.h"
+#include "engine/disparity/packed_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,8 +106,9 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   DirectionalOrientations directions = estimate_directions(lf, parameters, progress.part(0, 0.06));
   if (parameters.check_lines) {
     progress.step("checking lines");
-    lower_confidence(lf, directions.horizontal, progress.part(0.06, 0.08));
-    lower_confidence(lf, directions.vertical, progress.part(0.08, 0.1));
+    const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
+    lower_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
+    lower_confidence(views, directions.vertical, progress.part(0.085, 0.1));
   }
   const ViewIndex view = lf.center();
   Estimate estimate;

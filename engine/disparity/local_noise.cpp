@@ -54,15 +54,8 @@ void second_differences(const Planes& planes, int y, PixelIndex way, float* out)
 // Lowers a row of `least` to the means of one direction's windows.
 void lower_row(const Image<float>& squares, int y, std::vector<float>& columns,
                std::vector<float>& means, float* least) {
-  const int begin = std::max(y - kRadius, 0);
-  const int end = std::min(y + kRadius + 1, squares.height());
-  std::fill(columns.begin(), columns.end(), 0.0F);
-  for (int i = begin; i < end; ++i) {
-    const float* const row = squares.row(i);
-    for (int x = 0; x < squares.width(); ++x) columns[x] += row[x];
-  }
+  const auto rows = static_cast<float>(sum_rows(squares, y, kRadius, columns.data()));
   box_mean_row(columns.data(), squares.width(), kRadius, means.data());
-  const auto rows = static_cast<float>(end - begin);
   for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x] / rows);
 }
 
