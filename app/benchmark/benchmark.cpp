@@ -10,8 +10,8 @@
 #include "app/session/judgement.h"
 #include "app/session/scene_range.h"
 #include "engine/core/error.h"
-#include "engine/evaluation/parameter_search.h"
-#include "engine/io/result_file.h"
+#include "engine/evaluation/tables/parameter_search.h"
+#include "engine/io/maps/result_file.h"
 
 #include <algorithm>
 #include <new>

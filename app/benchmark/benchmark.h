@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/benchmark/report.h"
-#include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/disparity/estimator.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/disparity/common/estimator.h"
 
 #include <filesystem>
 #include <functional>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/benchmark/report.h"
-#include "engine/evaluation/benchmark_tables.h"
+#include "engine/evaluation/tables/benchmark_tables.h"
 
 #include <string>
 #include <vector>

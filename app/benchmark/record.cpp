@@ -3,8 +3,8 @@
 
 #include "app/benchmark/scene_fingerprint.h"
 #include "engine/core/version.h"
-#include "engine/io/parameter_json.h"
-#include "engine/io/result_file.h"
+#include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/parameter.h"
-#include "engine/disparity/estimator.h"
-#include "engine/evaluation/benchmark_result.h"
+#include "engine/core/parameter/parameter.h"
+#include "engine/disparity/common/estimator.h"
+#include "engine/evaluation/tables/benchmark_result.h"
 
 #include <optional>
 #include <string>

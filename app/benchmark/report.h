@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/indices.h"
-#include "engine/evaluation/benchmark_result.h"
+#include "engine/core/array/indices.h"
+#include "engine/evaluation/tables/benchmark_result.h"
 
 #include <string>
 #include <vector>

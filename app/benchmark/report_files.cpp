@@ -3,8 +3,8 @@
 
 #include "app/benchmark/html_page.h"
 #include "app/benchmark/report_json.h"
-#include "engine/evaluation/search_tables.h"
-#include "engine/io/atomic_file.h"
+#include "engine/evaluation/tables/search_tables.h"
+#include "engine/io/durable/atomic_file.h"
 
 #include <algorithm>
 

@@ -3,9 +3,9 @@
 
 #include "app/benchmark/scene_files.h"
 #include "engine/core/version.h"
-#include "engine/evaluation/benchmark_tables.h"
-#include "engine/evaluation/search_tables.h"
-#include "engine/io/result_file.h"
+#include "engine/evaluation/tables/benchmark_tables.h"
+#include "engine/evaluation/tables/search_tables.h"
+#include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/benchmark/record.h"
-#include "engine/io/append_log.h"
+#include "engine/io/durable/append_log.h"
 
 #include <filesystem>
 #include <map>

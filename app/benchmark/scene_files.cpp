@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/scene_files.h"
 
-#include "engine/evaluation/error_maps.h"
-#include "engine/io/image_file.h"
+#include "engine/evaluation/metrics/error_maps.h"
+#include "engine/io/grid/image_file.h"
 #include "engine/render/shade.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/evaluation/metrics/metrics.h"
 
 #include <filesystem>
 #include <string>

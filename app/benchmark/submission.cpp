@@ -4,8 +4,8 @@
 #include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
-#include "engine/core/text_table.h"
-#include "engine/io/parse_number.h"
+#include "engine/core/text/text_table.h"
+#include "engine/io/maps/parse_number.h"
 
 #include <algorithm>
 #include <cctype>

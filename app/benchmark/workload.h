@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/progress.h"
+#include "engine/core/parallel/progress.h"
 
 #include <cstddef>
 #include <string>

@@ -2,7 +2,7 @@
 #include "app/cli/arguments.h"
 
 #include "app/cli/usage_error.h"
-#include "engine/core/parameter.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <CLI/CLI.hpp>
 

@@ -6,10 +6,10 @@
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "app/session/read_result.h"
-#include "engine/io/image_file.h"
-#include "engine/io/pfm.h"
-#include "engine/io/ply.h"
-#include "engine/io/write_scene.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/ply.h"
 #include "engine/render/shade.h"
 
 #include <iostream>

@@ -8,7 +8,7 @@
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/result_file.h"
+#include "engine/io/maps/result_file.h"
 
 #include <algorithm>
 #include <iomanip>

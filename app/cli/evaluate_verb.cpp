@@ -9,8 +9,8 @@
 #include "app/cli/verbs.h"
 #include "app/session/judgement.h"
 #include "app/session/read_result.h"
-#include "engine/core/text_table.h"
-#include "engine/io/image_file.h"
+#include "engine/core/text/text_table.h"
+#include "engine/io/grid/image_file.h"
 
 #include <algorithm>
 #include <iostream>

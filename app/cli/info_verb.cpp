@@ -4,7 +4,7 @@
 #include "app/cli/json.h"
 #include "app/cli/scene_summary.h"
 #include "app/cli/verbs.h"
-#include "engine/core/parameter.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <iostream>
 #include <sstream>

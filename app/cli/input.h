@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/job.h"
-#include "engine/core/scene.h"
+#include "engine/core/light_field/scene.h"
 
 #include <string>
 #include <vector>

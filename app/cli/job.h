@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/progress_bar.h"
-#include "engine/core/progress.h"
+#include "engine/core/parallel/progress.h"
 
 #include <stop_token>
 #include <string>

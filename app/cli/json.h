@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/indices.h"
-#include "engine/core/parameter.h"
+#include "engine/core/array/indices.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <nlohmann/json.hpp>
 

@@ -9,10 +9,10 @@
 #include "app/cli/verbs.h"
 #include "app/session/run_labeler.h"
 #include "engine/core/error.h"
-#include "engine/disparity/estimator.h"
-#include "engine/evaluation/label_accuracy.h"
-#include "engine/io/label_file.h"
-#include "engine/io/labeling_file.h"
+#include "engine/disparity/common/estimator.h"
+#include "engine/evaluation/metrics/label_accuracy.h"
+#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/labeling_file.h"
 #include "engine/labeling/consistency.h"
 
 #include <iomanip>

@@ -2,7 +2,7 @@
 #include "app/cli/labeling_pictures.h"
 
 #include "engine/core/error.h"
-#include "engine/io/labeling_file.h"
+#include "engine/io/labels/labeling_file.h"
 #include "engine/render/shade.h"
 
 #include <algorithm>

@@ -4,9 +4,9 @@
 #include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/session/load_scene.h"
-#include "engine/io/hdf5_file.h"
-#include "engine/io/labeling_file.h"
-#include "engine/io/result_file.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/labels/labeling_file.h"
+#include "engine/io/maps/result_file.h"
 
 #include <unistd.h>
 #include <algorithm>

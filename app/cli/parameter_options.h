@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/parameter.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <map>
 #include <string>

@@ -3,11 +3,11 @@
 
 #include "app/cli/input.h"
 #include "app/session/scene_range.h"
-#include "engine/core/epi.h"
 #include "engine/core/error.h"
-#include "engine/evaluation/error_maps.h"
-#include "engine/io/companions.h"
-#include "engine/labeling/boundary_weights.h"
+#include "engine/core/light_field/epi.h"
+#include "engine/evaluation/metrics/error_maps.h"
+#include "engine/io/archive/companions.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/render/shade.h"
 
 #include <algorithm>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/evaluation/metrics/metrics.h"
 
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ using Picture = Image<std::uint8_t>;
 [[nodiscard]] Picture labels_picture(const Scene& scene, const PictureOptions& options);
 [[nodiscard]] Picture probability_picture(const Scene& scene, const PictureOptions& options);
 /// How probable an edge is, from the file beside the light field, else computed from the image and
-/// `disparity`, which may be empty (engine/labeling/boundary_weights.h).
+/// `disparity`, which may be empty (engine/labeling/rays/boundary_weights.h).
 [[nodiscard]] Picture edges_picture(const Scene& scene, const DisparityField& disparity,
                                     const PictureOptions& options, const Progress& progress);
 inline constexpr int kEpiRowHeight = 8;

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/cli/job.h"
-#include "engine/core/estimate.h"
-#include "engine/core/light_field.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
 
 #include <filesystem>
 #include <string>

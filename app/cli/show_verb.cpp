@@ -9,8 +9,8 @@
 #include "app/cli/verbs.h"
 #include "app/session/judgement.h"
 #include "app/session/read_result.h"
-#include "engine/io/image_file.h"
-#include "engine/io/labeling_file.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/labels/labeling_file.h"
 #include "engine/render/color_map.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "app/cli/output.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
-#include "engine/io/write_scene.h"
+#include "engine/io/archive/write_scene.h"
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>

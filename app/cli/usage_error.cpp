@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/usage_error.h"
 
-#include "engine/core/parameter.h"
+#include "engine/core/parameter/parameter.h"
 
 namespace episcope::cli {
 

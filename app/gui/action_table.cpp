@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/action_table.h"
 
-#include "widgets/icon.h"
+#include "widgets/style/icon.h"
 
 #include <QAction>
 #include <QMenu>

@@ -7,8 +7,8 @@
 #include "app/gui/document_controller.h"
 #include "app/gui/main_window.h"
 #include "app/gui/scribble_controller.h"
-#include "widgets/annotation_bar.h"
-#include "widgets/brush_panel.h"
+#include "widgets/annotate/annotation_bar.h"
+#include "widgets/annotate/brush_panel.h"
 
 #include <QAction>
 #include <QActionGroup>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate_controller.h"
 
-#include "annotation/flood_fill.h"
-#include "widgets/annotation_bar.h"
-#include "widgets/brush_panel.h"
-#include "widgets/label_palette.h"
-#include "widgets/view_canvas.h"
+#include "annotation/paint/flood_fill.h"
+#include "widgets/annotate/annotation_bar.h"
+#include "widgets/annotate/brush_panel.h"
+#include "widgets/annotate/label_palette.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QColorDialog>
 #include <QMessageBox>

@@ -4,7 +4,7 @@
 #include "app/gui/document_controller.h"
 #include "app/gui/panels.h"
 #include "app/session/session.h"
-#include "widgets/brush_tool.h"
+#include "widgets/canvas/brush_tool.h"
 
 #include <QObject>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotation_files.h"
 
-#include "annotation/exchange.h"
+#include "annotation/document/exchange.h"
 #include "app/session/label_place.h"
-#include "engine/core/shear.h"
-#include "engine/io/label_file.h"
-#include "engine/io/scribble_pictures.h"
-#include "widgets/annotation_bar.h"
+#include "engine/core/light_field/shear.h"
+#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_pictures.h"
+#include "widgets/annotate/annotation_bar.h"
 
 #include <QDir>
 #include <QFileDialog>

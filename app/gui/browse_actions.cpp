@@ -6,7 +6,7 @@
 #include "app/gui/compare_controller.h"
 #include "app/gui/focus_controller.h"
 #include "app/gui/main_window.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 

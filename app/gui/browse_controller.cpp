@@ -3,14 +3,14 @@
 
 #include "app/gui/disparity_at.h"
 #include "app/gui/thumbnails.h"
-#include "engine/core/epi.h"
+#include "engine/core/light_field/epi.h"
 #include "engine/render/shade.h"
-#include "widgets/epi_pane.h"
-#include "widgets/number_text.h"
-#include "widgets/overlay_bar.h"
-#include "widgets/picture.h"
-#include "widgets/view_canvas.h"
-#include "widgets/view_grid.h"
+#include "widgets/browse/epi_pane.h"
+#include "widgets/browse/view_grid.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/style/number_text.h"
+#include "widgets/style/picture.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/cloud_controller.h"
 
-#include "widgets/point_cloud_panel.h"
+#include "widgets/cloud/point_cloud_panel.h"
 
 #include <QTabWidget>
 #include <QVBoxLayout>

@@ -2,7 +2,7 @@
 #include "app/gui/command_palette.h"
 
 #include "app/gui/action_table.h"
-#include "widgets/aside_delegate.h"
+#include "widgets/style/aside_delegate.h"
 
 #include <QAction>
 #include <QKeyEvent>

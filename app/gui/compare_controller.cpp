@@ -3,12 +3,12 @@
 
 #include "app/gui/estimate_controller.h"
 #include "app/gui/value_controller.h"
-#include "widgets/compare_bar.h"
-#include "widgets/epi_pane.h"
-#include "widgets/number_text.h"
-#include "widgets/overlay_bar.h"
-#include "widgets/tile_wall.h"
-#include "widgets/view_canvas.h"
+#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/compare_bar.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/style/number_text.h"
 
 #include <QApplication>
 

@@ -6,7 +6,7 @@
 #include "app/gui/panels.h"
 #include "app/gui/tile_pictures.h"
 #include "app/session/session.h"
-#include "widgets/side.h"
+#include "widgets/style/side.h"
 
 #include <QObject>
 

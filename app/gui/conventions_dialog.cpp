@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/conventions_dialog.h"
 
-#include "widgets/elided_label.h"
+#include "widgets/controls/elided_label.h"
 
 #include <QCheckBox>
 #include <QComboBox>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/open.h"
+#include "engine/io/open/open.h"
 
 #include <QDialog>
 

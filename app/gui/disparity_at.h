@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/ground_truth.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/ground_truth.h"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/document_controller.h"
 
-#include "annotation/exchange.h"
+#include "annotation/document/exchange.h"
 #include "app/session/user_folders.h"
 #include "engine/core/error.h"
 

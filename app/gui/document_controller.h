@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/stroke.h"
+#include "annotation/paint/stroke.h"
 #include "app/gui/jobs.h"
 #include "app/session/annotation.h"
 #include "app/session/session.h"

@@ -3,10 +3,10 @@
 
 #include "app/session/command_line.h"
 #include "engine/disparity/registry.h"
-#include "widgets/job_panel.h"
-#include "widgets/method_panel.h"
-#include "widgets/number_text.h"
-#include "widgets/result_list.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/estimate/method_panel.h"
+#include "widgets/estimate/result_list.h"
+#include "widgets/style/number_text.h"
 
 #include <QClipboard>
 #include <QGuiApplication>

@@ -2,13 +2,13 @@
 #include "app/gui/export_controller.h"
 
 #include "app/session/write_segmentation.h"
-#include "engine/io/image_file.h"
-#include "engine/io/pfm.h"
-#include "engine/io/ply.h"
-#include "engine/io/result_file.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/ply.h"
+#include "engine/io/maps/result_file.h"
 #include "engine/render/shade.h"
-#include "widgets/picture.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/style/picture.h"
 
 #include <QFileDialog>
 #include <QFileInfo>

@@ -2,7 +2,7 @@
 #include "app/gui/focus_controller.h"
 
 #include "app/session/run_estimator.h"
-#include "engine/core/shear.h"
+#include "engine/core/light_field/shear.h"
 
 namespace episcope {
 

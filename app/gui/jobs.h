@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session/thread_priority.h"
-#include "engine/core/job_runner.h"
+#include "engine/core/parallel/job_runner.h"
 
 #include <QObject>
 #include <QString>

@@ -3,7 +3,7 @@
 
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
-#include "widgets/segment_panel.h"
+#include "widgets/annotate/segment_panel.h"
 
 #include <QObject>
 

@@ -4,7 +4,7 @@
 #include "app/gui/estimate_controller.h"
 #include "app/gui/metric_names.h"
 #include "app/gui/text_file.h"
-#include "widgets/metric_table.h"
+#include "widgets/compare/metric_table.h"
 
 #include <QFileDialog>
 #include <QVariant>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/evaluation/metrics.h"
-#include "widgets/metric_table.h"
+#include "engine/evaluation/metrics/metrics.h"
+#include "widgets/compare/metric_table.h"
 
 #include <string>
 

@@ -8,10 +8,10 @@
 #include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
-#include "engine/io/result_file.h"
+#include "engine/io/maps/result_file.h"
 #include "engine/render/shade.h"
-#include "widgets/picture.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/style/picture.h"
 
 #include <QDragEnterEvent>
 #include <QDropEvent>

@@ -3,10 +3,10 @@
 
 #include "app/gui/queued_post.h"
 #include "app/session/thread_priority.h"
-#include "widgets/color_bar.h"
-#include "widgets/overlay_bar.h"
-#include "widgets/picture.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/color_bar.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/style/picture.h"
 
 #include <algorithm>
 #include <limits>

@@ -4,7 +4,7 @@
 #include "app/gui/overlay_map.h"
 #include "app/gui/panels.h"
 #include "app/session/session.h"
-#include "engine/core/job_runner.h"
+#include "engine/core/parallel/job_runner.h"
 
 #include <QImage>
 #include <QObject>

@@ -2,7 +2,7 @@
 #include "app/gui/overlay_map.h"
 
 #include "app/gui/segment_map.h"
-#include "engine/evaluation/error_maps.h"
+#include "engine/evaluation/metrics/error_maps.h"
 
 #include <algorithm>
 #include <utility>

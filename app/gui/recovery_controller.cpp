@@ -2,7 +2,7 @@
 #include "app/gui/recovery_controller.h"
 
 #include "engine/core/error.h"
-#include "widgets/message_bar.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QDateTime>
 #include <QLocale>

@@ -2,7 +2,7 @@
 #include "app/gui/scene_info.h"
 
 #include "app/session/scene_range.h"
-#include "widgets/number_text.h"
+#include "widgets/style/number_text.h"
 
 #include <QCoreApplication>
 

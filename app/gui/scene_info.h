@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/scene.h"
-#include "engine/io/open.h"
-#include "widgets/info_panel.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/io/open/open.h"
+#include "widgets/browse/info_panel.h"
 
 #include <QString>
 #include <QStringList>

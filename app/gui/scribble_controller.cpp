@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/scribble_controller.h"
 
-#include "annotation/propagate.h"
-#include "widgets/annotation_bar.h"
-#include "widgets/scribble_picture.h"
-#include "widgets/view_canvas.h"
-#include "widgets/view_grid.h"
+#include "annotation/paint/propagate.h"
+#include "widgets/annotate/annotation_bar.h"
+#include "widgets/browse/view_grid.h"
+#include "widgets/canvas/scribble_picture.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <utility>
 

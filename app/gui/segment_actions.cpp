@@ -7,7 +7,7 @@
 #include "app/gui/overlay_controller.h"
 #include "app/gui/segment_controller.h"
 #include "app/session/session.h"
-#include "widgets/segment_panel.h"
+#include "widgets/annotate/segment_panel.h"
 
 #include <QAction>
 

@@ -2,9 +2,9 @@
 #include "app/gui/segment_controller.h"
 
 #include "app/gui/queued_post.h"
-#include "engine/evaluation/label_accuracy.h"
+#include "engine/evaluation/metrics/label_accuracy.h"
 #include "engine/labeling/consistency.h"
-#include "widgets/brush_panel.h"
+#include "widgets/annotate/brush_panel.h"
 
 #include <utility>
 

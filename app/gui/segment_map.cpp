@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/segment_map.h"
 
-#include "engine/labeling/boundary_weights.h"
+#include "engine/labeling/rays/boundary_weights.h"
 
 #include <algorithm>
 

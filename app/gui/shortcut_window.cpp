@@ -2,7 +2,7 @@
 #include "app/gui/shortcut_window.h"
 
 #include "app/gui/action_table.h"
-#include "widgets/theme.h"
+#include "widgets/style/theme.h"
 
 #include <QAction>
 #include <QHBoxLayout>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/statistics_controller.h"
 
-#include "engine/evaluation/region_metrics.h"
-#include "widgets/overlay_bar.h"
-#include "widgets/statistics_panel.h"
-#include "widgets/tile_wall.h"
-#include "widgets/view_canvas.h"
+#include "engine/evaluation/metrics/region_metrics.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/compare/statistics_panel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "app/gui/action_table.h"
 #include "app/gui/main_window.h"
-#include "widgets/outlined_style.h"
-#include "widgets/theme.h"
+#include "widgets/style/outlined_style.h"
+#include "widgets/style/theme.h"
 
 #include <QAction>
 #include <QActionGroup>

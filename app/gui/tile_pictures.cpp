@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/tile_pictures.h"
 
-#include "engine/core/parallel.h"
+#include "engine/core/parallel/parallel.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/overlay_map.h"
-#include "engine/core/progress.h"
+#include "engine/core/parallel/progress.h"
 
 #include <QImage>
 

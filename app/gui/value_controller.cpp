@@ -2,9 +2,9 @@
 #include "app/gui/value_controller.h"
 
 #include "app/gui/disparity_at.h"
-#include "widgets/number_text.h"
-#include "widgets/value_bar.h"
-#include "widgets/view_canvas.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/style/number_text.h"
 
 #include <algorithm>
 #include <type_traits>

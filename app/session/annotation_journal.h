@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/document.h"
-#include "engine/io/record_log.h"
+#include "annotation/document/document.h"
+#include "engine/io/durable/record_log.h"
 
 #include <cstdint>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/disparity/estimator.h"
-#include "engine/io/open.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/disparity/common/estimator.h"
+#include "engine/io/open/open.h"
 
 #include <string>
 

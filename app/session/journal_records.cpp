@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/journal_records.h"
 
-#include "annotation/edit_code.h"
+#include "annotation/document/edit_code.h"
 #include "engine/core/error.h"
 
 #include <bit>

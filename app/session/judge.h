@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/job_runner.h"
-#include "engine/core/scene.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/job_runner.h"
+#include "engine/evaluation/metrics/metrics.h"
 
 #include <functional>
 #include <list>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/scene.h"
-#include "engine/evaluation/metrics.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/evaluation/metrics/metrics.h"
 
 #include <optional>
 #include <string>

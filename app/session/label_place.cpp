@@ -2,7 +2,7 @@
 #include "app/session/label_place.h"
 
 #include "engine/core/error.h"
-#include "engine/io/label_file.h"
+#include "engine/io/labels/label_file.h"
 
 #include <unistd.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/live_labeler.h"
 
-#include "annotation/exchange.h"
+#include "annotation/document/exchange.h"
 #include "app/session/thread_priority.h"
-#include "engine/labeling/training_samples.h"
+#include "engine/labeling/features/training_samples.h"
 
 #include <algorithm>
 #include <utility>

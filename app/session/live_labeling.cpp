@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/live_labeling.h"
 
-#include "annotation/exchange.h"
+#include "annotation/document/exchange.h"
 
 #include <algorithm>
 

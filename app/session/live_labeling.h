@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/scribble_layer.h"
+#include "annotation/document/scribble_layer.h"
 #include "engine/labeling/labeler.h"
 
 #include <functional>

@@ -3,7 +3,7 @@
 
 #include "app/session/label_place.h"
 #include "app/session/scene_cache.h"
-#include "engine/core/shear.h"
+#include "engine/core/light_field/shear.h"
 #include "engine/scenes/builtin.h"
 
 #include <system_error>

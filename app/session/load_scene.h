@@ -2,9 +2,9 @@
 #pragma once
 
 #include "app/session/user_folders.h"
-#include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/io/open.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/open/open.h"
 
 #include <filesystem>
 #include <string>

@@ -2,8 +2,8 @@
 #include "app/session/read_result.h"
 
 #include "engine/core/error.h"
-#include "engine/io/hdf5_file.h"
-#include "engine/io/result_file.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/maps/result_file.h"
 
 namespace episcope {
 

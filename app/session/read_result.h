@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/estimate.h"
-#include "engine/core/light_field.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
 
 #include <filesystem>
 

@@ -4,7 +4,7 @@
 #include "app/session/read_result.h"
 #include "app/session/run_estimator.h"
 #include "engine/core/error.h"
-#include "engine/io/companions.h"
+#include "engine/io/archive/companions.h"
 
 #include <algorithm>
 

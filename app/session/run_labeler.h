@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/disparity_field.h"
-#include "engine/core/scene.h"
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/scene.h"
 #include "engine/labeling/labeler.h"
 
 #include <filesystem>

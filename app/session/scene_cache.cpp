@@ -3,9 +3,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
-#include "engine/io/hdf5_file.h"
-#include "engine/io/open.h"
-#include "engine/io/write_scene.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/open/open.h"
 
 #include <cstdio>
 #include <random>

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/session/live_labeling.h"
-#include "engine/core/label_info.h"
-#include "engine/core/parameter.h"
+#include "engine/core/light_field/label_info.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <memory>
 #include <vector>

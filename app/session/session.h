@@ -4,7 +4,7 @@
 #include "app/session/judge.h"
 #include "app/session/parts.h"
 #include "app/session/segmentation.h"
-#include "engine/io/open.h"
+#include "engine/io/open/open.h"
 
 #include <cstdint>
 #include <functional>

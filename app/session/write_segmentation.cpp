@@ -2,7 +2,7 @@
 #include "app/session/write_segmentation.h"
 
 #include "app/session/run_labeler.h"
-#include "engine/io/labeling_file.h"
+#include "engine/io/labels/labeling_file.h"
 
 namespace episcope {
 

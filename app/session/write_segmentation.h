@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session/segmentation.h"
-#include "engine/core/progress.h"
+#include "engine/core/parallel/progress.h"
 
 #include <filesystem>
 #include <string>

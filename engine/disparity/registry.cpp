@@ -2,17 +2,17 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
-#include "engine/disparity/epi_c.h"
-#include "engine/disparity/epi_g.h"
-#include "engine/disparity/epi_l.h"
-#include "engine/disparity/epi_s.h"
-#include "engine/disparity/epi_two_layer.h"
-#include "engine/disparity/st_av_g.h"
-#include "engine/disparity/st_av_l.h"
-#include "engine/disparity/st_av_s.h"
-#include "engine/disparity/st_ch_g.h"
-#include "engine/disparity/st_ch_l.h"
-#include "engine/disparity/st_ch_s.h"
+#include "engine/disparity/epi/epi_c.h"
+#include "engine/disparity/epi/epi_g.h"
+#include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/stereo/st_av_g.h"
+#include "engine/disparity/stereo/st_av_l.h"
+#include "engine/disparity/stereo/st_av_s.h"
+#include "engine/disparity/stereo/st_ch_g.h"
+#include "engine/disparity/stereo/st_ch_l.h"
+#include "engine/disparity/stereo/st_ch_s.h"
 
 namespace episcope {
 

@@ -2,13 +2,13 @@
 #include "engine/labeling/labeler.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parallel.h"
-#include "engine/labeling/boundary_weights.h"
-#include "engine/labeling/forest.h"
-#include "engine/labeling/pixel_features.h"
-#include "engine/labeling/ray_labeling.h"
-#include "engine/labeling/stroke_distance.h"
-#include "engine/labeling/training_samples.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/pixel_features.h"
+#include "engine/labeling/features/stroke_distance.h"
+#include "engine/labeling/features/training_samples.h"
+#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/ray_labeling.h"
 
 #include <algorithm>
 #include <chrono>

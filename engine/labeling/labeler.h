@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/disparity_field.h"
-#include "engine/core/light_field.h"
-#include "engine/core/progress.h"
-#include "engine/core/scene.h"
-#include "engine/core/schema.h"
-#include "engine/core/view_rectangle.h"
+#include "engine/core/array/view_rectangle.h"
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/schema.h"
 #include "engine/labeling/label_probabilities.h"
 
 #include <functional>
@@ -49,15 +49,15 @@ struct Labeling {
 /// (features of as many views as fit `kKeptBytes`, until many views are asked for at once), and so
 /// is the forest while it would be the same.
 ///
-/// A random forest (engine/labeling/forest.h) is trained on the painted pixels of all painted
-/// views, as many of each label; it votes on the pixels of the views asked for by their features
-/// (engine/labeling/pixel_features.h). Its votes are weighed by how near the strokes of each label
-/// are along surfaces, exp(−nearness·excess) (engine/labeling/stroke_distance.h), for a forest
-/// knows nothing of what lies between a pixel and a stroke. Labels are then made consistent
-/// (engine/labeling/ray_labeling.h). A single view asked for with `rayspace` goes by its rays in
-/// the views beside it, for somebody waits; all views by those of all. Centre view, percentage
-/// right by two | eight neighbours: still life 95.83 | 95.83, demo 93.1 | 93.6; processor time with
-/// features 3.5 | 6.6 s.
+/// A random forest (engine/labeling/forest/forest.h) is trained on the painted pixels of all
+/// painted views, as many of each label; it votes on the pixels of the views asked for by their
+/// features (engine/labeling/features/pixel_features.h). Its votes are weighed by how near the
+/// strokes of each label are along surfaces, exp(−nearness·excess)
+/// (engine/labeling/features/stroke_distance.h), for a forest knows nothing of what lies between a
+/// pixel and a stroke. Labels are then made consistent (engine/labeling/rays/ray_labeling.h). A
+/// single view asked for with `rayspace` goes by its rays in the views beside it, for somebody
+/// waits; all views by those of all. Centre view, percentage right by two | eight neighbours: still
+/// life 95.83 | 95.83, demo 93.1 | 93.6; processor time with features 3.5 | 6.6 s.
 ///
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighing by distance is ours: centre
 /// view, not regularised, percentage right without | with it, mean of three seeds: still life,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/disparity_field.h"
-#include "engine/core/image.h"
-#include "engine/core/label_info.h"
-#include "engine/core/light_field.h"
+#include "engine/core/array/image.h"
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/label_info.h"
+#include "engine/core/light_field/light_field.h"
 #include "engine/render/color_map.h"
 
 #include <cstdint>

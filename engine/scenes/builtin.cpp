@@ -2,10 +2,10 @@
 #include "engine/scenes/builtin.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parameter.h"
-#include "engine/scenes/caster.h"
-#include "engine/scenes/recipes.h"
-#include "engine/scenes/scribble.h"
+#include "engine/core/parameter/parameter.h"
+#include "engine/scenes/cast/caster.h"
+#include "engine/scenes/recipes/recipes.h"
+#include "engine/scenes/recipes/scribble.h"
 
 #include <cmath>
 #include <utility>

@@ -3,9 +3,9 @@
 // features and regulariser.
 #include "app/session/run_labeler.h"
 #include "engine/core/error.h"
-#include "engine/disparity/estimator.h"
-#include "engine/evaluation/label_accuracy.h"
-#include "engine/io/open.h"
+#include "engine/disparity/common/estimator.h"
+#include "engine/evaluation/metrics/label_accuracy.h"
+#include "engine/io/open/open.h"
 #include "engine/labeling/consistency.h"
 #include "engine/scenes/builtin.h"
 

@@ -4,13 +4,12 @@
 #include "engine/disparity/registry.h"
 #include "engine/scenes/builtin.h"
 #include "tests/accuracy/measure.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <map>
 #include <tuple>
 
-using namespace episcope;
+namespace episcope::in_limits_test {
 
 namespace {
 
@@ -124,5 +123,7 @@ void LimitsTest::denoising_helpsOnEveryScene() {
   QVERIFY2(denoised < local, qPrintable(QString("%1, was %2").arg(denoised).arg(local)));
 }
 
-QTEST_APPLESS_MAIN(LimitsTest)
+}  // namespace episcope::in_limits_test
+
+EPISCOPE_TEST(limits_test, LimitsTest)
 #include "limits_test.moc"

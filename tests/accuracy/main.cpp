@@ -2,7 +2,7 @@
 // Prints a Markdown table: how well every method does on scenes whose truth is known.
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/open.h"
+#include "engine/io/open/open.h"
 #include "engine/scenes/builtin.h"
 #include "tests/accuracy/measure.h"
 

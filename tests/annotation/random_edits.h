@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/stroke.h"
+#include "annotation/paint/stroke.h"
 
 #include <random>
 

@@ -9,7 +9,7 @@
 #include "app/gui/segment_controller.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <benchmark/benchmark.h>
 

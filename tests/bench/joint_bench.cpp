@@ -2,9 +2,9 @@
 // The methods that work on all views together, at 9×9×768×768 RGB: EPI_C and EPI_TWO_LAYER against
 // EPI_S in the same run, which solves the same TV-L2 problem once a view, and against what the
 // memory can copy.
-#include "engine/disparity/epi_c.h"
-#include "engine/disparity/epi_s.h"
-#include "engine/disparity/epi_two_layer.h"
+#include "engine/disparity/epi/epi_c.h"
+#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/layers/epi_two_layer.h"
 #include "tests/bench/bench_scene.h"
 
 #include <benchmark/benchmark.h>

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/elided_label.h"
-#include "widgets/info_panel.h"
-#include "widgets/job_panel.h"
-#include "widgets/message_bar.h"
-#include "widgets/result_list.h"
-#include "widgets/value_bar.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/info_panel.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/controls/elided_label.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/controls/message_bar.h"
+#include "widgets/estimate/result_list.h"
 
 #include <QAction>
 #include <QClipboard>
@@ -16,11 +17,10 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSignalSpy>
-#include <QTest>
 #include <QToolButton>
 #include <QTreeWidget>
 
-using namespace episcope;
+namespace episcope::in_side_panels_test {
 
 class SidePanelsTest : public QObject {
   Q_OBJECT
@@ -349,5 +349,7 @@ class SidePanelsTest : public QObject {
   }
 };
 
-QTEST_MAIN(SidePanelsTest)
+}  // namespace episcope::in_side_panels_test
+
+EPISCOPE_WINDOW_TEST(side_panels_test, SidePanelsTest)
 #include "side_panels_test.moc"

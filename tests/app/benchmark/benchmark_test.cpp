@@ -8,17 +8,17 @@
 #include "app/session/judgement.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
-#include "engine/evaluation/parameter_search.h"
-#include "engine/io/result_file.h"
+#include "engine/evaluation/tables/parameter_search.h"
+#include "engine/io/maps/result_file.h"
 #include "tests/app/session/tiny_scene.h"
+#include "tests/test_main.h"
 
 #include <QTemporaryDir>
-#include <QTest>
 
 #include <filesystem>
 #include <fstream>
 
-using namespace episcope;
+namespace episcope::in_benchmark_test {
 
 namespace {
 
@@ -331,5 +331,7 @@ class BenchmarkTest : public QObject {
   int runs_ = 0;
 };
 
-QTEST_APPLESS_MAIN(BenchmarkTest)
+}  // namespace episcope::in_benchmark_test
+
+EPISCOPE_TEST(benchmark_test, BenchmarkTest)
 #include "benchmark_test.moc"

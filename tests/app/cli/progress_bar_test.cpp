@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/progress_bar.h"
+#include "tests/test_main.h"
 
-#include <QTest>
+namespace episcope::in_progress_bar_test {
 
 using namespace episcope::cli;
 
@@ -21,5 +22,7 @@ class ProgressBarTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ProgressBarTest)
+}  // namespace episcope::in_progress_bar_test
+
+EPISCOPE_TEST(progress_bar_test, ProgressBarTest)
 #include "progress_bar_test.moc"

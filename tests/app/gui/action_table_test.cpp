@@ -4,11 +4,12 @@
 #include "app/gui/theme_choice.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/method_panel.h"
-#include "widgets/theme.h"
-#include "widgets/view_canvas.h"
-#include "widgets/view_grid.h"
-#include "widgets/view_grid_cells.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/view_grid.h"
+#include "widgets/browse/view_grid_cells.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/estimate/method_panel.h"
+#include "widgets/style/theme.h"
 
 #include <QAction>
 #include <QKeySequenceEdit>
@@ -21,12 +22,11 @@
 #include <QSet>
 #include <QSettings>
 #include <QSignalSpy>
-#include <QTest>
 #include <QTreeWidget>
 
 #include <tuple>
 
-using namespace episcope;
+namespace episcope::in_action_table_test {
 
 class ActionTableTest : public QObject {
   Q_OBJECT
@@ -300,5 +300,7 @@ void ActionTableTest::defaults_comeBack() {
   QVERIFY(!QSettings().contains("keys/view.fit"));
 }
 
-QTEST_MAIN(ActionTableTest)
+}  // namespace episcope::in_action_table_test
+
+EPISCOPE_WINDOW_TEST(action_table_test, ActionTableTest)
 #include "action_table_test.moc"

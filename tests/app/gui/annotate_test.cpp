@@ -8,8 +8,9 @@
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
-#include "widgets/label_palette.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/annotate/label_palette.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 #include <QDoubleSpinBox>
@@ -17,10 +18,9 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QTest>
 #include <QTreeWidget>
 
-using namespace episcope;
+namespace episcope::in_annotate_test {
 
 class AnnotateTest : public QObject {
   Q_OBJECT
@@ -367,5 +367,7 @@ void AnnotateTest::whileTheFirstIsRead_theHintSaysSo() {
   QVERIFY(hint->text().startsWith("Open "));
 }
 
-QTEST_MAIN(AnnotateTest)
+}  // namespace episcope::in_annotate_test
+
+EPISCOPE_WINDOW_TEST(annotate_test, AnnotateTest)
 #include "annotate_test.moc"

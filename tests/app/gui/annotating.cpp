@@ -2,8 +2,8 @@
 #include "tests/app/gui/annotating.h"
 
 #include "app/session/session.h"
-#include "engine/evaluation/label_accuracy.h"
-#include "widgets/view_canvas.h"
+#include "engine/evaluation/metrics/label_accuracy.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QTest>
 

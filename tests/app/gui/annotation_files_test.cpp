@@ -5,17 +5,17 @@
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
-#include "widgets/message_bar.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QDir>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
-#include <QTest>
 
 #include <filesystem>
 
-using namespace episcope;
+namespace episcope::in_annotation_files_test {
 
 class AnnotationFilesTest : public QObject {
   Q_OBJECT
@@ -114,5 +114,7 @@ void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
   QVERIFY(left_journals(f.window.document().journalFolder()).empty());
 }
 
-QTEST_MAIN(AnnotationFilesTest)
+}  // namespace episcope::in_annotation_files_test
+
+EPISCOPE_WINDOW_TEST(annotation_files_test, AnnotationFilesTest)
 #include "annotation_files_test.moc"

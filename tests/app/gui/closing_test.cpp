@@ -5,14 +5,14 @@
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
-#include <QTest>
 
 #include <memory>
 
-using namespace episcope;
+namespace episcope::in_closing_test {
 
 class ClosingTest : public QObject {
   Q_OBJECT
@@ -90,5 +90,7 @@ void ClosingTest::whileTilesAreMade() {
   QCoreApplication::processEvents(QEventLoop::AllEvents);
 }
 
-QTEST_MAIN(ClosingTest)
+}  // namespace episcope::in_closing_test
+
+EPISCOPE_WINDOW_TEST(closing_test, ClosingTest)
 #include "closing_test.moc"

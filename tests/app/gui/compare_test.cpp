@@ -4,12 +4,13 @@
 #include "app/gui/action_table.h"
 #include "app/gui/statistics_controller.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/color_bar.h"
-#include "widgets/histogram_view.h"
-#include "widgets/statistics_panel.h"
-#include "widgets/tile_wall.h"
-#include "widgets/value_bar.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/color_bar.h"
+#include "widgets/compare/histogram_view.h"
+#include "widgets/compare/statistics_panel.h"
 
 #include <QAction>
 #include <QClipboard>
@@ -18,13 +19,12 @@
 #include <QSignalSpy>
 #include <QTabWidget>
 #include <QTableWidget>
-#include <QTest>
 #include <QTreeWidget>
 
 #include <cmath>
 #include <limits>
 
-using namespace episcope;
+namespace episcope::in_compare_test {
 
 namespace {
 
@@ -427,5 +427,7 @@ void CompareTest::closedScene_leavesEveryMode() {
   }
 }
 
-QTEST_MAIN(CompareTest)
+}  // namespace episcope::in_compare_test
+
+EPISCOPE_WINDOW_TEST(compare_test, CompareTest)
 #include "compare_test.moc"

@@ -5,7 +5,8 @@
 #include "app/gui/remembered_conventions.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/info_panel.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/info_panel.h"
 
 #include <QAction>
 #include <QApplication>
@@ -17,10 +18,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QTest>
 #include <QToolButton>
 
-using namespace episcope;
+namespace episcope::in_conventions_test {
 
 using Flip = io::OpenOptions::Flip;
 
@@ -249,5 +249,7 @@ void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
   }));
 }
 
-QTEST_MAIN(ConventionsTest)
+}  // namespace episcope::in_conventions_test
+
+EPISCOPE_WINDOW_TEST(conventions_test, ConventionsTest)
 #include "conventions_test.moc"

@@ -3,26 +3,25 @@
 #include "app/gui/action_table.h"
 #include "app/gui/overlay_controller.h"
 #include "app/gui/segment_controller.h"
-#include "engine/io/companions.h"
-#include "engine/io/open.h"
+#include "engine/io/archive/companions.h"
+#include "engine/io/open/open.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/segment_panel.h"
+#include "tests/window_test_main.h"
+#include "widgets/annotate/segment_panel.h"
 
 #include <QAction>
 #include <QFileInfo>
 #include <QSignalSpy>
-#include <QTest>
 #include <QToolTip>
 
 #include <algorithm>
 #include <filesystem>
 
-using namespace episcope;
+namespace episcope::in_edge_weights_test {
 
 namespace {
 
 using render::Quantity;
-
 
 class Weighted : public WindowFixture {
  public:
@@ -111,5 +110,7 @@ void EdgeWeightsTest::damagedFile_isToldAndComputedInstead() {
   QVERIFY(!f.labeler().input()->edges);
 }
 
-QTEST_MAIN(EdgeWeightsTest)
+}  // namespace episcope::in_edge_weights_test
+
+EPISCOPE_WINDOW_TEST(edge_weights_test, EdgeWeightsTest)
 #include "edge_weights_test.moc"

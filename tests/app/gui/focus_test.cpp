@@ -6,17 +6,17 @@
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/message_bar.h"
-#include "widgets/overlay_bar.h"
+#include "tests/window_test_main.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QAction>
 #include <QClipboard>
-#include <QTest>
 #include <QToolButton>
 
 #include <cmath>
 
-using namespace episcope;
+namespace episcope::in_focus_test {
 
 namespace {
 
@@ -188,5 +188,7 @@ void FocusTest::whatIsPaintedAtAPlane_isSavedWhereItBelongs() {
   QVERIFY(!f.document().scribbles().painted_views().empty());
 }
 
-QTEST_MAIN(FocusTest)
+}  // namespace episcope::in_focus_test
+
+EPISCOPE_WINDOW_TEST(focus_test, FocusTest)
 #include "focus_test.moc"

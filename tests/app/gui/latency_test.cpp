@@ -8,11 +8,11 @@
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/widgets/pictures.h"
-#include "widgets/tile_wall.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
-#include <QTest>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +22,7 @@
 #include <thread>
 #include <vector>
 
-using namespace episcope;
+namespace episcope::in_latency_test {
 
 namespace {
 
@@ -287,5 +287,7 @@ void LatencyTest::strokes_arePaintedWhileLabelsAreMade() {
   QVERIFY2(percentile(ages, 0.95) < kFrame, qPrintable(told(ages)));
 }
 
-QTEST_MAIN(LatencyTest)
+}  // namespace episcope::in_latency_test
+
+EPISCOPE_WINDOW_TEST(latency_test, LatencyTest)
 #include "latency_test.moc"

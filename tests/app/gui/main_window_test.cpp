@@ -7,17 +7,18 @@
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
 #include "app/session/session.h"
-#include "engine/io/pfm.h"
-#include "engine/io/result_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/result_file.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/epi_pane.h"
-#include "widgets/info_panel.h"
-#include "widgets/job_panel.h"
-#include "widgets/message_bar.h"
-#include "widgets/overlay_bar.h"
-#include "widgets/segment_panel.h"
-#include "widgets/value_bar.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/annotate/segment_panel.h"
+#include "widgets/browse/epi_pane.h"
+#include "widgets/browse/info_panel.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QAction>
 #include <QClipboard>
@@ -35,7 +36,6 @@
 #include <QTabBar>
 #include <QTabWidget>
 #include <QTableWidget>
-#include <QTest>
 #include <QToolBar>
 #include <QTreeWidget>
 #include <QUrl>
@@ -43,7 +43,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace episcope;
+namespace episcope::in_main_window_test {
 
 namespace {
 
@@ -616,5 +616,7 @@ void MainWindowTest::smallWindow_showsEveryButton() {
   }
 }
 
-QTEST_MAIN(MainWindowTest)
+}  // namespace episcope::in_main_window_test
+
+EPISCOPE_WINDOW_TEST(main_window_test, MainWindowTest)
 #include "main_window_test.moc"

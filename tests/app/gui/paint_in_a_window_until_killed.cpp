@@ -9,7 +9,7 @@
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
 #include "tests/patience.h"
-#include "widgets/view_canvas.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 #include <QApplication>

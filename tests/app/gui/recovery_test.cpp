@@ -9,19 +9,19 @@
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/message_bar.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QAction>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
-#include <QTest>
 
 #include <csignal>
 #include <memory>
 
-using namespace episcope;
+namespace episcope::in_recovery_test {
 
 namespace {
 
@@ -167,5 +167,7 @@ void RecoveryTest::withoutAJournal_nothingIsOffered() {
   QVERIFY(!f.window.panels().recovery->isVisible());
 }
 
-QTEST_MAIN(RecoveryTest)
+}  // namespace episcope::in_recovery_test
+
+EPISCOPE_WINDOW_TEST(recovery_test, RecoveryTest)
 #include "recovery_test.moc"

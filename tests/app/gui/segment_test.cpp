@@ -7,16 +7,16 @@
 #include "app/gui/export_controller.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
-#include "engine/io/labeling_file.h"
-#include "engine/io/write_scene.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/io/labels/labeling_file.h"
 #include "tests/app/gui/annotating.h"
-#include "widgets/segment_panel.h"
+#include "tests/window_test_main.h"
+#include "widgets/annotate/segment_panel.h"
 
 #include <QAction>
 #include <QSignalSpy>
-#include <QTest>
 
-using namespace episcope;
+namespace episcope::in_segment_test {
 
 namespace {
 
@@ -240,5 +240,7 @@ void SegmentTest::escape_endsALabeling() {
   QVERIFY(!f.segment().labeler().is_running());
 }
 
-QTEST_MAIN(SegmentTest)
+}  // namespace episcope::in_segment_test
+
+EPISCOPE_WINDOW_TEST(segment_test, SegmentTest)
 #include "segment_test.moc"

@@ -6,23 +6,23 @@
 #include "app/gui/overlay_controller.h"
 #include "app/gui/scribble_controller.h"
 #include "app/gui/segment_controller.h"
-#include "engine/evaluation/label_accuracy.h"
+#include "engine/evaluation/metrics/label_accuracy.h"
 #include "tests/app/gui/window_fixture.h"
-#include "widgets/label_palette.h"
-#include "widgets/message_bar.h"
-#include "widgets/view_canvas.h"
+#include "tests/window_test_main.h"
+#include "widgets/annotate/label_palette.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
 
 #include <QAction>
 #include <QColorDialog>
 #include <QDir>
 #include <QFile>
 #include <QLineEdit>
-#include <QTest>
 #include <QTreeWidget>
 
 #include <filesystem>
 
-using namespace episcope;
+namespace episcope::in_story_test {
 
 namespace {
 
@@ -191,5 +191,7 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
   QVERIFY(!user.window.isVisible());  // without a question
 }
 
-QTEST_MAIN(StoryTest)
+}  // namespace episcope::in_story_test
+
+EPISCOPE_WINDOW_TEST(story_test, StoryTest)
 #include "story_test.moc"

@@ -5,8 +5,8 @@
 #include "app/gui/jobs.h"
 #include "app/gui/open_controller.h"
 #include "app/gui/segment_controller.h"
-#include "engine/io/write_scene.h"
-#include "widgets/view_canvas.h"
+#include "engine/io/archive/write_scene.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAbstractButton>
 #include <QAction>

@@ -2,10 +2,9 @@
 #include "app/session/command_line.h"
 
 #include "engine/disparity/registry.h"
+#include "tests/test_main.h"
 
-#include <QTest>
-
-using namespace episcope;
+namespace episcope::in_command_line_test {
 
 namespace {
 
@@ -112,5 +111,7 @@ void CommandLineTest::overruledConventions_areNamed() {
                   "--units=without-width --pattern='a {row} {col}.png' --snake --focus=-0.25"));
 }
 
-QTEST_GUILESS_MAIN(CommandLineTest)
+}  // namespace episcope::in_command_line_test
+
+EPISCOPE_CORE_TEST(command_line_test, CommandLineTest)
 #include "command_line_test.moc"

@@ -4,15 +4,16 @@
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 #include "tests/patience.h"
+#include "tests/test_main.h"
 
 #include <QProcess>
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <csignal>
 #include <fstream>
 
-using namespace episcope;
+namespace episcope::in_journal_test {
+
 using namespace episcope::test;
 
 namespace {
@@ -256,5 +257,7 @@ class JournalTest : public QObject {
   }
 };
 
-QTEST_GUILESS_MAIN(JournalTest)
+}  // namespace episcope::in_journal_test
+
+EPISCOPE_CORE_TEST(journal_test, JournalTest)
 #include "journal_test.moc"

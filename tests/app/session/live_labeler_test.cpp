@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/live_labeler.h"
 
-#include "annotation/exchange.h"
+#include "annotation/document/exchange.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/app/session/turned_loop.h"
 #include "tests/patience.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <set>
 
-using namespace episcope;
+namespace episcope::in_live_labeler_test {
 
 namespace {
 
@@ -252,5 +251,7 @@ void LiveLabelerTest::destructor_whileRunning_isHarmless() {
   loop.turn();
 }
 
-QTEST_GUILESS_MAIN(LiveLabelerTest)
+}  // namespace episcope::in_live_labeler_test
+
+EPISCOPE_CORE_TEST(live_labeler_test, LiveLabelerTest)
 #include "live_labeler_test.moc"

@@ -4,15 +4,15 @@
 #include "app/session/label_place.h"
 #include "app/session/scene_cache.h"
 #include "engine/core/error.h"
-#include "engine/io/image_file.h"
-#include "engine/io/label_file.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/labels/label_file.h"
 #include "tests/app/session/tiny_scene.h"
+#include "tests/test_main.h"
 
 #include <QFile>
 #include <QTemporaryDir>
-#include <QTest>
 
-using namespace episcope;
+namespace episcope::in_load_scene_test {
 
 namespace {
 
@@ -215,5 +215,7 @@ void LoadSceneTest::missingFile_isRefusedWithItsPath() {
   }
 }
 
-QTEST_GUILESS_MAIN(LoadSceneTest)
+}  // namespace episcope::in_load_scene_test
+
+EPISCOPE_CORE_TEST(load_scene_test, LoadSceneTest)
 #include "load_scene_test.moc"

@@ -2,14 +2,13 @@
 #include "app/session/scene_range.h"
 
 #include "tests/app/session/tiny_scene.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <cmath>
 #include <memory>
 #include <variant>
 
-using namespace episcope;
+namespace episcope::in_scene_range_test {
 
 class SceneRangeTest : public QObject {
   Q_OBJECT
@@ -49,5 +48,7 @@ class SceneRangeTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SceneRangeTest)
+}  // namespace episcope::in_scene_range_test
+
+EPISCOPE_TEST(scene_range_test, SceneRangeTest)
 #include "scene_range_test.moc"

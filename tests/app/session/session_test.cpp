@@ -3,10 +3,9 @@
 
 #include "tests/app/session/tiny_scene.h"
 #include "tests/app/session/turned_loop.h"
+#include "tests/test_main.h"
 
-#include <QTest>
-
-using namespace episcope;
+namespace episcope::in_session_test {
 
 namespace {
 
@@ -209,5 +208,7 @@ void SessionTest::disparityRange_ignoresTruthThatCannotBe() {
   QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
 }
 
-QTEST_GUILESS_MAIN(SessionTest)
+}  // namespace episcope::in_session_test
+
+EPISCOPE_CORE_TEST(session_test, SessionTest)
 #include "session_test.moc"

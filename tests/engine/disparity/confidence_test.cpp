@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the confidence of EPI_L says, and that a result depends on nothing but its input.
-#include "engine/disparity/epi_l.h"
-#include "engine/disparity/epi_s.h"
+#include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/epi_s.h"
 #include "tests/engine/disparity/light_fields.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -12,7 +11,8 @@
 #include <random>
 #include <vector>
 
-using namespace episcope;
+namespace episcope::in_confidence_test {
+
 using namespace episcope::test;
 
 namespace {
@@ -180,5 +180,7 @@ void ConfidenceTest::epiS_ofCenterEqualsCenterOfAllViews() {
            0.0);
 }
 
-QTEST_APPLESS_MAIN(ConfidenceTest)
+}  // namespace episcope::in_confidence_test
+
+EPISCOPE_TEST(confidence_test, ConfidenceTest)
 #include "confidence_test.moc"

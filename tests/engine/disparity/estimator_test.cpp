@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What every estimator owes to those who run it by name: data-driven over the registry.
-#include "engine/disparity/estimator.h"
+#include "engine/disparity/common/estimator.h"
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
 #include "engine/disparity/registry.h"
 #include "tests/engine/disparity/light_fields.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <chrono>
@@ -17,7 +16,8 @@
 #include <stop_token>
 #include <vector>
 
-using namespace episcope;
+namespace episcope::in_estimator_test {
+
 using namespace episcope::test;
 
 namespace {
@@ -288,5 +288,7 @@ void EstimatorTest::stopBeforeStart_throwsCancelled() {
                            (void)estimator.run(tiny(), given, ViewSelection::Center, progress));
 }
 
-QTEST_APPLESS_MAIN(EstimatorTest)
+}  // namespace episcope::in_estimator_test
+
+EPISCOPE_TEST(estimator_test, EstimatorTest)
 #include "estimator_test.moc"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Facts of geometry: what must hold of any disparity estimate, before any number is compared.
-#include "engine/disparity/epi_l.h"
+#include "engine/disparity/epi/epi_l.h"
 #include "tests/engine/disparity/light_fields.h"
+#include "tests/test_main.h"
 
-#include <QtTest>
+namespace episcope::in_geometry_test {
 
-using namespace episcope;
 using namespace episcope::test;
 
 namespace {
@@ -326,5 +326,7 @@ void GeometryTest::wideRange_isEstimated() {
   QVERIFY2(off.mse_100 < 0.2, qPrintable(QString("MSE %1").arg(off.mse_100)));
 }
 
-QTEST_APPLESS_MAIN(GeometryTest)
+}  // namespace episcope::in_geometry_test
+
+EPISCOPE_TEST(geometry_test, GeometryTest)
 #include "geometry_test.moc"

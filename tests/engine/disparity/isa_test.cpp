@@ -1,21 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The kernels of every instruction set give the same maps. A process uses one set for all its life,
 // so this program runs itself with another and compares.
-#include "engine/core/isa.h"
-#include "engine/disparity/epi_c.h"
-#include "engine/disparity/epi_l.h"
-#include "engine/disparity/epi_s.h"
-#include "engine/disparity/epi_two_layer.h"
-#include "engine/disparity/stereo_global.h"
-#include "engine/disparity/stereo_local.h"
+#include "engine/core/parallel/isa.h"
+#include "engine/disparity/epi/epi_c.h"
+#include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/stereo/stereo_global.h"
+#include "engine/disparity/stereo/stereo_local.h"
 #include "tests/engine/disparity/light_fields.h"
+#include "tests/test_main.h"
 
-#include <QtTest>
+#include <QCoreApplication>
+#include <QProcess>
 
 #include <cmath>
 #include <cstring>
 
-using namespace episcope;
+namespace episcope::in_isa_test {
+
 using namespace episcope::test;
 
 namespace {
@@ -72,7 +75,7 @@ QByteArray maps_under(const char* isa) {
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert("EPISCOPE_ISA", isa);
   process.setProcessEnvironment(environment);
-  process.start(QCoreApplication::applicationFilePath(), {"--write", path});
+  process.start(QCoreApplication::applicationFilePath(), {"isa_test", "--write", path});
   if (!process.waitForFinished() || process.exitCode() != 0) return {};
   QFile file(path);
   return file.open(QIODevice::ReadOnly) ? file.readAll() : QByteArray();
@@ -133,10 +136,13 @@ void IsaTest::everyInstructionSet_givesTheSameMaps() {
   }
 }
 
-int main(int argc, char** argv) {
+}  // namespace episcope::in_isa_test
+
+int isa_test(int argc, char** argv) {
   const QCoreApplication application(argc, argv);
-  if (argc == 3 && std::strcmp(argv[1], "--write") == 0) return write_maps(argv[2]);
-  IsaTest test;
+  if (argc == 3 && std::strcmp(argv[1], "--write") == 0)
+    return episcope::in_isa_test::write_maps(argv[2]);
+  episcope::in_isa_test::IsaTest test;
   return QTest::qExec(&test, argc, argv);
 }
 

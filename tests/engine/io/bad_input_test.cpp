@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
-#include "engine/io/image_file.h"
-#include "engine/io/open.h"
-#include "engine/io/pfm.h"
-#include "engine/io/ply.h"
-#include "engine/io/result_file.h"
-#include "engine/io/write_scene.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/ply.h"
+#include "engine/io/maps/result_file.h"
+#include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
 
 #include <QTemporaryDir>
-#include <QtTest>
 
 #include <sys/resource.h>
 #include <csignal>
 #include <fstream>
 #include <functional>
 
-using namespace episcope;
+namespace episcope::in_bad_input_test {
+
 using namespace episcope::test;
 
 namespace fs = std::filesystem;
@@ -463,5 +464,7 @@ class BadInputTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BadInputTest)
+}  // namespace episcope::in_bad_input_test
+
+EPISCOPE_TEST(bad_input_test, BadInputTest)
 #include "bad_input_test.moc"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/open.h"
+#include "engine/io/open/open.h"
 #include "tests/engine/io/synthetic_scene.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <limits>
 
-using namespace episcope;
+namespace episcope::in_shared_data_test {
+
 using namespace episcope::test;
 
 namespace fs = std::filesystem;
@@ -79,5 +79,7 @@ class SharedDataTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(SharedDataTest)
+}  // namespace episcope::in_shared_data_test
+
+EPISCOPE_TEST(shared_data_test, SharedDataTest)
 #include "shared_data_test.moc"

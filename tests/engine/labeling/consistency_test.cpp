@@ -2,12 +2,11 @@
 #include "engine/labeling/consistency.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/boundary_weights.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/scenes/builtin.h"
+#include "tests/test_main.h"
 
-#include <QtTest>
-
-using namespace episcope;
+namespace episcope::in_consistency_test {
 
 namespace {
 
@@ -122,5 +121,7 @@ void ConsistencyTest::edges_refuseOtherSizes() {
                            InvalidInput);
 }
 
-QTEST_APPLESS_MAIN(ConsistencyTest)
+}  // namespace episcope::in_consistency_test
+
+EPISCOPE_TEST(consistency_test, ConsistencyTest)
 #include "consistency_test.moc"

@@ -2,12 +2,11 @@
 #include "engine/labeling/label_probabilities.h"
 
 #include "engine/core/error.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <array>
 
-namespace episcope {
+namespace episcope::in_label_probabilities_test {
 
 class LabelProbabilitiesTest : public QObject {
   Q_OBJECT
@@ -56,7 +55,7 @@ void LabelProbabilitiesTest::stack_findsViewsByTheirPlaceInTheGrid() {
   QCOMPARE(&stack.view({3, 5}), &stack.views[1]);
 }
 
-}  // namespace episcope
+}  // namespace episcope::in_label_probabilities_test
 
-QTEST_APPLESS_MAIN(episcope::LabelProbabilitiesTest)
+EPISCOPE_TEST(label_probabilities_test, LabelProbabilitiesTest)
 #include "label_probabilities_test.moc"

@@ -3,13 +3,13 @@
 
 #include "engine/core/error.h"
 #include "engine/scenes/builtin.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <stop_token>
 
-namespace episcope {
+namespace episcope::in_labeler_test {
+
 namespace {
 
 constexpr int kSize = 96;
@@ -200,7 +200,7 @@ void LabelerTest::stop_cancels() {
                                            Progress(stop.get_token(), nullptr)));
 }
 
-}  // namespace episcope
+}  // namespace episcope::in_labeler_test
 
-QTEST_APPLESS_MAIN(episcope::LabelerTest)
+EPISCOPE_TEST(labeler_test, LabelerTest)
 #include "labeler_test.moc"

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/color_map.h"
 #include "engine/core/error.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
 
-using namespace episcope;
+namespace episcope::in_color_map_test {
+
 using namespace episcope::render;
 
 class ColorMapTest : public QObject {
@@ -108,5 +108,7 @@ class ColorMapTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ColorMapTest)
+}  // namespace episcope::in_color_map_test
+
+EPISCOPE_TEST(color_map_test, ColorMapTest)
 #include "color_map_test.moc"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/region_statistics.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <limits>
 #include <numeric>
 
-using namespace episcope;
+namespace episcope::in_region_statistics_test {
+
 using render::PixelRegion;
 using render::region_statistics;
 
@@ -129,5 +129,7 @@ void RegionStatisticsTest::regionBeyondTheMap_isClipped() {
   QCOMPARE(region_statistics({map, {}, {}}, {7, 7, 9, 9}, {}, 10).count, std::size_t{0});
 }
 
-QTEST_MAIN(RegionStatisticsTest)
+}  // namespace episcope::in_region_statistics_test
+
+EPISCOPE_CORE_TEST(region_statistics_test, RegionStatisticsTest)
 #include "region_statistics_test.moc"

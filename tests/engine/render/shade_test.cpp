@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/render/shade.h"
 #include "engine/core/error.h"
-
-#include <QtTest>
+#include "tests/test_main.h"
 
 #include <cmath>
 #include <limits>
 #include <set>
 
-using namespace episcope;
+namespace episcope::in_shade_test {
+
 using namespace episcope::render;
 
 namespace {
@@ -186,5 +186,7 @@ class ShadeTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(ShadeTest)
+}  // namespace episcope::in_shade_test
+
+EPISCOPE_TEST(shade_test, ShadeTest)
 #include "shade_test.moc"

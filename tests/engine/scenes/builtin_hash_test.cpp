@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/builtin.h"
+#include "tests/test_main.h"
 
-#include <QTest>
-
-using namespace episcope;
+namespace episcope::in_builtin_hash_test {
 
 // The samples of every scene are recorded, so that a change of the pictures is noticed, and so that
 // every machine, instruction set and compiler must give the same bytes.
@@ -41,5 +40,7 @@ class BuiltinHashTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BuiltinHashTest)
+}  // namespace episcope::in_builtin_hash_test
+
+EPISCOPE_TEST(builtin_hash_test, BuiltinHashTest)
 #include "builtin_hash_test.moc"

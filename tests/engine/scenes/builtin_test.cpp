@@ -2,8 +2,7 @@
 #include "engine/scenes/builtin.h"
 
 #include "engine/core/error.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <algorithm>
 #include <atomic>
@@ -11,7 +10,7 @@
 #include <set>
 #include <stop_token>
 
-using namespace episcope;
+namespace episcope::in_builtin_test {
 
 namespace {
 
@@ -377,5 +376,7 @@ class BuiltinTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BuiltinTest)
+}  // namespace episcope::in_builtin_test
+
+EPISCOPE_TEST(builtin_test, BuiltinTest)
 #include "builtin_test.moc"

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/builtin.h"
-
-#include <QTest>
+#include "tests/test_main.h"
 
 #include <cmath>
 
-using namespace episcope;
+namespace episcope::in_builtin_views_test {
 
 namespace {
 
@@ -187,5 +186,7 @@ class BuiltinViewsTest : public QObject {
   }
 };
 
-QTEST_APPLESS_MAIN(BuiltinViewsTest)
+}  // namespace episcope::in_builtin_views_test
+
+EPISCOPE_TEST(builtin_views_test, BuiltinViewsTest)
 #include "builtin_views_test.moc"

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/document/document.h"
+
+#include "annotation/document/pending_edit.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+bool fits(const LabelRun& run, const ScribbleLayer& layer) {
+  return run.length > 0 && run.y < layer.height() && run.x + run.length <= layer.width();
+}
+
+PixelRegion pixels_of(ImageView<const std::uint8_t> image, std::uint8_t label) {
+  PixelRegion region;
+  for (int y = 0; y < image.height; ++y) {
+    const std::uint8_t* row = image.row(y);
+    for (int x = 0; x < image.width; ++x) {
+      if (row[x] != label) continue;
+      const int begin = x;
+      while (x < image.width && row[x] == label) ++x;
+      region.push_back({y, begin, x});
+    }
+  }
+  return region;
+}
+
+}  // namespace
+
+AnnotationDocument::AnnotationDocument(GridShape grid, int height, int width,
+                                       std::size_t history_bytes)
+    : AnnotationDocument(LabelSet(), ScribbleLayer(grid, height, width), history_bytes) {}
+
+AnnotationDocument::AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
+                                       std::size_t history_bytes)
+    : labels_(std::move(labels)), scribbles_(std::move(scribbles)), history_(history_bytes) {}
+
+template <class Change>
+void AnnotationDocument::edit_labels(EditKind kind, const Change& change) {
+  LabelSet changed = labels_;
+  change(changed);
+  PendingEdit edit(*this, kind);
+  edit.set_labels(std::move(changed));
+  edit.commit();
+}
+
+int AnnotationDocument::add_label(const std::string& name, std::optional<Rgb> color) {
+  int id = 0;
+  edit_labels(EditKind::AddLabel, [&](LabelSet& labels) { id = labels.add(name, color); });
+  return id;
+}
+
+void AnnotationDocument::rename_label(int id, const std::string& name) {
+  edit_labels(EditKind::RenameLabel, [&](LabelSet& labels) { labels.rename(id, name); });
+}
+
+void AnnotationDocument::recolor_label(int id, Rgb color) {
+  edit_labels(EditKind::RecolorLabel, [&](LabelSet& labels) { labels.recolor(id, color); });
+}
+
+void AnnotationDocument::remove_label(int id) {
+  LabelSet changed = labels_;
+  changed.remove(id);
+  PendingEdit edit(*this, EditKind::RemoveLabel);
+  for (const ViewIndex view : scribbles_.painted_views()) {
+    edit.paint(view, pixels_of(scribbles_.view(view), static_cast<std::uint8_t>(id)), {0, {}});
+  }
+  edit.set_labels(std::move(changed));
+  edit.commit();
+}
+
+DocumentChange AnnotationDocument::undo() {
+  require_idle();
+  const Edit* edit = history_.next_undo();
+  if (!edit) return {};
+  DocumentChange change = put(*edit, EditSide::Before);
+  history_.undo();
+  tell(DocumentStep::Undone, edit);
+  return change;
+}
+
+DocumentChange AnnotationDocument::redo() {
+  require_idle();
+  const Edit* edit = history_.next_redo();
+  if (!edit) return {};
+  DocumentChange change = put(*edit, EditSide::After);
+  history_.redo();
+  tell(DocumentStep::Redone, edit);
+  return change;
+}
+
+DocumentChange AnnotationDocument::apply(const Edit& edit) {
+  require_idle();
+  require_fitting(edit);
+  DocumentChange change = put(edit, EditSide::After);
+  keep(edit);
+  return change;
+}
+
+void AnnotationDocument::mark_saved() {
+  require_idle();
+  saved_state_ = state();
+  tell(DocumentStep::Saved, nullptr);
+}
+
+void AnnotationDocument::require_idle() const {
+  if (is_editing_) {
+    throw InvalidInput("an edit is under way; end or revert it before the next step");
+  }
+}
+
+void AnnotationDocument::require_fitting(const Edit& edit) const {
+  for (const ViewEdit& part : edit.views) {
+    const bool is_sound =
+        scribbles_.grid().contains(part.view) &&
+        std::ranges::all_of(part.runs, [&](const LabelRun& run) { return fits(run, scribbles_); });
+    if (!is_sound) {
+      throw InvalidInput("an edit of view (" + view_text(part.view) + ") does not fit " +
+                         std::to_string(scribbles_.grid().v) + "×" +
+                         std::to_string(scribbles_.grid().u) + " views of " +
+                         std::to_string(scribbles_.height()) + "×" +
+                         std::to_string(scribbles_.width()) + " px");
+    }
+  }
+}
+
+DocumentChange AnnotationDocument::put(const Edit& edit, EditSide side) {
+  DocumentChange change;
+  for (const ViewEdit& part : edit.views) {
+    put_labels(part, side, scribbles_);
+    change.views.push_back({part.view, part.rect});
+  }
+  if (edit.labels) {
+    labels_ = side == EditSide::After ? edit.labels->after : edit.labels->before;
+    change.has_new_labels = true;
+  }
+  return change;
+}
+
+void AnnotationDocument::keep(Edit edit) {
+  if (!observer_) {
+    history_.push(std::move(edit));
+    return;
+  }
+  const Edit kept = edit;  // The history may forget it at once.
+  history_.push(std::move(edit));
+  tell(DocumentStep::Edited, &kept);
+}
+
+void AnnotationDocument::tell(DocumentStep step, const Edit* edit) const {
+  if (observer_) observer_({step, edit});
+}
+
+}  // namespace episcope

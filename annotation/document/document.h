@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/document/history.h"
+#include "annotation/document/label_set.h"
+#include "annotation/document/scribble_layer.h"
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What a step of the history changed, so that a window redraws that and shows the view.
+struct DocumentChange {
+  struct Part {
+    ViewIndex view;
+    PixelRect rect;
+  };
+  std::vector<Part> views;  ///< In the order of the grid.
+  bool has_new_labels = false;
+  [[nodiscard]] bool empty() const { return views.empty() && !has_new_labels; }
+};
+
+/// What happened to the document. `edit` is the one made, undone or redone.
+enum class DocumentStep : std::uint8_t { Edited, Undone, Redone, Saved };
+struct DocumentEvent {
+  DocumentStep step = DocumentStep::Edited;
+  const Edit* edit = nullptr;  ///< Null for Saved.
+};
+
+/// What a user paints on a light field: labels, scribbles on every view, and the steps that led
+/// there. Pixels change through PendingEdit and Stroke only, one edit at a time; while one is under
+/// way, every other change throws InvalidInput.
+class AnnotationDocument {
+ public:
+  static constexpr std::size_t kHistoryBytes = std::size_t{64} << 20;
+
+  /// Throws InvalidInput as ScribbleLayer does.
+  AnnotationDocument(GridShape grid, int height, int width,
+                     std::size_t history_bytes = kHistoryBytes);
+  /// A document that begins with what a file held; nothing of that can be undone.
+  AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
+                     std::size_t history_bytes = kHistoryBytes);
+
+  [[nodiscard]] const LabelSet& labels() const { return labels_; }
+  [[nodiscard]] const ScribbleLayer& scribbles() const { return scribbles_; }
+  [[nodiscard]] const History& history() const { return history_; }
+
+  /// Each an edit; a change to the same vanishes. Throw InvalidInput as LabelSet does.
+  int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
+  void rename_label(int id, const std::string& name);
+  void recolor_label(int id, Rgb color);
+  /// Also erases what is painted with it, on all views.
+  void remove_label(int id);
+
+  /// Takes the last edit back, or makes it again; an empty change if there is none.
+  DocumentChange undo();
+  DocumentChange redo();
+  /// Makes an edit that was recorded on a document in the same state. Throws InvalidInput, changing
+  /// nothing, if it does not fit.
+  DocumentChange apply(const Edit& edit);
+
+  /// The state of the document, see History.
+  [[nodiscard]] std::uint64_t state() const { return history_.state(); }
+  [[nodiscard]] std::uint64_t saved_state() const { return saved_state_; }
+  [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
+  /// Notes that the present state was written to a file.
+  void mark_saved();
+  /// Notes that no state of this document is the one in the file.
+  void forget_saved() { saved_state_ = kNoState; }
+
+  /// Called after each step, before the call that made it returns; an exception of the observer
+  /// reaches that caller, while the step stands. One observer; an empty function for none.
+  using Observer = std::function<void(const DocumentEvent&)>;
+  void set_observer(Observer observer) { observer_ = std::move(observer); }
+
+ private:
+  friend class PendingEdit;
+  static constexpr std::uint64_t kNoState = UINT64_MAX;
+
+  void require_idle() const;
+  void require_fitting(const Edit& edit) const;
+  DocumentChange put(const Edit& edit, EditSide side);
+  void keep(Edit edit);
+  void tell(DocumentStep step, const Edit* edit) const;
+  template <class Change>
+  void edit_labels(EditKind kind, const Change& change);
+
+  LabelSet labels_;
+  ScribbleLayer scribbles_;
+  History history_;
+  std::uint64_t saved_state_ = 0;
+  bool is_editing_ = false;
+  Observer observer_;
+};
+
+}  // namespace episcope

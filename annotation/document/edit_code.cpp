@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/document/edit_code.h"
+
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+constexpr auto kMaxPlace = std::uint64_t{ScribbleLayer::kMaxExtent};
+constexpr auto kMaxView = std::uint64_t{std::numeric_limits<int>::max()};
+
+void write_labels(const LabelSet& labels, ByteWriter& out) {
+  out.number(static_cast<std::uint64_t>(labels.last_id()));
+  out.number(labels.labels().size());
+  for (const LabelInfo& label : labels.labels()) {
+    out.number(static_cast<std::uint64_t>(label.id));
+    out.text(label.name);
+    for (const std::uint8_t channel : label.color) out.byte(channel);
+  }
+}
+
+LabelSet read_labels(ByteReader& in) {
+  LabelSet labels;
+  labels.reserve_ids(static_cast<int>(in.number(LabelSet::kMaxId)));
+  for (auto left = in.number(LabelSet::kMaxId); left > 0; --left) {
+    LabelInfo label;
+    label.id = static_cast<int>(in.number(LabelSet::kMaxId));
+    label.name = in.text();
+    for (std::uint8_t& channel : label.color) channel = in.byte();
+    labels.insert(std::move(label));
+  }
+  return labels;
+}
+
+void write_view(const ViewEdit& edit, ByteWriter& out) {
+  out.number(static_cast<std::uint64_t>(edit.view.v));
+  out.number(static_cast<std::uint64_t>(edit.view.u));
+  out.number(edit.runs.size());
+  int y = 0;
+  for (const LabelRun& run : edit.runs) {
+    out.number(static_cast<std::uint64_t>(run.y - y));
+    out.number(run.x);
+    out.number(run.length);
+    out.byte(run.before);
+    out.byte(run.after);
+    y = run.y;
+  }
+}
+
+ViewEdit read_view(ByteReader& in) {
+  ViewEdit edit;
+  edit.view.v = static_cast<int>(in.number(kMaxView));
+  edit.view.u = static_cast<int>(in.number(kMaxView));
+  std::uint64_t y = 0;
+  for (auto left = in.number(in.rest()); left > 0; --left) {
+    y += in.number(kMaxPlace - y);
+    LabelRun run;
+    run.y = static_cast<std::uint16_t>(y);
+    run.x = static_cast<std::uint16_t>(in.number(kMaxPlace));
+    run.length = static_cast<std::uint16_t>(in.number(kMaxPlace));
+    run.before = in.byte();
+    run.after = in.byte();
+    edit.rect.include(PixelSpan{run.y, run.x, run.x + run.length});
+    edit.runs.push_back(run);
+  }
+  return edit;
+}
+
+}  // namespace
+
+void write_edit(const Edit& edit, ByteWriter& out) {
+  out.byte(static_cast<std::uint8_t>(edit.kind));
+  out.number(edit.views.size());
+  for (const ViewEdit& view : edit.views) write_view(view, out);
+  out.byte(edit.labels ? 1 : 0);
+  if (!edit.labels) return;
+  write_labels(edit.labels->before, out);
+  write_labels(edit.labels->after, out);
+}
+
+Edit read_edit(ByteReader& in) {
+  Edit edit;
+  const std::uint8_t kind = in.byte();
+  if (kind > static_cast<std::uint8_t>(EditKind::Import)) {
+    throw InvalidInput("there is no edit of kind " + std::to_string(kind));
+  }
+  edit.kind = static_cast<EditKind>(kind);
+  for (auto left = in.number(in.rest()); left > 0; --left) edit.views.push_back(read_view(in));
+  if (in.byte() != 0) {
+    LabelSet before = read_labels(in);
+    edit.labels = LabelSetEdit{std::move(before), read_labels(in)};
+  }
+  return edit;
+}
+
+}  // namespace episcope

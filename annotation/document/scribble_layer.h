@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/array/indices.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// An image of label ids for every view, `[v][u][y][x]`, 0 = none. A view takes memory only once it
+/// is painted.
+class ScribbleLayer {
+ public:
+  /// Views are at most so high and wide, so that places in them fit 16 bits.
+  static constexpr int kMaxExtent = 65535;
+
+  ScribbleLayer() = default;
+  /// Throws InvalidInput for an empty grid, or views that are empty or larger than kMaxExtent.
+  ScribbleLayer(GridShape grid, int height, int width);
+
+  [[nodiscard]] GridShape grid() const { return grid_; }
+  [[nodiscard]] int height() const { return height_; }
+  [[nodiscard]] int width() const { return width_; }
+
+  /// Label ids of a view; empty if it was never painted. Throws InvalidInput outside the grid, as
+  /// the next two.
+  [[nodiscard]] ImageView<const std::uint8_t> view(ViewIndex view) const;
+  /// For writing; allocates the view.
+  [[nodiscard]] ImageView<std::uint8_t> writable_view(ViewIndex view);
+  /// The label at a pixel; 0 also outside the view.
+  [[nodiscard]] int label_at(ViewIndex view, PixelIndex pixel) const;
+  /// Views with at least one label, in the order of the grid.
+  [[nodiscard]] std::vector<ViewIndex> painted_views() const;
+  /// Bytes that the views take.
+  [[nodiscard]] std::size_t byte_size() const;
+
+  /// Whether the same pixels have the same labels.
+  friend bool operator==(const ScribbleLayer& a, const ScribbleLayer& b);
+
+ private:
+  [[nodiscard]] std::size_t place(ViewIndex view) const;
+
+  GridShape grid_;
+  int height_ = 0;
+  int width_ = 0;
+  std::vector<Image<std::uint8_t>> views_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "annotation/paint/brush.h"
+
+#include "engine/core/error.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace episcope {
+namespace {
+
+/// Crossings are taken a little too wide against rounding; the exact condition then decides.
+constexpr double kSlack = 1e-6;
+
+/// All points within the radius of a segment.
+class Capsule {
+ public:
+  explicit Capsule(const BrushPath& path)
+      : from_(path.from),
+        dy_(path.to.y - path.from.y),
+        dx_(path.to.x - path.from.x),
+        radius_(path.diameter_px / 2),
+        reach_(radius_ + kSlack),
+        length2_(dy_ * dy_ + dx_ * dx_) {}
+
+  [[nodiscard]] bool covers(int y, int x) const {
+    const double py = y + 0.5 - from_.y;
+    const double px = x + 0.5 - from_.x;
+    const double along =
+        length2_ > 0 ? std::clamp((py * dy_ + px * dx_) / length2_, 0.0, 1.0) : 0.0;
+    const double ey = py - along * dy_;
+    const double ex = px - along * dx_;
+    return ey * ey + ex * ex <= radius_ * radius_;
+  }
+
+  /// Where the line through the middles of row y enters and leaves the capsule, up to the slack; an
+  /// empty interval (from > to) where it misses. The capsule is convex: its part of a line is the
+  /// hull of the parts of the discs at its ends and of the strip between them.
+  struct Crossing {
+    double from = std::numeric_limits<double>::infinity();
+    double to = -std::numeric_limits<double>::infinity();
+    void include(double a, double b) {
+      from = std::min(from, a);
+      to = std::max(to, b);
+    }
+  };
+  [[nodiscard]] Crossing crossing(int y) const {
+    Crossing crossing;
+    const double py = y + 0.5 - from_.y;
+    add_disc(py, 0, crossing);
+    add_disc(py - dy_, dx_, crossing);
+    add_strip(py, crossing);
+    crossing.from += from_.x;
+    crossing.to += from_.x;
+    return crossing;
+  }
+
+ private:
+  void add_disc(double py, double center_x, Crossing& crossing) const {
+    const double rest = reach_ * reach_ - py * py;
+    if (rest >= 0) crossing.include(center_x - std::sqrt(rest), center_x + std::sqrt(rest));
+  }
+
+  /// Of the rectangle without its round ends: 0 ≤ py·dy + px·dx ≤ length² and
+  /// |py·dx − px·dy| ≤ radius · length.
+  void add_strip(double py, Crossing& crossing) const {
+    double low = -std::numeric_limits<double>::infinity();
+    double high = std::numeric_limits<double>::infinity();
+    const auto bound = [&](double slope, double min, double max) {
+      if (slope == 0) {
+        if (min > 0 || max < 0) high = -std::numeric_limits<double>::infinity();
+        return;
+      }
+      low = std::max(low, slope > 0 ? min / slope : max / slope);
+      high = std::min(high, slope > 0 ? max / slope : min / slope);
+    };
+    const double reach = reach_ * std::sqrt(length2_);
+    bound(dx_, -py * dy_, length2_ - py * dy_);
+    bound(dy_, py * dx_ - reach, py * dx_ + reach);
+    if (low <= high && std::isfinite(low) && std::isfinite(high)) crossing.include(low, high);
+  }
+
+  StrokePoint from_;
+  double dy_;
+  double dx_;
+  double radius_;
+  double reach_;  ///< Of the crossings.
+  double length2_;
+};
+
+/// `value` rounded down, within what a view may hold.
+int floor_pixel(double value, int extent) {
+  return static_cast<int>(std::floor(std::clamp(value, -1.0, static_cast<double>(extent))));
+}
+
+/// The covered pixels of a row: the crossing, corrected at both ends by the exact condition.
+PixelSpan covered_span(const Capsule& capsule, int y, int width) {
+  const Capsule::Crossing crossing = capsule.crossing(y);
+  if (!(crossing.from <= crossing.to)) return {y, 0, 0};
+  int x0 = std::clamp(floor_pixel(crossing.from - 0.5, width), 0, width);
+  int x1 = std::clamp(floor_pixel(crossing.to - 0.5, width) + 2, 0, width);
+  while (x0 < x1 && !capsule.covers(y, x0)) ++x0;
+  while (x0 < x1 && !capsule.covers(y, x1 - 1)) --x1;
+  return {y, x0, x1};
+}
+
+void require_sound(const BrushPath& path) {
+  if (!(path.diameter_px >= kMinBrush_px && path.diameter_px <= kMaxBrush_px)) {
+    throw InvalidInput("a brush of " + std::to_string(path.diameter_px) +
+                       " px is not possible; choose 1 to 100 px");
+  }
+  for (const double value : {path.from.y, path.from.x, path.to.y, path.to.x}) {
+    if (!std::isfinite(value)) throw InvalidInput("a point of a stroke is not a number");
+  }
+}
+
+}  // namespace
+
+PixelRegion covered_pixels(const BrushPath& path, int height, int width) {
+  require_sound(path);
+  const Capsule capsule(path);
+  const double radius = path.diameter_px / 2;
+  const double top = std::min(path.from.y, path.to.y) - radius;
+  const double bottom = std::max(path.from.y, path.to.y) + radius;
+  PixelRegion region;
+  const int end = std::min(floor_pixel(bottom, height) + 1, height);
+  for (int y = std::max(floor_pixel(top, height), 0); y < end; ++y) {
+    PixelSpan span = covered_span(capsule, y, width);
+    for (const StrokePoint& point : {path.from, path.to}) {
+      const int x = floor_pixel(point.x, width);
+      if (floor_pixel(point.y, height) != y || x < 0 || x >= width) continue;
+      span = span.x0 < span.x1 ? PixelSpan{y, std::min(span.x0, x), std::max(span.x1, x + 1)}
+                               : PixelSpan{y, x, x + 1};
+    }
+    if (span.x0 < span.x1) region.push_back(span);
+  }
+  return region;
+}
+
+}  // namespace episcope

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/disparity_field.h"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+namespace episcope {
+
+/// What is known to be true of a light field; kept apart from it, so that no estimator can peek.
+/// Every part may be missing. Parts cover all views or the centre view only.
+struct GroundTruth {
+  DisparityField field;  ///< Disparity; `valid` holds the archive's GT_DEPTH_MASK and finiteness.
+  DisparityField foreground;       ///< Of transparent scenes: the surface,
+  DisparityField background;       ///< and what is seen through it.
+  ViewStack<std::int32_t> labels;  ///< Object label per pixel (GT_LABELS, object ids).
+  /// Region masks by name ("discontinuities", "planes", …), centre view, non-zero = inside.
+  std::map<std::string, Image<std::uint8_t>> regions;
+
+  [[nodiscard]] bool has_disparity() const { return !field.empty(); }
+  [[nodiscard]] bool has_layers() const { return !foreground.empty() && !background.empty(); }
+};
+
+using GroundTruthPtr = std::shared_ptr<const GroundTruth>;
+
+}  // namespace episcope

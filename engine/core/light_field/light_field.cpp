@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/light_field/light_field.h"
+
+#include "engine/core/error.h"
+
+#include <cstring>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+template <class T>
+constexpr float unit_scale() {
+  if constexpr (std::is_integral_v<T>) return 1.0F / std::numeric_limits<T>::max();
+  return 1.0F;
+}
+
+template <class T>
+void convert(const T* in, std::size_t count, float* out) {
+  constexpr float scale = unit_scale<T>();
+  for (std::size_t i = 0; i < count; ++i) out[i] = scale * static_cast<float>(in[i]);
+}
+
+}  // namespace
+
+LightField::LightField(Samples samples, LightFieldInfo info)
+    : samples_(std::move(samples)), info_(std::move(info)) {
+  std::visit(
+      [this](const auto& stack) {
+        grid_ = stack.grid();
+        height_ = stack.height();
+        width_ = stack.width();
+        channels_ = stack.channels();
+        if (stack.empty() || stack.size() == 0)
+          throw InvalidInput("the light field has no samples");
+        if (!(stack.first() == ViewIndex{})) {
+          throw InvalidInput("the views of a light field must begin at view (0, 0)");
+        }
+      },
+      samples_);
+  if (channels_ != 1 && channels_ != 3) {
+    throw InvalidInput("the light field has " + std::to_string(channels_) +
+                       " channels, but 1 (grey) or 3 (RGB) are expected");
+  }
+}
+
+SampleType LightField::sample_type() const {
+  constexpr SampleType types[] = {SampleType::UInt8, SampleType::UInt16, SampleType::Float32};
+  return types[samples_.index()];
+}
+
+std::size_t LightField::byte_size() const {
+  return std::visit([](const auto& stack) { return stack.size() * sizeof(*stack.data()); },
+                    samples_);
+}
+
+void LightField::read_row(ViewIndex index, int y, int x0, int x1, float* out) const {
+  std::visit(
+      [&](const auto& stack) {
+        const auto view = stack.view(index);
+        convert(view.row(y) + static_cast<std::size_t>(x0) * channels_,
+                static_cast<std::size_t>(x1 - x0) * channels_, out);
+      },
+      samples_);
+}
+
+void LightField::read_column(ViewIndex index, int x, int y0, int y1, float* out) const {
+  std::visit(
+      [&](const auto& stack) {
+        const auto view = stack.view(index);
+        for (int y = y0; y < y1; ++y, out += channels_) {
+          convert(view.row(y) + static_cast<std::size_t>(x) * channels_, channels_, out);
+        }
+      },
+      samples_);
+}
+
+Image<float> LightField::view_as_float(ViewIndex index) const {
+  Image<float> image(height_, width_, channels_);
+  for (int y = 0; y < height_; ++y) read_row(index, y, 0, width_, image.row(y));
+  return image;
+}
+
+std::uint64_t LightField::sample_hash() const {
+  constexpr std::uint64_t prime = 1099511628211ULL;
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&hash](std::uint64_t word) { hash = (hash ^ word) * prime; };
+  for (const int extent : {grid_.v, grid_.u, height_, width_, channels_}) mix(extent);
+  std::visit(
+      [&](const auto& stack) {
+        // Eight bytes a step: a byte at a time would take a second for a common light field.
+        const auto* bytes = reinterpret_cast<const unsigned char*>(stack.data());
+        const std::size_t size = byte_size();
+        std::size_t i = 0;
+        for (std::uint64_t word = 0; i + sizeof word <= size; i += sizeof word) {
+          std::memcpy(&word, bytes + i, sizeof word);
+          mix(word);
+        }
+        for (; i < size; ++i) mix(bytes[i]);
+      },
+      samples_);
+  return hash;
+}
+
+}  // namespace episcope

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/ground_truth.h"
+#include "engine/core/light_field/label_info.h"
+#include "engine/core/light_field/light_field.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Which conversion to the house convention a reader made, and how it was checked.
+struct ConventionReport {
+  std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;        ///< "as stored", "u reversed (file h axis)", …
+  std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
+  std::string units;        ///< How depth was turned into disparity, and what spoke for it.
+  std::vector<std::string> warnings;  ///< A sentence each.
+  double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
+                        ///< by it.
+  bool reversed_u = false;     ///< Whether stored columns of views were reversed, for companions,
+  bool reversed_v = false;     ///< and rows.
+  bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.
+};
+
+/// What is painted on one view: 0 = unpainted, else a label id.
+struct ViewScribbles {
+  ViewIndex view;
+  Image<std::int32_t> labels;
+};
+
+/// What is painted on a light field.
+struct Scribbles {
+  std::vector<ViewScribbles> views;  ///< Painted ones, in the order of the grid.
+  std::vector<LabelInfo> labels;     ///< As far as names and colours are known, by id.
+  [[nodiscard]] bool empty() const { return views.empty(); }
+};
+
+/// A large companion file found beside the light field, read when it is needed.
+struct Companion {
+  std::string kind;  ///< "edge weights", "probabilities (image)", …
+  std::filesystem::path path;
+  std::string shape;  ///< As stored, e.g. "9×9×512×512".
+};
+
+/// All that was read from one light-field file or folder, or made by a built-in scene.
+struct Scene {
+  LightFieldPtr light_field;
+  GroundTruthPtr truth;  ///< Never null; its parts may be missing.
+  Scribbles scribbles;
+  std::vector<Companion> companions;
+  ConventionReport convention;
+};
+
+}  // namespace episcope

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+
+namespace episcope {
+
+/// Bakes a focus plane in: what had disparity `focus_px` has 0 afterwards, whatever had d has
+/// d − focus_px. View (u, v) is fetched at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the
+/// centre view stays as it is, the others move. Source: refocusing by shear, Ng 2006 [Ng06].
+///
+/// A shear by whole pixels is exact. Between pixels, samples are interpolated cubically (Keys 1981,
+/// a = −1/2), so that a baked plane is no blunter than it must be; what leaves the image repeats
+/// its border. All linear in the size.
+
+/// Throws InvalidInput if `focus_px` is not finite or moves a view out of the picture; Cancelled.
+[[nodiscard]] LightFieldPtr sheared(const LightField& light_field, double focus_px,
+                                    const Progress& progress);
+
+/// Disparity minus `focus_px`, moved along with its views. Interpolated linearly within a surface;
+/// of the nearest pixel where the four around differ by more than 0.1 px or one is invalid. Invalid
+/// where the light field repeats its border. `center` is that of the light field. Throws Cancelled.
+[[nodiscard]] DisparityField sheared(const DisparityField& field, ViewIndex center, double focus_px,
+                                     const Progress& progress);
+
+/// Light field, truth, labels and scribbles; the camera's shift and the promised range follow, so
+/// that depth stays what it was. Companions are dropped: they keep the former geometry.
+/// `ConventionReport::focus_px` adds up. Throws as above.
+[[nodiscard]] Scene sheared(const Scene& scene, double focus_px, const Progress& progress);
+
+/// Labels by whole pixels, with the views; 0 where the view was out of sight. Throws Cancelled.
+[[nodiscard]] ViewStack<std::int32_t> sheared(const ViewStack<std::int32_t>& labels,
+                                              ViewIndex center, double focus_px,
+                                              const Progress& progress);
+[[nodiscard]] Scribbles sheared(const Scribbles& scribbles, ViewIndex center, double focus_px);
+
+/// The way back: what was painted on sheared views, on the views as they were. Where these reach
+/// out of the sheared ones, what was painted `before` stays, unless its label is gone.
+[[nodiscard]] Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before,
+                                  ViewIndex center, double focus_px);
+
+/// An estimate of the light field before, as one of the light field after, whose centre is `center`
+/// and whose hash is `sample_hash`. A searched range follows; a note tells. Throws Cancelled.
+struct ShearedInto {
+  ViewIndex center;
+  std::uint64_t sample_hash = 0;
+};
+[[nodiscard]] Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus_px,
+                               const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/parameter/parameter.h"
+
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+
+namespace episcope {
+namespace {
+
+template <class Number>
+std::string number_text(Number number) {
+  char buffer[64];
+  const auto result = std::to_chars(buffer, buffer + sizeof buffer, number);
+  return {buffer, result.ptr};
+}
+
+template <class Number>
+std::optional<Number> parse_number(std::string_view text) {
+  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  Number number{};
+  const auto result = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (result.ec != std::errc{} || result.ptr != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+std::string domain_text(const ParameterDescription& description) {
+  if (!description.choices.empty()) {
+    std::string text;
+    for (const auto& choice : description.choices) text += (text.empty() ? "" : ", ") + choice;
+    return "one of " + text;
+  }
+  return "a number from " + number_text(description.min) + " to " + number_text(description.max);
+}
+
+[[noreturn]] void refuse(const ParameterDescription& description, const std::string& value,
+                         const std::string& expected) {
+  throw InvalidInput("parameter " + description.key + " is " + value + ", but must be " + expected);
+}
+
+struct Checker {
+  const ParameterDescription& description;
+
+  void in_domain(double number) const {
+    if (!(number >= description.min && number <= description.max)) {
+      refuse(description, number_text(number), domain_text(description));
+    }
+  }
+  void operator()(bool) const {}
+  void operator()(int number) const { in_domain(number); }
+  void operator()(double number) const { in_domain(number); }
+  void operator()(const std::string& text) const {
+    const auto& choices = description.choices;
+    if (choices.empty() || std::find(choices.begin(), choices.end(), text) != choices.end()) return;
+    refuse(description, "'" + text + "'", domain_text(description));
+  }
+  void operator()(const IntervalOrAuto& interval) const {
+    if (!interval) return;
+    in_domain(interval->min);
+    in_domain(interval->max);
+    if (!(interval->min < interval->max)) {
+      refuse(description, to_text(interval), "auto or A,B with A < B");
+    }
+  }
+  void operator()(const ViewOrAuto& view) const {
+    if (view && (view->v < 0 || view->u < 0)) {
+      refuse(description, view_text(*view), "auto or V,U, counted from 0");
+    }
+  }
+};
+
+struct Parser {
+  const ParameterDescription& description;
+  const std::string& text;
+
+  ParameterValue operator()(bool) const {
+    if (text == "true" || text == "1" || text == "on" || text == "yes") return true;
+    if (text == "false" || text == "0" || text == "off" || text == "no") return false;
+    refuse(description, "'" + text + "'", "true or false");
+  }
+  ParameterValue operator()(int) const {
+    if (const auto number = parse_number<int>(text)) return *number;
+    refuse(description, "'" + text + "'", "a whole number, " + domain_text(description));
+  }
+  ParameterValue operator()(double) const {
+    if (const auto number = parse_number<double>(text)) return *number;
+    refuse(description, "'" + text + "'", domain_text(description));
+  }
+  ParameterValue operator()(const std::string&) const { return text; }
+  ParameterValue operator()(const IntervalOrAuto&) const {
+    if (text == "auto") return IntervalOrAuto{};
+    const auto comma = text.find(',');
+    if (comma != std::string::npos) {
+      const auto min = parse_number<double>(std::string_view(text).substr(0, comma));
+      const auto max = parse_number<double>(std::string_view(text).substr(comma + 1));
+      if (min && max) return IntervalOrAuto(Interval{*min, *max});
+    }
+    refuse(description, "'" + text + "'", "auto or two numbers A,B");
+  }
+  ParameterValue operator()(const ViewOrAuto&) const {
+    if (text == "auto") return ViewOrAuto{};
+    if (const auto comma = text.find(','); comma != std::string::npos) {
+      const auto v = parse_number<int>(std::string_view(text).substr(0, comma));
+      const auto u = parse_number<int>(std::string_view(text).substr(comma + 1));
+      if (v && u) return ViewOrAuto(ViewIndex{*v, *u});
+    }
+    refuse(description, "'" + text + "'", "auto or V,U, row and column of a view");
+  }
+};
+
+}  // namespace
+
+std::string to_text(const ParameterValue& value) {
+  struct Writer {
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(int number) const { return number_text(number); }
+    std::string operator()(double number) const { return number_text(number); }
+    std::string operator()(const std::string& text) const { return text; }
+    std::string operator()(const IntervalOrAuto& interval) const {
+      return interval ? number_text(interval->min) + "," + number_text(interval->max) : "auto";
+    }
+    std::string operator()(const ViewOrAuto& view) const {
+      return view ? view_text(*view) : "auto";
+    }
+  };
+  return std::visit(Writer{}, value);
+}
+
+ParameterValue parse_parameter(const ParameterDescription& description, const std::string& text) {
+  auto value = std::visit(Parser{description, text}, description.default_value);
+  check_parameter(description, value);
+  return value;
+}
+
+void check_parameter(const ParameterDescription& description, const ParameterValue& value) {
+  if (value.index() != description.default_value.index()) {
+    refuse(description, to_text(value),
+           "of the type of its default " + to_text(description.default_value));
+  }
+  std::visit(Checker{description}, value);
+}
+
+std::string nearest_name(const std::string& name, const std::vector<std::string>& names) {
+  const auto distance = [&name](const std::string& other) {
+    std::vector<std::size_t> row(other.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < name.size(); ++i) {
+      std::size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (std::size_t j = 0; j < other.size(); ++j) {
+        const std::size_t substitution = diagonal + (name[i] == other[j] ? 0 : 1);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({substitution, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    return row.back();
+  };
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, name.size() / 2) + 1;
+  for (const auto& other : names) {
+    if (const auto edits = distance(other); edits < least) {
+      least = edits;
+      nearest = other;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace episcope

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace episcope {
+
+/// An interval, or empty for "auto": found from the data.
+using IntervalOrAuto = std::optional<Interval>;
+
+/// A view of the camera grid, or empty for "auto": the centre.
+using ViewOrAuto = std::optional<ViewIndex>;
+
+/// Value of one parameter.
+using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAuto, ViewOrAuto>;
+
+/// Values by key, in the order of the schema.
+using ParameterSet = std::vector<std::pair<std::string, ParameterValue>>;
+
+/// All that a form, a command line or a document needs to know of one parameter.
+struct ParameterDescription {
+  std::string key;    ///< As on the command line: `--key VALUE`.
+  std::string label;  ///< As in the form.
+  std::string help;
+  std::string unit;  ///< "px", "" for a pure number.
+  ParameterValue default_value;
+  double min = 0;  ///< Closed domain of numbers and of the ends of intervals.
+  double max = 0;
+  bool logarithmic = false;              ///< A slider should move in powers.
+  std::vector<std::string> choices;      ///< For strings: the only values allowed.
+  std::vector<ParameterValue> searched;  ///< Values that a parameter search tries; empty = none.
+};
+
+/// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`, `4,4`.
+[[nodiscard]] std::string to_text(const ParameterValue& value);
+
+/// Reads a value of the type of `description.default_value` and checks its domain.
+/// Throws InvalidInput with key, value and domain.
+[[nodiscard]] ParameterValue parse_parameter(const ParameterDescription& description,
+                                             const std::string& text);
+
+/// Throws InvalidInput if the value has another type than the default or lies outside the domain.
+void check_parameter(const ParameterDescription& description, const ParameterValue& value);
+
+/// The name in `names` nearest to `name` by edit distance, for "did you mean"; empty if none is
+/// near.
+[[nodiscard]] std::string nearest_name(const std::string& name,
+                                       const std::vector<std::string>& names);
+
+}  // namespace episcope

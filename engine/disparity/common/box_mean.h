@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+
+#include <algorithm>
+
+namespace episcope {
+
+/// out[x] = the sum of rows [y − radius, y + radius] of the image, of those that exist. Returns how
+/// many do.
+inline int sum_rows(const Image<float>& image, int y, int radius, float* out) {
+  const int begin = std::max(y - radius, 0);
+  const int end = std::min(y + radius + 1, image.height());
+  std::fill_n(out, image.width(), 0.0F);
+  for (int i = begin; i < end; ++i) {
+    const float* const row = image.row(i);
+    for (int x = 0; x < image.width(); ++x) out[x] += row[x];
+  }
+  return end - begin;
+}
+
+/// out[x] = the mean of in[x − radius … x + radius], of those within [0, width).
+inline void box_mean_row(const float* in, int width, int radius, float* out) {
+  for (int x = 0; x < width; ++x) {
+    const int begin = std::max(x - radius, 0);
+    const int end = std::min(x + radius + 1, width);
+    float sum = 0;
+    for (int i = begin; i < end; ++i) sum += in[i];
+    out[x] = sum / static_cast<float>(end - begin);
+  }
+}
+
+}  // namespace episcope

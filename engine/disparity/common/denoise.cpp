@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/denoise.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/edge_weights.h"
+#include "engine/solvers/tv_l2/tv_l2.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// r^power. Whole powers are multiplied out, which is vectorised: std::pow took a tenth of the time.
+void raise_row(const float* r, double power, int width, float* raised) {
+  const int whole = static_cast<int>(power);
+  if (whole != power) {
+    const auto exponent = static_cast<float>(power);
+    std::transform(r, r + width, raised, [=](float value) { return std::pow(value, exponent); });
+    return;
+  }
+  std::fill_n(raised, width, 1.0F);
+  for (int i = 0; i < whole; ++i) {
+    for (int x = 0; x < width; ++x) raised[x] *= r[x];
+  }
+}
+
+// Denoises every view of `estimate` in place; returns the largest relative gap.
+double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float least_weight,
+                     Estimate& estimate, const Progress& progress) {
+  ViewStack<float>& disparity = estimate.field.disparity;
+  const GridShape grid = disparity.grid();
+  const ViewIndex first = disparity.first();
+  std::vector<double> gaps(grid.count());
+  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
+    auto solver = std::make_shared<TvL2Solver>(lf.height(), lf.width());
+    auto weights = std::make_shared<Image<float>>(lf.height(), lf.width());
+    return [&, solver, weights](int i) {
+      const ViewIndex view = grid.view_at(i, first);
+      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
+                        *weights);
+      const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
+      const ImageView<float> map = disparity.view(view);
+      gaps[i] = solver
+                    ->solve({map, *weights, edges, parameters.lambda},
+                            {parameters.max_iterations, parameters.gap}, progress, map)
+                    .relative_gap();
+    };
+  });
+  return *std::max_element(gaps.begin(), gaps.end());
+}
+
+}  // namespace
+
+void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
+                       Image<float>& weights) {
+  for (int y = 0; y < confidence.height; ++y) {
+    float* w = weights.row(y);
+    raise_row(confidence.row(y), weight.power, confidence.width, w);
+    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.least);
+  }
+}
+
+std::string gap_note(double largest) {
+  char text[80];
+  std::snprintf(text, sizeof text, "largest relative duality gap %.1e", largest);
+  return text;
+}
+
+void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
+             const Progress& progress, float least_weight) {
+  progress.step("denoising");
+  estimate.notes.push_back(
+      gap_note(denoise_views(lf, parameters, least_weight, estimate, progress)));
+}
+
+}  // namespace episcope

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/schema.h"
+
+#include <string>
+
+namespace episcope {
+
+/// Parameters of the denoising that EPI_S, EPI_C, EPI_TWO_LAYER and ST_*_S share; defaults are
+/// each method's.
+struct DenoiseParameters {
+  double lambda = 0.2;
+  double weight_power = 6;
+  double edge_strength = 20;
+  int max_iterations = 24;
+  double gap = 1e-4;
+};
+
+/// The weight of data w = max(r^power, least), from confidence r. No pixel is given up entirely:
+/// the solution stays unique.
+struct DataWeight {
+  double power = 2;
+  float least = 0.01F;
+};
+void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Image<float>& weights);
+
+/// Denoises every view of `estimate` by itself, in place: min Σ g |∇u| + 1/(2λ) Σ w (u − f)², with
+/// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
+/// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
+///
+/// The paper has w = g = 1 ("just performs a TV-L2 denoising"); the weights are ours, measured
+/// against truth: they keep jumps at image edges and let doubtful pixels follow their neighbours.
+/// p = 0 and β = 0 give the plain method.
+/// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
+void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
+             const Progress& progress, float least_weight = DataWeight{}.least);
+
+/// A note of the largest relative duality gap of some solutions.
+[[nodiscard]] std::string gap_note(double largest);
+
+/// When TvL2Solver stops.
+template <class P>
+void add_stop_parameters(Schema<P>& schema) {
+  schema
+      .integer("max_iterations", &P::max_iterations,
+               {"Iterations", "At most so many of the denoising, at full resolution"},
+               {1, 2000, true})
+      .real("gap", &P::gap,
+            {"Stop at gap",
+             "The denoising stops early once the duality gap is this share of the energy"},
+            {1e-6, 0.1, true});
+}
+
+template <class P>
+void add_denoise_parameters(Schema<P>& schema) {
+  schema
+      .real("lambda", &P::lambda,
+            {"Smoothing λ", "Weight of the total variation: larger is smoother"}, {0.001, 10, true})
+      .real("weight_power", &P::weight_power,
+            {"Trust in confidence",
+             "Data is weighted by confidence^p; 0 trusts every pixel alike, as in the paper"},
+            {0, 16})
+      .real(
+          "edge_strength", &P::edge_strength,
+          {"Edge strength β",
+           "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
+           "in the paper"},
+          {0, 100});
+  add_stop_parameters(schema);
+}
+
+}  // namespace episcope

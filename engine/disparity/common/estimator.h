@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/schema.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What a list of methods shows.
+struct EstimatorInfo {
+  std::string id;         ///< As on the command line: "epi_l".
+  std::string name;       ///< As in the paper: "EPI_L".
+  std::string summary;    ///< One line.
+  std::string reference;  ///< Authors, year, key in resources/references.bib.
+  bool all_views =
+      false;  ///< Can estimate every view at once; else one view, the centre by default.
+  bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
+  int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
+};
+
+/// Which views an estimate should cover.
+enum class ViewSelection { All, Center };
+
+/// A disparity estimator: pure, no globals, no files. Values of this type come from
+/// `registered_estimators()`; `make_estimator` makes one from a parameter struct and a function.
+struct Estimator {
+  EstimatorInfo info;
+  std::vector<ParameterDescription> parameters;
+
+  /// Estimates with `values` over the defaults. Fills every field of Estimate but `source_hash`.
+  /// Throws InvalidInput for bad parameters or a light field that the method cannot use, Cancelled
+  /// on a stop request (within 200 ms).
+  std::function<Estimate(const LightField&, const ParameterSet& values, ViewSelection,
+                         const Progress&)>
+      run;
+};
+
+/// Joins a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`
+/// returns an Estimate with maps, confidence, range and notes; the rest is filled in here.
+template <class P>
+Estimator make_estimator(
+    EstimatorInfo info, Schema<P> schema,
+    std::function<Estimate(const LightField&, const P&, ViewSelection, const Progress&)> estimate);
+
+/// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
+void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
+                       double seconds);
+
+/// Seconds of a steady clock, for differences.
+[[nodiscard]] double steady_seconds();
+
+template <class P>
+Estimator make_estimator(
+    EstimatorInfo info, Schema<P> schema,
+    std::function<Estimate(const LightField&, const P&, ViewSelection, const Progress&)> estimate) {
+  Estimator estimator;
+  estimator.info = info;
+  estimator.parameters = schema.descriptions();
+  estimator.run = [info = std::move(info), schema = std::move(schema),
+                   estimate = std::move(estimate)](const LightField& light_field,
+                                                   const ParameterSet& values, ViewSelection views,
+                                                   const Progress& progress) {
+    const double start = steady_seconds();
+    const P parameters = schema.parse(values);
+    Estimate result = estimate(light_field, parameters, views, progress);
+    result.parameters = schema.values(parameters);
+    complete_estimate(result, info.id, light_field, steady_seconds() - start);
+    return result;
+  };
+  return estimator;
+}
+
+}  // namespace episcope

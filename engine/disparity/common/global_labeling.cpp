@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/global_labeling.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/edge_weights.h"
+#include "engine/solvers/lifted/lifted_labeling.h"
+#include "engine/solvers/tv_l2/tv_l2.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+namespace episcope {
+namespace {
+
+std::string labeling_note(const LiftedResult& result) {
+  char text[160];
+  std::snprintf(text, sizeof text, "global labeling: energy %.6g, gap %.1e after %d iterations%s",
+                result.energy, result.relative_gap(), result.iterations,
+                result.converged ? "" : " (ended early)");
+  return text;
+}
+
+void settle(const GlobalLabelingData& data, const Image<int>& labels, ImageView<const float> g,
+            double settling, ImageView<float> disparity, const Progress& progress) {
+  const float step = data.labels[1] - data.labels[0];
+  Image<float> placed(labels.height(), labels.width()), weights(labels.height(), labels.width());
+  parallel_for(labels.height(), progress.part(0, 0.5), [&](int y) {
+    for (int x = 0; x < labels.width(); ++x) {
+      const Placement placement = data.place(y, x, labels.at(y, x));
+      placed.at(y, x) = placement.disparity;
+      weights.at(y, x) = placement.weight;
+    }
+  });
+  TvL2Solver(labels.height(), labels.width())
+      .solve({placed, weights, g, settling * step}, {}, progress.part(0.5, 1), disparity);
+  for (int y = 0; y < labels.height(); ++y) {
+    for (int x = 0; x < labels.width(); ++x) {
+      const float label = data.labels[labels.at(y, x)];
+      const float settled = std::clamp(disparity.at(y, x), label - step, label + step);
+      disparity.at(y, x) = std::clamp(settled, data.labels.front(), data.labels.back());
+    }
+  }
+}
+
+}  // namespace
+
+void label_globally(const LightField& light_field, const GlobalLabelingData& data,
+                    const GlobalLabelingParameters& parameters, Estimate& estimate,
+                    const Progress& progress) {
+  const Image<float> g = edge_weights(light_field, data.view, parameters.edge_strength);
+  const double step = data.labels[1] - data.labels[0];
+  const LiftedProblem problem{data.cost, g, parameters.smoothness * data.scale * step};
+  progress.step("labeling");
+  const LiftedResult result = solve_lifted_labeling(
+      problem, {.max_iterations = parameters.max_iterations, .gap = parameters.gap},
+      progress.part(0, 0.85));
+  estimate.notes.push_back(labeling_note(result));
+  estimate.field.disparity =
+      ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, data.view);
+  const ImageView<float> disparity = estimate.field.disparity.view(data.view);
+  if (parameters.settling > 0) {
+    progress.step("settling between labels");
+    settle(data, result.labels, g, parameters.settling, disparity, progress.part(0.85, 1));
+  } else {
+    std::transform(result.labels.begin(), result.labels.end(), disparity.data,
+                   [&](int label) { return data.labels[label]; });
+  }
+  progress.report(1);
+}
+
+}  // namespace episcope

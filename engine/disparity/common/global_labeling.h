@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/volume.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/schema.h"
+
+#include <functional>
+#include <vector>
+
+namespace episcope {
+
+/// Parameters that the global methods ST_*_G and EPI_G share; defaults are each method's.
+struct GlobalLabelingParameters {
+  double smoothness = 1.5;
+  double edge_strength = 20;
+  double settling = 1;
+  int max_iterations = 500;
+  double gap = 1e-3;
+};
+
+/// What a pixel with a given label says of its disparity between labels.
+struct Placement {
+  float disparity = 0;  ///< Near the label's.
+  float weight = 0;     ///< In [0, 1].
+};
+
+/// The data term of one view, and how a pixel is placed once its label is known.
+struct GlobalLabelingData {
+  ViewIndex view;
+  std::vector<float> labels;     ///< Disparities, equidistant, at least 2.
+  VolumeView<const float> cost;  ///< `[y][label][x]`
+  double scale = 1;              ///< Of the costs: the smoothness is multiplied by it.
+  std::function<Placement(int y, int x, int label)> place;
+};
+
+/// Disparity of one view by a globally optimal labeling (engine/solvers/lifted/lifted_labeling.h):
+/// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view. Its
+/// energy, gap and iterations go to the notes of `estimate`, its map to `estimate.field`.
+///
+/// Labels quantise (step²/12) and stair-case; so the map is settled between them: TV-L2 of the
+/// placements with their weights, g as before and λ = `settling` label steps, at most one step from
+/// the label. `settling` 0 keeps the labels.
+/// Throws InvalidInput, Cancelled; ends early at `progress.finish_requested()`.
+/// Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
+void label_globally(const LightField& light_field, const GlobalLabelingData& data,
+                    const GlobalLabelingParameters& parameters, Estimate& estimate,
+                    const Progress& progress);
+
+template <class P>
+void add_global_labeling_parameters(Schema<P>& schema) {
+  schema
+      .real("smoothness", &P::smoothness,
+            {"Smoothness λ",
+             "Weight of the total variation of the labeling, per px of disparity and in units of "
+             "the data: costs over their mean, estimates over their mean trust; it depends on "
+             "neither the number of labels nor the contrast"},
+            {0, 100})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, "
+             "as in the paper"},
+            {0, 100})
+      .real("settling", &P::settling,
+            {"Settling",
+             "Smoothing (TV-L2) that places disparities between labels afterwards, in label "
+             "steps; 0 keeps the labels, as in the paper"},
+            {0, 20})
+      .integer("max_iterations", &P::max_iterations, {"Iterations", "At most so many"},
+               {1, 10000, true})
+      .real("gap", &P::gap,
+            {"Stop at gap",
+             "The labeling stops once its energy is proven to be within this share of the least "
+             "possible"},
+            {1e-6, 0.1, true});
+}
+
+}  // namespace episcope

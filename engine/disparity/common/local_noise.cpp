@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/local_noise.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/box_mean.h"
+#include "engine/disparity/tensor/sample_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr int kRadius = 2;
+// Variance of a − 2b + c, in that of a sample.
+constexpr float kSecondDifference = 6;
+constexpr std::array<PixelIndex, 4> kWays = {{{0, 1}, {1, 0}, {1, 1}, {1, -1}}};
+
+using Planes = std::vector<Image<float>>;
+
+Planes read_view(const LightField& lf, ViewIndex view) {
+  Planes planes;
+  for (int c = 0; c < lf.channels(); ++c) planes.emplace_back(lf.height(), lf.width());
+  SamplePlanes samples(lf);
+  for (int y = 0; y < lf.height(); ++y) {
+    std::array<float*, 3> rows{};
+    for (int c = 0; c < lf.channels(); ++c) rows[c] = planes[c].row(y);
+    samples.read(view, y, 0, lf.width(), rows.data());
+  }
+  return planes;
+}
+
+// Squared second differences of one row, mean over the channels, in variances.
+void second_differences(const Planes& planes, int y, PixelIndex way, float* out) {
+  const int height = planes.front().height(), width = planes.front().width();
+  const int middle = std::clamp(y, 1, height - 2);
+  std::fill_n(out, width, 0.0F);
+  for (const Image<float>& plane : planes) {
+    const float* const before = plane.row(middle - way.y) - way.x;
+    const float* const here = plane.row(middle);
+    const float* const after = plane.row(middle + way.y) + way.x;
+    for (int x = 1; x + 1 < width; ++x) {
+      const float d = before[x] - 2 * here[x] + after[x];
+      out[x] += d * d;
+    }
+  }
+  out[0] = out[1];
+  out[width - 1] = out[width - 2];
+  const float scale = 1 / (kSecondDifference * static_cast<float>(planes.size()));
+  for (int x = 0; x < width; ++x) out[x] *= scale;
+}
+
+// Lowers a row of `least` to the means of one direction's windows.
+void lower_row(const Image<float>& squares, int y, std::vector<float>& columns,
+               std::vector<float>& means, float* least) {
+  const auto rows = static_cast<float>(sum_rows(squares, y, kRadius, columns.data()));
+  box_mean_row(columns.data(), squares.width(), kRadius, means.data());
+  for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x] / rows);
+}
+
+}  // namespace
+
+Image<float> local_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {
+  if (lf.height() < 3 || lf.width() < 3) return Image<float>(lf.height(), lf.width());
+  const Planes planes = read_view(lf, view);
+  Image<float> least(lf.height(), lf.width(), 1, 1.0F);
+  Image<float> squares(lf.height(), lf.width());
+  std::vector<float> columns(lf.width()), means(lf.width());
+  for (const PixelIndex way : kWays) {
+    parallel_for(lf.height(), progress,
+                 [&](int y) { second_differences(planes, y, way, squares.row(y)); });
+    for (int y = 0; y < lf.height(); ++y) lower_row(squares, y, columns, means, least.row(y));
+  }
+  return least;
+}
+
+}  // namespace episcope

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+namespace episcope {
+
+/// The variance of noise around each pixel of a view, `[y][x]`, mean over the channels, samples in
+/// [0, 1]: the mean square of second differences a − 2b + c over windows of 5×5 px, over 6, in that
+/// of four directions where it is least, so that edges do not count. An upper bound: fine texture
+/// counts as noise. The outermost pixels take the differences of their neighbours.
+/// 0 for views of less than 3×3 px. Throws Cancelled.
+[[nodiscard]] Image<float> local_noise_variance(const LightField& light_field, ViewIndex view,
+                                                const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/matching_cost.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/isa.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/matching_cost_kernel.h"
+#include "engine/disparity/tensor/sample_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <string>
+
+namespace episcope {
+namespace {
+
+// A tile's costs of all labels (256 KiB) and the samples of one view stay in the L2 cache.
+constexpr int kTileColumns = 128;
+constexpr int kTileRows = 8;
+constexpr int kTileLayers = 512;
+// Labels whose samples lie within so many pixels share what is read of a view.
+constexpr int kSpread = 24;
+constexpr int kMaxTaps = 4;
+// Shifts this near to whole pixels are taken as whole.
+constexpr double kWhole = 1e-5;
+
+int rounded_up(int lanes) {
+  return (lanes + kMatchingSlack - 1) / kMatchingSlack * kMatchingSlack;
+}
+
+// How one axis of a view is sampled at one label.
+struct AxisShift {
+  int origin = 0;  // Pixels from the reference pixel to the first tap.
+  int taps = 1;
+  std::array<float, kMaxTaps> weights{1};
+  // Share of the variance of noise that the weights leave.
+  [[nodiscard]] double noise_left() const {
+    return std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
+  }
+  int first = 0, last = 0;  // Reference pixels whose sample lies within the image.
+};
+
+AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
+  AxisShift result;
+  const double whole = std::floor(shift + kWhole);
+  const double t = shift - whole;
+  result.origin = static_cast<int>(whole);
+  result.first = std::clamp(static_cast<int>(std::ceil(-shift - kWhole)), 0, extent);
+  result.last =
+      std::clamp(static_cast<int>(std::floor(extent - 1 - shift + kWhole)) + 1, 0, extent);
+  if (std::abs(t) <= kWhole) return result;
+  if (interpolation == Interpolation::Bilinear) {
+    result.taps = 2;
+    result.weights = {static_cast<float>(1 - t), static_cast<float>(t)};
+    return result;
+  }
+  // Catmull-Rom: through the samples, exact for parabolas.
+  result.taps = 4;
+  result.origin -= 1;
+  result.weights = {static_cast<float>(t * (-0.5 + t * (1 - 0.5 * t))),
+                    static_cast<float>(1 + t * t * (-2.5 + 1.5 * t)),
+                    static_cast<float>(t * (0.5 + t * (2 - 1.5 * t))),
+                    static_cast<float>(t * t * (-0.5 + 0.5 * t))};
+  return result;
+}
+
+void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
+           const std::vector<float>& labels) {
+  check_matching(lf, reference);
+  if (labels.empty()) throw InvalidInput("stereo needs at least one label");
+  if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
+}
+
+// Shifts of one axis for every place along it and every label, `[place][label]`.
+std::vector<AxisShift> make_shifts(int places, int reference, int extent,
+                                   Interpolation interpolation, const std::vector<float>& labels) {
+  std::vector<AxisShift> shifts;
+  for (int place = 0; place < places; ++place) {
+    for (const float label : labels) {
+      // u and v grow against the motion of points.
+      const double shift = -static_cast<double>(label) * (place - reference);
+      shifts.push_back(make_shift(shift, extent, interpolation));
+    }
+  }
+  return shifts;
+}
+
+// For each label and reference pixel of one axis: in how many places it is seen, `[label][pixel]`.
+std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
+  std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
+  for (std::size_t i = 0; i < shifts.size(); ++i) {
+    float* row = seen.data() + i % labels * extent;
+    for (int x = shifts[i].first; x < shifts[i].last; ++x) row[x] += 1;
+  }
+  return seen;
+}
+
+}  // namespace
+
+void check_matching(const LightField& lf, ViewIndex reference) {
+  if (!lf.grid().contains(reference)) {
+    throw InvalidInput("there is no view " + view_text(reference) + ": the grid has " +
+                       std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u) +
+                       " views, counted from 0,0");
+  }
+  if (lf.grid().count() == 1) {
+    throw InvalidInput("stereo needs at least 2 views, but this light field has only 1");
+  }
+}
+
+struct MatchingCostRows::State {
+  // The part of the reference view that is worked on.
+  struct Tile {
+    int y = 0, x = 0;
+    int rows = 0, columns = 0;
+  };
+  // Samples of a view around the tile, for neighbouring labels.
+  struct Window {
+    int y = 0, x = 0;  // Offset of its first sample from the tile's first pixel.
+    int rows = 0, columns = 0;
+  };
+
+  const LightField& light_field;
+  ViewIndex reference;
+  MatchingCost cost;
+  int labels = 0;
+  SamplePlanes planes;
+  const MatchingKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kMatchingKernel);
+  std::vector<AxisShift> row_shifts, column_shifts;
+  std::vector<float> rows_seen, columns_seen;
+
+  int tile_rows = 0;
+  int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
+  std::vector<float> reference_samples, noise, samples, lines, sums;
+
+  State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
+        const std::vector<float>& disparities);
+  void read_reference(const Tile& tile);
+  void add_view(const Tile& tile, ViewIndex view);
+  [[nodiscard]] bool sees(const Tile& tile, ViewIndex view, int label) const;
+  [[nodiscard]] Window extend(const Window& window, ViewIndex view, int label) const;
+  void read_window(const Tile& tile, const Window& window, ViewIndex view);
+  void add_label(const Tile& tile, const Window& window, ViewIndex view, int label);
+  void finish(const Tile& tile, int y, VolumeView<float> costs) const;
+  [[nodiscard]] const AxisShift& row_shift(ViewIndex view, int label) const {
+    return row_shifts[static_cast<std::size_t>(view.v) * labels + label];
+  }
+  [[nodiscard]] const AxisShift& column_shift(ViewIndex view, int label) const {
+    return column_shifts[static_cast<std::size_t>(view.u) * labels + label];
+  }
+};
+
+MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
+                               const std::vector<float>& disparities)
+    : light_field(lf),
+      reference(view),
+      cost(wanted),
+      labels(static_cast<int>(disparities.size())),
+      planes(lf) {
+  check(lf, view, wanted, disparities);
+  row_shifts = make_shifts(lf.grid().v, view.v, lf.height(), wanted.interpolation, disparities);
+  column_shifts = make_shifts(lf.grid().u, view.u, lf.width(), wanted.interpolation, disparities);
+  rows_seen = count_seen(row_shifts, labels, lf.height());
+  columns_seen = count_seen(column_shifts, labels, lf.width());
+  tile_rows = std::clamp(kTileLayers / labels, 1, kTileRows);
+  cost_pitch = kTileColumns;
+  reference_pitch = kTileColumns + kMatchingSlack;
+  sample_pitch = rounded_up(kTileColumns + kSpread + kMaxTaps) + kMatchingSlack;
+  const auto channels = static_cast<std::size_t>(lf.channels());
+  reference_samples.resize(channels * tile_rows * reference_pitch + kMatchingSlack);
+  noise.resize(static_cast<std::size_t>(tile_rows) * reference_pitch + kMatchingSlack);
+  const std::size_t sample_rows = tile_rows + kSpread + kMaxTaps;
+  samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
+  lines.resize(channels * sample_pitch + kMatchingSlack);
+  sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
+}
+
+void MatchingCostRows::State::read_reference(const Tile& tile) {
+  for (int y = 0; y < tile.rows; ++y) {
+    std::array<float*, 3> out{};
+    for (int c = 0; c < light_field.channels(); ++c) {
+      out[c] = reference_samples.data() +
+               (static_cast<std::size_t>(c) * tile_rows + y) * reference_pitch;
+    }
+    planes.read(reference, tile.y + y, tile.x, tile.x + tile.columns, out.data());
+    if (!cost.noise) continue;
+    std::copy_n(cost.noise->row(tile.y + y) + tile.x, tile.columns,
+                noise.data() + static_cast<std::size_t>(y) * reference_pitch);
+  }
+}
+
+bool MatchingCostRows::State::sees(const Tile& tile, ViewIndex view, int label) const {
+  const AxisShift& rows = row_shift(view, label);
+  const AxisShift& columns = column_shift(view, label);
+  return rows.first < tile.y + tile.rows && rows.last > tile.y &&
+         columns.first < tile.x + tile.columns && columns.last > tile.x;
+}
+
+// The window with the samples of one more label; rows and columns here are beyond those of a tile.
+MatchingCostRows::State::Window MatchingCostRows::State::extend(const Window& window,
+                                                                ViewIndex view, int label) const {
+  const AxisShift& row = row_shift(view, label);
+  const AxisShift& column = column_shift(view, label);
+  if (window.rows == 0) return {row.origin, column.origin, row.taps, column.taps};
+  Window wider;
+  wider.y = std::min(window.y, row.origin);
+  wider.x = std::min(window.x, column.origin);
+  wider.rows = std::max(window.y + window.rows, row.origin + row.taps) - wider.y;
+  wider.columns = std::max(window.x + window.columns, column.origin + column.taps) - wider.x;
+  return wider;
+}
+
+void MatchingCostRows::State::read_window(const Tile& tile, const Window& window, ViewIndex view) {
+  const int rows = tile.rows + window.rows - 1;
+  const int columns = tile.columns + window.columns - 1;
+  for (int y = 0; y < rows; ++y) {
+    std::array<float*, 3> out{};
+    for (int c = 0; c < light_field.channels(); ++c) {
+      const std::size_t row = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps) + y;
+      out[c] = samples.data() + row * sample_pitch;
+    }
+    const int x = tile.x + window.x;
+    planes.read_clamped(view, tile.y + window.y + y, x, x + columns, out.data());
+  }
+}
+
+void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, ViewIndex view,
+                                        int label) {
+  const AxisShift& row = row_shift(view, label);
+  const AxisShift& column = column_shift(view, label);
+  MatchingTile work;
+  work.channels = light_field.channels();
+  work.rows = tile.rows;
+  work.columns = tile.columns;
+  work.first_row = std::clamp(row.first - tile.y, 0, tile.rows);
+  work.last_row = std::clamp(row.last - tile.y, 0, tile.rows);
+  work.first_column = std::clamp(column.first - tile.x, 0, tile.columns);
+  work.last_column = std::clamp(column.last - tile.x, 0, tile.columns);
+  work.reference_pitch = reference_pitch;
+  work.sample_pitch = sample_pitch;
+  for (int c = 0; c < work.channels; ++c) {
+    const std::size_t plane = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps);
+    work.reference[c] =
+        reference_samples.data() + static_cast<std::size_t>(c) * tile_rows * reference_pitch;
+    work.samples[c] = samples.data() + (plane + (row.origin - window.y)) * sample_pitch +
+                      (column.origin - window.x);
+  }
+  work.row_taps = row.taps;
+  work.column_taps = column.taps;
+  std::copy(row.weights.begin(), row.weights.end(), work.row_weights);
+  std::copy(column.weights.begin(), column.weights.end(), work.column_weights);
+  work.lines = lines.data();
+  work.line_pitch = sample_pitch;
+  const double lost = 1 - row.noise_left() * column.noise_left();
+  work.noise = noise.data();
+  work.noise_lost = static_cast<float>(work.channels * std::max(lost, 0.0));
+  work.cap = static_cast<float>(cost.cap);
+  work.costs = sums.data() + static_cast<std::size_t>(label) * cost_pitch;
+  work.cost_pitch = static_cast<long>(labels) * cost_pitch;
+  kernel.add(work);
+}
+
+void MatchingCostRows::State::add_view(const Tile& tile, ViewIndex view) {
+  int label = 0;
+  while (label < labels) {
+    if (!sees(tile, view, label)) {
+      ++label;
+      continue;
+    }
+    Window window;
+    int end = label;
+    for (; end < labels && sees(tile, view, end); ++end) {
+      const Window wider = extend(window, view, end);
+      if (std::max(wider.rows, wider.columns) > kSpread + kMaxTaps) break;
+      window = wider;
+    }
+    read_window(tile, window, view);
+    for (; label < end; ++label) add_label(tile, window, view, label);
+  }
+}
+
+// Sums to means over the views that see the pixel.
+void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> costs) const {
+  const auto worst = static_cast<float>(
+      std::min(cost.cap, std::sqrt(static_cast<double>(light_field.channels()))));
+  const bool cross = cost.views == MatchedViews::CrossHair;
+  for (int row = 0; row < tile.rows; ++row) {
+    for (int label = 0; label < labels; ++label) {
+      const float* sum =
+          sums.data() + (static_cast<std::size_t>(row) * labels + label) * cost_pitch;
+      const float* columns =
+          columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
+      const float rows =
+          rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
+      float* out = costs.row(y + row, label) + tile.x;
+      for (int x = 0; x < tile.columns; ++x) {
+        const float views = cross ? columns[x] + rows - 2 : columns[x] * rows - 1;
+        out[x] = views > 0 ? sum[x] / views : worst;
+      }
+    }
+  }
+}
+
+MatchingCostRows::MatchingCostRows(const LightField& light_field, ViewIndex reference,
+                                   const MatchingCost& cost, const std::vector<float>& labels)
+    : state_(std::make_unique<State>(light_field, reference, cost, labels)) {}
+MatchingCostRows::~MatchingCostRows() = default;
+MatchingCostRows::MatchingCostRows(MatchingCostRows&&) noexcept = default;
+
+void MatchingCostRows::compute(int y, VolumeView<float> costs, const Progress& progress) {
+  State& s = *state_;
+  const GridShape grid = s.light_field.grid();
+  for (int row = 0; row < costs.height; row += s.tile_rows) {
+    for (int x = 0; x < costs.width; x += kTileColumns) {
+      progress.check();
+      const State::Tile tile{y + row, x, std::min(s.tile_rows, costs.height - row),
+                             std::min(kTileColumns, costs.width - x)};
+      s.read_reference(tile);
+      std::fill(s.sums.begin(), s.sums.end(), 0.0F);
+      for (int v = 0; v < grid.v; ++v) {
+        for (int u = 0; u < grid.u; ++u) {
+          const bool on_cross = v == s.reference.v || u == s.reference.u;
+          if (ViewIndex{v, u} == s.reference) continue;
+          if (s.cost.views == MatchedViews::CrossHair && !on_cross) continue;
+          s.add_view(tile, {v, u});
+        }
+      }
+      s.finish(tile, row, costs);
+    }
+  }
+}
+
+Volume<float> matching_costs(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
+                             const std::vector<float>& labels, const Progress& progress) {
+  check(lf, reference, cost, labels);
+  Volume<float> volume(lf.height(), static_cast<int>(labels.size()), lf.width());
+  const VolumeView<float> view = volume.view();
+  const int bands = (lf.height() + kTileRows - 1) / kTileRows;
+  parallel_for_workers(bands, progress, [&]() -> std::function<void(int)> {
+    auto rows = std::make_shared<MatchingCostRows>(lf, reference, cost, labels);
+    return [&, rows](int i) {
+      const int y = i * kTileRows;
+      rows->compute(y,
+                    {view.row(y, 0), std::min(kTileRows, view.height - y), view.layers, view.width},
+                    progress);
+    };
+  });
+  return volume;
+}
+
+std::vector<float> equidistant_labels(Interval range, int count) {
+  std::vector<float> labels;
+  for (int i = 0; i < count; ++i) {
+    const double share = count > 1 ? static_cast<double>(i) / (count - 1) : 0.5;
+    labels.push_back(static_cast<float>(range.min + share * range.length()));
+  }
+  return labels;
+}
+
+}  // namespace episcope

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/array/volume.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+#include <limits>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+
+/// Which views are compared with the reference view: all (ST_AV), or those of its row and column of
+/// the camera grid, the cross-hair (ST_CH).
+enum class MatchedViews { All, CrossHair };
+
+/// How views are sampled between pixels. Cubic (Catmull-Rom) blurs less than bilinear, which makes
+/// labels that move a view by whole pixels look better than their neighbours.
+enum class Interpolation { Bilinear, Cubic };
+
+/// What a matching cost is made of.
+struct MatchingCost {
+  MatchedViews views = MatchedViews::All;
+  Interpolation interpolation = Interpolation::Cubic;
+  /// ε: no single view costs more; infinity = uncapped.
+  double cap = std::numeric_limits<double>::infinity();
+  /// Variance of the noise of one sample at each pixel of the reference view, `[y][x]`; null =
+  /// none.
+  std::shared_ptr<const Image<float>> noise = nullptr;
+};
+
+/// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.
+void check_matching(const LightField& light_field, ViewIndex reference);
+
+/// Computes matching costs for some rows of a reference view, for whoever does not want to hold the
+/// whole volume. Not thread-safe: one object for each thread.
+class MatchingCostRows {
+ public:
+  /// Throws InvalidInput as `check_matching`, or if there is no label or the cap is not positive.
+  MatchingCostRows(const LightField& light_field, ViewIndex reference, const MatchingCost& cost,
+                   const std::vector<float>& labels);
+  ~MatchingCostRows();
+  MatchingCostRows(MatchingCostRows&&) noexcept;
+
+  /// Costs of rows [y, y + costs.height) into `costs` (layers = labels, width = that of a view).
+  /// Throws Cancelled on a stop request (asked for every few milliseconds).
+  void compute(int y, VolumeView<float> costs, const Progress& progress);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Matching costs of every pixel of view `reference` and every label, `[y][label][x]`:
+/// ρ(x, d) = 1/n Σ min(ε, |I_n(x + d v_n) − I_c(x)|) over the n views whose sample lies within the
+/// image, samples in [0, 1], Euclidean norm over the channels, v_n the way from the reference to
+/// view n (u and v axes of the house: a point moves by −d per step). Labels are disparities, px per
+/// view step. Where no view sees the point at a label, the cost is the largest possible.
+/// With `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
+/// interpolation: what noise it averages away is put back. Otherwise, where noise outweighs
+/// texture, labels that move views by whole pixels cost more than those between (Σw² = 0.41 at half
+/// a pixel on both axes), whatever the truth is.
+/// Memory: height · width · labels · 4 bytes. Throws InvalidInput as MatchingCostRows, Cancelled.
+///
+/// The paper's equations do not say what becomes of samples beyond the image. They are skipped and
+/// the rest renormalised: repeating the border instead made ST_AV half as bad again. Division by n
+/// keeps later weights independent of the number of views.
+/// Reference: the paper, equations (3) and (4).
+[[nodiscard]] Volume<float> matching_costs(const LightField& light_field, ViewIndex reference,
+                                           const MatchingCost& cost,
+                                           const std::vector<float>& labels,
+                                           const Progress& progress);
+
+/// `count` equidistant disparities from one end of the range to the other; 1 = the middle.
+[[nodiscard]] std::vector<float> equidistant_labels(Interval range, int count);
+
+}  // namespace episcope

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled once for each instruction set: see engine/core/parallel/isa.h for what may stand here.
+#include "engine/disparity/common/matching_cost_kernel.h"
+
+#include "engine/core/parallel/simd.h"
+
+namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+// Lanes 0, 1, 2 … as numbers.
+inline Vec lane_numbers() {
+  Vec numbers;
+  for (int i = 0; i < kLanes; ++i) numbers[i] = static_cast<float>(i);
+  return numbers;
+}
+
+template <int kTaps>
+inline Vec weigh(const float* samples, long step, const Vec* weights) {
+  if constexpr (kTaps == 1) return load(samples);
+  Vec sum = weights[0] * load(samples);
+  for (int i = 1; i < kTaps; ++i) sum += weights[i] * load(samples + i * step);
+  return sum;
+}
+
+// A row of samples interpolated between rows, with all its taps along x.
+template <int kTaps>
+void interpolate_rows(const float* samples, long pitch, const float* weights, int count,
+                      float* line) {
+  Vec w[kTaps];
+  for (int i = 0; i < kTaps; ++i) w[i] = splat(weights[i]);
+  for (int x = 0; x < count; x += kLanes) store(line + x, weigh<kTaps>(samples + x, pitch, w));
+}
+
+// Samples of the other view for one row: from its rows as they are, or from the scratch lines.
+struct Line {
+  const float* samples[3];
+  const float* reference[3];
+  const float* noise;
+  float* costs;
+};
+
+Line make_line(const MatchingTile& tile, int y) {
+  Line line{};
+  line.costs = tile.costs + y * tile.cost_pitch;
+  line.noise = tile.noise + static_cast<long>(y) * tile.reference_pitch;
+  for (int c = 0; c < tile.channels; ++c) {
+    const float* row = tile.samples[c] + static_cast<long>(y) * tile.sample_pitch;
+    line.reference[c] = tile.reference[c] + static_cast<long>(y) * tile.reference_pitch;
+    line.samples[c] = row;
+    if (tile.row_taps == 1) continue;
+    float* scratch = tile.lines + static_cast<long>(c) * tile.line_pitch;
+    const int count = tile.columns + tile.column_taps - 1;
+    if (tile.row_taps == 2) {
+      interpolate_rows<2>(row, tile.sample_pitch, tile.row_weights, count, scratch);
+    } else {
+      interpolate_rows<4>(row, tile.sample_pitch, tile.row_weights, count, scratch);
+    }
+    line.samples[c] = scratch;
+  }
+  return line;
+}
+
+template <int kTaps, int kChannels>
+inline Vec distance(const Line& line, int x, const Vec* weights, Vec noise_lost) {
+  Vec sum = noise_lost * load(line.noise + x);
+  for (int c = 0; c < kChannels; ++c) {
+    const Vec difference =
+        weigh<kTaps>(line.samples[c] + x, 1, weights) - load(line.reference[c] + x);
+    sum += difference * difference;
+  }
+  return square_root(sum);
+}
+
+template <int kTaps, int kChannels>
+void add_line(const MatchingTile& tile, const Line& line) {
+  Vec weights[kTaps];
+  for (int i = 0; i < kTaps; ++i) weights[i] = splat(tile.column_weights[i]);
+  const Vec lost = splat(tile.noise_lost), cap = splat(tile.cap);
+  const bool whole = tile.first_column == 0 && tile.last_column == tile.columns;
+  if (whole) {
+    for (int x = 0; x < tile.columns; x += kLanes) {
+      const Vec cost = least(distance<kTaps, kChannels>(line, x, weights, lost), cap);
+      store(line.costs + x, load(line.costs + x) + cost);
+    }
+    return;
+  }
+  const Vec numbers = lane_numbers();
+  for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
+    const Vec cost = least(distance<kTaps, kChannels>(line, x, weights, lost), cap);
+    const Vec column = numbers + static_cast<float>(x);
+    const IntVec seen = (column >= static_cast<float>(tile.first_column)) &
+                        (column < static_cast<float>(tile.last_column));
+    store(line.costs + x, load(line.costs + x) + choose(seen, cost, Vec{}));
+  }
+}
+
+template <int kTaps>
+void add_rows(const MatchingTile& tile) {
+  for (int y = tile.first_row; y < tile.last_row; ++y) {
+    const Line line = make_line(tile, y);
+    if (tile.channels == 3) {
+      add_line<kTaps, 3>(tile, line);
+    } else {
+      add_line<kTaps, 1>(tile, line);
+    }
+  }
+}
+
+void add(const MatchingTile& tile) {
+  if (tile.column_taps == 1) return add_rows<1>(tile);
+  if (tile.column_taps == 2) return add_rows<2>(tile);
+  add_rows<4>(tile);
+}
+
+}  // namespace
+
+extern const MatchingKernel kMatchingKernel;
+const MatchingKernel kMatchingKernel{add};
+
+}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

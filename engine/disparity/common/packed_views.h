@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+#include <cstdint>
+
+namespace episcope {
+
+/// All views as one word a pixel: three channels of 10 bits, the first lowest, each round(1023·s)
+/// of a sample s in [0, 1]; grey three times. A single gather then fetches a pixel whatever its
+/// type. 4 bytes a ray. Throws Cancelled.
+[[nodiscard]] ViewStack<std::uint32_t> pack_views(const LightField& light_field,
+                                                  const Progress& progress);
+
+/// Channel `c` of a packed pixel, in units of 1/1023.
+[[nodiscard]] inline int packed_channel(std::uint32_t packed, int c) {
+  return static_cast<int>(packed >> (10 * c)) & 1023;
+}
+
+}  // namespace episcope

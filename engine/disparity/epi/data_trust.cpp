@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi/data_trust.h"
+
+#include "engine/core/array/quantile.h"
+#include "engine/core/parallel/isa.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/box_mean.h"
+#include "engine/disparity/common/packed_views.h"
+#include "engine/disparity/epi/line_residual_kernel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+using PackedViews = ViewStack<std::uint32_t>;
+
+// The least difference that is told from rounding and resampling.
+constexpr float kLeastDifference = 1.0F / 255;
+constexpr int kTextureRadius = 2;
+constexpr float kTextureGain = 4;
+
+LineArm arm_of(const PackedViews& views, ViewIndex from, ViewIndex way) {
+  LineArm arm;
+  arm.vertical = way.v != 0;
+  arm.step = -(way.u + way.v);  // a point moves by −d per step of u or v
+  for (int k = 1; k <= kMaxArmViews; ++k) {
+    const ViewIndex view{from.v + k * way.v, from.u + k * way.u};
+    if (!views.contains(view)) break;
+    arm.views[arm.count++] = views.view(view).data;
+  }
+  return arm;
+}
+
+ResidualRow around(const PackedViews& views, ViewIndex view) {
+  ResidualRow row;
+  for (const ViewIndex way :
+       {ViewIndex{0, 1}, ViewIndex{0, -1}, ViewIndex{1, 0}, ViewIndex{-1, 0}}) {
+    const LineArm arm = arm_of(views, view, way);
+    if (arm.count > 0) row.arms[row.arm_count++] = arm;
+  }
+  // One view that agrees may do so by chance; small grids have no more.
+  const int longest = std::max(views.grid().u, views.grid().v);
+  row.least_views = std::clamp(longest / 2, 1, 2);
+  row.height = views.height();
+  row.width = views.width();
+  return row;
+}
+
+// Computes rows of residuals of one view after the other; one for each thread.
+class Residuals {
+ public:
+  Residuals(const PackedViews& views, const ViewStack<float>& disparity)
+      : views_(views),
+        disparity_(disparity),
+        kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kResidualKernel)),
+        own_(views.width() + kResidualSlack),
+        slopes_(own_.size()),
+        residual_(own_.size()) {}
+
+  void begin(ViewIndex view) {
+    view_ = view;
+    row_ = around(views_, view);
+    row_.own = own_.data();
+    row_.disparity = slopes_.data();
+    row_.residual = residual_.data();
+  }
+
+  // `width` residuals, valid until the next call.
+  const float* row(int y) {
+    std::copy_n(views_.view(view_).row(y), row_.width, own_.data());
+    std::copy_n(disparity_.view(view_).row(y), row_.width, slopes_.data());
+    row_.y = y;
+    kernel_.row(row_);
+    return residual_.data();
+  }
+
+ private:
+  const PackedViews& views_;
+  const ViewStack<float>& disparity_;
+  const ResidualKernel& kernel_;
+  std::vector<std::uint32_t> own_;
+  std::vector<float> slopes_, residual_;
+  ViewIndex view_;
+  ResidualRow row_;
+};
+
+// Median residual of the centre view.
+float noise_variance(const PackedViews& views, const ViewStack<float>& disparity) {
+  Residuals residuals(views, disparity);
+  residuals.begin(views.grid().center());
+  std::vector<float> all;
+  for (int y = 0; y < views.height(); ++y) {
+    const float* const row = residuals.row(y);
+    std::copy_if(row, row + views.width(), std::back_inserter(all),
+                 [](float value) { return std::isfinite(value); });
+  }
+  return all.empty() ? 0 : quantile(all, 0.5);
+}
+
+float squared_difference(std::uint32_t a, std::uint32_t b) {
+  int sum = 0;
+  for (int c = 0; c < 3; ++c) {
+    const int off = packed_channel(a, c) - packed_channel(b, c);
+    sum += off * off;
+  }
+  return static_cast<float>(sum) / (1023.0F * 1023.0F);
+}
+
+// Squared gradients of one view: both differences along each axis, and the smaller of the two.
+struct Gradients {
+  Image<float> mean, own;
+};
+
+void add_axis(float before, float after, bool has_before, bool has_after, float& mean, float& own) {
+  if (!has_before) before = after;
+  if (!has_after) after = before;
+  mean += 0.5F * (before + after);
+  own += std::min(before, after);
+}
+
+void measure_gradients(const ImageView<const std::uint32_t>& view, Gradients& gradients) {
+  for (int y = 0; y < view.height; ++y) {
+    const std::uint32_t* const row = view.row(y);
+    const std::uint32_t* const above = view.row(std::max(y - 1, 0));
+    const std::uint32_t* const below = view.row(std::min(y + 1, view.height - 1));
+    for (int x = 0; x < view.width; ++x) {
+      const bool left = x > 0, right = x + 1 < view.width;
+      float mean = 0, own = 0;
+      add_axis(left ? squared_difference(row[x - 1], row[x]) : 0,
+               right ? squared_difference(row[x], row[x + 1]) : 0, left, right, mean, own);
+      add_axis(squared_difference(above[x], row[x]), squared_difference(row[x], below[x]), y > 0,
+               y + 1 < view.height, mean, own);
+      gradients.mean.at(y, x) = mean;
+      gradients.own.at(y, x) = own;
+    }
+  }
+}
+
+class TextureTrust {
+ public:
+  TextureTrust(int height, int width)
+      : gradients_{Image<float>(height, width), Image<float>(height, width)},
+        column_(width),
+        window_(width) {}
+
+  void begin(const ImageView<const std::uint32_t>& view) { measure_gradients(view, gradients_); }
+
+  void multiply_row(int y, float noise, float* trust) {
+    const int width = gradients_.own.width();
+    const int rows_summed = sum_rows(gradients_.mean, y, kTextureRadius, column_.data());
+    box_mean_row(column_.data(), width, kTextureRadius, window_.data());
+    const float* const own = gradients_.own.row(y);
+    const float rows = 1.0F / static_cast<float>(rows_summed);
+    for (int x = 0; x < width; ++x) {
+      const float share = kTextureGain * (own[x] + noise) / (rows * window_[x] + noise);
+      trust[x] *= std::min(share, 1.0F);
+    }
+  }
+
+ private:
+  Gradients gradients_;
+  std::vector<float> column_, window_;
+};
+
+void line_trust_row(const float* residual, int width, float variance, float noise, float* trust) {
+  for (int x = 0; x < width; ++x) {
+    if (!std::isfinite(residual[x])) {  // no side can tell
+      trust[x] = 1;
+      continue;
+    }
+    trust[x] = noise / (noise + std::max(0.0F, residual[x] - variance));
+  }
+}
+
+}  // namespace
+
+void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
+  lower_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
+}
+
+void lower_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
+  const int height = views.height(), width = views.width();
+  const ViewStack<float>& disparity = estimate.field.disparity;
+  const float variance = noise_variance(views, disparity);
+  const float noise = kLeastDifference * kLeastDifference + variance;
+  const GridShape grid = disparity.grid();
+  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
+    auto residuals = std::make_shared<Residuals>(views, disparity);
+    auto texture = std::make_shared<TextureTrust>(height, width);
+    auto trust = std::make_shared<std::vector<float>>(width);
+    return [&, residuals, texture, trust](int i) {
+      const ViewIndex view = grid.view_at(i, disparity.first());
+      residuals->begin(view);
+      texture->begin(views.view(view));
+      const ImageView<float> confidence = estimate.confidence.view(view);
+      for (int y = 0; y < height; ++y) {
+        if (y % 16 == 0) progress.check();
+        line_trust_row(residuals->row(y), width, variance, noise, trust->data());
+        texture->multiply_row(y, noise, trust->data());
+        float* const row = confidence.row(y);
+        for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt((*trust)[x]));
+      }
+    };
+  });
+}
+
+}  // namespace episcope

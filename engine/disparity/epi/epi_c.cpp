@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi/epi_c.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/denoise.h"
+#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/epi/data_trust.h"
+#include "engine/disparity/epi/visibility.h"
+#include "engine/solvers/ordering/ordering_terms.h"
+#include "engine/solvers/tv_l2/tv_l2.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr float kViolation = -0.05F;
+// Less than that of EPI_S: what the views contradict is to follow its neighbours entirely.
+constexpr float kLeastWeight = 0.001F;
+constexpr std::array<ViewIndex, 4> kWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
+
+ViewIndex neighbour(ViewIndex view, ViewIndex way) {
+  return {view.v + way.v, view.u + way.u};
+}
+
+// From a view to its neighbour: a point moves by −d per step of u or v.
+LineStep step_along(ViewIndex way) {
+  return {way.v != 0, static_cast<float>(-(way.u + way.v))};
+}
+
+// A whole light field being denoised: `u` is improved, `f` what was observed.
+struct Work {
+  const LightField& light_field;
+  const EpiCParameters& parameters;
+  const ViewStack<float>& f;
+  const ViewStack<float>& confidence;
+  ViewStack<float>& u;
+  [[nodiscard]] OrderingPenalty penalty() const {
+    return {static_cast<float>(std::min(parameters.rise, parameters.fall)),
+            static_cast<float>(parameters.fall), static_cast<float>(parameters.softness)};
+  }
+};
+
+// Improves one view after the other; one for each thread.
+class ViewStep {
+ public:
+  explicit ViewStep(const Work& work)
+      : work_(work),
+        solver_(work.u.height(), work.u.width()),
+        weights_(work.u.height(), work.u.width()),
+        observed_(weights_.height(), weights_.width()),
+        curvature_(weights_.height(), weights_.width()),
+        force_(weights_.height(), weights_.width()) {}
+
+  // Returns the relative gap.
+  double improve(ViewIndex view, const Progress& progress) {
+    pull_from_neighbours(view, progress);
+    majorise(view);
+    const Image<float> edges =
+        edge_weights(work_.light_field, view, work_.parameters.edge_strength);
+    return solver_
+        .solve({observed_, weights_, edges, work_.parameters.lambda},
+               {work_.parameters.max_iterations, work_.parameters.gap}, progress,
+               work_.u.view(view))
+        .relative_gap();
+  }
+
+ private:
+  void pull_from_neighbours(ViewIndex view, const Progress& progress) {
+    std::fill(curvature_.begin(), curvature_.end(), 0.0F);
+    std::fill(force_.begin(), force_.end(), 0.0F);
+    const ImageView<const float> here = std::as_const(work_.u).view(view);
+    const OrderingPull pull{curvature_.view(), force_.view()};
+    for (const ViewIndex way : kWays) {
+      if (!work_.u.contains(neighbour(view, way))) continue;
+      const ImageView<const float> there = std::as_const(work_.u).view(neighbour(view, way));
+      progress.check();
+      add_pull_on_from(here, here, there, step_along(way), work_.penalty(), pull);
+      const ViewIndex back{-way.v, -way.u};
+      add_pull_on_to(there, there, here, step_along(back), work_.penalty(), pull);
+    }
+  }
+
+  // ½ w (u − f)² and the majoriser as one weighted observation.
+  void majorise(ViewIndex view) {
+    fill_data_weights(work_.confidence.view(view), {work_.parameters.weight_power, kLeastWeight},
+                      weights_);
+    const float* const f = work_.f.view(view).data;
+    const float* const u = work_.u.view(view).data;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      const float w = weights_.data()[i], c = curvature_.data()[i];
+      observed_.data()[i] = (w * f[i] + c * u[i] + force_.data()[i]) / (w + c);
+      weights_.data()[i] = w + c;
+    }
+  }
+
+  const Work& work_;
+  TvL2Solver solver_;
+  Image<float> weights_, observed_, curvature_, force_;
+};
+
+// Views of one colour of the chequerboard.
+std::vector<ViewIndex> views_of_colour(GridShape grid, int colour) {
+  std::vector<ViewIndex> views;
+  for (int v = 0; v < grid.v; ++v) {
+    for (int u = 0; u < grid.u; ++u) {
+      if ((u + v) % 2 == colour) views.push_back({v, u});
+    }
+  }
+  return views;
+}
+
+// Improves all views of one colour; returns the largest relative gap.
+double improve(const Work& work, const std::vector<ViewIndex>& views, const Progress& progress) {
+  std::vector<double> gaps(views.size());
+  parallel_for_workers(static_cast<int>(views.size()), progress, [&]() -> std::function<void(int)> {
+    auto step = std::make_shared<ViewStep>(work);
+    return [&, step](int i) {
+      if (!progress.finish_requested()) gaps[i] = step->improve(views[i], progress);
+    };
+  });
+  return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());
+}
+
+std::string text_of(const char* format, double first, double second) {
+  char text[120];
+  std::snprintf(text, sizeof text, format, first, second);
+  return text;
+}
+
+// Lines from one view that stay within the image, and those that violate the ordering.
+struct LineCount {
+  long violations = 0, lines = 0;
+};
+
+LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<float>& scratch) {
+  LineCount count;
+  const ImageView<const float> here = disparity.view(view);
+  for (const ViewIndex way : kWays) {
+    if (!disparity.contains(neighbour(view, way))) continue;
+    line_differences(here, here, disparity.view(neighbour(view, way)), step_along(way),
+                     scratch.view());
+    for (const float a : scratch) {
+      count.lines += a == a ? 1 : 0;
+      count.violations += a < kViolation ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// Keeps the view in the middle.
+void keep_center(Estimate& estimate, ViewIndex center) {
+  const auto cut = [&](ViewStack<float>& stack) {
+    ViewStack<float> one({1, 1}, stack.height(), stack.width(), 1, center);
+    std::copy_n(stack.view(center).data, one.size(), one.data());
+    stack = std::move(one);
+  };
+  cut(estimate.field.disparity);
+  cut(estimate.confidence);
+}
+
+}  // namespace
+
+double order_views(const LightField& lf, const EpiCParameters& parameters,
+                   const ViewStack<float>& observed, Estimate& estimate, const Progress& progress) {
+  const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
+  double gap = 0;
+  const GridShape grid = work.u.grid();
+  const int sweeps = parameters.sweeps;
+  const double steps = 2.0 * sweeps;
+  if (sweeps > 0) give_way(work.u, work.confidence, progress.part(0, 0.02));
+  const Progress fitting = progress.part(0.02, 1);
+  for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
+    if (i % 2 == 0) {
+      progress.step("ordering, sweep " + std::to_string(i / 2 + 1) + " of " +
+                    std::to_string(sweeps) + (i > 0 ? text_of(", gap %.1e", gap, 0) : ""));
+    }
+    const double other =
+        improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
+    gap = i % 2 == 0 ? other : std::max(gap, other);
+  }
+  return gap;
+}
+
+double ordering_violations(const ViewStack<float>& disparity, const Progress& progress) {
+  const GridShape grid = disparity.grid();
+  std::vector<LineCount> counts(grid.count());
+  parallel_for(grid.count(), progress, [&](int i) {
+    Image<float> scratch(disparity.height(), disparity.width());
+    counts[i] = count_lines(disparity, grid.view_at(i), scratch);
+  });
+  LineCount sum;
+  for (const LineCount& count : counts) {
+    sum.violations += count.violations;
+    sum.lines += count.lines;
+  }
+  return sum.lines > 0 ? static_cast<double>(sum.violations) / static_cast<double>(sum.lines) : 0;
+}
+
+Schema<EpiCParameters> epi_c_schema() {
+  using P = EpiCParameters;
+  Schema<P> schema;
+  schema
+      .real("fall", &P::fall,
+            {"Ordering μ₋", "Cost of a line that ends at something farther, which cannot be"},
+            {0.001, 1, true})
+      .real("rise", &P::rise,
+            {"Occlusion μ₊",
+             "Cost of a line that ends at something nearer, which hides its point; at most μ₋"},
+            {0, 1})
+      .real("softness", &P::softness,
+            {"Softness", "Differences along a line below this cost less than their share", "px"},
+            {0.005, 0.5, true})
+      .integer("sweeps", &P::sweeps,
+               {"Sweeps", "Times that every view is fitted to its neighbours; 0 = not at all"},
+               {0, 50});
+  add_check_lines(schema);
+  add_denoise_parameters(schema);
+  add_epi_l_parameters(schema);
+  schema.search("lambda", {0.03, 0.06, 0.12, 0.24}).search("fall", {0.03, 0.1, 0.3});
+  return schema;
+}
+
+Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, ViewSelection views,
+                        const Progress& progress) {
+  Estimate estimate =
+      estimate_orientations(lf, parameters, ViewSelection::All, progress.part(0, 0.08));
+  if (parameters.check_lines && !progress.finish_requested()) {
+    progress.step("checking lines");
+    lower_confidence(lf, estimate, progress.part(0.08, 0.13));
+  }
+  const ViewStack<float> observed = estimate.field.disparity.clone();
+  denoise(lf, parameters, estimate, progress.part(0.13, 0.25), kLeastWeight);
+  ViewStack<float>& u = estimate.field.disparity;
+  const double before = ordering_violations(u, progress.part(0.25, 0.26));
+  if (parameters.sweeps > 0) {
+    const double gap = order_views(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
+    if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
+  }
+  const double after = ordering_violations(u, progress.part(0.97, 0.98));
+  estimate.notes.push_back(text_of("ordering violated by %.3f %% of the lines, %.3f %% before",
+                                   100 * after, 100 * before));
+  if (views == ViewSelection::Center) keep_center(estimate, lf.center());
+  clamp_to_range(estimate, progress.part(0.98, 1));
+  return estimate;
+}
+
+Estimator epi_c_estimator() {
+  return make_estimator<EpiCParameters>(
+      {"epi_c", "EPI_C", "EPI_L, denoised over all views with occlusion ordering along the lines",
+       "Goldluecke and Wanner 2013 [GW13]", true, true, 2},
+      epi_c_schema(), estimate_epi_c);
+}
+
+}  // namespace episcope

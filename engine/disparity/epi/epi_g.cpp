@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi/epi_g.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/denoise.h"
+#include "engine/disparity/common/matching_cost.h"
+#include "engine/disparity/common/packed_views.h"
+#include "engine/disparity/epi/data_trust.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace episcope {
+namespace {
+
+// No pixel is given up entirely when it is placed between labels.
+constexpr float kLeastWeight = 0.01F;
+
+// One direction's disparities and weights of the view.
+struct Direction {
+  Image<float> disparity, weight;
+
+  Direction(const Estimate& estimate, ViewIndex view, double power) {
+    const auto d = estimate.field.disparity.view(view), r = estimate.confidence.view(view);
+    disparity = Image<float>(d.height, d.width);
+    weight = Image<float>(d.height, d.width);
+    std::copy_n(d.data, disparity.size(), disparity.data());
+    fill_data_weights(r, {power, 0}, weight);
+  }
+};
+
+class DirectionalData {
+ public:
+  DirectionalData(const DirectionalOrientations& orientations, ViewIndex view, double power)
+      : directions_{Direction(orientations.horizontal, view, power),
+                    Direction(orientations.vertical, view, power)} {}
+
+  [[nodiscard]] Volume<float> costs(const std::vector<float>& labels, double truncation,
+                                    const Progress& progress) const {
+    const Image<float>& shape = directions_[0].disparity;
+    Volume<float> volume(shape.height(), static_cast<int>(labels.size()), shape.width());
+    const auto most = static_cast<float>(truncation);
+    parallel_for(shape.height(), progress, [&](int y) {
+      for (std::size_t l = 0; l < labels.size(); ++l) {
+        float* const cost = volume.view().row(y, static_cast<int>(l));
+        std::fill_n(cost, shape.width(), 0.0F);
+        for (const Direction& direction : directions_) {
+          const float* const d = direction.disparity.row(y);
+          const float* const w = direction.weight.row(y);
+          for (int x = 0; x < shape.width(); ++x) {
+            cost[x] += w[x] * std::min(std::fabs(labels[l] - d[x]), most);
+          }
+        }
+      }
+    });
+    return volume;
+  }
+
+  [[nodiscard]] double mean_weight() const {
+    double sum = 0;
+    for (const Direction& direction : directions_) {
+      sum = std::accumulate(direction.weight.begin(), direction.weight.end(), sum);
+    }
+    return sum / (2.0 * static_cast<double>(directions_[0].weight.size()));
+  }
+
+  // The mean of the directions that agree with the label.
+  [[nodiscard]] Placement place(int y, int x, float label, float step) const {
+    float sum = kLeastWeight * label, weight = kLeastWeight;
+    for (const Direction& direction : directions_) {
+      const float d = direction.disparity.at(y, x);
+      if (std::fabs(d - label) > step) continue;
+      sum += direction.weight.at(y, x) * d;
+      weight += direction.weight.at(y, x);
+    }
+    return {sum / weight, std::min(weight, 1.0F)};
+  }
+
+ private:
+  Direction directions_[2];
+};
+
+}  // namespace
+
+Schema<EpiGParameters> epi_g_schema() {
+  using P = EpiGParameters;
+  Schema<P> schema;
+  add_global_labeling_parameters(schema);
+  schema.integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+      .real("truncation", &P::truncation,
+            {"Truncation κ", "An estimate that is further off is an outlier", "px"},
+            {0.01, 5, true})
+      .real("weight_power", &P::weight_power,
+            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16});
+  add_check_lines(schema);
+  add_epi_l_parameters(schema);
+  schema.search("smoothness", {0.75, 1.5, 3, 6, 12})
+      .search("weight_power", {0, 2, 8})
+      .search("truncation", {0.1, 0.3, 1});
+  return schema;
+}
+
+Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
+                        const Progress& progress) {
+  DirectionalOrientations directions = estimate_directions(lf, parameters, progress.part(0, 0.06));
+  if (parameters.check_lines) {
+    progress.step("checking lines");
+    const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
+    lower_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
+    lower_confidence(views, directions.vertical, progress.part(0.085, 0.1));
+  }
+  const ViewIndex view = lf.center();
+  Estimate estimate;
+  estimate.range = directions.horizontal.range;
+  estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, view);
+  const float* const r_h = directions.horizontal.confidence.data();
+  std::transform(r_h, r_h + estimate.confidence.size(), directions.vertical.confidence.data(),
+                 estimate.confidence.data(), [](float a, float b) { return std::max(a, b); });
+  const DirectionalData data(directions, view, parameters.weight_power);
+  const std::vector<float> labels = equidistant_labels(estimate.range, parameters.labels);
+  const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
+  const float step = labels[1] - labels[0];
+  const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
+  label_globally(lf, {view, labels, costs.view(), data.mean_weight(), place}, parameters, estimate,
+                 progress.part(0.12, 1));
+  return estimate;
+}
+
+Estimator epi_g_estimator() {
+  return make_estimator<EpiGParameters>(
+      {"epi_g", "EPI_G", "Globally optimal labeling of what the epipolar plane images say",
+       "Wanner and Goldluecke 2012 [WG12]", false, true, 3},
+      epi_g_schema(),
+      [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
+         const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });
+}
+
+}  // namespace episcope

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi/epi_l.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/tensor/structure_tensor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+struct Maps {
+  const LightField& light_field;
+  ViewStack<float>& disparity;
+  ViewStack<float>& confidence;
+  [[nodiscard]] GridShape grid() const { return disparity.grid(); }
+  [[nodiscard]] ViewIndex first() const { return disparity.first(); }
+};
+
+// Rows of a task of horizontal EPIs: many against the neighbours it shares with the next task, few
+// enough to report progress and to end soon after a stop request (about 20 ms at 768 columns).
+int band_rows(int height) {
+  return std::clamp(height / 8, 8, 96);
+}
+
+StructureTensor::Sink store_into(const Maps& maps, int v) {
+  return [&maps, v](int u, PixelIndex begin, int count, const float* disparity,
+                    const float* coherence) {
+    std::copy_n(disparity, count, maps.disparity.view({v, u}).row(begin.y) + begin.x);
+    std::copy_n(coherence, count, maps.confidence.view({v, u}).row(begin.y) + begin.x);
+  };
+}
+
+// The hardware does not foresee steps of a whole image row.
+void prefetch_run(const ViewStack<float>& stack, ViewIndex view, PixelIndex begin, int count) {
+  constexpr int kRowsAhead = 4;
+  constexpr int kCacheLine = 64 / sizeof(float);
+  const int row = std::min(begin.y + kRowsAhead, stack.height() - 1);
+  const float* first = stack.view(view).row(row) + begin.x;
+  for (int i = 0; i < count; i += kCacheLine) __builtin_prefetch(first + i, 1);
+}
+
+StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
+  return [&maps, power, u](int v, PixelIndex begin, int count, const float* disparity,
+                           const float* coherence) {
+    prefetch_run(maps.disparity, {v, u}, begin, count);
+    prefetch_run(maps.confidence, {v, u}, begin, count);
+    merge_orientations(disparity, coherence, count, power,
+                       maps.disparity.view({v, u}).row(begin.y) + begin.x,
+                       maps.confidence.view({v, u}).row(begin.y) + begin.x);
+  };
+}
+
+void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
+                    const Progress& progress) {
+  const LightField& lf = maps.light_field;
+  const int rows = band_rows(lf.height());
+  const int bands = (lf.height() + rows - 1) / rows;
+  const ViewIndex first = maps.first();
+  parallel_for_workers(maps.grid().v * bands, progress, [&]() -> std::function<void(int)> {
+    auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Horizontal,
+                                                    scales, search);
+    return [&, tensor](int i) {
+      const int v = first.v + i / bands;
+      const int y = i % bands * rows;
+      const TensorTask task{v,          {y, 0},  std::min(rows, lf.height() - y),
+                            lf.width(), first.u, first.u + maps.grid().u};
+      tensor->estimate(task, store_into(maps, v));
+    };
+  });
+}
+
+StructureTensor::Sink store_column_into(const Maps& maps, int u) {
+  return [&maps, u](int v, PixelIndex begin, int count, const float* disparity,
+                    const float* coherence) {
+    store_into(maps, v)(u, begin, count, disparity, coherence);
+  };
+}
+
+// What becomes of the estimates of a column u of cameras.
+using ColumnSink = std::function<StructureTensor::Sink(int u)>;
+
+void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
+                  const ColumnSink& sink_of, const Progress& progress) {
+  const LightField& lf = maps.light_field;
+  const auto [height, width] =
+      StructureTensor::largest_task(lf, StructureTensor::Direction::Vertical, scales);
+  const int across = (lf.width() + width - 1) / width;
+  const int blocks = across * ((lf.height() + height - 1) / height);
+  const ViewIndex first = maps.first();
+  parallel_for_workers(maps.grid().u * blocks, progress, [&]() -> std::function<void(int)> {
+    auto tensor =
+        std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical, scales, search);
+    return [&, tensor](int i) {
+      const int u = first.u + i / blocks;
+      const PixelIndex begin{i % blocks / across * height, i % blocks % across * width};
+      const TensorTask task{u,
+                            begin,
+                            std::min(height, lf.height() - begin.y),
+                            std::min(width, lf.width() - begin.x),
+                            first.v,
+                            first.v + maps.grid().v};
+      tensor->estimate(task, sink_of(u));
+    };
+  });
+}
+
+void clear(ViewStack<float>& stack) {
+  std::fill_n(stack.data(), stack.size(), 0.0F);
+}
+
+void check_views(const LightField& lf) {
+  if (lf.grid().count() == 1) {
+    throw InvalidInput("disparity needs at least 2 views, but this light field has only 1");
+  }
+}
+
+// Maps of the right shape, not yet filled.
+Estimate unknown_maps(const LightField& lf, ViewSelection views, Interval range) {
+  const bool all = views == ViewSelection::All;
+  const GridShape grid = all ? lf.grid() : GridShape{1, 1};
+  const ViewIndex first = all ? ViewIndex{} : lf.center();
+  Estimate estimate;
+  estimate.range = range;
+  estimate.field.disparity = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  estimate.confidence = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  return estimate;
+}
+
+TensorScales scales_of(const EpiLParameters& p) {
+  return {p.inner_scale, p.outer_scale, p.view_scale, p.cross_scale, p.contrast, p.noise};
+}
+
+TensorSearch search_of(const EpiLParameters& p, Interval range) {
+  return cover_range(range, std::max(1, static_cast<int>(std::lround(2 * p.shear_step))));
+}
+
+}  // namespace
+
+Schema<EpiLParameters> epi_l_schema() {
+  Schema<EpiLParameters> schema;
+  add_epi_l_parameters(schema);
+  schema.search("inner_scale", {0.3, 0.5, 0.8, 1.1})
+      .search("outer_scale", {0.5, 1, 1.5, 2})
+      .search("shear_step", {0.5, 1, 1.5});
+  return schema;
+}
+
+Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
+                        const Progress& progress) {
+  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.97));
+  clamp_to_range(estimate, progress.part(0.97, 1));
+  return estimate;
+}
+
+void clamp_to_range(Estimate& estimate, const Progress& progress) {
+  const auto low = static_cast<float>(estimate.range.min);
+  const auto high = static_cast<float>(estimate.range.max);
+  ViewStack<float>& disparity = estimate.field.disparity;
+  parallel_for(disparity.grid().count(), progress, [&](int i) {
+    float* view = disparity.data() + i * disparity.view_size();
+    for (std::size_t n = 0; n < disparity.view_size(); ++n) {
+      view[n] = std::clamp(view[n], low, high);
+    }
+  });
+}
+
+Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,
+                               ViewSelection views, const Progress& progress) {
+  check_views(lf);
+  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
+  Estimate estimate = unknown_maps(lf, views, range);
+  const Maps maps{lf, estimate.field.disparity, estimate.confidence};
+  const TensorScales scales = scales_of(parameters);
+  const TensorSearch search = search_of(parameters, range);
+  // Where the vertical EPIs begin.
+  const double half = lf.grid().v == 1 ? 1 : lf.grid().u == 1 ? 0.05 : 0.5;
+  if (lf.grid().u > 1) {
+    progress.step("horizontal EPIs");
+    run_horizontal(maps, scales, search, progress.part(0.05, half));
+  } else {
+    clear(estimate.field.disparity);
+    clear(estimate.confidence);
+  }
+  if (lf.grid().v > 1) {
+    progress.step("vertical EPIs");
+    const auto merge = [&](int u) { return merge_into(maps, parameters.fusion_power, u); };
+    run_vertical(maps, scales, search, merge, progress.part(half, 1));
+  }
+  return estimate;
+}
+
+DirectionalOrientations estimate_directions(const LightField& lf, const EpiLParameters& parameters,
+                                            const Progress& progress) {
+  check_views(lf);
+  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.1));
+  DirectionalOrientations directions{unknown_maps(lf, ViewSelection::Center, range),
+                                     unknown_maps(lf, ViewSelection::Center, range)};
+  const TensorScales scales = scales_of(parameters);
+  const TensorSearch search = search_of(parameters, range);
+  const auto maps_of = [&lf](Estimate& estimate) {
+    clear(estimate.field.disparity);
+    clear(estimate.confidence);
+    return Maps{lf, estimate.field.disparity, estimate.confidence};
+  };
+  const Maps horizontal = maps_of(directions.horizontal), vertical = maps_of(directions.vertical);
+  if (lf.grid().u > 1) {
+    progress.step("horizontal EPIs");
+    run_horizontal(horizontal, scales, search, progress.part(0.1, 0.55));
+  }
+  if (lf.grid().v > 1) {
+    progress.step("vertical EPIs");
+    const auto store = [&](int u) { return store_column_into(vertical, u); };
+    run_vertical(vertical, scales, search, store, progress.part(0.55, 1));
+  }
+  return directions;
+}
+
+Estimator epi_l_estimator() {
+  return make_estimator<EpiLParameters>(
+      {"epi_l", "EPI_L", "Orientation of lines on epipolar plane images (structure tensor), local",
+       "Wanner and Goldluecke 2012 [WG12]", true, false, 2},
+      epi_l_schema(), estimate_epi_l);
+}
+
+}  // namespace episcope

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/common/estimator.h"
+
+namespace episcope {
+
+/// Parameters of EPI_L.
+struct EpiLParameters {
+  double inner_scale = 0.5;
+  double outer_scale = 1.0;
+  double view_scale = 1.8;
+  double cross_scale = 1.0;
+  double shear_step = 0.5;
+  double contrast = 2;
+  double noise = 0.15;
+  int fusion_power = 8;
+  IntervalOrAuto range;
+};
+
+/// Adds the parameters of EPI_L to the schema of a method that begins with it: `P` derives from
+/// EpiLParameters.
+template <class P>
+void add_epi_l_parameters(Schema<P>& schema);
+
+[[nodiscard]] Schema<EpiLParameters> epi_l_schema();
+
+/// EPI_L: disparity of every ray from the orientation of lines on the horizontal and vertical
+/// epipolar plane images (StructureTensor), purely local.
+///
+/// Where both directions agree within 0.3 px their mean weighted by coherence^p is taken, else the
+/// more coherent one. Confidence is the coherence in [0, 1]. Reference: Wanner and Goldluecke 2012
+/// [WG12], as EPI_L in Wanner, Meister, Goldluecke 2013 [WMG13].
+[[nodiscard]] Estimate estimate_epi_l(const LightField& light_field,
+                                      const EpiLParameters& parameters, ViewSelection views,
+                                      const Progress& progress);
+
+/// The same before it is clamped to the range: what a method that denoises it should begin with,
+/// since clamped noise no longer averages out. Values overshoot the range by up to 0.6 px.
+[[nodiscard]] Estimate estimate_orientations(const LightField& light_field,
+                                             const EpiLParameters& parameters, ViewSelection views,
+                                             const Progress& progress);
+
+/// What the two directions say of the centre view, each for itself.
+struct DirectionalOrientations {
+  Estimate horizontal, vertical;  ///< Confidence 0 everywhere if the grid has no such direction.
+};
+
+/// As `estimate_orientations`, before the directions are merged.
+[[nodiscard]] DirectionalOrientations estimate_directions(const LightField& light_field,
+                                                          const EpiLParameters& parameters,
+                                                          const Progress& progress);
+
+/// Clamps every disparity to `estimate.range`.
+void clamp_to_range(Estimate& estimate, const Progress& progress);
+
+[[nodiscard]] Estimator epi_l_estimator();
+
+template <class P>
+void add_epi_l_parameters(Schema<P>& schema) {
+  schema
+      .real("inner_scale", &P::inner_scale,
+            {"Inner scale", "Gaussian smoothing of the samples before derivatives are taken", "px"},
+            {0, 2})
+      .real("outer_scale", &P::outer_scale,
+            {"Outer scale", "Gaussian window over which orientation is averaged, along the EPI",
+             "px"},
+            {0, 2})
+      .real("view_scale", &P::view_scale,
+            {"View scale", "The same window along the views", "views"}, {0, 3})
+      .real("cross_scale", &P::cross_scale,
+            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2})
+      .real("shear_step", &P::shear_step,
+            {"Shear step",
+             "Distance of the shears that bring every disparity near to upright before its "
+             "orientation is measured; rounded to half pixels",
+             "px"},
+            {0.5, 1.5})
+      .real("contrast", &P::contrast,
+            {"Contrast limit",
+             "Gradients above it count less, so that silhouettes do not drown the texture beside "
+             "them; large values switch this off",
+             "1/255"},
+            {0.1, 255, true})
+      .real("noise", &P::noise,
+            {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
+      .integer("fusion_power", &P::fusion_power,
+               {"Fusion power",
+                "Horizontal and vertical estimates are averaged with weights coherence^p"},
+               {0, 32})
+      .interval("range", &P::range,
+                {"Disparity range",
+                 "Disparities searched; auto takes what the files promise or finds it from the "
+                 "light field",
+                 "px"},
+                {-20, 20});
+}
+
+}  // namespace episcope

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/epi/epi_s.h"
+
+namespace episcope {
+
+Schema<EpiSParameters> epi_s_schema() {
+  Schema<EpiSParameters> schema;
+  add_denoise_parameters(schema);
+  add_epi_l_parameters(schema);
+  schema.search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
+      .search("weight_power", {0, 2, 6, 12})
+      .search("edge_strength", {0, 10, 20});
+  return schema;
+}
+
+Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
+                        const Progress& progress) {
+  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.4));
+  denoise(lf, parameters, estimate, progress.part(0.4, 0.98));
+  clamp_to_range(estimate, progress.part(0.98, 1));
+  return estimate;
+}
+
+Estimator epi_s_estimator() {
+  return make_estimator<EpiSParameters>(
+      {"epi_s", "EPI_S", "EPI_L, denoised view by view with total variation (TV-L2)",
+       "Wanner and Goldluecke 2013 [WG13]", true, true, 2},
+      epi_s_schema(), estimate_epi_s);
+}
+
+}  // namespace episcope

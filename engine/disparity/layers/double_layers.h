@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/disparity/layers/double_orientation.h"
+
+#include <cstdint>
+
+namespace episcope {
+
+/// Double orientation of every ray, raw: meaningless where confidence is low. Confidence is stored
+/// in 1/255, because three float maps of all views would not fit beside the results.
+struct DoubleLayers {
+  ViewStack<float> near;
+  ViewStack<float> far;
+  ViewStack<std::uint8_t> confidence;
+};
+
+/// Throws InvalidInput if neither axis of the grid has three views.
+void require_double_grid(const LightField& light_field);
+
+/// Measures horizontal and vertical EPIs (where the grid has the views) and merges them: where both
+/// directions agree within 0.3 px in both layers their mean weighted by confidence^8, else the more
+/// confident one. Covers the rectangle of views `grid` from `first` on.
+/// Throws as `require_double_grid`, Cancelled.
+[[nodiscard]] DoubleLayers measure_double_layers(const LightField& light_field,
+                                                 const TensorScales& scales,
+                                                 const DoubleSearch& search, GridShape grid,
+                                                 ViewIndex first, const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/layers/double_orientation.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/flush_denormals.h"
+#include "engine/core/parallel/isa.h"
+#include "engine/disparity/layers/double_orientation_kernel.h"
+#include "engine/disparity/tensor/sample_planes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+using Direction = DoubleOrientation::Direction;
+
+// Along and across the EPIs: planes of a tile stay in the cache.
+constexpr PixelIndex kHorizontalTile = {16, 96};
+constexpr PixelIndex kVerticalTile = {64, 32};
+// Lanes that a kernel may touch beyond a plane, besides the neighbours it needs.
+constexpr int kSlack = 64;
+// Half the distance of shears and some overlap, in px.
+constexpr double kShearReach = 0.6;
+
+// Smoothing, first and second derivative of one radius. Five taps: the one set whose ratios
+// h₁/h₀ = iν and h₂/h₀ = −ν² hold up to the sixth order, to 0.5 % for waves of 4 px. Three taps:
+// the one set whose ratios agree, (h₁/h₀)² = h₂/h₀.
+struct Matched {
+  int radius;
+  std::array<std::array<double, 5>, 3> values;
+};
+constexpr Matched kThreeTaps = {1, {{{0.25, 0.5, 0.25}, {-0.5, 0, 0.5}, {1, -2, 1}}}};
+constexpr Matched kFiveTaps = {2,
+                               {{{1.0 / 90, 2.0 / 9, 8.0 / 15, 2.0 / 9, 1.0 / 90},
+                                 {-0.05, -0.4, 0, 0.4, 0.05},
+                                 {11.0 / 60, 4.0 / 15, -0.9, 4.0 / 15, 11.0 / 60}}}};
+
+Taps taps_of(const Matched& set, int order) {
+  Taps taps;
+  taps.radius = set.radius;
+  for (int i = 0; i <= 2 * set.radius; ++i) {
+    taps.values[i] = static_cast<float>(set.values[order][i]);
+  }
+  return taps;
+}
+
+Taps convolved(const Taps& a, const Taps& b) {
+  Taps taps;
+  taps.radius = a.radius + b.radius;
+  for (int i = 0; i <= 2 * a.radius; ++i) {
+    for (int j = 0; j <= 2 * b.radius; ++j) taps.values[i + j] += a.values[i] * b.values[j];
+  }
+  return taps;
+}
+
+double inner_product(const Taps& a, const Taps& b) {
+  return std::inner_product(a.values, a.values + 2 * a.radius + 1, b.values, 0.0);
+}
+
+// What white noise of variance 1 leaves in each derivative, taken out again: the Cholesky factor of
+// its covariance. Only f_xx and f_uu are correlated, the odd filters being orthogonal to the even.
+void whiten(SecondOrderFilters& filters) {
+  const auto covariance = [&](int i, int j) {
+    return inner_product(filters.along[2 - i], filters.along[2 - j]) *
+           inner_product(filters.views[i], filters.views[j]);
+  };
+  const double first = std::sqrt(covariance(0, 0));
+  const double share = covariance(0, 2) / first;
+  const double rest = std::sqrt(covariance(2, 2) - share * share);
+  filters.scale[0] = static_cast<float>(1 / first);
+  filters.scale[1] = static_cast<float>(1 / std::sqrt(covariance(1, 1)));
+  filters.scale[2] = static_cast<float>(1 / rest);
+  filters.mix = static_cast<float>(-share / (first * rest));
+}
+
+// Weights of the product rows for each view: a Gaussian, or the nearest row where it has none.
+std::vector<float> integration_weights(int rows, int first, int last, double sigma) {
+  const int count = last - first;
+  std::vector<float> weights(static_cast<std::size_t>(rows) * count);
+  for (int r = 0; r < rows; ++r) {
+    float* row = &weights[static_cast<std::size_t>(r) * count];
+    for (int i = 0; i < count; ++i) {
+      const double off = first + i - r;
+      row[i] = std::abs(off) <= std::ceil(2 * sigma)
+                   ? static_cast<float>(std::exp(-0.5 * off * off / (sigma * sigma + 1e-9)))
+                   : 0.0F;
+    }
+    const float sum = std::accumulate(row, row + count, 0.0F);
+    if (sum < 1e-3F) {
+      std::fill_n(row, count, 0.0F);
+      row[std::clamp(r, first, last - 1) - first] = 1;
+    } else {
+      for (int i = 0; i < count; ++i) row[i] /= sum;
+    }
+  }
+  return weights;
+}
+
+int views_along(const LightField& lf, Direction direction) {
+  const int views = direction == Direction::Horizontal ? lf.grid().u : lf.grid().v;
+  if (views < DoubleOrientation::kLeastViews || views > DoubleOrientation::kMostViews) {
+    throw InvalidInput("two orientations need 3 to 32 views along an EPI, but the grid has " +
+                       std::to_string(views));
+  }
+  return views;
+}
+
+long rounded(long lanes) {
+  return (lanes + 15) / 16 * 16;
+}
+
+}  // namespace
+
+struct DoubleOrientation::State {
+  Direction direction;
+  DoubleSearch search;
+  SamplePlanes samples;
+  const DoubleOrientationKernel& kernel =
+      EPISCOPE_CHOOSE_KERNEL(best_isa(), kDoubleOrientationKernel);
+  SecondOrderFilters filters;
+  std::vector<float> row_weights;
+  std::vector<int> steps;  // shears
+  DoubleBlock block;
+  int margin_x = 0, margin_y = 0;
+  int plane_height = 0, plane_width = 0;
+  long result_pitch = 0;
+  std::vector<float> memory;
+  std::vector<float> best;  // [view][near, far, confidence][y][x] of a tile
+
+  State(const LightField& lf, Direction dir, const TensorScales& scales,
+        const DoubleSearch& wanted);
+  [[nodiscard]] bool horizontal() const { return direction == Direction::Horizontal; }
+  void make_filters(const TensorScales& scales);
+  void choose_steps();
+  void allocate();
+  void gather(const Task& task);
+  template <class Body>
+  void each_run(const Task& task, const Body& body);
+  void estimate(const Task& task, const Sink& sink);
+};
+
+DoubleOrientation::State::State(const LightField& lf, Direction dir, const TensorScales& scales,
+                                const DoubleSearch& wanted)
+    : direction(dir), search(wanted), samples(lf) {
+  block.rows = views_along(lf, dir);
+  block.channels = lf.channels();
+  make_filters(scales);
+  choose_steps();
+  allocate();
+}
+
+void DoubleOrientation::State::make_filters(const TensorScales& scales) {
+  const TensorFilterSet set = make_tensor_filters(block.rows, block.channels, scales);
+  const Matched& views = block.rows < 5 ? kThreeTaps : kFiveTaps;
+  for (int order = 0; order < 3; ++order) {
+    filters.along[order] = convolved(taps_of(kFiveTaps, order), set.filters.smooth);
+    filters.views[order] = taps_of(views, order);
+  }
+  filters.integrate = set.filters.integrate;
+  filters.across = set.across;
+  filters.contrast_energy = set.filters.contrast_energy;
+  filters.noise_energy = set.filters.noise_energy;
+  whiten(filters);
+  block.first_product = views.radius;
+  block.last_product = block.rows - views.radius;
+  row_weights =
+      integration_weights(block.rows, block.first_product, block.last_product, scales.views);
+  filters.row_weights = row_weights.data();
+}
+
+// Whole pixels near every mean that two accepted disparities can have.
+void DoubleOrientation::State::choose_steps() {
+  const double half = 0.5 * search.least_distance;
+  const int first = static_cast<int>(std::ceil(search.accepted.min + half - 0.5));
+  const int last = static_cast<int>(std::floor(search.accepted.max - half + 0.5));
+  for (int step = first; step <= last; ++step) steps.push_back(step);
+}
+
+void DoubleOrientation::State::allocate() {
+  int largest = 0;
+  for (const int step : steps) largest = std::max(largest, std::abs(step));
+  // A view integrates over product rows, whose derivatives reach to further views: each step along
+  // the views moves by the shear.
+  const int margin =
+      largest * (block.rows - 1) + filters.integrate.radius + filters.along[0].radius;
+  margin_x = horizontal() ? margin : filters.across.radius;
+  margin_y = horizontal() ? filters.across.radius : margin;
+  const PixelIndex largest_tile = tile(direction);
+  plane_height = largest_tile.y + 2 * margin_y;
+  plane_width = largest_tile.x + 2 * margin_x;
+  block.along = horizontal() ? 1 : plane_width;
+  block.across = horizontal() ? plane_width : 1;
+  block.lanes = static_cast<long>(plane_height) * plane_width;
+  block.pitch = rounded(block.lanes + kSlack);
+  result_pitch = rounded(largest_tile.x);
+  const int product_rows = block.last_product - block.first_product;
+  const std::size_t image = static_cast<std::size_t>(block.rows) * block.channels * block.pitch;
+  const std::size_t product = static_cast<std::size_t>(product_rows) * block.pitch;
+  // Lanes at the ends of the first and last plane look this far beyond.
+  const std::size_t outside =
+      static_cast<std::size_t>(largest + filters.along[0].radius + filters.across.radius + 8) *
+          plane_width +
+      block.pitch;
+  memory.assign(4 * image + 6 * product + block.pitch + 2 * outside, 0.0F);
+  float* next = memory.data() + outside;
+  const auto take = [&next](std::size_t count) { return std::exchange(next, next + count); };
+  block.samples = take(image);
+  for (float*& plane : block.derivative) plane = take(image);
+  for (float*& plane : block.product) plane = take(product);
+  block.scratch = take(block.pitch);
+  best.resize(static_cast<std::size_t>(3) * block.rows * largest_tile.y * result_pitch + kSlack);
+}
+
+// The tile with its margins.
+void DoubleOrientation::State::gather(const Task& task) {
+  const int left = task.begin.x - margin_x;
+  for (int row = 0; row < block.rows; ++row) {
+    const ViewIndex view =
+        horizontal() ? ViewIndex{task.camera_line, row} : ViewIndex{row, task.camera_line};
+    for (int i = 0; i < task.height + 2 * margin_y; ++i) {
+      std::array<float*, 3> lanes{};
+      for (int c = 0; c < block.channels; ++c) {
+        lanes[c] = block.samples + (static_cast<long>(c) * block.rows + row) * block.pitch +
+                   static_cast<long>(i) * plane_width;
+      }
+      samples.read_clamped(view, task.begin.y - margin_y + i, left, left + plane_width,
+                           lanes.data());
+    }
+  }
+}
+
+// Every line of the tile in every wanted view, lines first.
+template <class Body>
+void DoubleOrientation::State::each_run(const Task& task, const Body& body) {
+  const std::size_t plane = static_cast<std::size_t>(task.height) * result_pitch;
+  for (int view = task.first_view; view < task.last_view; ++view) {
+    float* const of_view = best.data() + 3 * plane * (view - task.first_view);
+    for (int y = 0; y < task.height; ++y) {
+      float* const near = of_view + y * result_pitch;
+      body(DoubleRun{view, static_cast<long>(y + margin_y) * plane_width + margin_x, task.width,
+                     near, near + plane, near + 2 * plane});
+    }
+  }
+}
+
+void DoubleOrientation::State::estimate(const Task& task, const Sink& sink) {
+  const FlushDenormals flush;
+  gather(task);
+  kernel.differentiate(block, filters);
+  best.assign(best.size(), 0.0F);
+  for (const int step : steps) {
+    kernel.accumulate(block, filters, step);
+    each_run(task, [&](const DoubleRun& run) {
+      kernel.select(
+          block, filters,
+          {step, static_cast<float>(kShearReach), static_cast<float>(search.accepted.min),
+           static_cast<float>(search.accepted.max), static_cast<float>(search.least_distance)},
+          run);
+    });
+  }
+  PixelIndex at = task.begin;
+  each_run(task, [&](const DoubleRun& run) {
+    sink(run.row, at, task.width, run.near, run.far, run.confidence);
+    at.y = at.y + 1 < task.begin.y + task.height ? at.y + 1 : task.begin.y;
+  });
+}
+
+DoubleOrientation::DoubleOrientation(const LightField& light_field, Direction direction,
+                                     const TensorScales& scales, const DoubleSearch& search)
+    : state_(std::make_unique<State>(light_field, direction, scales, search)) {}
+DoubleOrientation::~DoubleOrientation() = default;
+DoubleOrientation::DoubleOrientation(DoubleOrientation&&) noexcept = default;
+
+PixelIndex DoubleOrientation::tile(Direction direction) {
+  return direction == Direction::Horizontal ? kHorizontalTile : kVerticalTile;
+}
+
+void DoubleOrientation::estimate(const Task& task, const Sink& sink) {
+  state_->estimate(task, sink);
+}
+
+}  // namespace episcope

@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/layers/epi_two_layer.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/layers/double_layers.h"
+#include "engine/disparity/layers/layer_decision.h"
+#include "engine/disparity/layers/layer_range.h"
+#include "engine/solvers/simplex/segmentation.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// Variation of the surface across the border of its region, and of either layer at least.
+constexpr float kBorderWeight = 0.02F;
+// Coherence and confidence that noise alone reaches (measured), and the weight of one layer where
+// nothing else is seen.
+constexpr float kNoiseFit = 0.3F;
+constexpr float kOneLayer = 0.02F;
+// The region must be right to a pixel, not to a thousandth.
+constexpr int kRegionIterations = 10;
+constexpr double kRegionGap = 1e-3;
+
+// What one thread needs to solve a view.
+struct Workspace {
+  TvL2Solver solver;
+  Image<float> data, weight, edge, coherence;
+
+  Workspace(int height, int width)
+      : solver(height, width),
+        data(height, width),
+        weight(height, width),
+        edge(height, width),
+        coherence(height, width) {}
+};
+
+// One view: raw maps, replaced by the results.
+struct LayeredView {
+  ImageView<float> single, coherence;
+  ImageView<float> near, far;
+  ImageView<std::uint8_t> layers;  // raw: confidence in 1/255
+};
+
+class ViewSolver {
+ public:
+  ViewSolver(const LightField& lf, const EpiTwoLayerParameters& parameters,
+             const Progress& progress)
+      : lf_(lf), parameters_(parameters), progress_(progress), space_(lf.height(), lf.width()) {}
+
+  // Returns the largest relative gap of its solutions.
+  double solve(ViewIndex index, const LayeredView& view);
+
+ private:
+  void find_region(const LayeredView& view);
+  void find_weights(const LayeredView& view);
+  double solve_background(const Image<float>& edges, const LayeredView& view);
+  double solve_foreground(const Image<float>& edges, const LayeredView& view);
+  double solve_layer(double lambda, ImageView<float> result);
+  void finish(const LayeredView& view);
+  [[nodiscard]] float confidence(const LayeredView& view, std::size_t i) const {
+    return static_cast<float>(view.layers.data[i]) / 255;
+  }
+
+  const LightField& lf_;
+  const EpiTwoLayerParameters& parameters_;
+  const Progress& progress_;
+  Workspace space_;
+  Image<std::uint8_t> region_;
+};
+
+void ViewSolver::find_region(const LayeredView& view) {
+  spread_coherence(view.coherence, space_.data, space_.coherence);
+  const auto decision = static_cast<float>(parameters_.decision);
+  for (std::size_t i = 0; i < space_.data.size(); ++i) {
+    const float r = space_.coherence.data()[i];
+    const float c = confidence(view, i);
+    const float share = single_misfit_share(r, c);
+    const float score =
+        share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
+    const float fit = std::max((std::max(r, c) - kNoiseFit) / (1 - kNoiseFit), 0.0F);
+    space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
+    space_.weight.data()[i] = fit + kOneLayer;
+  }
+  segment(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
+          {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
+}
+
+// Of either layer's data.
+void ViewSolver::find_weights(const LayeredView& view) {
+  Image<float>& trust = space_.coherence;
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
+  }
+  fill_data_weights(trust, {.power = parameters_.weight_power}, space_.weight);
+}
+
+double ViewSolver::solve_layer(double lambda, ImageView<float> result) {
+  return space_.solver
+      .solve({space_.data, space_.weight, space_.edge, lambda},
+             {parameters_.max_iterations, parameters_.gap}, progress_, result)
+      .relative_gap();
+}
+
+double ViewSolver::solve_background(const Image<float>& edges, const LayeredView& view) {
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    const bool is_double = region_.data()[i] != 0;
+    space_.data.data()[i] = is_double ? view.far.data[i] : view.single.data[i];
+    // Image edges of the region are those of both layers: they tell of neither.
+    space_.edge.data()[i] = is_double ? 1 : edges.data()[i];
+  }
+  return solve_layer(parameters_.lambda, view.far);
+}
+
+double ViewSolver::solve_foreground(const Image<float>& edges, const LayeredView& view) {
+  const auto factor = static_cast<float>(std::max(parameters_.layer_smoothness, 1.0));
+  for (int y = 0; y < region_.height(); ++y) {
+    const std::uint8_t* here = region_.row(y);
+    const std::uint8_t* below = region_.row(std::min(y + 1, region_.height() - 1));
+    for (int x = 0; x < region_.width(); ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * region_.width() + x;
+      const bool is_double = here[x] != 0;
+      const int right = std::min(x + 1, region_.width() - 1);
+      const bool is_border = here[right] != here[x] || below[x] != here[x];
+      space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
+      space_.edge.data()[i] = is_border ? kBorderWeight : is_double ? 1 : edges.data()[i] / factor;
+    }
+  }
+  return solve_layer(parameters_.lambda * factor, view.near);
+}
+
+// Orders the layers, and writes confidence and number of layers.
+void ViewSolver::finish(const LayeredView& view) {
+  for (std::size_t i = 0; i < region_.size(); ++i) {
+    float& near = view.near.data[i];
+    float& far = view.far.data[i];
+    if (region_.data()[i] == 0) {
+      near = far;
+      view.layers.data[i] = 1;
+      continue;
+    }
+    if (near < far) near = far = 0.5F * (near + far);
+    view.coherence.data[i] = confidence(view, i);
+    view.layers.data[i] = 2;
+  }
+}
+
+double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
+  if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
+  find_region(view);
+  find_weights(view);
+  const Image<float> edges = edge_weights(lf_, index, parameters_.edge_strength);
+  double gap = 0;
+  // The background last: outside the region it is what both layers hold.
+  if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {
+    gap = solve_foreground(edges, view);
+  }
+  gap = std::max(gap, solve_background(edges, view));
+  finish(view);
+  return gap;
+}
+
+std::vector<std::string> notes_of(const std::vector<double>& gaps,
+                                  const ViewStack<std::uint8_t>& layers) {
+  const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
+  char share[80];
+  std::snprintf(share, sizeof share, "two layers in %.1f %% of the pixels",
+                100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size()));
+  return {share, gap_note(*std::max_element(gaps.begin(), gaps.end()))};
+}
+
+// Replaces the raw maps in `estimate` by the results.
+void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, Estimate& estimate,
+                 const Progress& progress) {
+  LayeredDisparity& layered = estimate.layered;
+  const GridShape grid = layered.layers.grid();
+  const ViewIndex first = layered.layers.first();
+  std::vector<double> gaps(grid.count());
+  progress.step("layers");
+  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
+    auto solver = std::make_shared<ViewSolver>(lf, parameters, progress);
+    return [&, solver](int i) {
+      const ViewIndex view = grid.view_at(i, first);
+      gaps[i] =
+          solver->solve(view, {estimate.field.disparity.view(view), estimate.confidence.view(view),
+                               layered.foreground.disparity.view(view),
+                               layered.background.disparity.view(view), layered.layers.view(view)});
+    };
+  });
+  estimate.notes = notes_of(gaps, layered.layers);
+}
+
+// Overshoot that the tensors left in, and the foreground as the one map of those who know but one.
+void clamp_layers(Estimate& estimate, const Progress& progress) {
+  const auto low = static_cast<float>(estimate.range.min);
+  const auto high = static_cast<float>(estimate.range.max);
+  ViewStack<float>& field = estimate.field.disparity;
+  ViewStack<float>& near = estimate.layered.foreground.disparity;
+  ViewStack<float>& far = estimate.layered.background.disparity;
+  parallel_for(field.grid().count(), progress, [&](int view) {
+    const std::size_t begin = view * field.view_size();
+    for (std::size_t i = begin; i < begin + field.view_size(); ++i) {
+      far.data()[i] = std::clamp(far.data()[i], low, high);
+      near.data()[i] = std::clamp(near.data()[i], low, high);
+      field.data()[i] = near.data()[i];
+    }
+  });
+}
+
+}  // namespace
+
+Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
+  using P = EpiTwoLayerParameters;
+  Schema<P> schema;
+  schema
+      .real("decision", &P::decision,
+            {"Decision",
+             "Two layers where the misfit of one orientation is more than this share "
+             "of the misfits of one and of two"},
+            {0.01, 0.99})
+      .real("region_smoothness", &P::region_smoothness,
+            {"Region smoothness",
+             "Weight of the length of the border between one layer and two; regions narrower than "
+             "twice this are dropped",
+             "px"},
+            {0.1, 100, true})
+      .real("least_distance", &P::least_distance,
+            {"Least distance", "Two layers nearer to each other are one", "px"}, {0.05, 2})
+      .real("lambda", &P::lambda,
+            {"Smoothing λ", "Weight of the total variation of both layers: larger is smoother"},
+            {0.001, 10, true})
+      .real("layer_smoothness", &P::layer_smoothness,
+            {"Surface smoothness", "How many times as smooth the foreground of two layers is"},
+            {1, 20, true})
+      .real("weight_power", &P::weight_power,
+            {"Trust in coherence",
+             "Data is weighted by coherence^p, that of two layers by their confidence^p; 0 trusts "
+             "every pixel alike"},
+            {0, 16})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "Outside two layers the variation is weighted by exp(−β·|gradient of the view|); 0 "
+             "ignores image edges"},
+            {0, 100})
+      .real("double_inner_scale", &P::double_inner_scale,
+            {"Inner scale, two layers",
+             "Gaussian smoothing of the samples before second derivatives are taken", "px"},
+            {0, 2})
+      .real("double_outer_scale", &P::double_outer_scale,
+            {"Outer scale, two layers",
+             "Gaussian window over which two orientations are averaged, along the EPI", "px"},
+            {0, 3})
+      .real("double_contrast", &P::double_contrast,
+            {"Contrast limit, two layers", "Second derivatives above it count less", "1/255"},
+            {0.1, 255, true});
+  add_stop_parameters(schema);
+  add_epi_l_parameters(schema);
+  schema.search("lambda", {0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {2, 6})
+      .search("decision", {0.1, 0.15, 0.25});
+  return schema;
+}
+
+Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                                ViewSelection views, const Progress& progress) {
+  const TensorScales scales{parameters.double_inner_scale, parameters.double_outer_scale,
+                            parameters.view_scale,         parameters.cross_scale,
+                            parameters.double_contrast,    parameters.noise};
+  EpiLParameters searched = parameters;
+  searched.range = search_layer_range(lf, parameters, scales, progress.part(0, 0.1));
+  Estimate estimate = estimate_orientations(lf, searched, views, progress.part(0.1, 0.2));
+  const ViewStack<float>& single = estimate.field.disparity;
+  // Cut off at the range itself, noise about its ends would no longer average out.
+  constexpr double kOvershoot = 0.3;
+  const DoubleSearch search{{estimate.range.min - kOvershoot, estimate.range.max + kOvershoot},
+                            parameters.least_distance};
+  DoubleLayers layers = measure_double_layers(lf, scales, search, single.grid(), single.first(),
+                                              progress.part(0.2, 0.4));
+  estimate.layered.foreground.disparity = std::move(layers.near);
+  estimate.layered.background.disparity = std::move(layers.far);
+  estimate.layered.layers = std::move(layers.confidence);
+  solve_views(lf, parameters, estimate, progress.part(0.4, 0.98));
+  clamp_layers(estimate, progress.part(0.98, 1));
+  return estimate;
+}
+
+Estimator epi_two_layer_estimator() {
+  return make_estimator<EpiTwoLayerParameters>(
+      {"epi_two_layer", "EPI_TWO_LAYER",
+       "Two superimposed orientations on epipolar plane "
+       "images: transparent and reflecting surfaces",
+       "Wanner and Goldluecke 2013 [Ano13]", true, true, 2},
+      epi_two_layer_schema(), estimate_epi_two_layer);
+}
+
+}  // namespace episcope

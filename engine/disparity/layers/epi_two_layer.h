@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/common/denoise.h"
+#include "engine/disparity/epi/epi_l.h"
+
+namespace episcope {
+
+/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, of the denoising, and of
+/// the two layers.
+struct EpiTwoLayerParameters : EpiLParameters, DenoiseParameters {
+  EpiTwoLayerParameters() { max_iterations = 30; }
+
+  double double_inner_scale = 0.8;
+  double double_outer_scale = 2;
+  double double_contrast = 10;
+  double least_distance = 0.2;
+  double decision = 0.15;
+  double region_smoothness = 4;
+  double layer_smoothness = 3;
+};
+
+[[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();
+
+/// EPI_TWO_LAYER: a transparent or reflecting surface and what is seen through it.
+///
+/// 1. The single orientation d of every ray and its coherence r (EPI_L), and the double orientation
+///    near ≥ far with its confidence c (DoubleOrientation), on horizontal and vertical EPIs; where
+///    both directions agree their mean with weights c^8, else the more confident one.
+/// 2. Single or double: the misfit of one orientation as share of both misfits,
+///    e = `single_misfit_share(r, c)`, with r the best within 2 px, so that a silhouette, beside
+///    which a window fits one orientation, is not taken for two layers. e above `decision` speaks
+///    for two.
+/// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
+///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
+///    (`segment`): a blank wall in the noise of a camera is not two walls.
+/// 4. Foreground and background of each view by TvL2Solver: in the region near and far with weights
+///    c^p, outside the single estimate with weights r^p in both. The surface is an area, not a
+///    texture: it is smoothed `layer_smoothness` times as much, ignores image edges and may jump
+///    at the border of the region.
+/// Foreground ≥ background holds everywhere (the mean of both where it would not); both are equal
+/// where `layers` is 1. `field` is the foreground; confidence is c in the region, r outside.
+///
+/// [Ano13] gives the model and its null vector; how it decides and smooths was not recovered, so
+/// steps 2 to 4 are ours, measured against truth.
+/// Throws InvalidInput if no axis of the grid has three views.
+[[nodiscard]] Estimate estimate_epi_two_layer(const LightField& light_field,
+                                              const EpiTwoLayerParameters& parameters,
+                                              ViewSelection views, const Progress& progress);
+
+[[nodiscard]] Estimator epi_two_layer_estimator();
+
+}  // namespace episcope

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/layers/layer_range.h"
+
+#include "engine/core/array/quantile.h"
+#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/layers/double_layers.h"
+#include "engine/disparity/layers/layer_decision.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// Tiles looked at: one of so many.
+constexpr int kEveryTile = 3;
+// What leaves no doubt, and how many such pixels, of all looked at, are no accident.
+constexpr float kSureShare = 0.35F;
+constexpr float kSureConfidence = 0.6F;
+constexpr double kEnough = 0.01;
+// Share of those pixels that may lie beyond either end, and what is added to both ends.
+constexpr double kTail = 0.01;
+constexpr double kMargin = 0.1;
+
+// Farther apart than orientations that are not there come out.
+constexpr double kLeastDistance = 0.3;
+
+}  // namespace
+
+Interval search_layer_range(const LightField& lf, const EpiLParameters& parameters,
+                            const TensorScales& double_scales, const Progress& progress,
+                            double limit) {
+  require_double_grid(lf);
+  const Interval single = search_range(lf, parameters.range, progress.part(0, 0.3));
+  if (parameters.range || lf.info().disparity_range) return single;
+  EpiLParameters coarse = parameters;
+  coarse.range = Interval{-limit, limit};
+  coarse.shear_step = 1;
+  const Estimate estimate =
+      estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6));
+  const DoubleLayers layers =
+      measure_double_layers(lf, double_scales, {{-limit, limit}, kLeastDistance, kEveryTile},
+                            {1, 1}, lf.center(), progress.part(0.6, 1));
+  Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
+  spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
+  std::vector<float> near, far;
+  for (std::size_t i = 0; i < layers.near.size(); ++i) {
+    const float confidence = static_cast<float>(layers.confidence.data()[i]) / 255;
+    if (confidence < kSureConfidence) continue;
+    if (single_misfit_share(coherence.data()[i], confidence) < kSureShare) continue;
+    near.push_back(layers.near.data()[i]);
+    far.push_back(layers.far.data()[i]);
+  }
+  const double looked_at = static_cast<double>(coherence.size()) / kEveryTile;
+  if (static_cast<double>(near.size()) < kEnough * looked_at) return single;
+  return {std::min(single.min, std::max(-limit, quantile(far, kTail) - kMargin)),
+          std::max(single.max, std::min(limit, quantile(near, 1 - kTail) + kMargin))};
+}
+
+}  // namespace episcope

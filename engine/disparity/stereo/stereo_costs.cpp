@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo/stereo_costs.h"
+
+#include "engine/core/array/quantile.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/common/local_noise.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <memory>
+
+namespace episcope {
+namespace {
+
+// Rows in which the residual is measured.
+constexpr int kProbedRows = 24;
+// At least so many labels there: between coarse ones the residual is not that of noise.
+constexpr int kProbedLabels = 64;
+// ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
+constexpr double kCapInResiduals = 2;
+constexpr double kLeastCap = 0.015;
+// The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
+// more for what is not noise in it. One channel leaves half of that.
+constexpr double kResidualOfNoise = 2.8;
+// Of the guided filter, variance of samples in [0, 1].
+constexpr double kRegularization = 1e-3;
+
+// The residuals of prepare_stereo: over all pixels, and of the quarter that matches best.
+struct Residuals {
+  double median = 0, lower_quartile = 0;
+};
+
+// The cross-hair tells as much of noise as all views.
+Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
+  const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  const std::vector<float> labels = equidistant_labels(
+      costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
+  const int rows = std::min(kProbedRows, lf.height());
+  std::vector<float> least(static_cast<std::size_t>(rows) * lf.width());
+  parallel_for_workers(rows, progress, [&]() -> std::function<void(int)> {
+    auto matching = std::make_shared<MatchingCostRows>(lf, costs.view, probe, labels);
+    auto row = std::make_shared<Volume<float>>(1, static_cast<int>(labels.size()), lf.width());
+    return [&, matching, row](int i) {
+      matching->compute((2 * i + 1) * lf.height() / (2 * rows), row->view(), progress);
+      float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
+      std::fill_n(out, lf.width(), static_cast<float>(kUncapped));
+      for (int label = 0; label < row->layers(); ++label) {
+        const float* cost = row->view().row(0, label);
+        for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
+      }
+    };
+  });
+  Residuals residuals;
+  residuals.median = quantile(least, 0.5);
+  residuals.lower_quartile = quantile(least, 0.25);
+  return residuals;
+}
+
+// What interpolation takes away of it need not be put back where the view is smoother.
+std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
+                                              const Progress& progress) {
+  const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
+  auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, view, progress));
+  for (float& variance : *noise) variance = std::min(variance, static_cast<float>(sigma * sigma));
+  return noise;
+}
+
+}  // namespace
+
+void apply_cost_profile(StereoCostParameters& parameters, double cap) {
+  if (parameters.profile != "paper") return;
+  parameters.epsilon = cap;
+  parameters.interpolation = "bilinear";
+  parameters.aggregation = 0;
+}
+
+StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
+                           const StereoCostParameters& parameters, const Progress& progress) {
+  StereoCosts costs;
+  costs.view = parameters.view.value_or(lf.center());
+  check_matching(lf, costs.view);
+  costs.range = search_range(lf, parameters.range, progress.part(0, 0.5));
+  costs.labels = equidistant_labels(costs.range, parameters.labels);
+  costs.matching.views = views;
+  costs.matching.interpolation =
+      parameters.interpolation == "cubic" ? Interpolation::Cubic : Interpolation::Bilinear;
+  costs.matching.cap = parameters.epsilon;
+  if (parameters.profile != "paper") {
+    progress.step("noise");
+    const Residuals residuals = find_residuals(lf, costs, progress.part(0.5, 0.8));
+    costs.matching.noise =
+        noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    if (parameters.epsilon == 0) {
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kLeastCap, kUncapped);
+    }
+  }
+  if (parameters.aggregation > 0) {
+    costs.guide = std::make_shared<GuideImage>(lf, costs.view, parameters.aggregation,
+                                               kRegularization, progress.part(0.9, 1));
+  }
+  return costs;
+}
+
+StereoCostRows::StereoCostRows(const LightField& lf, const StereoCosts& costs)
+    : costs_(costs),
+      height_(lf.height()),
+      width_(lf.width()),
+      matching_(lf, costs.view, costs.matching, costs.labels),
+      filter_(costs.guide ? std::make_unique<GuidedFilter>(*costs.guide) : nullptr) {}
+
+VolumeView<const float> StereoCostRows::compute(int y, int rows, const Progress& progress) {
+  const int reach = costs_.guide ? 2 * costs_.guide->radius() : 0;
+  const int first = std::max(0, y - reach);
+  const int last = std::min(height_, y + rows + reach);
+  if (band_.height() < last - first) {
+    band_ = Volume<float>(last - first, static_cast<int>(costs_.labels.size()), width_);
+  }
+  VolumeView<float> band = band_.view();
+  band.height = last - first;
+  matching_.compute(first, band, progress);
+  if (filter_) filter_->apply(first, band, progress);
+  band.data = band.row(y - first, 0);
+  band.height = rows;
+  return band;
+}
+
+int stereo_band_rows(int height) {
+  return std::clamp(height / 12, 16, 64);
+}
+
+Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
+                            const Progress& progress) {
+  Volume<float> volume(lf.height(), static_cast<int>(costs.labels.size()), lf.width());
+  const VolumeView<float> all = volume.view();
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers(
+      (lf.height() + rows - 1) / rows, progress, [&]() -> std::function<void(int)> {
+        auto source = std::make_shared<StereoCostRows>(lf, costs);
+        return [&, source](int i) {
+          const int y = i * rows;
+          const auto band = source->compute(y, std::min(rows, lf.height() - y), progress);
+          std::copy_n(band.data, band.size(), all.row(y, 0));
+        };
+      });
+  return volume;
+}
+
+std::string cap_note(const StereoCosts& costs) {
+  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
+  char text[60];
+  std::snprintf(text, sizeof text, "matching cost capped at ε = %.3f", costs.matching.cap);
+  return text;
+}
+
+}  // namespace episcope

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo/stereo_local.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/sub_label.h"
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+// Mean costs as small as this tell nothing: a twentieth of the step of 8-bit samples.
+constexpr float kFlat = 2e-4F;
+
+// Chooses labels row by row.
+class Winners {
+ public:
+  Winners(const StereoCosts& costs, Refinement refinement, int width)
+      : refinement_(refinement),
+        first_(costs.labels.front()),
+        step_(costs.labels[1] - costs.labels[0]),
+        best_(width),
+        least_(width),
+        sum_(width) {}
+
+  void choose(VolumeView<const float> costs, int y, float* disparity, float* confidence) {
+    find_least(costs, y);
+    const auto layers = static_cast<float>(costs.layers);
+    for (int x = 0; x < costs.width; ++x) {
+      const int label = best_[x];
+      float place = static_cast<float>(label);
+      if (label > 0 && label + 1 < costs.layers) {
+        place += sub_label_offset(costs.at(y, label - 1, x), least_[x], costs.at(y, label + 1, x),
+                                  refinement_);
+      }
+      disparity[x] = first_ + place * step_;
+      const float mean = sum_[x] / layers;
+      confidence[x] = std::clamp((mean - least_[x]) / (mean + kFlat), 0.0F, 1.0F);
+    }
+  }
+
+ private:
+  void find_least(VolumeView<const float> costs, int y) {
+    std::fill(best_.begin(), best_.end(), 0);
+    std::fill(least_.begin(), least_.end(), std::numeric_limits<float>::infinity());
+    std::fill(sum_.begin(), sum_.end(), 0.0F);
+    for (int label = 0; label < costs.layers; ++label) {
+      const float* cost = costs.row(y, label);
+      for (int x = 0; x < costs.width; ++x) {
+        sum_[x] += cost[x];
+        best_[x] = cost[x] < least_[x] ? label : best_[x];
+        least_[x] = cost[x] < least_[x] ? cost[x] : least_[x];
+      }
+    }
+  }
+
+  Refinement refinement_;
+  float first_;
+  float step_;
+  std::vector<int> best_;
+  std::vector<float> least_, sum_;
+};
+
+template <class P>
+void add_stereo_local_parameters(Schema<P>& schema) {
+  add_stereo_cost_parameters(schema);
+  schema
+      .choice("refinement", &P::refinement,
+              {"Refinement", "How the disparity is placed between labels"},
+              {"parabola", "equiangular", "none"})
+      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
+      .search("aggregation", {0, 2});
+}
+
+}  // namespace
+
+void apply_local_profile(StereoLocalParameters& parameters, MatchedViews views) {
+  if (parameters.profile != "paper") return;
+  apply_cost_profile(parameters, views == MatchedViews::All ? 1 : kUncapped);
+  parameters.refinement = "none";
+}
+
+Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
+  Schema<StereoLocalParameters> schema;
+  add_stereo_local_parameters(schema);
+  schema.completed_by([views](StereoLocalParameters& p) { apply_local_profile(p, views); });
+  return schema;
+}
+
+Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
+  Schema<StereoSmoothParameters> schema;
+  add_denoise_parameters(schema);
+  add_stereo_local_parameters(schema);
+  // Fewer caps than the local methods: smoothing takes what noise they leave.
+  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
+      .search("weight_power", {0, 2})
+      .search("epsilon", {0, 0.02, kUncapped});
+  schema.completed_by([views](StereoSmoothParameters& p) {
+    apply_local_profile(p, views);
+    if (p.profile != "paper") return;
+    p.weight_power = 0;
+    p.edge_strength = 0;
+  });
+  return schema;
+}
+
+Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
+                               const StereoLocalParameters& parameters, const Progress& progress) {
+  const StereoCosts costs = prepare_stereo(lf, views, parameters, progress.part(0, 0.1));
+  Estimate estimate;
+  estimate.range = costs.range;
+  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+  estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+  const ImageView<float> disparity = estimate.field.disparity.view(costs.view);
+  const ImageView<float> confidence = estimate.confidence.view(costs.view);
+  const int rows = stereo_band_rows(lf.height());
+  const int bands = (lf.height() + rows - 1) / rows;
+  progress.step("matching costs");
+  parallel_for_workers(bands, progress.part(0.1, 1), [&]() -> std::function<void(int)> {
+    auto source = std::make_shared<StereoCostRows>(lf, costs);
+    auto winners =
+        std::make_shared<Winners>(costs, refinement_of(parameters.refinement), lf.width());
+    return [&, source, winners](int i) {
+      const int y = i * rows;
+      const auto band = source->compute(y, std::min(rows, lf.height() - y), progress);
+      for (int row = 0; row < band.height; ++row) {
+        winners->choose(band, row, disparity.row(y + row), confidence.row(y + row));
+      }
+    };
+  });
+  estimate.notes.push_back(cap_note(costs));
+  return estimate;
+}
+
+Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
+                                const StereoSmoothParameters& parameters,
+                                const Progress& progress) {
+  Estimate estimate = estimate_stereo_local(lf, views, parameters, progress.part(0, 0.85));
+  denoise(lf, parameters, estimate, progress.part(0.85, 1));
+  return estimate;
+}
+
+}  // namespace episcope

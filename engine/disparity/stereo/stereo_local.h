@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/common/denoise.h"
+#include "engine/disparity/common/estimator.h"
+#include "engine/disparity/stereo/stereo_costs.h"
+
+namespace episcope {
+
+/// Parameters of the local stereo methods ST_AV_L and ST_CH_L.
+struct StereoLocalParameters : StereoCostParameters {
+  std::string refinement = "parabola";
+};
+
+/// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
+struct StereoSmoothParameters : StereoLocalParameters, DenoiseParameters {
+  StereoSmoothParameters() {
+    lambda = 0.1;
+    weight_power = 2;
+  }
+};
+
+/// Overwrites what the profile `paper` prescribes: no cap for the cross-hair, ε = 1 for all views,
+/// bilinear samples, neither aggregation nor refinement.
+void apply_local_profile(StereoLocalParameters& parameters, MatchedViews views);
+
+[[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
+[[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
+
+/// The label of the least cost at every pixel of one view, moved between labels by `refinement`:
+/// none, a parabola through the costs of the label and its neighbours, or two lines of equal slope
+/// (equiangular), by half a label at most. Costs are computed band by band and never held.
+///
+/// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike
+/// and falls with noise, since noise raises the least cost; as weight of the denoising it did
+/// better than the ratio to the second best label or the curvature. The ε used is in the notes.
+/// Throws InvalidInput as `prepare_stereo`, Cancelled.
+[[nodiscard]] Estimate estimate_stereo_local(const LightField& light_field, MatchedViews views,
+                                             const StereoLocalParameters& parameters,
+                                             const Progress& progress);
+
+/// The same, denoised (engine/disparity/common/denoise.h); the duality gap is in the notes.
+[[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
+                                              const StereoSmoothParameters& parameters,
+                                              const Progress& progress);
+
+}  // namespace episcope

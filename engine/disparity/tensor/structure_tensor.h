@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/disparity/tensor/tensor_filters.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+
+/// Where orientation is looked for.
+struct TensorSearch {
+  /// Estimates accepted, px per view step: the range of interest and some overshoot for noise.
+  Interval accepted;
+  /// Shears in half pixels per view step; every disparity of interest lies within `limit` of one.
+  std::vector<int> half_step_shears;
+  double limit = 0.6;
+};
+
+/// Shears that cover `range`, `step_half_px` half pixels apart, whole multiples of that.
+[[nodiscard]] TensorSearch cover_range(Interval range, int step_half_px);
+
+/// A rectangle of image pixels seen by one row or column of cameras.
+struct TensorTask {
+  int camera_line = 0;  ///< Horizontal EPIs: camera row v. Vertical EPIs: camera column u.
+  PixelIndex begin;
+  int height = 0;
+  int width = 0;
+  int first_view = 0, last_view = 0;  ///< Wanted views [first, last) of that line: u or v.
+};
+
+/// Size of a rectangle of image pixels.
+struct TensorExtent {
+  int height = 0;
+  int width = 0;
+};
+
+/// Disparity and coherence of the views of an EPI by the structure tensor: smoothing with σ_i,
+/// derivatives (central difference along, Scharr's [3,10,3]/16 across), products summed over
+/// colour channels, integration with σ_o, orientation d = −2Jxs/(Jxx − Jss + √((Jxx − Jss)² +
+/// 4Jxs²)) and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
+/// Source: Bigün and Granlund 1987 [BG87]; Wanner and Goldluecke 2012 [WG12].
+///
+/// Where we depart from it, each measured against truth (tests/accuracy):
+/// - The EPI is sheared to several disparities and the most coherent answer kept. Each view is
+///   integrated in coordinates of its own, so all views get estimates at whole pixels.
+/// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture
+///   beside it and objects grow by the size of the window.
+/// - The tensor of the chosen shear, turned back to unsheared coordinates, is averaged over
+///   neighbouring EPIs before the disparity is read off, by least squares.
+/// Filters are truncated at the first and last view and renormalised, so that slopes there come
+/// out right.
+///
+/// Not thread-safe: one object for each thread. Takes 2 to 10 MB.
+class StructureTensor {
+ public:
+  enum class Direction { Horizontal, Vertical };
+
+  /// Takes a run of results of one view: pixels (begin.y, begin.x …). Coherence 0 = no accepted
+  /// orientation; the disparity is then 0 or the nearest accepted.
+  using Sink = std::function<void(int view, PixelIndex begin, int count, const float* disparity,
+                                  const float* coherence)>;
+
+  /// Throws InvalidInput if the grid has fewer than 2 or more than 32 views in that direction.
+  StructureTensor(const LightField& light_field, Direction direction, const TensorScales& scales,
+                  const TensorSearch& search);
+  ~StructureTensor();
+  StructureTensor(StructureTensor&&) noexcept;
+
+  /// Largest rectangle of one task: narrow blocks for vertical EPIs, whole rows for horizontal.
+  [[nodiscard]] static TensorExtent largest_task(const LightField& light_field, Direction direction,
+                                                 const TensorScales& scales);
+
+  void estimate(const TensorTask& task, const Sink& sink);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Merges `count` estimates of one direction into those of the other: where both agree within
+/// 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence becomes the
+/// larger of the two. Source: winner-takes-all as in [WG12], weights measured to be better.
+void merge_orientations(const float* disparity, const float* coherence, int count, int power,
+                        float* to_disparity, float* to_coherence);
+
+}  // namespace episcope

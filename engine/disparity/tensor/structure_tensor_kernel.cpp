@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled once for each instruction set: see engine/core/parallel/isa.h for what may stand here.
+#include "engine/disparity/tensor/structure_tensor_kernel.h"
+
+#include "engine/core/parallel/simd.h"
+
+namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+// Lanes that are worked on together, so that every row they touch stays in the L1 cache.
+constexpr int kChunk = 128;
+
+// out[n] = Σ taps·in over [begin, end), rounded up to whole vectors.
+template <int kRadius>
+void filter_fixed(const float* __restrict in, int begin, int end, int stride, const float* taps,
+                  float* __restrict out) {
+  Vec weights[2 * kRadius + 1];
+  for (int i = 0; i <= 2 * kRadius; ++i) weights[i] = splat(taps[i]);
+  for (int n = begin; n < end; n += kLanes) {
+    Vec sum = weights[kRadius] * load(in + n);
+    for (int i = 1; i <= kRadius; ++i) {
+      sum += weights[kRadius + i] * load(in + n + i * stride);
+      sum += weights[kRadius - i] * load(in + n - i * stride);
+    }
+    store(out + n, sum);
+  }
+}
+
+void filter(const float* in, int begin, int end, int stride, const Taps& taps, float* out) {
+  switch (taps.radius) {
+    case 0:
+      return filter_fixed<0>(in, begin, end, stride, taps.values, out);
+    case 1:
+      return filter_fixed<1>(in, begin, end, stride, taps.values, out);
+    case 2:
+      return filter_fixed<2>(in, begin, end, stride, taps.values, out);
+    case 3:
+      return filter_fixed<3>(in, begin, end, stride, taps.values, out);
+    case 4:
+      return filter_fixed<4>(in, begin, end, stride, taps.values, out);
+    case 5:
+      return filter_fixed<5>(in, begin, end, stride, taps.values, out);
+    default:
+      return filter_fixed<6>(in, begin, end, stride, taps.values, out);
+  }
+}
+
+// Central difference and Scharr's smoothing of a pre-smoothed row.
+void gradient_row(const float* __restrict in, int begin, int end, int stride,
+                  float* __restrict along, float* __restrict across) {
+  for (int n = begin; n < end; n += kLanes) {
+    const Vec left = load(in + n - stride);
+    const Vec right = load(in + n + stride);
+    store(along + n, 0.5F * (right - left));
+    store(across + n, (3.0F / 16) * (left + right) + (10.0F / 16) * load(in + n));
+  }
+}
+
+// out[n] = in at n + ½, by the four-point interpolation [−1, 9, 9, −1]/16.
+void half_pixel_row(const float* __restrict in, int begin, int end, int stride,
+                    float* __restrict out) {
+  for (int n = begin; n < end; n += kLanes) {
+    const Vec near_pair = load(in + n) + load(in + n + stride);
+    const Vec far_pair = load(in + n - stride) + load(in + n + 2 * stride);
+    store(out + n, (9.0F / 16) * near_pair - (1.0F / 16) * far_pair);
+  }
+}
+
+void differentiate(const TensorBlock& block, const TensorFilters& filters, bool with_half) {
+  const int stride = block.stride;
+  // What each stage needs of the stage before it.
+  const int smooth_begin = filters.smooth.radius * stride;
+  const int smooth_end = 2 * block.margin + block.length - smooth_begin;
+  float* smooth = block.line;
+  float* half = block.line + block.pitch;
+  for (int plane = 0; plane < block.channels * block.rows; ++plane) {
+    const long offset = static_cast<long>(plane) * block.pitch;
+    filter(block.samples + offset, smooth_begin, smooth_end, stride, filters.smooth, smooth);
+    gradient_row(smooth, smooth_begin + stride, smooth_end - stride, stride,
+                 block.along[0] + offset, block.across[0] + offset);
+    if (!with_half) continue;
+    half_pixel_row(smooth, smooth_begin + stride, smooth_end - 2 * stride, stride, half);
+    gradient_row(half, smooth_begin + 2 * stride, smooth_end - 3 * stride, stride,
+                 block.along[1] + offset, block.across[1] + offset);
+  }
+}
+
+// Where a row is read, so that lane 0 of the sheared coordinates falls on it: the plane (whole or
+// half pixel) and the lane. Disparity k stands upright if row r is read at x − k·(r − center).
+struct RowSource {
+  int half = 0;
+  long offset = 0;
+};
+
+RowSource source_of(const TensorBlock& block, const Shear& shear, int row) {
+  const int half_steps = -shear.half_steps * (row - shear.center_row);
+  return {half_steps & 1, static_cast<long>(row) * block.pitch + block.margin +
+                              static_cast<long>(floor_half(half_steps)) * block.stride};
+}
+
+constexpr int kMaxChannels = 3;
+
+// The rows that a filter along the views takes in, with their taps; zero taps are left out.
+struct RowSources {
+  int count = 0;
+  float taps[kMaxTaps];
+  const float* rows[kMaxChannels][kMaxTaps];
+};
+
+// Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
+// as the registers hold.
+constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+constexpr int kGroupLanes = kGroup * kLanes;
+
+struct Group {
+  Vec at[kGroup];
+};
+
+inline void multiply_add(Group& sum, float tap, const float* from) {
+  for (int k = 0; k < kGroup; ++k) sum.at[k] += tap * load(from + k * kLanes);
+}
+
+// Products of the gradient at a group of lanes, all channels summed, toned down and stored.
+template <int kChannels>
+inline void products_group(const RowSources& along, const RowSources& across, float contrast,
+                           long n, float* __restrict const* out) {
+  Group xx{}, xs{}, ss{};
+  for (int c = 0; c < kChannels; ++c) {
+    Group gx{}, gs{};
+    for (int i = 0; i < along.count; ++i) multiply_add(gx, along.taps[i], along.rows[c][i] + n);
+    for (int i = 0; i < across.count; ++i) multiply_add(gs, across.taps[i], across.rows[c][i] + n);
+    for (int k = 0; k < kGroup; ++k) {
+      xx.at[k] += gx.at[k] * gx.at[k];
+      xs.at[k] += gx.at[k] * gs.at[k];
+      ss.at[k] += gs.at[k] * gs.at[k];
+    }
+  }
+  for (int k = 0; k < kGroup; ++k) {
+    // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
+    const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
+    store(out[0] + k * kLanes, weight * xx.at[k]);
+    store(out[1] + k * kLanes, weight * xs.at[k]);
+    store(out[2] + k * kLanes, weight * ss.at[k]);
+  }
+}
+
+// The widest grid axis whose products of a chunk are kept on the stack.
+constexpr int kMaxRows = 32;
+
+// Pointers to lane 0 of the sheared coordinates.
+void find_sources(const TensorBlock& block, const Shear& shear, float* const* planes,
+                  const RowTaps& taps, RowSources& sources) {
+  const long plane = static_cast<long>(block.rows) * block.pitch;
+  sources.count = 0;
+  for (int i = 0; i < taps.count; ++i) {
+    if (taps.values[i] == 0) continue;
+    const RowSource source = source_of(block, shear, taps.first + i);
+    sources.taps[sources.count] = taps.values[i];
+    for (int c = 0; c < block.channels; ++c) {
+      sources.rows[c][sources.count] = planes[source.half] + c * plane + source.offset;
+    }
+    ++sources.count;
+  }
+}
+
+// Lanes of the sheared coordinates, [begin, end).
+struct Window {
+  int begin = 0;
+  int end = 0;
+};
+
+// Where the tensor of a row is needed for its payload.
+Window target_window(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
+                     int row) {
+  const int start = floor_half(shear.half_steps * (row - shear.center_row));
+  return {(start - filters.integrate.radius) * block.stride,
+          (start + filters.integrate.radius + 1) * block.stride + block.length};
+}
+
+// Where the products of a row are needed by the wanted rows that integrate over it.
+Window source_window(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
+                     int row) {
+  Window window{0, 0};
+  for (int r = block.first_row; r < block.last_row; ++r) {
+    const RowTaps& taps = filters.row_integrate[r];
+    if (row < taps.first || row >= taps.first + taps.count) continue;
+    const Window target = target_window(block, filters, shear, r);
+    if (window.begin == window.end) {
+      window = target;
+    } else {
+      if (target.begin < window.begin) window.begin = target.begin;
+      if (target.end > window.end) window.end = target.end;
+    }
+  }
+  return window;
+}
+
+void integrate_rows(const float (*products)[kChunk + kGroupLanes], const RowTaps& taps,
+                    Window window, float* __restrict out) {
+  for (int n = window.begin; n < window.end; n += kGroupLanes) {
+    Group sum{};
+    for (int i = 0; i < taps.count; ++i) {
+      multiply_add(sum, taps.values[i], products[taps.first + i] + n);
+    }
+    for (int k = 0; k < kGroup; ++k) store(out + n + k * kLanes, sum.at[k]);
+  }
+}
+
+// The part of a window inside a chunk, relative to the chunk's first lane.
+Window clip(Window window, int chunk) {
+  const int begin = window.begin - chunk;
+  const int end = window.end - chunk;
+  return {begin < 0 ? 0 : begin & ~(kLanes - 1), end > kChunk ? kChunk : end};
+}
+
+struct ChunkProducts {
+  // Groups may begin anywhere and reach beyond the chunk.
+  alignas(64) float values[3][kMaxRows][kChunk + kGroupLanes];
+};
+
+// What one row contributes under a shear, and where that is needed.
+struct RowWork {
+  RowSources along, across;
+  Window window;
+};
+
+template <int kChannels>
+void fill_products(const RowWork& work, float contrast, int row, int chunk,
+                   ChunkProducts& products) {
+  const Window window = clip(work.window, chunk);
+  for (int n = window.begin; n < window.end; n += kGroupLanes) {
+    float* const out[3] = {products.values[0][row] + n, products.values[1][row] + n,
+                           products.values[2][row] + n};
+    products_group<kChannels>(work.along, work.across, contrast, chunk + n, out);
+  }
+}
+
+void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
+  ChunkProducts products;
+  RowWork work[kMaxRows];
+  Window whole{0, 0};
+  for (int r = 0; r < block.rows; ++r) {
+    find_sources(block, shear, block.along, filters.row_smooth[r], work[r].along);
+    find_sources(block, shear, block.across, filters.row_derivative[r], work[r].across);
+    work[r].window = source_window(block, filters, shear, r);
+    if (work[r].window.begin < whole.begin) whole.begin = work[r].window.begin;
+    if (work[r].window.end > whole.end) whole.end = work[r].window.end;
+  }
+  const auto fill = block.channels == 1 ? fill_products<1> : fill_products<3>;
+  // Chunks begin at whole vectors of the planes.
+  const int first = whole.begin / kLanes * kLanes - kLanes;
+  for (int chunk = first; chunk < whole.end; chunk += kChunk) {
+    for (int r = 0; r < block.rows; ++r) {
+      fill(work[r], filters.contrast_energy, r, chunk, products);
+    }
+    for (int r = block.first_row; r < block.last_row; ++r) {
+      const Window window = clip(target_window(block, filters, shear, r), chunk);
+      const long row = static_cast<long>(r) * block.tensor_pitch + block.tensor_margin + chunk;
+      for (int j = 0; j < 3; ++j) {
+        integrate_rows(products.values[j], filters.row_integrate[r], window, block.tensor[j] + row);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+extern const TensorKernel kTensorKernel;
+const TensorKernel kTensorKernel{differentiate, accumulate};
+
+}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

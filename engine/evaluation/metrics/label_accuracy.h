@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace episcope {
+
+/// How often labels agree with the truth.
+struct LabelAccuracy {
+  /// Pixels by true label and given label.
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> confusion;
+
+  [[nodiscard]] std::int64_t judged() const;
+  /// Share of judged pixels labeled rightly, in [0, 1]; empty if none is judged.
+  [[nodiscard]] std::optional<double> share() const;
+  /// The same among pixels of one true label.
+  [[nodiscard]] std::optional<double> share(std::int32_t label) const;
+
+  LabelAccuracy& operator+=(const LabelAccuracy& other);
+};
+
+/// Judges one view. Pixels without a true label (0 or less) are not judged. Throws InvalidInput if
+/// the sizes differ.
+[[nodiscard]] LabelAccuracy judge_labels(ImageView<const std::int32_t> labels,
+                                         ImageView<const std::int32_t> truth);
+
+/// Judges every view that both stacks cover.
+[[nodiscard]] LabelAccuracy judge_labels(const ViewStack<std::int32_t>& labels,
+                                         const ViewStack<std::int32_t>& truth);
+
+}  // namespace episcope

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/evaluation/metrics/metrics.h"
+
+#include "engine/core/error.h"
+#include "engine/evaluation/metrics/region_metrics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+std::string size_text(const ImageView<const float>& image) {
+  return std::to_string(image.width) + "×" + std::to_string(image.height);
+}
+
+/// The smallest, that is farthest, true disparity: what a missing estimate counts as.
+float farthest_disparity(const DisparityView& truth) {
+  float farthest = std::numeric_limits<float>::infinity();
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      if (truth.is_valid(y, x)) farthest = std::min(farthest, truth.disparity.at(y, x));
+    }
+  }
+  return farthest;
+}
+
+Evaluation measure_errors(const DisparityView& estimate, const DisparityView& truth, int border,
+                          InvalidEstimates invalid) {
+  const int height = truth.disparity.height;
+  const int width = truth.disparity.width;
+  Evaluation evaluation{{},
+                        Image<float>(height, width),
+                        Image<std::uint8_t>(height, width),
+                        Image<std::uint8_t>(height, width)};
+  const float farthest = farthest_disparity(truth);
+  for (int y = border; y < height - border; ++y) {
+    for (int x = border; x < width - border; ++x) {
+      if (!truth.is_valid(y, x)) continue;
+      const float d = truth.disparity.at(y, x);
+      evaluation.judged.at(y, x) = 1;
+      if (estimate.is_valid(y, x)) {
+        evaluation.signed_error.at(y, x) = d - estimate.disparity.at(y, x);
+      } else {
+        evaluation.missing.at(y, x) = 1;
+        if (invalid == InvalidEstimates::Bad) evaluation.signed_error.at(y, x) = d - farthest;
+      }
+    }
+  }
+  return evaluation;
+}
+
+/// 100 · mean of the squared errors of judged pixels at least `border` px from the image's border.
+std::optional<double> mse_100(const Evaluation& evaluation, InvalidEstimates invalid, int border) {
+  double sum = 0;
+  std::size_t count = 0;
+  for (int y = border; y < evaluation.judged.height() - border; ++y) {
+    for (int x = border; x < evaluation.judged.width() - border; ++x) {
+      if (evaluation.judged.at(y, x) == 0) continue;
+      if (evaluation.missing.at(y, x) != 0 && invalid == InvalidEstimates::Compatible) continue;
+      const double error = evaluation.signed_error.at(y, x);
+      sum += error * error;
+      ++count;
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return 100 * sum / static_cast<double>(count);
+}
+
+std::optional<double> q_25_100(const Evaluation& evaluation, InvalidEstimates invalid) {
+  std::vector<float> present;
+  std::vector<float> missing;
+  for (std::size_t i = 0; i < evaluation.judged.size(); ++i) {
+    if (evaluation.judged.data()[i] == 0) continue;
+    auto& errors = evaluation.missing.data()[i] != 0 ? missing : present;
+    errors.push_back(std::abs(evaluation.signed_error.data()[i]) * 100);
+  }
+  std::sort(present.begin(), present.end());
+  if (invalid == InvalidEstimates::Bad) {
+    std::sort(missing.begin(), missing.end());
+    present.insert(present.end(), missing.begin(), missing.end());
+  }
+  if (present.empty()) return std::nullopt;
+  return present[present.size() * 25 / 100];
+}
+
+void append(Metrics& metrics, const char* key, std::optional<double> value) {
+  if (value) metrics.emplace_back(key, *value);
+}
+
+void append_bad_pixels(Evaluation& evaluation, InvalidEstimates invalid) {
+  const std::pair<const char*, float> thresholds[] = {
+      {"badpix_0010", 0.01F}, {"badpix_0030", 0.03F}, {"badpix_0070", 0.07F}};
+  for (const auto& [key, threshold] : thresholds) {
+    const auto is_bad = [limit = threshold](float error) { return std::abs(error) > limit; };
+    append(evaluation.metrics, key, bad_percentage(evaluation, nullptr, invalid, is_bad));
+  }
+}
+
+std::optional<double> density(const Evaluation& evaluation) {
+  const auto missing_share =
+      bad_percentage(evaluation, nullptr, InvalidEstimates::Bad, [](float) { return false; });
+  if (!missing_share) return std::nullopt;
+  return 100 - *missing_share;
+}
+
+void require_comparable(const DisparityView& estimate, const DisparityView& truth) {
+  const auto& a = estimate.disparity;
+  const auto& b = truth.disparity;
+  if (a.height != b.height || a.width != b.width) {
+    throw InvalidInput("the estimate is " + size_text(a) + " px, but the truth is " + size_text(b) +
+                       " px: they belong to different light fields");
+  }
+}
+
+/// None if no pixel can be judged.
+std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate, const DisparityView& truth,
+                                          const std::map<std::string, Image<std::uint8_t>>& regions,
+                                          const EvaluationOptions& options) {
+  require_comparable(estimate, truth);
+  const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
+  Evaluation evaluation =
+      measure_errors(estimate, truth, is_benchmark ? kBenchmarkBorder : 0, options.invalid);
+  if (std::find(evaluation.judged.begin(), evaluation.judged.end(), 1) == evaluation.judged.end()) {
+    return std::nullopt;
+  }
+  append(evaluation.metrics, "mse_100", mse_100(evaluation, options.invalid, 0));
+  if (is_benchmark) {
+    append_bad_pixels(evaluation, options.invalid);
+    append(evaluation.metrics, "q_25_100", q_25_100(evaluation, options.invalid));
+  } else {
+    append(evaluation.metrics, "mse_100_inset15",
+           mse_100(evaluation, options.invalid, kBenchmarkBorder));
+  }
+  append(evaluation.metrics, "density", density(evaluation));
+  if (is_benchmark) append_region_metrics(evaluation, {estimate, truth, regions, options});
+  return evaluation;
+}
+
+// The centre view: the truth covers all views or that one.
+ViewIndex center_of(const DisparityField& truth) {
+  const ViewIndex first = truth.disparity.first(), center = truth.disparity.grid().center();
+  return {first.v + center.v, first.u + center.u};
+}
+
+// Whether a map has a value there; a map that is missing has none.
+bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
+  return field.contains(view) && field.view(view).is_valid(y, x);
+}
+
+std::optional<double> layers_right(const LayeredDisparity& estimate, const GroundTruth& truth,
+                                   ViewIndex view) {
+  if (estimate.layers.empty() || !estimate.layers.contains(view)) return std::nullopt;
+  const ImageView<const std::uint8_t> layers = estimate.layers.view(view);
+  double judged = 0, right = 0;
+  for (int y = 0; y < layers.height; ++y) {
+    for (int x = 0; x < layers.width; ++x) {
+      const bool near = has_value(truth.foreground, view, y, x);
+      const bool far = has_value(truth.background, view, y, x);
+      if (!near && !far && !has_value(truth.field, view, y, x)) continue;
+      judged += 1;
+      if (layers.at(y, x) == (near && far ? 2 : 1)) right += 1;
+    }
+  }
+  if (judged == 0) return std::nullopt;
+  return 100 * right / judged;
+}
+
+}  // namespace
+
+const char* protocol_name(Protocol protocol) {
+  return protocol == Protocol::Vmv2013 ? "vmv2013" : "benchmark2016";
+}
+
+Protocol parse_protocol(const std::string& name) {
+  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
+    if (name == protocol_name(protocol)) return protocol;
+  }
+  throw InvalidInput("there is no protocol '" + name + "': use vmv2013 or benchmark2016");
+}
+
+std::optional<double> find_metric(const Metrics& metrics, const std::string& key) {
+  const auto found = std::find_if(metrics.begin(), metrics.end(),
+                                  [&key](const auto& metric) { return metric.first == key; });
+  if (found == metrics.end()) return std::nullopt;
+  return found->second;
+}
+
+Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
+                    const std::map<std::string, Image<std::uint8_t>>& regions,
+                    const EvaluationOptions& options) {
+  auto evaluation = evaluate_if_any(estimate, truth, regions, options);
+  if (evaluation) return std::move(*evaluation);
+  throw InvalidInput(
+      "no pixel of the " + size_text(truth.disparity) + " px can be judged by " +
+      protocol_name(options.protocol) +
+      (options.protocol == Protocol::Benchmark2016 ? ", which ignores a border of 15 px" : "") +
+      ": the truth has no value there");
+}
+
+LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const GroundTruth& truth,
+                                  ViewIndex view, const EvaluationOptions& options) {
+  for (const auto* field :
+       {&estimate.foreground, &estimate.background, &truth.foreground, &truth.background}) {
+    if (!field->contains(view)) {
+      throw InvalidInput("view " + std::to_string(view.v) + "," + std::to_string(view.u) +
+                         " lacks two layers of estimate and truth to compare");
+    }
+  }
+  const std::map<std::string, Image<std::uint8_t>> no_regions;
+  const auto& regions = view == center_of(truth.foreground) ? truth.regions : no_regions;
+  const DisparityView near = estimate.foreground.view(view);
+  LayeredEvaluation evaluation{
+      evaluate(near, truth.foreground.view(view), regions, options),
+      evaluate(estimate.background.view(view), truth.background.view(view), regions, options),
+      {},
+      layers_right(estimate, truth, view)};
+  if (truth.field.contains(view)) {
+    evaluation.single = evaluate_if_any(near, truth.field.view(view), regions, options);
+  }
+  return evaluation;
+}
+
+Metrics layered_metrics(const LayeredEvaluation& evaluation) {
+  Metrics metrics;
+  if (evaluation.single) metrics = evaluation.single->metrics;
+  const auto append_layer = [&metrics](const Metrics& layer, const char* suffix) {
+    for (const auto& [key, value] : layer) metrics.emplace_back(key + suffix, value);
+  };
+  append_layer(evaluation.foreground.metrics, "_foreground");
+  append_layer(evaluation.background.metrics, "_background");
+  append(metrics, "layers_right", evaluation.layers_right);
+  return metrics;
+}
+
+const char* runtime_class(double seconds) {
+  if (seconds < 5) return "fast";
+  return seconds <= 60 ? "medium" : "slow";
+}
+
+}  // namespace episcope

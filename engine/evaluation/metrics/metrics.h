@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/camera_grid.h"
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/ground_truth.h"
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// Named protocols, never mixed.
+enum class Protocol {
+  Vmv2013,       ///< All pixels with truth; mean squared error ×100 [WMG13].
+  Benchmark2016  ///< A border of 15 px is ignored; BadPix, Q25, region metrics [HJKG16].
+};
+
+[[nodiscard]] const char* protocol_name(Protocol protocol);  ///< "vmv2013", "benchmark2016".
+/// Throws InvalidInput naming both.
+[[nodiscard]] Protocol parse_protocol(const std::string& name);
+
+/// How judged pixels count where the estimate has no value.
+enum class InvalidEstimates {
+  /// Never an advantage: bad in every percentage, the farthest true disparity for MSE and the error
+  /// map, behind all others in Q25, at the clip for bumpiness, 180° for normals.
+  Bad,
+  /// As the official 2016 tool: good in BadPix, fattening and thinning, left out of all others.
+  Compatible,
+};
+
+struct EvaluationOptions {
+  Protocol protocol = Protocol::Vmv2013;
+  InvalidEstimates invalid = InvalidEstimates::Bad;
+  /// For the angular error of normals; absent from the numbers unless `camera.is_known()`.
+  CameraGrid camera{};
+};
+
+/// Pixels that `Protocol::Benchmark2016` ignores on each side.
+inline constexpr int kBenchmarkBorder = 15;
+
+/// Numbers by key ("mse_100", "badpix_0070", "density", …) in the order of tables. A metric that a
+/// protocol or a scene lacks is absent, never 0.
+using Metrics = std::vector<std::pair<std::string, double>>;
+
+[[nodiscard]] std::optional<double> find_metric(const Metrics& metrics, const std::string& key);
+
+/// Error of one view, and the numbers that were computed from it.
+struct Evaluation {
+  Metrics metrics;
+  Image<float> signed_error;    ///< truth − estimate in px; 0 where not judged.
+  Image<std::uint8_t> judged;   ///< 1 = pixel counts in the numbers.
+  Image<std::uint8_t> missing;  ///< 1 = judged, but the estimate has no value there.
+};
+
+/// Judges one view of an estimate against one map of truth. `regions` may be empty.
+///
+/// Keys of vmv2013: mse_100 over all pixels with truth, mse_100_inset15 without a border of 15 px,
+/// density (% of the judged pixels that have a value).
+/// Keys of benchmark2016: mse_100; badpix_0010, badpix_0030, badpix_0070 (% with |error| strictly
+/// above); q_25_100 (sorted(|error|·100)[⌊0.25·n⌋]); density; and for the regions there are:
+/// discontinuities_0070, bumpiness_planes_100_0050, bumpiness_contin_surfaces_100_0050 (region
+/// smooth_surfaces), mae_planes, mae_contin_surfaces (median angle between normals in degrees),
+/// fine_fattening_0150 (region fine_surrounding), fine_thinning_0150 (region fine).
+/// Errors are float and thresholds are rounded to float, as in the official tool. Region metrics
+/// use the masks of the truth's own resolution. Source: Wanner et al. 2013 [WMG13], Honauer et al.
+/// 2016 [HJKG16] and the benchmark's evaluation toolkit.
+/// Throws InvalidInput if the sizes differ or no pixel can be judged.
+[[nodiscard]] Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
+                                  const std::map<std::string, Image<std::uint8_t>>& regions,
+                                  const EvaluationOptions& options);
+
+/// Judges each layer of a two-layer estimate against its own truth with its own mask.
+struct LayeredEvaluation {
+  Evaluation foreground;
+  Evaluation background;
+  /// Where the truth is one surface: the foreground, as the one map of those who know but one. None
+  /// if there is no such truth.
+  std::optional<Evaluation> single;
+  /// % of the pixels of any truth whose number of layers is right; two where both truths have a
+  /// value. None if the estimate does not tell the number.
+  std::optional<double> layers_right;
+};
+
+/// All numbers: those of one surface as of any other estimate; those of both layers, whose keys end
+/// in "_foreground" and "_background"; then "layers_right".
+[[nodiscard]] Metrics layered_metrics(const LayeredEvaluation& evaluation);
+
+/// Region masks of the truth count in its centre view only.
+/// Throws InvalidInput if estimate or truth lacks a layer in `view`, and as `evaluate`.
+[[nodiscard]] LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate,
+                                                const GroundTruth& truth, ViewIndex view,
+                                                const EvaluationOptions& options);
+
+/// Runtime class of vmv2013: "fast" (< 5 s), "medium" (up to 1 min), "slow".
+[[nodiscard]] const char* runtime_class(double seconds);
+
+}  // namespace episcope

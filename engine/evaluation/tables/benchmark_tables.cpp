@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/evaluation/tables/benchmark_tables.h"
+
+#include <algorithm>
+#include <map>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kGap = "–";
+
+std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  names.push_back(name);
+  return names.size() - 1;
+}
+
+const Metrics& metrics_of(const BenchmarkResult& result, Protocol protocol) {
+  return protocol == Protocol::Vmv2013 ? result.vmv2013 : result.benchmark2016;
+}
+
+std::string score_text(const std::optional<double>& score) {
+  return score ? fixed_text(*score, kScoreDigits) : kGap;
+}
+
+std::string rank_text(int rank) {
+  return rank > 0 ? std::to_string(rank) : kGap;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+/// "Averages and ranks are over 2 of 3 scenes, …. Left out for a gap: cotton (epi_c)."
+std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
+  if (ranking.missing.empty()) return {};
+  std::vector<std::string> gaps;
+  for (const std::size_t scene : ranking.missing) {
+    std::vector<std::string> lacking;
+    for (std::size_t entry = 0; entry < matrix.entries.size(); ++entry) {
+      const auto& scores = matrix.scores[entry];
+      if (has_score(scores) && !scores[scene]) lacking.push_back(matrix.entries[entry]);
+    }
+    gaps.push_back(matrix.scenes[scene] + " (" + listed(lacking) + ")");
+  }
+  const std::size_t total = ranking.scenes.size() + ranking.missing.size();
+  const std::string left_out = "Left out for a gap: " + listed(gaps) + ".";
+  if (ranking.scenes.empty()) {
+    return "No scene has a score of every entry, so nobody is ranked. " + left_out;
+  }
+  return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
+         std::to_string(total) + " scenes, those that every ranked entry has. " + left_out;
+}
+
+bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
+  return std::any_of(matrix.scores.begin(), matrix.scores.end(),
+                     [&](const auto& scores) { return scores[scene].has_value(); });
+}
+
+/// Stresses the least of the last line, as it is shown.
+void stress_least(TitledTable& titled, const std::vector<std::optional<double>>& scores) {
+  const auto least =
+      std::min_element(scores.begin(), scores.end(),
+                       [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
+  if (least == scores.end() || !*least) return;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    if (scores[i] && score_text(scores[i]) == score_text(*least)) {
+      titled.best.emplace_back(titled.table.rows.size() - 1, i + 1);
+    }
+  }
+}
+
+void add_scores(TitledTable& titled, const std::string& name,
+                const std::vector<std::optional<double>>& scores) {
+  std::vector<std::string> cells{name};
+  for (const auto& score : scores) cells.push_back(score_text(score));
+  titled.table.rows.push_back(std::move(cells));
+  stress_least(titled, scores);
+}
+
+/// Of every scene that an entry has, and of how many: no two entries need have the same.
+std::vector<std::string> own_averages(const ScoreMatrix& matrix,
+                                      const std::vector<std::size_t>& order) {
+  std::vector<std::string> cells{"average of its own scenes"};
+  for (const std::size_t entry : order) {
+    double sum = 0;
+    int count = 0;
+    for (const auto& score : matrix.scores[entry]) {
+      sum += score.value_or(0);
+      count += score ? 1 : 0;
+    }
+    cells.push_back(fixed_text(sum / count, kScoreDigits) + " (" + std::to_string(count) + ")");
+  }
+  return cells;
+}
+
+/// Time and views of an entry over its scenes.
+struct Speed {
+  double seconds = 0;
+  int timed = 0;
+  bool has_all_views = true;
+
+  [[nodiscard]] double mean() const { return timed > 0 ? seconds / timed : 0; }
+};
+
+Speed speed_of(const std::vector<BenchmarkResult>& results, const std::string& entry) {
+  Speed speed;
+  for (const BenchmarkResult& result : results) {
+    if (result.entry != entry || !(result.seconds > 0)) continue;
+    speed.seconds += result.seconds;
+    ++speed.timed;
+    speed.has_all_views = speed.has_all_views && result.has_all_views;
+  }
+  speed.has_all_views = speed.has_all_views && speed.timed > 0;
+  return speed;
+}
+
+void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results, Protocol protocol) {
+  std::vector<std::string> keys;
+  for (const BenchmarkResult& result : results) {
+    for (const auto& [key, value] : metrics_of(result, protocol)) place_of(keys, key);
+  }
+  constexpr int exact_digits = 6;
+  for (const auto& key : keys) {
+    table.header.push_back(std::string(protocol_name(protocol)) + "." + key);
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      const auto value = find_metric(metrics_of(results[i], protocol), key);
+      table.rows[i].push_back(value ? fixed_text(*value, exact_digits) : "");
+    }
+  }
+}
+
+}  // namespace
+
+ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol protocol,
+                         const std::string& key) {
+  ScoreMatrix matrix;
+  for (const BenchmarkResult& result : results) {
+    place_of(matrix.entries, result.entry);
+    place_of(matrix.scenes, result.scene);
+  }
+  matrix.scores.assign(matrix.entries.size(),
+                       std::vector<std::optional<double>>(matrix.scenes.size()));
+  for (const BenchmarkResult& result : results) {
+    matrix.scores[place_of(matrix.entries, result.entry)][place_of(matrix.scenes, result.scene)] =
+        find_metric(metrics_of(result, protocol), key);
+  }
+  return matrix;
+}
+
+TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) {
+  Ranking ranking = rank_entries(matrix, kScoreDigits);
+  std::erase_if(ranking.order, [&](std::size_t entry) { return !has_score(matrix.scores[entry]); });
+  TitledTable titled{title, gap_note(matrix, ranking), {{"scene"}, {}}, {}};
+  for (const std::size_t entry : ranking.order) {
+    titled.table.header.push_back(matrix.entries[entry]);
+  }
+  const auto in_order = [&](const auto& value_of) {
+    std::vector<std::optional<double>> values;
+    for (const std::size_t entry : ranking.order) values.push_back(value_of(entry));
+    return values;
+  };
+  for (std::size_t scene = 0; scene < matrix.scenes.size(); ++scene) {
+    if (!is_scored(matrix, scene)) continue;
+    add_scores(titled, matrix.scenes[scene],
+               in_order([&](std::size_t entry) { return matrix.scores[entry][scene]; }));
+  }
+  add_scores(titled, "average",
+             in_order([&](std::size_t entry) { return ranking.averages[entry]; }));
+  if (!ranking.missing.empty()) {
+    titled.table.rows.push_back(own_averages(matrix, ranking.order));
+  }
+  std::vector<std::string> ranks{"rank"};
+  for (const std::size_t entry : ranking.order) ranks.push_back(rank_text(ranking.ranks[entry]));
+  titled.table.rows.push_back(std::move(ranks));
+  return titled;
+}
+
+TitledTable overview_table(const std::vector<BenchmarkResult>& results) {
+  const ScoreMatrix matrix = score_matrix(results, Protocol::Vmv2013, "mse_100");
+  const Ranking ranking = rank_entries(matrix, kScoreDigits);
+  TitledTable titled{"Algorithms ranked by average accuracy, as figure 8 (MSE × 100)",
+                     "Speed is that of this machine: fast is less than 5 s, medium up to a minute, "
+                     "slow more; seconds are the mean over the scenes.",
+                     {{"algorithm", "rank", "accuracy", "speed", "seconds", "all views"}, {}},
+                     {}};
+  if (const std::string note = gap_note(matrix, ranking); !note.empty()) titled.note += " " + note;
+  for (const std::size_t entry : ranking.order) {
+    const Speed speed = speed_of(results, matrix.entries[entry]);
+    const bool is_timed = speed.timed > 0;
+    titled.table.rows.push_back(
+        {matrix.entries[entry], rank_text(ranking.ranks[entry]),
+         score_text(ranking.averages[entry]), is_timed ? runtime_class(speed.mean()) : "not given",
+         is_timed ? fixed_text(speed.mean(), 2) : "not given", speed.has_all_views ? "yes" : ""});
+  }
+  return titled;
+}
+
+std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& results) {
+  struct Choice {
+    const char* title;
+    Protocol protocol;
+    const char* key;
+  };
+  constexpr Choice choices[] = {
+      {"Mean squared error × 100 of the centre view, as figure 7 (vmv2013)", Protocol::Vmv2013,
+       "mse_100"},
+      {"Transparent scenes, foreground: mean squared error × 100 (vmv2013)", Protocol::Vmv2013,
+       "mse_100_foreground"},
+      {"Transparent scenes, background: mean squared error × 100 (vmv2013)", Protocol::Vmv2013,
+       "mse_100_background"},
+      {"Mean squared error × 100 without a border of 15 px (benchmark2016)",
+       Protocol::Benchmark2016, "mse_100"},
+      {"BadPix 0.07: % of the pixels that are off by more than 0.07 px (benchmark2016)",
+       Protocol::Benchmark2016, "badpix_0070"},
+  };
+  std::vector<TitledTable> tables{overview_table(results)};
+  for (const Choice& choice : choices) {
+    const ScoreMatrix matrix = score_matrix(results, choice.protocol, choice.key);
+    TitledTable table = accuracy_table(choice.title, matrix);
+    constexpr std::size_t summary_rows = 2;
+    if (table.table.rows.size() > summary_rows) tables.push_back(std::move(table));
+  }
+  return tables;
+}
+
+TextTable results_table(const std::vector<BenchmarkResult>& results) {
+  TextTable table{{"entry", "scene", "seconds", "all_views"}, {}};
+  constexpr int time_digits = 3;
+  for (const BenchmarkResult& result : results) {
+    table.rows.push_back({result.entry, result.scene,
+                          result.seconds > 0 ? fixed_text(result.seconds, time_digits) : "",
+                          result.has_all_views ? "yes" : "no"});
+  }
+  add_columns(table, results, Protocol::Vmv2013);
+  add_columns(table, results, Protocol::Benchmark2016);
+  table.header.emplace_back("problem");
+  for (std::size_t i = 0; i < results.size(); ++i) table.rows[i].push_back(results[i].problem);
+  return table;
+}
+
+}  // namespace episcope

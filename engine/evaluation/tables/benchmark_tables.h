@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/text/text_table.h"
+#include "engine/evaluation/tables/benchmark_result.h"
+#include "engine/evaluation/tables/ranking.h"
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// Digits after the point that tables show and ties are told by.
+inline constexpr int kScoreDigits = 3;
+
+/// A table with what a reader must know of it.
+struct TitledTable {
+  std::string title;
+  std::string note;  ///< Sentences; may be empty.
+  TextTable table;
+  std::vector<std::pair<std::size_t, std::size_t>> best;  ///< Cells to stress: row, column.
+};
+
+/// Scores by one metric. Entries and scenes stand in the order of their first result.
+[[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
+                                       Protocol protocol, const std::string& key);
+
+/// As figure 7 of the paper: a scene a line, an entry a column, best entry first; then the average
+/// and the rank, and between them, if averages leave scenes out, that of all scenes an entry has
+/// with their number. Gaps are "–"; the note says which scenes the averages leave out and for whom.
+/// The least score of each line is stressed. Entries and scenes without any score are left out.
+[[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);
+
+/// As figure 8: rank, algorithm, average MSE × 100, speed class by the mean time of its scenes,
+/// whether that is the time of all views.
+[[nodiscard]] TitledTable overview_table(const std::vector<BenchmarkResult>& results);
+
+/// All tables of a benchmark without search: figures 7 and 8, MSE and BadPix of the 2016 protocol,
+/// both layers of scenes that have two. Tables without any score are left out.
+[[nodiscard]] std::vector<TitledTable> benchmark_tables(
+    const std::vector<BenchmarkResult>& results);
+
+/// A result a line with every metric: "entry", "scene", "protocol.metric", …, for other programs.
+[[nodiscard]] TextTable results_table(const std::vector<BenchmarkResult>& results);
+
+}  // namespace episcope

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/evaluation/tables/search_tables.h"
+
+#include <algorithm>
+#include <array>
+
+namespace episcope {
+namespace {
+
+/// Which point a protocol takes on a scene.
+enum class Rule { PerScene, Equal, LeaveOneOut, Default };
+constexpr std::array kRules{Rule::PerScene, Rule::Equal, Rule::LeaveOneOut, Rule::Default};
+
+std::optional<std::size_t> point_of(const MethodSearch& search, Rule rule, std::size_t scene) {
+  switch (rule) {
+    case Rule::PerScene:
+      return search.choice.per_scene[scene];
+    case Rule::Equal:
+      return search.choice.equal;
+    case Rule::LeaveOneOut:
+      return search.choice.leave_one_out[scene];
+    case Rule::Default:
+      break;
+  }
+  return 0;
+}
+
+std::optional<double> score_of(const MethodSearch& search, Rule rule, std::size_t scene) {
+  const auto point = point_of(search, rule, scene);
+  return point ? search.scores[*point][scene] : std::nullopt;
+}
+
+std::string score_text(const std::optional<double>& score) {
+  return score ? fixed_text(*score, kScoreDigits) : "–";
+}
+
+ScoreMatrix matrix_of(const std::vector<MethodSearch>& searches, Rule rule) {
+  ScoreMatrix matrix;
+  matrix.scenes = searches.front().scenes;
+  for (const MethodSearch& search : searches) {
+    matrix.entries.push_back(search.method);
+    auto& scores = matrix.scores.emplace_back();
+    for (std::size_t scene = 0; scene < matrix.scenes.size(); ++scene) {
+      scores.push_back(score_of(search, rule, scene));
+    }
+  }
+  return matrix;
+}
+
+TitledTable protocol_table(const std::vector<MethodSearch>& searches) {
+  TitledTable titled{
+      "Parameter search: average MSE × 100 of the centre view (vmv2013)",
+      "P-opt: the best point of each scene, as in the paper. P-fix: one point for all scenes, the "
+      "least geometric mean of error / best error of the scene. LOSO: P-fix chosen without the "
+      "scene that is judged. The centre view alone is estimated, the disparity range found as in "
+      "any other run, never from the truth. Averages are over the scenes that every method has.",
+      {{"algorithm", "rank", "P-opt", "P-fix", "LOSO", "default", "points", "P-fix parameters"},
+       {}},
+      {}};
+  std::vector<Ranking> rankings;
+  for (const Rule rule : kRules) {
+    rankings.push_back(rank_entries(matrix_of(searches, rule), kScoreDigits));
+  }
+  for (const std::size_t method : rankings.front().order) {
+    const MethodSearch& search = searches[method];
+    const int rank = rankings.front().ranks[method];
+    std::vector<std::string> cells{search.method, rank > 0 ? std::to_string(rank) : "–"};
+    for (const Ranking& ranking : rankings) cells.push_back(score_text(ranking.averages[method]));
+    cells.push_back(std::to_string(search.points.size()));
+    cells.push_back(search.choice.equal ? point_text(search.points[*search.choice.equal]) : "–");
+    titled.table.rows.push_back(std::move(cells));
+  }
+  return titled;
+}
+
+TitledTable method_table(const MethodSearch& search) {
+  TitledTable titled{"Parameter search of " + search.method + " by scene (MSE × 100)",
+                     "",
+                     {{"scene", "P-opt", "P-fix", "LOSO", "default", "P-opt parameters"}, {}},
+                     {}};
+  for (std::size_t scene = 0; scene < search.scenes.size(); ++scene) {
+    std::vector<std::string> cells{search.scenes[scene]};
+    for (const Rule rule : kRules) cells.push_back(score_text(score_of(search, rule, scene)));
+    const auto best = search.choice.per_scene[scene];
+    cells.push_back(best ? point_text(search.points[*best]) : "–");
+    titled.table.rows.push_back(std::move(cells));
+  }
+  return titled;
+}
+
+template <class T>
+std::size_t place_of(std::vector<T>& list, const T& value) {
+  const auto found = std::find(list.begin(), list.end(), value);
+  if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
+  list.push_back(value);
+  return list.size() - 1;
+}
+
+}  // namespace
+
+std::vector<MethodSearch> gather_searches(const std::vector<SearchResult>& results) {
+  std::vector<std::string> methods;
+  std::vector<std::string> scenes;
+  for (const SearchResult& result : results) {
+    place_of(methods, result.method);
+    place_of(scenes, result.scene);
+  }
+  std::vector<MethodSearch> searches;
+  for (const auto& method : methods) searches.push_back({method, scenes, {}, {}, {}});
+  for (const SearchResult& result : results) {
+    MethodSearch& search = searches[place_of(methods, result.method)];
+    const std::size_t point = place_of(search.points, result.point);
+    search.scores.resize(search.points.size(), std::vector<std::optional<double>>(scenes.size()));
+    search.scores[point][place_of(scenes, result.scene)] = result.mse_100;
+  }
+  for (MethodSearch& search : searches) search.choice = choose_parameters(search.scores);
+  return searches;
+}
+
+std::string point_text(const ParameterSet& point) {
+  std::string text;
+  for (const auto& [key, value] : point) {
+    text += (text.empty() ? "" : ", ") + key + " " + to_text(value);
+  }
+  return text.empty() ? "default" : text;
+}
+
+std::vector<TitledTable> search_tables(const std::vector<SearchResult>& results) {
+  const std::vector<MethodSearch> searches = gather_searches(results);
+  if (searches.empty()) return {};
+  std::vector<TitledTable> tables{protocol_table(searches)};
+  for (const MethodSearch& search : searches) tables.push_back(method_table(search));
+  return tables;
+}
+
+}  // namespace episcope

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/archive/archive_labels.h"
+
+#include "engine/io/labels/scribble_dataset.h"
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+bool contains_zero(const ViewStack<std::int32_t>& labels) {
+  return !labels.empty() && std::find(labels.data(), labels.data() + labels.size(), 0) !=
+                                labels.data() + labels.size();
+}
+
+}  // namespace
+
+ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape,
+                                  ConventionReport& report, const Progress& progress) {
+  ArchiveLabels found;
+  if (file.has("GT_LABELS")) {
+    found.labels = read_maps<std::int32_t>(file, "GT_LABELS", shape, progress.part(0, 0.9));
+  }
+  if (!file.has("SCRIBBLES")) return found;
+  StoredScribbles stored =
+      read_scribble_dataset(file, shape, contains_zero(found.labels), progress.part(0.9, 1));
+  found.scribbles = std::move(stored.scribbles);
+  if (!stored.raises_labels) return found;
+  report.raised_labels = true;
+  std::for_each(found.labels.data(), found.labels.data() + found.labels.size(),
+                [](std::int32_t& label) { ++label; });
+  report.warnings.push_back(
+      "Labels begin at 0 in this file and unpainted pixels are marked otherwise: all labels are "
+      "raised by one, so that 0 means unpainted.");
+  return found;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/archive/archive_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/io/archive/archive_depth.h"
+#include "engine/io/archive/archive_labels.h"
+#include "engine/io/archive/companions.h"
+#include "engine/io/labels/scribble_dataset.h"
+#include "engine/io/maps/float_samples.h"
+#include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/center_preview.h"
+#include "engine/io/open/scene_name.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::io {
+namespace {
+
+constexpr const char* kLightField = "LF";
+
+/// The dataset LF: [v][h][y][x][c] or, grey, [v][h][y][x].
+struct Layout {
+  FieldShape shape;
+  int channels = 1;  ///< That are read; an alpha channel is left out.
+  bool has_channel_axis = true;
+  Hdf5Type type = Hdf5Type::UInt8;
+};
+
+std::string whole(double value) {
+  return std::isfinite(value) ? std::to_string(std::llround(value)) : "NaN";
+}
+
+/// Sizes in attributes only repeat the shape of LF; one that differs speaks for a mistake.
+void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
+  const Hdf5Shape shape = file.dataset(kLightField).shape;
+  constexpr const char* names[] = {"vRes", "hRes", "yRes", "xRes", "channels"};
+  for (std::size_t axis = 0; axis < shape.size(); ++axis) {
+    const auto stated = file.number("/", names[axis]);
+    if (!stated || *stated == static_cast<double>(shape[axis])) continue;
+    report.warnings.push_back("The attribute " + std::string(names[axis]) + " says " +
+                              whole(*stated) + ", but LF has " + std::to_string(shape[axis]) +
+                              " along that axis; the shape of LF is taken.");
+  }
+}
+
+Layout layout_of(const Hdf5Input& file) {
+  const Hdf5Dataset dataset = file.dataset(kLightField);
+  const Hdf5Shape& shape = dataset.shape;
+  if (shape.size() != 4 && shape.size() != 5) {
+    throw IoError(file.path(), "the dataset LF has " + std::to_string(shape.size()) + " axes (" +
+                                   shape_text(shape) +
+                                   "), but v × h × y × x × channels is expected; store it so");
+  }
+  if (dataset.type == Hdf5Type::Other) {
+    throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
+  }
+  const auto is_odd = [](std::size_t length) { return length == 0 || length > 100000; };
+  if (std::any_of(shape.begin(), shape.end(), is_odd)) {
+    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) +
+                                   ", which is no light field; choose another file");
+  }
+  const std::size_t channels = shape.size() == 5 ? shape[4] : 1;
+  const double stated = file.number("/", "channels").value_or(1);
+  if (shape.size() == 4 && stated != 1) {
+    throw IoError(file.path(), "the dataset LF has 4 axes (" + shape_text(shape) +
+                                   "), but the attribute channels says " + whole(stated) +
+                                   "; store it as v × h × y × x × channels");
+  }
+  if (channels != 1 && channels != 3 && channels != 4) {
+    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) + " and so " +
+                                   std::to_string(channels) +
+                                   " channels, but 1 (grey) or 3 (RGB) are expected; store it so");
+  }
+  const auto length = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
+  return {{{length(0), length(1)}, length(2), length(3)},
+          channels == 1 ? 1 : 3,
+          shape.size() == 5,
+          dataset.type};
+}
+
+template <class T>
+ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
+                        const std::function<void(ImageView<const T>)>& on_center,
+                        const Progress& progress) {
+  const FieldShape& shape = layout.shape;
+  ViewStack<T> stack(shape.grid, shape.height, shape.width, layout.channels);
+  const auto read = [&](ViewIndex view) {
+    Hdf5Block block{
+        {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
+        {1, 1, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)}};
+    if (layout.has_channel_axis) {
+      block.start.push_back(0);
+      block.count.push_back(static_cast<std::size_t>(layout.channels));
+    }
+    file.read(kLightField, block, stack.view(view).data);
+  };
+  const ViewIndex center = shape.grid.center();
+  progress.check();
+  read(center);
+  on_center(stack.view(center));
+  for (int i = 0; i < shape.grid.count(); ++i) {
+    progress.check();
+    const ViewIndex view = shape.grid.view_at(i);
+    if (!(view == center)) read(view);
+    progress.report((i + 1.0) / shape.grid.count());
+  }
+  return stack;
+}
+
+/// Samples in their stored type. Wider integers are taken as bytes if the centre view fits.
+LightField::Samples read_samples(const Hdf5Input& file, Layout layout, const OpenOptions& options,
+                                 const LightFieldInfo& info, const Progress& progress) {
+  if (layout.type == Hdf5Type::Integer) {
+    const ViewStack<std::uint16_t> probe = [&] {
+      Layout center = layout;
+      center.shape.grid = {1, 1};
+      return read_views<std::uint16_t>(
+          file, center, [](const auto&) {}, Progress(1));
+    }();
+    const bool fits = std::all_of(probe.data(), probe.data() + probe.size(),
+                                  [](std::uint16_t sample) { return sample <= 255; });
+    layout.type = fits ? Hdf5Type::UInt8 : Hdf5Type::UInt16;
+  }
+  const auto read = [&]<class T>(T) -> LightField::Samples {
+    return read_views<T>(
+        file, layout,
+        [&](ImageView<const T> center) {
+          if (options.on_center_view) {
+            options.on_center_view(preview_rgb(center), info, layout.shape.grid);
+          }
+        },
+        progress);
+  };
+  if (layout.type == Hdf5Type::UInt8) return read(std::uint8_t{});
+  if (layout.type == Hdf5Type::UInt16) return read(std::uint16_t{});
+  return read(float{});
+}
+
+ExpectedOrder expected_order(const Hdf5Input& file) {
+  if (file.text("/", "convention") || file.text(kLightField, "convention")) {
+    return {{}, "the file states its order in the attribute convention"};
+  }
+  const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
+  if (is_raw) return {{true, false}, "raw files of the archive store h reversed"};
+  return {{}, "the file has no attributes of the archive"};
+}
+
+std::optional<Interval> stated_range(const Hdf5Input& file) {
+  const auto min = file.number("/", "disp_min");
+  const auto max = file.number("/", "disp_max");
+  if (!min || !max || !(*min < *max)) return std::nullopt;
+  return Interval{*min, *max};
+}
+
+ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
+                          const Progress& progress) {
+  const bool has_own = file.has("GT_LABELS") || file.has("SCRIBBLES");
+  ArchiveLabels own =
+      has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
+  const std::filesystem::path beside = file.path().parent_path() / "labels.h5";
+  if (!std::filesystem::exists(beside)) return own;
+  const Hdf5Input labels(beside);
+  // Where several light fields share a folder, labels that we wrote name theirs.
+  const auto owner = labels.text("/", "light_field");
+  if (owner && *owner != file.path().filename().string()) return own;
+  if (!has_own) return read_archive_labels(labels, shape, report, progress);
+  // What was painted is saved beside the file and never into it.
+  if (owner && labels.has("SCRIBBLES")) {
+    own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
+  }
+  return own;
+}
+
+}  // namespace
+
+Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
+                   const Progress& progress) {
+  const Hdf5Input file(path);
+  const Layout layout = layout_of(file);
+  const GridShape grid = layout.shape.grid;
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = "archive (" + path.filename().string() + ")";
+  compare_sizes(file, report);
+  LightFieldInfo info{scene_name(path), path.string(), read_camera(file), stated_range(file)};
+
+  progress.step("reading views");
+  LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
+  scale_float_samples(samples, report);
+  progress.step("reading depth");
+  ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
+  progress.step("reading labels");
+  ArchiveLabels labels;
+  if (options.needs_truth) {
+    labels = read_labels(file, layout.shape, report, progress.part(0.85, 0.95));
+  }
+  GroundTruth truth{std::move(depth.field),
+                    std::move(depth.foreground),
+                    std::move(depth.background),
+                    std::move(labels.labels),
+                    {}};
+  info.camera = depth.camera;
+  assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)}, options,
+           scene, progress);
+  scene.scribbles = std::move(labels.scribbles);
+  put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
+  scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
+  return scene;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace episcope::io {
+
+/// edge_weights.h5 and the three files of label probabilities in `folder`, as far as they are there
+/// and hold what their names say. One that is damaged or does not fit the light field is left out
+/// with a warning.
+[[nodiscard]] std::vector<Companion> find_companions(const std::filesystem::path& folder,
+                                                     const LightField& field,
+                                                     ConventionReport& report);
+
+/// Edge weights in [0, 1] of all views in the house order, `[v][u][y][x]`, or `[v][u][y][x][2]` if
+/// the file has one weight per direction. Throws IoError, also if they do not fit; Cancelled.
+[[nodiscard]] ViewStack<float> read_edge_weights(const std::filesystem::path& path,
+                                                 const Scene& scene, const Progress& progress);
+
+/// Writes edge weights of all views as EDGE_WEIGHTS in the order of views that the files of `scene`
+/// have, so that they may lie beside them. Atomic. Throws IoError, also if they do not fit the
+/// light field; Cancelled.
+void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
+                        const Scene& scene, const Progress& progress);
+
+/// Label probabilities of an archive file, read one view at a time: for all views they take
+/// gigabytes.
+class ProbabilityFile {
+ public:
+  /// Finds the axis of labels: the one left when those of the views and pixels of `scene` are taken
+  /// away. Throws IoError if the shape does not fit.
+  ProbabilityFile(const std::filesystem::path& path, const Scene& scene);
+  ~ProbabilityFile();
+  ProbabilityFile(ProbabilityFile&&) noexcept;
+  ProbabilityFile& operator=(ProbabilityFile&&) noexcept;
+
+  [[nodiscard]] int label_count() const;
+  /// Views in the file: all, or the centre view only.
+  [[nodiscard]] bool contains(ViewIndex view) const;
+  /// `[y][x][label]` of a view in the house order. Precondition: `contains(view)`. Throws IoError.
+  [[nodiscard]] Image<float> view(ViewIndex view) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace episcope::io

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/archive/excerpt_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/io/archive/depth_maps.h"
+#include "engine/io/durable/system_error.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/image_grid_reader.h"
+#include "engine/io/maps/parse_number.h"
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Lines "value //name".
+std::map<std::string, double> read_attributes(const fs::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path);
+  std::map<std::string, double> attributes;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string value;
+    std::string name;
+    words >> value >> name;
+    const auto number = parse_number(value);
+    if (number && name.starts_with("//")) attributes[name.substr(2)] = *number;
+  }
+  return attributes;
+}
+
+CameraGrid camera_of(const std::map<std::string, double>& attributes) {
+  const auto number = [&](const char* name) {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? 0 : found->second;
+  };
+  CameraGrid camera;
+  camera.baseline = number("dH");
+  camera.focal_length = number("focalLength");
+  camera.shift = number("shift");
+  return camera;
+}
+
+ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewIndex center) {
+  require_readable_file(path);
+  ViewStack<float> depth({1, 1}, height, width, 1, center);
+  const std::uintmax_t bytes = fs::file_size(path);
+  if (bytes != depth.size() * sizeof(float)) {
+    throw IoError(path, "the file has " + std::to_string(bytes) + " bytes, but " +
+                            std::to_string(depth.size() * sizeof(float)) + " are expected for " +
+                            std::to_string(width) + "×" + std::to_string(height) +
+                            " float samples; copy it again or remove it");
+  }
+  std::ifstream in(path, std::ios::binary);
+  in.read(reinterpret_cast<char*>(depth.data()), static_cast<std::streamsize>(bytes));
+  if constexpr (std::endian::native == std::endian::big) {
+    std::transform(depth.data(), depth.data() + depth.size(), depth.data(), [](float sample) {
+      return std::bit_cast<float>(__builtin_bswap32(std::bit_cast<std::uint32_t>(sample)));
+    });
+  }
+  return depth;
+}
+
+ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, ViewIndex center) {
+  if (!fs::exists(path)) return {};
+  const Image<std::int32_t> numbers = decode_numbers(path);
+  if (numbers.height() != height || numbers.width() != width) {
+    throw IoError(path, "the mask has " + std::to_string(numbers.width()) + "×" +
+                            std::to_string(numbers.height()) + " px, but the views have " +
+                            std::to_string(width) + "×" + std::to_string(height) +
+                            " px; remove or replace it");
+  }
+  ViewStack<std::uint8_t> mask({1, 1}, height, width, 1, center);
+  std::transform(numbers.begin(), numbers.end(), mask.data(),
+                 [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
+  return mask;
+}
+
+}  // namespace
+
+bool is_excerpt_folder(const fs::path& folder) {
+  return fs::is_directory(folder / "lf") && fs::exists(folder / "depth.bin") &&
+         fs::exists(folder / "attributes.dat");
+}
+
+Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  const auto attributes = read_attributes(folder / "attributes.dat");
+  ImageGridExtras extras;
+  extras.format = "archive excerpt (lf, depth.bin)";
+  extras.source = folder;
+  extras.camera = camera_of(attributes);
+  const auto min = attributes.find("min_disp");
+  const auto max = attributes.find("max_disp");
+  if (min != attributes.end() && max != attributes.end() && min->second < max->second) {
+    extras.disparity_range = Interval{min->second, max->second};
+  }
+  extras.read_truth = [&](const LightField::Samples& samples, CameraGrid& camera,
+                          ConventionReport& report) {
+    if (!camera.is_known()) {
+      throw IoError(folder / "attributes.dat",
+                    "dH and focalLength are missing here; add them or open the folder lf alone");
+    }
+    return std::visit(
+        [&](const auto& stack) {
+          const ViewIndex center = stack.grid().center();
+          DepthMaps maps{"depth.bin",
+                         read_depth(folder / "depth.bin", stack.height(), stack.width(), center),
+                         read_mask(folder / "mask.png", stack.height(), stack.width(), center)};
+          camera = settle_units(maps, samples, camera, options.units, report);
+          return disparity_from_depth(std::move(maps), camera, report, Progress(1));
+        },
+        samples);
+  };
+  return read_image_grid(folder / "lf", options, progress, extras);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/io/durable/atomic_file.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/hdf5/map_writer.h"
+#include "engine/io/labels/scribble_dataset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr const char* kConvention =
+    "d = dH*focalLength/Z - shift; point at (x,y) in view (v,h) is at (x-d,y) in (v,h+1) and "
+    "(x,y-d) in (v+1,h)";
+
+/// Smallest and largest valid disparity.
+Interval valid_range(const DisparityField& field) {
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < (field.empty() ? 0 : field.disparity.size()); ++i) {
+    if (!field.valid.empty() && field.valid.data()[i] == 0) continue;
+    const double d = field.disparity.data()[i];
+    range = {std::min(range.min, d), std::max(range.max, d)};
+  }
+  return range;
+}
+
+/// A scene of unknown camera gets one that holds its disparities at positive depths: depth is then
+/// true up to a projective change only.
+CameraGrid camera_for(const Scene& scene) {
+  const CameraGrid& known = scene.light_field->info().camera;
+  if (known.is_known()) return known;
+  double largest = 1;
+  for (const DisparityField* field :
+       {&scene.truth->field, &scene.truth->foreground, &scene.truth->background}) {
+    const Interval range = valid_range(*field);
+    if (range.min <= range.max) {
+      largest = std::max({largest, std::abs(range.min), std::abs(range.max)});
+    }
+  }
+  CameraGrid invented;
+  invented.cam_distance = 10;
+  invented.focal_length = 1;
+  invented.shift = 4 * largest;
+  invented.baseline = *invented.cam_distance * invented.shift;
+  return invented;
+}
+
+void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& camera) {
+  const LightField& field = *scene.light_field;
+  const char* root = "/";
+  file.set_integers(root, "yRes", {field.height()});
+  file.set_integers(root, "xRes", {field.width()});
+  file.set_integers(root, "vRes", {field.grid().v});
+  file.set_integers(root, "hRes", {field.grid().u});
+  file.set_integers(root, "channels", {field.channels()});
+  file.set_number(root, "vSampling", camera.baseline / field.width());
+  file.set_number(root, "hSampling", camera.baseline / field.width());
+  file.set_number(root, "dH", camera.baseline);
+  file.set_number(root, "dV", camera.baseline);
+  file.set_number(root, "focalLength", camera.focal_length);
+  file.set_number(root, "shift", camera.shift);
+  if (camera.cam_distance) file.set_number(root, "camDistance", *camera.cam_distance);
+  file.set_text(root, "convention", kConvention);
+  file.set_text(root, "name", field.info().name);
+  if (!field.info().camera.is_known()) {
+    file.set_text(root, "camera",
+                  "unknown; dH, focalLength and shift only turn disparity into "
+                  "depth and back");
+  }
+  if (field.info().disparity_range) {
+    file.set_number(root, "disp_min", field.info().disparity_range->min);
+    file.set_number(root, "disp_max", field.info().disparity_range->max);
+  }
+}
+
+void write_light_field(Hdf5Output& file, const LightField& field, const Progress& progress) {
+  const GridShape grid = field.grid();
+  const Hdf5Shape shape{static_cast<std::size_t>(grid.v), static_cast<std::size_t>(grid.u),
+                        static_cast<std::size_t>(field.height()),
+                        static_cast<std::size_t>(field.width()),
+                        static_cast<std::size_t>(field.channels())};
+  std::visit(
+      [&]<class T>(const ViewStack<T>& stack) {
+        file.add_dataset<T>("LF", shape, "v,u,y,x,c", "");
+        for (int i = 0; i < grid.count(); ++i) {
+          progress.check();
+          const ViewIndex view = grid.view_at(i);
+          const Hdf5Block block{
+              {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0, 0},
+              {1, 1, shape[2], shape[3], shape[4]}};
+          file.write(std::string("LF"), block, stack.view(view).data);
+          progress.report((i + 1.0) / grid.count());
+        }
+      },
+      field.samples());
+}
+
+/// Writes a disparity field as depth, 0 where there is none, and its mask if something is missing.
+/// A single view is stored as `[y][x]` if it is the centre, else as one valid view of all.
+void write_depth(Hdf5Output& file, const std::string& name, const DisparityField& field,
+                 const Scene& scene, const CameraGrid& camera, const Progress& progress) {
+  if (field.empty()) return;
+  const LightField& light_field = *scene.light_field;
+  const ViewStack<float>& disparity = field.disparity;
+  const bool is_center = disparity.grid().count() == 1 && disparity.first() == light_field.center();
+  MapGeometry maps = geometry_of(disparity);
+  if (!is_center) {
+    maps.grid = light_field.grid();
+    maps.first = {};
+  }
+  std::vector<float> depth(disparity.view_size());
+  const auto to_depth = [&](ViewIndex view) -> const float* {
+    std::fill(depth.begin(), depth.end(), 0.0F);
+    if (!field.contains(view)) return depth.data();
+    const DisparityView map = field.view(view);
+    for (int y = 0; y < disparity.height(); ++y) {
+      for (int x = 0; x < disparity.width(); ++x) {
+        if (!map.is_valid(y, x)) continue;
+        const double z = camera.depth_from_disparity(map.disparity.at(y, x));
+        depth[static_cast<std::size_t>(y) * disparity.width() + x] =
+            std::isfinite(z) ? static_cast<float>(z) : 0.0F;
+      }
+    }
+    return depth.data();
+  };
+  const bool has_mask = !field.valid.empty() || !(disparity.grid() == maps.grid);
+  std::vector<std::uint8_t> mask;  ///< Of all views, in the order in which they are written.
+  write_maps<float>(
+      file, name, maps, "scene units", progress.part(0, has_mask ? 0.8 : 1), [&](ViewIndex view) {
+        const float* z = to_depth(view);
+        if (has_mask) {
+          std::transform(z, z + depth.size(), std::back_inserter(mask),
+                         [](float one) { return static_cast<std::uint8_t>(one > 0); });
+        }
+        return z;
+      });
+  if (!has_mask) return;
+  const std::uint8_t* next = mask.data();
+  write_maps<std::uint8_t>(file, name + "_MASK", maps, "", progress.part(0.8, 1), [&](ViewIndex) {
+    return std::exchange(next, next + disparity.view_size());
+  });
+}
+
+void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
+  if (!scene.truth->labels.empty()) {
+    write_stack(file, "GT_LABELS", scene.truth->labels, "", progress);
+  }
+  if (scene.scribbles.empty()) return;
+  const LightField& field = *scene.light_field;
+  add_scribbles(file, scene.scribbles, {{field.grid(), field.height(), field.width()}, {}, false},
+                progress);
+}
+
+bool has_labels(const Scene& scene) {
+  return !scene.truth->labels.empty() || !scene.scribbles.empty();
+}
+
+/// Whether labels.h5 may be written: there is none, or it is ours of the same light field. Labels
+/// that someone else made are never written over; ours then go into the light-field file itself.
+bool may_write_labels(const std::filesystem::path& labels, const std::filesystem::path& file) {
+  if (!std::filesystem::exists(labels)) return true;
+  return has_hdf5_signature(labels) &&
+         Hdf5Input(labels).text("/", "light_field") == file.filename().string();
+}
+
+/// Keeps what lies at a path, to bring it back if a later step fails: light field and labels are to
+/// change both or neither. Where the disk knows no hard links, the new file stays.
+class FormerFile {
+ public:
+  explicit FormerFile(const std::filesystem::path& path) : path_(path) {
+    std::error_code error;
+    was_there_ = std::filesystem::exists(path, error);
+    if (!was_there_) return;
+    path_ = std::filesystem::canonical(path, error);
+    kept_ = path_.parent_path() / path_.filename().string().insert(0, 1, '.').append(".former");
+    std::filesystem::remove(kept_, error);
+    std::filesystem::create_hard_link(path_, kept_, error);
+    if (error) kept_.clear();
+  }
+  ~FormerFile() {
+    std::error_code ignored;
+    if (!kept_.empty()) std::filesystem::remove(kept_, ignored);
+  }
+  FormerFile(const FormerFile&) = delete;
+  FormerFile& operator=(const FormerFile&) = delete;
+
+  template <class Step>
+  void restore_unless(const Step& step) {
+    try {
+      step();
+    } catch (...) {
+      std::error_code ignored;
+      if (!was_there_) std::filesystem::remove(path_, ignored);
+      if (!kept_.empty()) std::filesystem::rename(kept_, path_, ignored);
+      throw;
+    }
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path kept_;
+  bool was_there_ = false;
+};
+
+std::uintmax_t scene_bytes(const Scene& scene) {
+  const auto of = [](const DisparityField& field) {
+    return field.empty() ? 0 : field.disparity.size() * 5;
+  };
+  const GroundTruth& truth = *scene.truth;
+  return scene.light_field->byte_size() + of(truth.field) + of(truth.foreground) +
+         of(truth.background) + (1 << 16);
+}
+
+std::uintmax_t label_bytes(const Scene& scene) {
+  const std::size_t labels = scene.truth->labels.empty() ? 0 : scene.truth->labels.size();
+  const LightField& field = *scene.light_field;
+  const std::size_t views = scene.scribbles.views.size();
+  const std::size_t painted = (views > 1 ? static_cast<std::size_t>(field.grid().count()) : views) *
+                              field.height() * field.width();
+  return 4 * (labels + painted) + (1 << 16);
+}
+
+}  // namespace
+
+void write_archive(const std::filesystem::path& path, const Scene& scene,
+                   const Progress& progress) {
+  progress.check();
+  progress.step("writing " + path.filename().string());
+  const std::filesystem::path beside = path.parent_path() / "labels.h5";
+  const bool is_apart = has_labels(scene) && beside != path && may_write_labels(beside, path);
+  const bool is_inside = has_labels(scene) && !is_apart;
+  const GroundTruth& truth = *scene.truth;
+  const CameraGrid camera = camera_for(scene);
+
+  AtomicFile target(path, scene_bytes(scene) + (is_inside ? label_bytes(scene) : 0));
+  Hdf5Output file(target);
+  write_attributes(file, scene, camera);
+  write_light_field(file, *scene.light_field, progress.part(0, 0.6));
+  const std::pair<const char*, const DisparityField*> fields[] = {
+      {"GT_DEPTH", &truth.field},
+      {"GT_DEPTH_FOREGROUND", &truth.foreground},
+      {"GT_DEPTH_BACKGROUND", &truth.background}};
+  double done = 0.6;
+  for (const auto& [name, field] : fields) {
+    progress.check();
+    write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
+    done += 0.08;
+  }
+  if (is_inside) write_labels(file, scene, progress.part(0.84, 0.95));
+  file.close();
+
+  if (is_apart) {
+    AtomicFile label_target(beside, label_bytes(scene));
+    Hdf5Output labels(label_target);
+    labels.set_text("/", "light_field", path.filename().string());
+    labels.set_text("/", "convention", kConvention);
+    write_labels(labels, scene, progress.part(0.84, 0.95));
+    labels.close();
+    progress.check();
+    FormerFile former(path);
+    target.commit();
+    former.restore_unless([&] { label_target.commit(); });
+  } else {
+    target.commit();
+  }
+  // Labels of the file that was written over would else be taken for those of the new one.
+  if (!has_labels(scene) && std::filesystem::exists(beside) && may_write_labels(beside, path)) {
+    std::filesystem::remove(beside);
+  }
+  progress.report(1);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/benchmark/benchmark_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/io/benchmark/config_file.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/load_views.h"
+#include "engine/io/maps/float_samples.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/scene_name.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <sstream>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kConfig = "parameters.cfg";
+constexpr const char* kViewPrefix = "input_Cam";
+
+std::string numbered(const char* prefix, int index, const char* suffix) {
+  char digits[16];
+  std::snprintf(digits, sizeof digits, "%03d", index);
+  return prefix + std::string(digits) + suffix;
+}
+
+int count_views(const fs::path& folder) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    count += name.starts_with(kViewPrefix) && name.ends_with(".png") ? 1 : 0;
+  }
+  return count;
+}
+
+GridShape square_grid(const fs::path& folder, int count) {
+  const int side = static_cast<int>(std::lround(std::sqrt(count)));
+  if (count > 0 && side * side == count) return {side, side};
+  throw IoError(folder, "there is no " + std::string(kConfig) + " and the " +
+                            std::to_string(count) +
+                            " files input_Cam*.png form no square grid; add the missing files");
+}
+
+/// Views by their index, row by row from the top left.
+ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& config) {
+  const int count = count_views(folder);
+  GridShape grid;
+  const auto columns = config ? config->number("num_cams_x") : std::nullopt;
+  const auto rows = config ? config->number("num_cams_y") : std::nullopt;
+  if (columns && rows) {
+    grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
+    if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
+      throw IoError(folder / kConfig, "num_cams_x and num_cams_y are " + std::to_string(grid.u) +
+                                          " and " + std::to_string(grid.v) +
+                                          ", which cannot be; correct this file");
+    }
+  } else {
+    grid = square_grid(folder, count);
+  }
+  ViewFiles views{grid, {}};
+  for (int i = 0; i < grid.count(); ++i) {
+    views.files.push_back(folder / numbered(kViewPrefix, i, ".png"));
+    if (!fs::exists(views.files.back())) {
+      throw IoError(views.files.back(), "this view is missing: " + std::to_string(count) + " of " +
+                                            std::to_string(grid.count()) +
+                                            " files input_Cam*.png are there; add it");
+    }
+  }
+  return views;
+}
+
+std::optional<Interval> promised_range(const ConfigFile& config) {
+  const auto min = config.number("disp_min");
+  const auto max = config.number("disp_max");
+  if (!min || !max || !(*min < *max)) return std::nullopt;
+  return Interval{*min, *max};
+}
+
+struct Size {
+  int height = 0;
+  int width = 0;
+};
+
+/// The size in the file only repeats that of the views, which counts.
+void compare_size(const ConfigFile& config, Size size, ConventionReport& report) {
+  const auto compare = [&](const char* key, int length) {
+    const auto stated = config.number(key);
+    if (!stated || *stated == length) return;
+    std::ostringstream text;
+    text << key << " of " << kConfig << " is " << *stated << ", but the views have " << length
+         << " px; the size of the views is taken.";
+    report.warnings.push_back(text.str());
+  };
+  compare("image_resolution_x_px", size.width);
+  compare("image_resolution_y_px", size.height);
+}
+
+/// Unknown if the file has none of its keys; if some are missing or wrong, a warning says so.
+CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size size,
+                       ConventionReport& report) {
+  BenchmarkCamera camera;
+  camera.larger_side_px = std::max(size.width, size.height);
+  const std::pair<const char*, double*> keys[] = {{"focal_length_mm", &camera.focal_length_mm},
+                                                  {"sensor_size_mm", &camera.sensor_size_mm},
+                                                  {"baseline_mm", &camera.baseline_mm},
+                                                  {"focus_distance_m", &camera.focus_distance_m}};
+  std::string missing;
+  int found = 0;
+  for (const auto& [key, value] : keys) {
+    const auto number = config.number(key);
+    if (!number) missing += (missing.empty() ? "" : ", ") + std::string(key);
+    *value = number.value_or(0);
+    found += number ? 1 : 0;
+  }
+  if (found == 0) return {};
+  const std::string left_out = "The camera of " + (folder / kConfig).string() + " is left out: ";
+  if (!missing.empty()) {
+    report.warnings.push_back(left_out + missing + " is missing; add it.");
+    return {};
+  }
+  try {
+    return camera_grid_from_benchmark(camera);
+  } catch (const InvalidInput& error) {
+    report.warnings.push_back(left_out + error.what() + ".");
+    return {};
+  }
+}
+
+Size size_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return Size{stack.height(), stack.width()}; }, samples);
+}
+
+template <class T>
+void require_size(const fs::path& path, const Image<T>& map, Size size) {
+  if (map.height() == size.height && map.width() == size.width) return;
+  throw IoError(path, "this map has " + std::to_string(map.width()) + "×" +
+                          std::to_string(map.height()) + " px, but the views have " +
+                          std::to_string(size.width) + "×" + std::to_string(size.height) +
+                          " px; remove or replace it");
+}
+
+/// Copies a map into a view of the field; values that are not finite become invalid.
+void store(const Image<float>& map, ViewIndex view, DisparityField& field) {
+  const auto disparity = field.disparity.view(view);
+  const auto valid = field.valid.view(view);
+  for (int y = 0; y < map.height(); ++y) {
+    for (int x = 0; x < map.width(); ++x) {
+      const float d = map.at(y, x);
+      valid.at(y, x) = std::isfinite(d) ? 1 : 0;
+      disparity.at(y, x) = std::isfinite(d) ? d : 0;
+    }
+  }
+}
+
+Image<float> read_map(const fs::path& path, Size size) {
+  Image<float> map = read_pfm(path);
+  require_size(path, map, size);
+  if (map.channels() != 1) {
+    throw IoError(path, "this map has 3 channels, but 1 is expected; remove or replace it");
+  }
+  return map;
+}
+
+/// Depth of the benchmark is in metres or in millimetres, told apart by the focus distance.
+void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
+  double nearest_difference[2] = {0, 0};
+  for (const float depth : map) {
+    if (!std::isfinite(depth) || depth <= 0) continue;
+    nearest_difference[0] += std::abs(std::log(depth / *camera.cam_distance));
+    nearest_difference[1] += std::abs(std::log(1000 * depth / *camera.cam_distance));
+  }
+  const double unit_mm = nearest_difference[1] < nearest_difference[0] ? 1000 : 1;
+  for (float& value : map) {
+    value = static_cast<float>(camera.disparity_from_depth(unit_mm * value));
+  }
+}
+
+/// Of the centre view only where `views` says so.
+DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
+                          const CameraGrid& camera, MapViews views, ConventionReport& report,
+                          const Progress& progress) {
+  const auto per_view = [&](int i) { return folder / numbered("gt_disp_lowres_Cam", i, ".pfm"); };
+  bool has_all = true;
+  for (int i = 0; i < grid.count() && has_all; ++i) has_all = fs::exists(per_view(i));
+  const auto make = [&](GridShape part, ViewIndex first) {
+    return DisparityField{ViewStack<float>(part, size.height, size.width, 1, first),
+                          ViewStack<std::uint8_t>(part, size.height, size.width, 1, first)};
+  };
+  if (has_all) {
+    report.units = "disparity as stored in gt_disp_lowres_Cam*.pfm";
+    const bool all = views == MapViews::All;
+    const GridShape part = all ? grid : GridShape{1, 1};
+    const ViewIndex first = all ? ViewIndex{} : grid.center();
+    DisparityField field = make(part, first);
+    for (int i = 0; i < part.count(); ++i) {
+      progress.check();
+      const ViewIndex view = part.view_at(i, first);
+      store(read_map(per_view(view.v * grid.u + view.u), size), view, field);
+      progress.report((i + 1.0) / part.count());
+    }
+    return field;
+  }
+  DisparityField field;
+  const fs::path disparity = folder / "gt_disp_lowres.pfm";
+  const fs::path depth = folder / "gt_depth_lowres.pfm";
+  if (fs::exists(disparity)) {
+    report.units = "disparity as stored in gt_disp_lowres.pfm";
+    field = make({1, 1}, grid.center());
+    store(read_map(disparity, size), grid.center(), field);
+  } else if (fs::exists(depth) && camera.is_known() && camera.cam_distance) {
+    report.units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
+    field = make({1, 1}, grid.center());
+    Image<float> map = read_map(depth, size);
+    depth_to_disparity(camera, map);
+    store(map, grid.center(), field);
+  } else {
+    report.units = "no truth in this folder";
+  }
+  return field;
+}
+
+void read_regions(const fs::path& folder, Size size, GroundTruth& truth) {
+  constexpr std::string_view prefix = "mask_";
+  constexpr std::string_view suffix = "_lowres.png";
+  std::set<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) files.insert(entry.path());
+  for (const fs::path& path : files) {
+    const std::string name = path.filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(suffix) ||
+        name.size() <= prefix.size() + suffix.size()) {
+      continue;
+    }
+    const Image<std::int32_t> numbers = decode_numbers(path);
+    require_size(path, numbers, size);
+    Image<std::uint8_t> mask(size.height, size.width);
+    std::transform(numbers.begin(), numbers.end(), mask.begin(),
+                   [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
+    const std::size_t length = name.size() - prefix.size() - suffix.size();
+    truth.regions.emplace(name.substr(prefix.size(), length), std::move(mask));
+  }
+}
+
+void read_object_ids(const fs::path& folder, GridShape grid, Size size, GroundTruth& truth) {
+  const fs::path path = folder / "objectids_lowres.png";
+  if (!fs::exists(path)) return;
+  const Image<std::int32_t> ids = decode_numbers(path);
+  require_size(path, ids, size);
+  truth.labels = ViewStack<std::int32_t>({1, 1}, size.height, size.width, 1, grid.center());
+  std::copy_n(ids.data(), ids.size(), truth.labels.data());
+}
+
+}  // namespace
+
+bool is_benchmark_folder(const fs::path& folder) {
+  return fs::exists(folder / kConfig) || fs::exists(folder / numbered(kViewPrefix, 0, ".png")) ||
+         count_views(folder) > 0;
+}
+
+Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  std::optional<ConfigFile> config;
+  if (fs::exists(folder / kConfig)) config.emplace(folder / kConfig);
+  const ViewFiles views = view_files(folder, config);
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = "2016 benchmark folder";
+  if (!config) {
+    report.warnings.push_back("There is no parameters.cfg: the grid of " +
+                              std::to_string(views.grid.v) + "×" + std::to_string(views.grid.u) +
+                              " views was inferred from the number of files.");
+  }
+  LightFieldInfo info{scene_name(folder), folder.string(), {}, std::nullopt};
+  if (config) info.disparity_range = promised_range(*config);
+  progress.step("reading views");
+  LightField::Samples samples = load_views(
+      views,
+      [&](const Image<std::uint8_t>& center) {
+        if (options.on_center_view) options.on_center_view(center, info, views.grid);
+      },
+      progress.part(0, 0.85));
+  scale_float_samples(samples, report);
+  progress.step("reading truth");
+  const Size size = size_of(samples);
+  if (config) {
+    compare_size(*config, size, report);
+    info.camera = read_camera(folder, *config, size, report);
+  }
+  GroundTruth truth;
+  truth.field = read_truth(folder, views.grid, size, info.camera, options.map_views(), report,
+                           progress.part(0.85, 0.95));
+  if (options.needs_truth) {
+    read_object_ids(folder, views.grid, size, truth);
+    read_regions(folder, size, truth);
+  }
+
+  assemble({std::move(samples),
+            std::move(truth),
+            std::move(info),
+            {{}, "folders of the benchmark are in order"}},
+           options, scene, progress);
+  return scene;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/durable/atomic_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/file_descriptor.h"
+#include "engine/io/durable/system_error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <atomic>
+#include <cerrno>
+#include <string>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string temporary_name(const fs::path& target) {
+  static std::atomic<unsigned> next{0};
+  std::string name = target.filename().string().substr(0, 200);
+  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" + std::to_string(next++) +
+         ".part";
+}
+
+fs::path folder_of(const fs::path& target) {
+  return target.has_parent_path() ? target.parent_path() : fs::path(".");
+}
+
+fs::path resolve_link(const fs::path& named) {
+  std::error_code error;
+  if (!fs::is_symlink(named, error)) return named;
+  const fs::path target = fs::weakly_canonical(named, error);
+  return error ? named : target;
+}
+
+bool flush_to_disk(const fs::path& path, int flags) {
+  const FileDescriptor file(path, flags);
+  return file.ok() && ::fsync(file.id()) == 0;
+}
+
+std::string mebibytes(std::uintmax_t bytes) {
+  return std::to_string((bytes + 0xFFFFF) >> 20);
+}
+
+}  // namespace
+
+void require_space(const fs::path& target, const fs::path& folder, std::uintmax_t bytes) {
+  std::error_code error;
+  const auto space = fs::space(folder, error);
+  // Pseudo file systems report no capacity at all; there the write itself has to tell.
+  if (error || space.capacity == 0 || space.available >= bytes) return;
+  throw IoError(target, "the disk is full: " + mebibytes(bytes) + " MiB are needed and " +
+                            mebibytes(space.available) +
+                            " MiB are free; free some space or choose another folder");
+}
+
+AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
+    : named_(target), target_(resolve_link(target)) {
+  std::error_code error;
+  const auto status = fs::status(target_, error);
+  if (target_.filename().empty() || fs::is_directory(status)) {
+    throw IoError(named_, "this is a folder; name a file in it");
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw IoError(named_, "this is no ordinary file and is not written over; choose another name");
+  }
+  require_space(named_, folder_of(target_), bytes);
+  temporary_ = folder_of(target_) / temporary_name(target_);
+  errno = 0;
+  const FileDescriptor file(temporary_, O_CREAT | O_EXCL | O_WRONLY);
+  if (!file.ok()) {
+    temporary_.clear();
+    throw write_error(named_);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void AtomicFile::commit() {
+  errno = 0;
+  if (!flush_to_disk(temporary_, O_RDONLY)) throw write_error(named_);
+  commit_unflushed();
+  // The file is whole by now; a folder that cannot be flushed only risks the name after a crash.
+  flush_folder(target_);
+}
+
+void AtomicFile::commit_unflushed() {
+  errno = 0;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw write_error(named_);
+  temporary_.clear();
+}
+
+void flush_folder(const fs::path& target) {
+  flush_to_disk(folder_of(target), O_RDONLY | O_DIRECTORY);
+}
+
+void write_atomically(const fs::path& target, std::span<const std::uint8_t> bytes) {
+  AtomicFile file(target, bytes.size());
+  {
+    const FileDescriptor out(file.temporary(), O_WRONLY);
+    if (!out.ok()) throw write_error(target);
+    if (!write_all(out.id(), bytes)) throw write_error(target);
+  }
+  file.commit();
+}
+
+}  // namespace episcope::io

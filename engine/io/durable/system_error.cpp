@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/durable/system_error.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::uintmax_t kNearlyNothing = 1 << 20;
+
+// Pseudo file systems report no capacity at all.
+bool is_disk_full(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto space = std::filesystem::space(path.parent_path(), error);
+  return !error && space.capacity > 0 && space.available < kNearlyNothing;
+}
+
+}  // namespace
+
+void require_readable_file(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw IoError(path, "there is no such file; check the path");
+  }
+  if (std::filesystem::is_directory(status)) {
+    throw IoError(path, "this is a folder where a file is needed; name a file in it");
+  }
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) {
+    throw IoError(path, "the file cannot be opened (" + std::string(std::strerror(errno)) +
+                            "); check its permissions");
+  }
+  ::close(descriptor);
+}
+
+IoError write_error(const std::filesystem::path& path) {
+  const int code = errno;
+  const bool is_forbidden = code == EACCES || code == EPERM || code == EROFS;
+  if (code == ENOSPC || code == EDQUOT || (!is_forbidden && is_disk_full(path))) {
+    return {path, "the disk is full; free some space or choose another folder"};
+  }
+  if (code == EFBIG) {
+    return {path, "the file would become larger than is allowed here; choose another folder"};
+  }
+  if (code == ENOENT) {
+    return {path, "the folder does not exist; create it or choose another one"};
+  }
+  if (code == ENOTDIR) {
+    return {path, "a part of this path is a file and no folder; choose another path"};
+  }
+  const std::string reason = code == 0 ? "unknown reason" : std::strerror(code);
+  return {path, "the file cannot be written (" + reason + "); choose another folder"};
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/grid/decode_image.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/system_error.h"
+#include "engine/io/grid/png_check.h"
+
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace episcope::io {
+namespace {
+
+template <class T>
+Image<T> copy_rgb(const cv::Mat& decoded) {
+  const int stored = decoded.channels();
+  const int channels = stored < 3 ? 1 : 3;
+  Image<T> image(decoded.rows, decoded.cols, channels);
+  for (int y = 0; y < decoded.rows; ++y) {
+    const T* in = decoded.ptr<T>(y);
+    T* out = image.row(y);
+    for (int x = 0; x < decoded.cols; ++x, in += stored, out += channels) {
+      for (int c = 0; c < channels; ++c) out[c] = in[channels - 1 - c];  // stored as BGR
+    }
+  }
+  return image;
+}
+
+[[noreturn]] void refuse(const std::filesystem::path& path) {
+  throw IoError(path,
+                "the image cannot be decoded: it is damaged or of another kind than its "
+                "name says; copy or export it again");
+}
+
+cv::Mat read_mat(const std::filesystem::path& path) {
+  require_readable_file(path);
+  if (is_damaged_png(path)) refuse(path);  // the decoder would print a message of its own
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  cv::Mat decoded;
+  try {
+    decoded = cv::imread(path.string(), cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    decoded.release();
+  }
+  if (decoded.empty()) refuse(path);
+  return decoded;
+}
+
+}  // namespace
+
+AnyImage decode_image(const std::filesystem::path& path) {
+  const cv::Mat decoded = read_mat(path);
+  if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
+  if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);
+  if (decoded.depth() == CV_32F) return copy_rgb<float>(decoded);
+  throw IoError(path,
+                "the image holds neither 8-bit, 16-bit nor 32-bit float samples; export it "
+                "again in one of these");
+}
+
+bool is_image_name(const std::filesystem::path& path) {
+  constexpr std::array suffixes{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm", ".pgm"};
+  std::string suffix = path.extension().string();
+  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
+}
+
+std::string describe_image(const AnyImage& image) {
+  constexpr const char* types[] = {"8 bit", "16 bit", "float"};
+  return std::visit(
+      [&](const auto& one) {
+        return std::to_string(one.width()) + "×" + std::to_string(one.height()) + " px, " +
+               (one.channels() == 1 ? "grey" : "RGB") + ", " + types[image.index()];
+      },
+      image);
+}
+
+Image<std::int32_t> decode_numbers(const std::filesystem::path& path) {
+  const AnyImage decoded = decode_image(path);
+  if (std::holds_alternative<Image<float>>(decoded)) {
+    throw IoError(path, "whole numbers are expected in this image, but it holds float samples");
+  }
+  return std::visit(
+      [](const auto& image) {
+        Image<std::int32_t> numbers(image.height(), image.width());
+        for (int y = 0; y < image.height(); ++y) {
+          for (int x = 0; x < image.width(); ++x) {
+            numbers.at(y, x) = static_cast<std::int32_t>(image.at(y, x));
+          }
+        }
+        return numbers;
+      },
+      decoded);
+}
+
+}  // namespace episcope::io

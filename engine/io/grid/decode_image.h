@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <variant>
+
+namespace episcope::io {
+
+/// A decoded image in the type it was stored in: 1 channel, or 3 in the order RGB. An alpha channel
+/// is left out.
+using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<float>>;
+
+/// Decodes PNG, JPEG, TIFF, BMP, PPM. Orientation tags are ignored: views are taken as stored.
+/// Throws IoError.
+[[nodiscard]] AnyImage decode_image(const std::filesystem::path& path);
+
+/// Whether the suffix is one that `decode_image` reads.
+[[nodiscard]] bool is_image_name(const std::filesystem::path& path);
+
+/// "512×512 px, 3 channels, 8 bit", for messages.
+[[nodiscard]] std::string describe_image(const AnyImage& image);
+
+/// First channel of an integer image, as numbers. Throws IoError for float images.
+[[nodiscard]] Image<std::int32_t> decode_numbers(const std::filesystem::path& path);
+
+}  // namespace episcope::io

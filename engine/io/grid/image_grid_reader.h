@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/open/open.h"
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace episcope::io {
+
+/// What is known of an image grid from files beside it.
+struct ImageGridExtras {
+  std::string format;            ///< For the report; empty = "image grid (pattern)".
+  std::filesystem::path source;  ///< What was opened; empty = the folder of images.
+  CameraGrid camera;
+  std::optional<Interval> disparity_range;
+  /// Reads the disparity of the views as stored; may correct the camera. Empty = no truth.
+  std::function<DisparityField(const LightField::Samples&, CameraGrid& camera, ConventionReport&)>
+      read_truth;
+};
+
+/// Reads a folder of equally sized images on a grid of views. Throws IoError,
+/// InvalidInput for a bad pattern, Cancelled.
+[[nodiscard]] Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
+                                    const Progress& progress, const ImageGridExtras& extras = {});
+
+}  // namespace episcope::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/grid/load_views.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/open/center_preview.h"
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+template <class T>
+void store(const std::filesystem::path& path, const AnyImage& decoded, const AnyImage& center,
+           ImageView<T> view) {
+  const auto* image = std::get_if<Image<T>>(&decoded);
+  const bool fits = image != nullptr && image->height() == view.height &&
+                    image->width() == view.width && image->channels() == view.channels;
+  if (!fits) {
+    throw IoError(path, "this view has " + describe_image(decoded) + ", but the centre view has " +
+                            describe_image(center) + "; all views must be alike");
+  }
+  std::copy_n(image->data(), image->size(), view.data);
+}
+
+}  // namespace
+
+LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
+                               const Progress& progress) {
+  progress.check();
+  const ViewIndex center = views.grid.center();
+  const int center_index = center.v * views.grid.u + center.u;
+  const AnyImage first = decode_image(views.files[static_cast<std::size_t>(center_index)]);
+  return std::visit(
+      [&]<class T>(const Image<T>& image) -> LightField::Samples {
+        if (on_center) on_center(preview_rgb(image.view()));
+        ViewStack<T> stack(views.grid, image.height(), image.width(), image.channels());
+        std::copy_n(image.data(), image.size(), stack.view(center).data);
+        parallel_for(views.grid.count(), progress, [&](int i) {
+          if (i == center_index) return;
+          const std::filesystem::path& path = views.files[static_cast<std::size_t>(i)];
+          store(path, decode_image(path), first, stack.view(views.grid.view_at(i)));
+        });
+        return stack;
+      },
+      first);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/hdf5/hdf5_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/system_error.h"
+#include "engine/io/hdf5/hdf5_block.h"
+#include "engine/io/hdf5/hdf5_handle.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::size_t kChunkCacheLimit = std::size_t{256} << 20;
+
+Hdf5Type type_of(hid_t type) {
+  const H5T_class_t kind = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  if (kind == H5T_FLOAT) return Hdf5Type::Float;
+  if (kind == H5T_ENUM && size == 1) return Hdf5Type::UInt8;
+  if (kind != H5T_INTEGER) return Hdf5Type::Other;
+  if (H5Tget_sign(type) == H5T_SGN_NONE && size == 1) return Hdf5Type::UInt8;
+  if (H5Tget_sign(type) == H5T_SGN_NONE && size == 2) return Hdf5Type::UInt16;
+  return Hdf5Type::Integer;
+}
+
+Hdf5Shape shape_of(hid_t space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
+  if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+Hdf5Dataset describe(hid_t dataset, const std::string& name) {
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  return {name, shape_of(space), type_of(type)};
+}
+
+/// Room for all chunks that the views of one row of chunks share: else a file whose chunks span
+/// several views would be decompressed once for every view.
+std::size_t chunk_cache_bytes(hid_t dataset) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (!creation.ok() || H5Pget_layout(creation) != H5D_CHUNKED) return 0;
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
+  const Hdf5Shape shape = shape_of(space);
+  std::vector<hsize_t> chunk(shape.size());
+  if (shape.size() < 4 ||
+      H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0) {
+    return 0;
+  }
+  if (chunk[0] == 1 && chunk[1] == 1) return 0;
+  std::size_t bytes = H5Tget_size(type) * chunk[0];
+  for (std::size_t axis = 1; axis < shape.size(); ++axis) {
+    bytes *= (shape[axis] + chunk[axis] - 1) / chunk[axis] * chunk[axis];
+  }
+  return std::min(bytes, kChunkCacheLimit);
+}
+
+hid_t open_with_cache(hid_t file, const std::string& name) {
+  Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+  if (!plain.ok()) return -1;
+  const std::size_t bytes = chunk_cache_bytes(plain);
+  if (bytes == 0) return plain.release();
+  const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access, 100003, bytes, 1.0);
+  return H5Dopen2(file, name.c_str(), access);
+}
+
+struct Listing {
+  std::vector<std::string> groups;
+  std::vector<std::string> datasets;
+};
+
+herr_t list_object(hid_t group, const char* name, const H5L_info_t*, void* listing) {
+  H5O_info_t info;
+  if (H5Oget_info_by_name2(group, name, &info, H5O_INFO_BASIC, H5P_DEFAULT) < 0) return 0;
+  auto& found = *static_cast<Listing*>(listing);
+  if (info.type == H5O_TYPE_GROUP) found.groups.emplace_back(name);
+  if (info.type == H5O_TYPE_DATASET) found.datasets.emplace_back(name);
+  return 0;
+}
+
+Listing list_group(hid_t file, const std::string& name) {
+  Listing listing;
+  hsize_t next = 0;
+  const Hdf5Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
+  if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &next, list_object, &listing);
+  return listing;
+}
+
+bool is_group(hid_t file, const std::string& name) {
+  H5O_info_t info;
+  return H5Oget_info_by_name2(file, name.c_str(), &info, H5O_INFO_BASIC, H5P_DEFAULT) >= 0 &&
+         info.type == H5O_TYPE_GROUP;
+}
+
+hid_t open_attribute(hid_t file, const std::string& object, const std::string& name) {
+  if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return -1;
+  return H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+}
+
+bool path_exists(hid_t file, const std::string& name) {
+  if (name == "/") return true;
+  for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
+    const std::string part = name.substr(0, end);
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    if (end == std::string::npos) return true;
+  }
+}
+
+}  // namespace
+
+std::string shape_text(const Hdf5Shape& shape) {
+  std::string text;
+  for (const std::size_t length : shape) text += (text.empty() ? "" : "×") + std::to_string(length);
+  return text.empty() ? "a single value" : text;
+}
+
+bool has_hdf5_signature(const std::filesystem::path& path) {
+  constexpr char signature[] = "\x89HDF\r\n\x1a\n";
+  std::ifstream file(path, std::ios::binary);
+  // A block of the user's may precede the HDF5 part, as in MATLAB files.
+  for (const int offset : {0, 512, 1024, 2048}) {
+    char begin[8] = {};
+    if (!file.seekg(offset).read(begin, sizeof begin)) return false;
+    if (std::equal(begin, begin + 8, signature)) return true;
+  }
+  return false;
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
+  require_readable_file(path);
+  if (!has_hdf5_signature(path)) {
+    throw IoError(path, "this is not an HDF5 file, whatever its name says; choose another file");
+  }
+  const Hdf5Session session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access, false, true);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+  if (file_ < 0) {
+    throw IoError(path, "the HDF5 file is cut short or damaged (" +
+                            std::to_string(std::filesystem::file_size(path)) +
+                            " bytes are there); copy or download it again");
+  }
+}
+
+Hdf5Input::~Hdf5Input() {
+  const Hdf5Session session;
+  for (const auto& [name, id] : datasets_) H5Dclose(id);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+bool Hdf5Input::has(const std::string& name) const {
+  const Hdf5Session session;
+  return path_exists(file_, name);
+}
+
+std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
+  const Hdf5Session session;
+  const Listing root = list_group(file_, "/");
+  std::vector<std::string> names = root.datasets;
+  for (const std::string& group : root.groups) {
+    for (const std::string& name : list_group(file_, group).datasets) {
+      names.push_back(group + "/" + name);
+    }
+  }
+  std::vector<Hdf5Dataset> found;
+  for (const std::string& name : names) {
+    const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (dataset.ok()) found.push_back(describe(dataset, name));
+  }
+  return found;
+}
+
+Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
+  if (!has(name)) {
+    std::string held;
+    for (const Hdf5Dataset& one : datasets()) held += (held.empty() ? "" : ", ") + one.name;
+    throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
+                             (held.empty() ? "no dataset at all" : held) + "; choose another file");
+  }
+  const Hdf5Session session;
+  if (is_group(file_, name)) {
+    throw IoError(path_, name +
+                             " is a group in this file, but must be a dataset; store the samples "
+                             "as the dataset " +
+                             name + " or choose another file");
+  }
+  return describe(open_dataset(name), name);
+}
+
+std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
+  const auto known = datasets_.find(name);
+  if (known != datasets_.end()) return known->second;
+  const hid_t id = open_with_cache(file_, name);
+  if (id < 0) {
+    throw IoError(path_, "the dataset " + name +
+                             " cannot be opened: the file is damaged; copy or download it again");
+  }
+  return datasets_[name] = id;
+}
+
+template <class T>
+void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
+  const Hdf5Session session;
+  const hid_t id = open_dataset(name);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
+  const Hdf5Handle stored(H5Dget_type(id), H5Tclose);
+  // A boolean of other programs is an enumeration, which HDF5 does not convert.
+  const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
+  const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
+  if (!select_block(space, block) || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
+    throw IoError(path_, "the dataset " + name +
+                             " cannot be read: the file is cut short or damaged; copy or download "
+                             "it again");
+  }
+}
+
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::uint8_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::uint16_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::int32_t*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) const;
+template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
+
+bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
+  const Hdf5Session session;
+  return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();
+}
+
+std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
+  const std::vector<double> all = numbers(object, name);
+  return all.size() == 1 ? std::optional(all.front()) : std::nullopt;
+}
+
+std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
+  const Hdf5Session session;
+  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  const hssize_t count = H5Sget_simple_extent_npoints(space);
+  const H5T_class_t kind = H5Tget_class(type);
+  if (count < 1 || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return {};
+  std::vector<double> values(static_cast<std::size_t>(count));
+  if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) return {};
+  return values;
+}
+
+std::optional<std::string> Hdf5Input::text(const std::string& object,
+                                           const std::string& name) const {
+  const Hdf5Session session;
+  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  if (!attribute.ok()) return {};
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Sget_simple_extent_npoints(space) != 1) return {};
+  if (H5Tis_variable_str(type) > 0) {
+    char* value = nullptr;
+    if (H5Aread(attribute, type, &value) < 0 || value == nullptr) return {};
+    std::string copy(value);
+    H5free_memory(value);
+    return copy;
+  }
+  std::string value(H5Tget_size(type), '\0');
+  if (H5Aread(attribute, type, value.data()) < 0) return {};
+  return value.substr(0, value.find('\0'));
+}
+
+}  // namespace episcope::io

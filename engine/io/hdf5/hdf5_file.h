@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/durable/atomic_file.h"
+#include "engine/io/hdf5/hdf5_write_driver.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// The only door to HDF5 (with the write driver beneath it). Every call holds one lock for the
+/// whole process, since the library as packaged is not thread-safe; the library's own error
+/// printing is off.
+
+using Hdf5Shape = std::vector<std::size_t>;
+
+enum class Hdf5Type { UInt8, UInt16, Integer, Float, Other };
+
+struct Hdf5Dataset {
+  std::string name;  ///< Path inside the file, without a leading slash.
+  Hdf5Shape shape;
+  Hdf5Type type = Hdf5Type::Other;  ///< `Integer`: any other width or sign.
+};
+
+/// A block of a dataset: `count[i]` elements from `start[i]` on along each axis.
+struct Hdf5Block {
+  Hdf5Shape start;
+  Hdf5Shape count;
+};
+
+/// "9×9×512×512×3".
+[[nodiscard]] std::string shape_text(const Hdf5Shape& shape);
+
+/// Whether the file begins with the signature of HDF5; false also if it cannot be read.
+[[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
+
+/// An HDF5 file open for reading, without file locks. Objects are named by their path in the file;
+/// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero).
+class Hdf5Input {
+ public:
+  /// Throws IoError that tells a missing file, another kind of file and a damaged one apart.
+  explicit Hdf5Input(const std::filesystem::path& path);
+  ~Hdf5Input();
+  Hdf5Input(const Hdf5Input&) = delete;
+  Hdf5Input& operator=(const Hdf5Input&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] bool has(const std::string& name) const;
+  /// Datasets of the root group and of the groups directly in it, by name.
+  [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
+  /// Throws IoError, naming what the file holds, if there is no such dataset; also for a group.
+  [[nodiscard]] Hdf5Dataset dataset(const std::string& name) const;
+
+  /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
+  template <class T>
+  void read(const std::string& name, const Hdf5Block& block, T* out) const;
+
+  [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
+  /// Attribute of any numeric type, a scalar or an array of length 1; empty if there is none.
+  [[nodiscard]] std::optional<double> number(const std::string& object,
+                                             const std::string& name) const;
+  /// All elements of a numeric attribute; empty if there is none.
+  [[nodiscard]] std::vector<double> numbers(const std::string& object,
+                                            const std::string& name) const;
+  [[nodiscard]] std::optional<std::string> text(const std::string& object,
+                                                const std::string& name) const;
+
+ private:
+  friend class Hdf5Output;  // Copies from here.
+
+  [[nodiscard]] std::int64_t open_dataset(const std::string& name) const;
+
+  std::filesystem::path path_;
+  std::int64_t file_ = -1;
+  mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
+};
+
+/// A new HDF5 file at the temporary place of `file`: `close` it, then commit that. Datasets are
+/// contiguous and uncompressed, since speed matters more than size. All members throw IoError that
+/// names the target of `file`.
+class Hdf5Output {
+ public:
+  explicit Hdf5Output(const AtomicFile& file);
+  ~Hdf5Output();
+  Hdf5Output(const Hdf5Output&) = delete;
+  Hdf5Output& operator=(const Hdf5Output&) = delete;
+
+  /// Copies every object and attribute of the root group as stored, but those named.
+  void copy_all(const Hdf5Input& from, const std::vector<std::string>& without);
+  void add_group(const std::string& name);
+  /// Adds a dataset with its attributes `axes` ("v,u,y,x") and `units`. T as in `Hdf5Input::read`.
+  template <class T>
+  void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
+                   const std::string& units);
+  template <class T>
+  void write(const std::string& name, const Hdf5Block& block, const T* in);
+
+  void set_number(const std::string& object, const std::string& name, double value);
+  void set_integers(const std::string& object, const std::string& name,
+                    const std::vector<int>& values);
+  void set_numbers(const std::string& object, const std::string& name,
+                   const std::vector<double>& values);
+  void set_text(const std::string& object, const std::string& name, const std::string& value);
+
+  /// Flushes and closes. Throws IoError if anything could not be written.
+  void close();
+
+ private:
+  void set_attribute(const std::string& object, const std::string& name, std::int64_t type,
+                     const Hdf5Shape& shape, const void* value);
+
+  /// Throws if a call of the library failed or a write did not reach the disk.
+  void require(bool is_done) const;
+
+  std::filesystem::path path_;
+  std::int64_t file_ = -1;
+  std::map<std::string, std::int64_t> datasets_;
+  Hdf5WriteLog log_;
+};
+
+}  // namespace episcope::io

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/hdf5/hdf5_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/system_error.h"
+#include "engine/io/hdf5/hdf5_block.h"
+#include "engine/io/hdf5/hdf5_handle.h"
+
+#include <cerrno>
+#include <utility>
+
+namespace episcope::io {
+
+Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
+  const Hdf5Session session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log_);
+  file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  require(file_ >= 0);
+}
+
+Hdf5Output::~Hdf5Output() {
+  const Hdf5Session session;
+  for (const auto& [name, id] : datasets_) H5Dclose(id);
+  if (file_ >= 0) H5Fclose(file_);
+}
+
+void Hdf5Output::add_group(const std::string& name) {
+  const Hdf5Session session;
+  const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                         H5Gclose);
+  require(group.ok());
+}
+
+template <class T>
+void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
+                             const std::string& axes, const std::string& units) {
+  {
+    const Hdf5Session session;
+    const std::vector<hsize_t> extent(shape.begin(), shape.end());
+    const Hdf5Handle space(
+        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+    const hid_t id = H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation,
+                                H5P_DEFAULT);
+    require(id >= 0);
+    datasets_[name] = id;
+  }
+  set_text(name, "axes", axes);
+  if (!units.empty()) set_text(name, "units", units);
+}
+
+template <class T>
+void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T* in) {
+  const Hdf5Session session;
+  const hid_t id = datasets_.at(name);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const Hdf5Handle memory(memory_space(block), H5Sclose);
+  require(select_block(space, block) &&
+          H5Dwrite(id, native_type<T>(), memory, space, H5P_DEFAULT, in) >= 0);
+}
+
+template void Hdf5Output::add_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
+                                                    const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<std::uint16_t>(const std::string&, const Hdf5Shape&,
+                                                     const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<std::int32_t>(const std::string&, const Hdf5Shape&,
+                                                    const std::string&, const std::string&);
+template void Hdf5Output::add_dataset<float>(const std::string&, const Hdf5Shape&,
+                                             const std::string&, const std::string&);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint8_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint16_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::int32_t*);
+template void Hdf5Output::write(const std::string&, const Hdf5Block&, const float*);
+
+void Hdf5Output::set_number(const std::string& object, const std::string& name, double value) {
+  set_attribute(object, name, H5T_NATIVE_DOUBLE, {}, &value);
+}
+
+void Hdf5Output::set_integers(const std::string& object, const std::string& name,
+                              const std::vector<int>& values) {
+  const bool is_scalar = values.size() == 1;
+  set_attribute(object, name, H5T_NATIVE_INT, is_scalar ? Hdf5Shape{} : Hdf5Shape{values.size()},
+                values.data());
+}
+
+void Hdf5Output::set_numbers(const std::string& object, const std::string& name,
+                             const std::vector<double>& values) {
+  set_attribute(object, name, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
+}
+
+void Hdf5Output::set_text(const std::string& object, const std::string& name,
+                          const std::string& value) {
+  const Hdf5Session session;
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size() + 1);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  set_attribute(object, name, type, {}, value.c_str());
+}
+
+void Hdf5Output::set_attribute(const std::string& object, const std::string& name,
+                               std::int64_t type, const Hdf5Shape& shape, const void* value) {
+  const Hdf5Session session;
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Hdf5Handle space(
+      extent.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, extent.data(), nullptr),
+      H5Sclose);
+  const Hdf5Handle attribute(H5Acreate_by_name(file_, object.c_str(), name.c_str(), type, space,
+                                               H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  require(attribute.ok() && H5Awrite(attribute, type, value) >= 0);
+}
+
+void Hdf5Output::close() {
+  const Hdf5Session session;
+  bool is_done = true;
+  for (const auto& [name, id] : datasets_) is_done &= H5Dclose(id) >= 0;
+  datasets_.clear();
+  is_done &= H5Fclose(std::exchange(file_, -1)) >= 0;
+  require(is_done);
+}
+
+void Hdf5Output::require(bool is_done) const {
+  if (is_done && log_.first_error == 0) return;
+  errno = log_.first_error;
+  throw write_error(path_);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/labels/label_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/light_field/shear.h"
+#include "engine/io/labels/scribble_dataset.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTrueLabels = "GT_LABELS";
+constexpr const char* kScribbles = "SCRIBBLES";
+constexpr const char* kOwner = "light_field";
+
+FieldShape shape_of(const Scene& scene) {
+  const LightField& field = *scene.light_field;
+  return {field.grid(), field.height(), field.width()};
+}
+
+ViewFlip flip_of(const Scene& scene) {
+  return {scene.convention.reversed_u, scene.convention.reversed_v};
+}
+
+/// Name of the light-field file, if it is one that labels may lie beside.
+std::string owner_name(const Scene& scene) {
+  const fs::path source = scene.light_field->info().source;
+  std::error_code ignored;
+  return fs::is_regular_file(source, ignored) ? source.filename().string() : std::string();
+}
+
+/// What must stay of the file that is there; empty if there is none.
+std::unique_ptr<Hdf5Input> open_former(const fs::path& path, const Scene& scene) {
+  std::error_code ignored;
+  if (!fs::exists(path, ignored)) return nullptr;
+  auto former = std::make_unique<Hdf5Input>(path);
+  if (former->has("LF")) {
+    throw IoError(path,
+                  "this file holds a light field and is not written over; save scribbles "
+                  "beside it, for example as labels.h5");
+  }
+  const auto owner = former->text("/", kOwner);
+  const std::string name = owner_name(scene);
+  if (owner && !name.empty() && *owner != name) {
+    throw IoError(path, "these labels belong to the light field " + *owner + ", not to " + name +
+                            "; choose another name");
+  }
+  return former;
+}
+
+void require_fitting(const fs::path& path, const Scribbles& scribbles, const FieldShape& shape) {
+  for (const auto& [view, labels] : scribbles.views) {
+    if (shape.grid.contains(view) && labels.height() == shape.height &&
+        labels.width() == shape.width) {
+      continue;
+    }
+    throw IoError(path, "scribbles of " + std::to_string(labels.height()) + "×" +
+                            std::to_string(labels.width()) + " px on view (" + view_text(view) +
+                            ") do not fit the light field of " + std::to_string(shape.grid.v) +
+                            "×" + std::to_string(shape.grid.u) + " views of " +
+                            std::to_string(shape.height) + "×" + std::to_string(shape.width) +
+                            " px; open the one that they belong to");
+  }
+}
+
+std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
+                          const fs::path& former) {
+  std::error_code error;
+  const std::uintmax_t kept = fs::file_size(former, error);
+  const int views = scribbles.views.size() > 1 ? shape.grid.count() : 1;
+  return (error ? 0 : kept) +
+         sizeof(std::int32_t) * static_cast<std::uintmax_t>(views) * shape.height * shape.width +
+         (1 << 16);
+}
+
+/// In the house order, on the views as they are stored.
+Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+  StoredScribbles stored =
+      read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);
+  put_in_order(stored.scribbles, scene.light_field->grid(), flip_of(scene));
+  return std::move(stored.scribbles);
+}
+
+/// As they belong on the views as they are stored, where `former` may have more.
+Scribbles put_back(const Scribbles& scribbles, const Hdf5Input* former, const Scene& scene,
+                   const Progress& progress) {
+  const bool has_more = former && former->has(kScribbles);
+  return unsheared(scribbles, has_more ? read_unmoved(*former, scene, progress) : Scribbles(),
+                   scene.light_field->center(), scene.convention.focus_px);
+}
+
+}  // namespace
+
+Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progress& progress) {
+  Scribbles stored = read_unmoved(Hdf5Input(path), scene, progress);
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(stored) : sheared(stored, scene.light_field->center(), focus_px);
+}
+
+ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scene,
+                                         const Progress& progress) {
+  const Hdf5Input file(path);
+  auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape_of(scene), progress);
+  if (scene.convention.raised_labels) {
+    std::for_each(labels.data(), labels.data() + labels.size(),
+                  [](std::int32_t& label) { ++label; });
+  }
+  reverse_views(labels, scene.light_field->grid(), flip_of(scene));
+  const double focus_px = scene.convention.focus_px;
+  return focus_px == 0 ? std::move(labels)
+                       : sheared(labels, scene.light_field->center(), focus_px, progress);
+}
+
+void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,
+                     const Progress& progress) {
+  progress.check();
+  const FieldShape shape = shape_of(scene);
+  require_fitting(path, scribbles, shape);
+  const std::unique_ptr<Hdf5Input> former = open_former(path, scene);
+  const Scribbles moved = scene.convention.focus_px == 0
+                              ? Scribbles()
+                              : put_back(scribbles, former.get(), scene, progress);
+  const Scribbles& stored = scene.convention.focus_px == 0 ? scribbles : moved;
+  AtomicFile target(path, file_bytes(stored, shape, path));
+  Hdf5Output file(target);
+  const std::string owner = owner_name(scene);
+  if (former) {
+    file.copy_all(*former, {kScribbles, "scribble_view"});
+  } else if (!owner.empty()) {
+    file.set_text("/", kOwner, owner);
+  }
+  const bool raises_labels = former && former->has(kTrueLabels) && scene.convention.raised_labels;
+  add_scribbles(file, stored, {shape, flip_of(scene), raises_labels}, progress);
+  file.close();
+  progress.check();
+  target.commit();
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/labels/label_list.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kColorChannels = 3;
+
+}  // namespace
+
+std::vector<LabelInfo> read_label_list(const Hdf5Input& file, const std::string& dataset) {
+  const std::vector<double> ids = file.numbers(dataset, "label_ids");
+  const std::vector<double> colors = file.numbers(dataset, "label_colors");
+  std::istringstream names(file.text(dataset, "label_names").value_or(""));
+  if (colors.size() != ids.size() * kColorChannels) return {};
+  std::vector<LabelInfo> labels;
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    LabelInfo label;
+    label.id = static_cast<int>(ids[i]);
+    if (!std::getline(names, label.name)) return {};
+    for (std::size_t c = 0; c < kColorChannels; ++c) {
+      label.color[c] =
+          static_cast<std::uint8_t>(std::clamp(colors[i * kColorChannels + c], 0., 255.));
+    }
+    labels.push_back(std::move(label));
+  }
+  return labels;
+}
+
+void add_label_list(Hdf5Output& file, const std::string& dataset,
+                    const std::vector<LabelInfo>& labels) {
+  if (labels.empty()) return;
+  std::vector<int> ids;
+  std::vector<int> colors;
+  std::string names;
+  for (const LabelInfo& label : labels) {
+    ids.push_back(label.id);
+    colors.insert(colors.end(), label.color.begin(), label.color.end());
+    names += label.name + "\n";
+  }
+  file.set_integers(dataset, "label_ids", ids);
+  file.set_integers(dataset, "label_colors", colors);
+  file.set_text(dataset, "label_names", names);
+}
+
+}  // namespace episcope::io

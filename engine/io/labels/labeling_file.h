@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+#include "engine/core/array/volume.h"
+#include "engine/core/light_field/label_info.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/parameter.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What a segmentation file says besides its probabilities.
+struct StoredLabeling {
+  ViewStack<std::int32_t> labels;
+  std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
+  ParameterSet parameters;
+  std::string source;  ///< Path or name of the light field.
+  double seconds = 0;
+};
+
+/// Probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1, labels as in
+/// StoredLabeling::infos.
+using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
+
+/// Writes a segmentation in the house order of views: `LABELS` int32 [v][u][y][x],
+/// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
+/// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
+/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`.
+/// Atomic. Throws IoError, Cancelled.
+void write_labeling(const std::filesystem::path& path, const StoredLabeling& labeling,
+                    const ViewProbabilities& probabilities, const Progress& progress);
+
+/// A segmentation file, read view by view.
+class LabelingFile {
+ public:
+  /// Throws IoError.
+  explicit LabelingFile(const std::filesystem::path& path);
+  ~LabelingFile();
+
+  [[nodiscard]] GridShape grid() const;
+  [[nodiscard]] ViewIndex first() const;
+  [[nodiscard]] bool contains(ViewIndex view) const;
+  [[nodiscard]] const std::vector<LabelInfo>& infos() const;
+  [[nodiscard]] bool has_probabilities() const;
+  /// Labels of a view, `[y][x]`. Precondition: `contains(view)`. Throws IoError.
+  [[nodiscard]] Image<std::int32_t> labels(ViewIndex view) const;
+  /// `[y][x][label]`, labels in the order of `infos`. Precondition: `has_probabilities` and
+  /// `contains(view)`. Throws IoError.
+  [[nodiscard]] Image<float> probabilities(ViewIndex view) const;
+  /// Light field that it belongs to, as its file says; empty if it does not.
+  [[nodiscard]] std::string source() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Whether the file is one that `write_labeling` wrote: it holds LABELS and neither samples nor
+/// what a user painted. Throws IoError if it is an HDF5 file and damaged.
+[[nodiscard]] bool is_labeling_file(const std::filesystem::path& path);
+
+}  // namespace episcope::io

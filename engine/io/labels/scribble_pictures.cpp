@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/labels/scribble_pictures.h"
+
+#include "engine/core/error.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/image_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <regex>
+#include <string>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kRgba = 4;
+
+std::string stem_of(ViewIndex view) {
+  char stem[48];
+  std::snprintf(stem, sizeof stem, "scribbles_%02d_%02d", view.v, view.u);
+  return stem;
+}
+
+std::optional<ViewIndex> view_of(const std::string& name) {
+  static const std::regex pattern("scribbles_([0-9]{2,5})_([0-9]{2,5})\\.png");
+  std::smatch found;
+  if (!std::regex_match(name, found, pattern)) return std::nullopt;
+  return ViewIndex{std::stoi(found[1]), std::stoi(found[2])};
+}
+
+template <class T>
+void write_ids(const fs::path& path, const Image<std::int32_t>& labels) {
+  Image<T> ids(labels.height(), labels.width());
+  std::ranges::transform(labels, ids.begin(), [](std::int32_t id) { return static_cast<T>(id); });
+  write_png(path, ids.view());
+}
+
+Image<std::uint8_t> preview(const Image<std::int32_t>& labels,
+                            const std::vector<LabelInfo>& known) {
+  Image<std::uint8_t> picture(labels.height(), labels.width(), kRgba);
+  std::uint8_t* pixel = picture.data();
+  for (const std::int32_t id : labels) {
+    if (id > 0) {
+      const auto label = std::ranges::find(known, id, &LabelInfo::id);
+      const Rgb color = label == known.end() ? label_color(id) : label->color;
+      std::ranges::copy(color, pixel);
+      pixel[kRgba - 1] = 255;
+    }
+    pixel += kRgba;
+  }
+  return picture;
+}
+
+ViewScribbles read_picture(const fs::path& path, ViewIndex view, const PixelIndex& size) {
+  ViewScribbles one{view, decode_numbers(path)};
+  if (one.labels.height() == size.y && one.labels.width() == size.x) return one;
+  throw IoError(path, "the picture has " + std::to_string(one.labels.height()) + "×" +
+                          std::to_string(one.labels.width()) + " px, but views have " +
+                          std::to_string(size.y) + "×" + std::to_string(size.x) +
+                          " px; choose pictures of this light field");
+}
+
+}  // namespace
+
+std::vector<fs::path> write_scribble_pictures(const fs::path& folder, const Scribbles& scribbles) {
+  std::vector<fs::path> written;
+  for (const auto& [view, labels] : scribbles.views) {
+    const std::string stem = stem_of(view);
+    written.push_back(folder / (stem + ".png"));
+    const bool fits_byte = std::ranges::all_of(labels, [](std::int32_t id) { return id <= 255; });
+    if (fits_byte) {
+      write_ids<std::uint8_t>(written.back(), labels);
+    } else {
+      write_ids<std::uint16_t>(written.back(), labels);
+    }
+    written.push_back(folder / (stem + "_preview.png"));
+    write_png(written.back(), preview(labels, scribbles.labels).view());
+  }
+  return written;
+}
+
+Scribbles read_scribble_pictures(const fs::path& folder, GridShape grid, int height, int width) {
+  std::error_code error;
+  Scribbles scribbles;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const auto view = view_of(entry.path().filename().string());
+    if (!view) continue;
+    if (!grid.contains(*view)) {
+      throw IoError(entry.path(), "the light field has no view (" + view_text(*view) +
+                                      "); choose pictures of this light field");
+    }
+    scribbles.views.push_back(read_picture(entry.path(), *view, {height, width}));
+  }
+  if (error) throw IoError(folder, "the folder cannot be read; check its permissions");
+  if (scribbles.empty()) {
+    throw IoError(folder, "there is no picture scribbles_<v>_<u>.png here; choose another folder");
+  }
+  std::ranges::sort(scribbles.views, {},
+                    [](const ViewScribbles& one) { return std::pair(one.view.v, one.view.u); });
+  return scribbles;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/maps/pfm.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/system_error.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kLargestSide = 1 << 16;
+
+struct Header {
+  int channels = 1;
+  int width = 0;
+  int height = 0;
+  double scale = 0;
+};
+
+/// The next word of the header; `#` starts a comment that ends with the line. One white-space
+/// character after the word is consumed, so that samples begin right after the last word.
+std::string next_word(std::istream& in) {
+  std::string word;
+  for (int c = in.get(); c != EOF; c = in.get()) {
+    if (c == '#') {
+      while (c != '\n' && c != EOF) c = in.get();
+      if (!word.empty()) return word;
+    } else if (!std::isspace(c)) {
+      word += static_cast<char>(c);
+      if (word.size() > 64) return {};
+    } else if (!word.empty()) {
+      return word;
+    }
+  }
+  return word;
+}
+
+Header read_header(const std::filesystem::path& path, std::istream& in) {
+  const std::string magic = next_word(in);
+  if (magic != "Pf" && magic != "PF") {
+    throw IoError(path, "this is not a PFM file, which begins with Pf or PF; choose another file");
+  }
+  Header header;
+  header.channels = magic == "PF" ? 3 : 1;
+  try {
+    header.width = std::stoi(next_word(in));
+    header.height = std::stoi(next_word(in));
+    header.scale = std::stod(next_word(in));
+  } catch (const std::logic_error&) {
+    throw IoError(path, "the header of the PFM file lacks width, height or scale; write it again");
+  }
+  const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestSide &&
+                        header.height <= kLargestSide;
+  if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
+    throw IoError(path, "the header of the PFM file says " + std::to_string(header.width) + "×" +
+                            std::to_string(header.height) + " px and scale " +
+                            std::to_string(header.scale) + ", which cannot be; write it again");
+  }
+  return header;
+}
+
+void swap_bytes(float* row, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto bits = std::bit_cast<std::uint32_t>(row[i]);
+    row[i] = std::bit_cast<float>(__builtin_bswap32(bits));
+  }
+}
+
+}  // namespace
+
+Image<float> read_pfm(const std::filesystem::path& path) {
+  require_readable_file(path);
+  std::ifstream in(path, std::ios::binary);
+  const Header header = read_header(path, in);
+  Image<float> image(header.height, header.width, header.channels);
+  const std::size_t count = static_cast<std::size_t>(header.width) * header.channels;
+  const bool is_little = header.scale < 0;
+  const auto scale = static_cast<float>(std::abs(header.scale));
+  for (int y = header.height - 1; y >= 0; --y) {
+    float* row = image.row(y);
+    if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
+      throw IoError(path, "the PFM file is cut short: " + std::to_string(header.height - 1 - y) +
+                              " of " + std::to_string(header.height) +
+                              " rows are there; copy or write it again");
+    }
+    if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
+    if (scale != 1) {
+      for (std::size_t i = 0; i < count; ++i) row[i] *= scale;
+    }
+  }
+  return image;
+}
+
+void write_pfm(const std::filesystem::path& path, ImageView<const float> image) {
+  if (image.empty() || (image.channels != 1 && image.channels != 3)) {
+    throw InvalidInput("a PFM file holds 1 or 3 channels, but the map has " +
+                       std::to_string(image.channels));
+  }
+  const std::string header = std::string(image.channels == 3 ? "PF" : "Pf") + "\n" +
+                             std::to_string(image.width) + " " + std::to_string(image.height) +
+                             "\n-1.0\n";
+  const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
+  std::vector<std::uint8_t> bytes(header.size() + count * 4 * image.height);
+  std::memcpy(bytes.data(), header.data(), header.size());
+  std::uint8_t* out = bytes.data() + header.size();
+  std::vector<float> row(count);
+  for (int y = image.height - 1; y >= 0; --y, out += count * 4) {
+    std::memcpy(row.data(), image.row(y), count * 4);
+    if constexpr (std::endian::native == std::endian::big) swap_bytes(row.data(), count);
+    std::memcpy(out, row.data(), count * 4);
+  }
+  write_atomically(path, bytes);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/maps/result_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/hdf5/map_writer.h"
+#include "engine/io/maps/foreign_result.h"
+#include "engine/io/maps/parameter_json.h"
+
+#include <charconv>
+
+namespace episcope::io {
+namespace {
+
+constexpr const char* kGroup = "estimate";
+
+std::string in_group(const char* name) {
+  return std::string(kGroup) + "/" + name;
+}
+
+/// Bytes of all maps, with some room for the structure of the file.
+std::uintmax_t result_bytes(const Estimate& estimate) {
+  std::uintmax_t bytes = 1 << 16;
+  for (const DisparityField* field :
+       {&estimate.field, &estimate.layered.foreground, &estimate.layered.background}) {
+    if (!field->empty()) bytes += field->disparity.size() * sizeof(float);
+    if (!field->valid.empty()) bytes += field->valid.size();
+  }
+  if (!estimate.confidence.empty()) bytes += estimate.confidence.size() * sizeof(float);
+  if (!estimate.layered.layers.empty()) bytes += estimate.layered.layers.size();
+  return bytes;
+}
+
+std::string hex(std::uint64_t value) {
+  char digits[17] = {};
+  std::to_chars(digits, digits + 16, value, 16);
+  return digits;
+}
+
+std::uint64_t from_hex(const std::string& text) {
+  std::uint64_t value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  return value;
+}
+
+std::string join_lines(const std::vector<std::string>& lines) {
+  std::string text;
+  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
+  return text;
+}
+
+std::vector<std::string> split_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
+
+void write_provenance(Hdf5Output& file, const Estimate& estimate) {
+  file.set_text(kGroup, "method", estimate.method);
+  file.set_text(kGroup, "parameters", parameters_to_json(estimate.parameters));
+  file.set_number(kGroup, "seconds", estimate.seconds);
+  file.set_text(kGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
+  file.set_text(kGroup, "source", estimate.source);
+  if (estimate.source_hash != 0) {
+    file.set_text(kGroup, "source_hash", hex(estimate.source_hash));
+  }
+  if (!(estimate.range == Interval{})) {
+    file.set_numbers(kGroup, "range", {estimate.range.min, estimate.range.max});
+  }
+  const ViewStack<float>& disparity = estimate.field.disparity;
+  if (disparity.grid().count() == 1) {
+    file.set_integers(kGroup, "view", {disparity.first().v, disparity.first().u});
+  } else if (!(disparity.first() == ViewIndex{})) {
+    file.set_integers(kGroup, "first_view", {disparity.first().v, disparity.first().u});
+  }
+  if (!estimate.notes.empty()) file.set_text(kGroup, "notes", join_lines(estimate.notes));
+}
+
+void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
+  const auto write = [&](const DisparityField& field, const char* name, const char* valid) {
+    if (field.empty()) return;
+    write_disparity(file, in_group(name), field, progress);
+    if (!field.valid.empty()) write_stack(file, in_group(valid), field.valid, "", progress);
+  };
+  write(layered.foreground, "disparity_foreground", "valid_foreground");
+  write(layered.background, "disparity_background", "valid_background");
+  if (!layered.layers.empty()) {
+    write_stack(file, in_group("layers"), layered.layers, "surfaces", progress);
+  }
+}
+
+/// Reads the maps of an own result file, which all have the same views.
+class ResultReader {
+ public:
+  ResultReader(const std::filesystem::path& path, GridShape grid) : file_(path), grid_(grid) {}
+
+  [[nodiscard]] Estimate read() const {
+    Estimate estimate;
+    estimate.field = read_field("disparity", "valid");
+    estimate.confidence = read_if_there<float>("confidence");
+    estimate.layered.foreground = read_field_if_there("disparity_foreground", "valid_foreground");
+    estimate.layered.background = read_field_if_there("disparity_background", "valid_background");
+    estimate.layered.layers = read_if_there<std::uint8_t>("layers");
+    read_provenance(estimate);
+    return estimate;
+  }
+
+ private:
+  [[nodiscard]] ViewIndex first_view(bool is_single) const {
+    const std::vector<double> view = file_.numbers(kGroup, is_single ? "view" : "first_view");
+    if (view.size() == 2) return {static_cast<int>(view[0]), static_cast<int>(view[1])};
+    return is_single ? grid_.center() : ViewIndex{};
+  }
+
+  template <class T>
+  [[nodiscard]] ViewStack<T> read_stack(const char* name) const {
+    const Hdf5Dataset map = file_.dataset(in_group(name));
+    const std::size_t rank = map.shape.size();
+    if (rank != 2 && rank != 4) {
+      throw IoError(file_.path(), "the dataset " + map.name + " has " + std::to_string(rank) +
+                                      " axes, but 2 or 4 are expected; write the result again");
+    }
+    const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
+    const GridShape views = rank == 2 ? GridShape{1, 1} : GridShape{length(0), length(1)};
+    const ViewIndex first = first_view(views.count() == 1);
+    const ViewIndex last{first.v + views.v - 1, first.u + views.u - 1};
+    if (!grid_.contains(first) || !grid_.contains(last) || length(rank - 2) < 1 ||
+        length(rank - 1) < 1) {
+      throw IoError(file_.path(), "the dataset " + map.name + " of " + shape_text(map.shape) +
+                                      " does not fit a light field of " + std::to_string(grid_.v) +
+                                      "×" + std::to_string(grid_.u) +
+                                      " views; name the light field that it belongs to");
+    }
+    ViewStack<T> stack(views, length(rank - 2), length(rank - 1), 1, first);
+    file_.read(map.name, {Hdf5Shape(rank, 0), map.shape}, stack.data());
+    return stack;
+  }
+
+  template <class T>
+  [[nodiscard]] ViewStack<T> read_if_there(const char* name) const {
+    return file_.has(in_group(name)) ? read_stack<T>(name) : ViewStack<T>();
+  }
+
+  [[nodiscard]] DisparityField read_field(const char* name, const char* valid) const {
+    DisparityField field{read_stack<float>(name), read_if_there<std::uint8_t>(valid)};
+    if (!field.valid.empty() && field.valid.size() != field.disparity.size()) {
+      throw IoError(file_.path(), "the datasets " + in_group(name) + " and " + in_group(valid) +
+                                      " differ in size; write the result again");
+    }
+    mark_invalid(field);
+    return field;
+  }
+
+  [[nodiscard]] DisparityField read_field_if_there(const char* name, const char* valid) const {
+    return file_.has(in_group(name)) ? read_field(name, valid) : DisparityField{};
+  }
+
+  void read_provenance(Estimate& estimate) const {
+    const auto text = [&](const char* name) { return file_.text(kGroup, name).value_or(""); };
+    estimate.method = text("method");
+    estimate.parameters = parameters_from_json(text("parameters"));
+    estimate.seconds = file_.number(kGroup, "seconds").value_or(0);
+    estimate.version = text("version");
+    estimate.source = text("source");
+    estimate.source_hash = from_hex(text("source_hash"));
+    estimate.notes = split_lines(text("notes"));
+    const std::vector<double> range = file_.numbers(kGroup, "range");
+    if (range.size() == 2) estimate.range = {range[0], range[1]};
+  }
+
+  Hdf5Input file_;
+  GridShape grid_;
+};
+
+}  // namespace
+
+void write_result(const std::filesystem::path& path, const Estimate& estimate,
+                  const Progress& progress) {
+  if (estimate.field.empty()) throw InvalidInput("an estimate without disparity cannot be written");
+  progress.check();
+  AtomicFile target(path, result_bytes(estimate));
+  Hdf5Output file(target);
+  file.add_group(kGroup);
+  write_disparity(file, in_group("disparity"), estimate.field, progress.part(0, 0.5));
+  if (!estimate.field.valid.empty()) {
+    write_stack(file, in_group("valid"), estimate.field.valid, "", progress.part(0.5, 0.6));
+  }
+  if (!estimate.confidence.empty()) {
+    write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
+  }
+  write_layers(file, estimate.layered, progress.part(0.9, 1));
+  write_provenance(file, estimate);
+  file.close();
+  progress.check();
+  target.commit();
+}
+
+Estimate read_result(const std::filesystem::path& path, GridShape grid, const std::string& scene) {
+  if (is_result_file(path)) return ResultReader(path, grid).read();
+  return read_foreign_result(path, grid, scene);
+}
+
+bool is_result_file(const std::filesystem::path& path) {
+  if (std::filesystem::is_directory(path) || !has_hdf5_signature(path)) return false;
+  return Hdf5Input(path).has(kGroup);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/parallel/progress.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid`
+/// and, of layered methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in
+/// attributes. Atomic: a temporary file beside it, flushed, then renamed.
+/// Throws IoError (nothing is left behind), Cancelled.
+void write_result(const std::filesystem::path& path, const Estimate& estimate,
+                  const Progress& progress);
+
+/// Reads a result file, or a result from elsewhere: an HDF5 file with one 2-D or 4-D float dataset,
+/// a PFM, a 32-bit float TIFF, or a folder of the 2016 submission form (`scene` picks the map).
+/// A 2-D map belongs to the centre view of `grid`. NaN and infinite values become invalid pixels.
+/// Throws IoError with one sentence.
+[[nodiscard]] Estimate read_result(const std::filesystem::path& path, GridShape grid,
+                                   const std::string& scene = "");
+
+/// Whether the file is one that `write_result` wrote (an HDF5 file with the group `/estimate`).
+/// Throws IoError if it is an HDF5 file and damaged.
+[[nodiscard]] bool is_result_file(const std::filesystem::path& path);
+
+/// JSON object of parameter values, as in result files and `--json` answers.
+[[nodiscard]] std::string parameters_to_json(const ParameterSet& parameters);
+
+}  // namespace episcope::io

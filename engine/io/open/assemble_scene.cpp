@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/open/assemble_scene.h"
+
+#include "engine/io/maps/float_samples.h"
+
+#include <utility>
+
+namespace episcope::io {
+
+void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
+              const Progress& progress) {
+  put_in_order(parts.samples, parts.truth, parts.expected, options.flip, scene.convention,
+               progress);
+  zero_odd_samples(parts.samples, scene.convention);
+  scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info));
+  if (!options.needs_truth) parts.truth = {};
+  scene.truth = std::make_shared<GroundTruth>(std::move(parts.truth));
+}
+
+}  // namespace episcope::io

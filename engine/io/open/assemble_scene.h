@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/order/order_check.h"
+
+namespace episcope::io {
+
+/// What a reader has gathered, in the order of views as stored.
+struct SceneParts {
+  LightField::Samples samples;
+  GroundTruth truth;
+  LightFieldInfo info;
+  ExpectedOrder expected;
+};
+
+/// The end of reading a light field: brings the parts into the house order, turns samples that are
+/// no numbers into 0, and puts light field and truth, if it is needed, into `scene`, whose
+/// report is continued. Throws Cancelled.
+void assemble(SceneParts parts, const OpenOptions& options, Scene& scene, const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/order_check.h"
+
+#include "engine/io/order/epi_slopes.h"
+#include "engine/io/order/warp_check.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace episcope::io {
+namespace {
+
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", value);
+  return text;
+}
+
+/// Mean of the evidence of several maps (the two layers of a transparent scene).
+WarpErrors mean_errors(const LightField::Samples& samples,
+                       const std::vector<OrderEvidence>& truth) {
+  WarpErrors sum;
+  const auto add = [](AxisErrors& to, const AxisErrors& more) {
+    const auto total = static_cast<double>(to.pixels + more.pixels);
+    if (total == 0) return;
+    const double a = static_cast<double>(to.pixels) / total;
+    const double b = static_cast<double>(more.pixels) / total;
+    to = {a * to.forward + b * more.forward, a * to.reversed + b * more.reversed,
+          a * to.unwarped + b * more.unwarped, to.pixels + more.pixels};
+  };
+  for (const OrderEvidence& one : truth) {
+    const WarpErrors errors = warp_errors(samples, one.at, one.disparity);
+    add(sum.u, errors.u);
+    add(sum.v, errors.v);
+  }
+  return sum;
+}
+
+std::string axis_text(const char* name, const AxisErrors& errors, bool is_flipped) {
+  if (errors.pixels == 0) return std::string(name) + " not compared";
+  const double taken = is_flipped ? errors.reversed : errors.forward;
+  const double other = is_flipped ? errors.forward : errors.reversed;
+  return std::string(name) + " " + number(taken) + " (other way " + number(other) + ")";
+}
+
+struct Checked {
+  ViewFlip flip;
+  bool is_decided = false;
+  std::string text;
+  std::string warning = {};
+};
+
+/// Of a single map; the layers of a transparent scene explain views only together.
+std::string poor_truth(const WarpErrors& errors) {
+  if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
+  const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
+  return "The truth hardly explains the views: warped by it they differ by " +
+         number(std::min(worse.forward, worse.reversed)) + " grey levels along " +
+         (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
+         number(std::max(worse.forward, worse.reversed)) + " and unwarped by " +
+         number(worse.unwarped) +
+         "; check the truth, and dH, focalLength and shift if it was stored as depth.";
+}
+
+Checked check_by_truth(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                       ViewFlip expected) {
+  const WarpErrors errors = mean_errors(samples, truth);
+  Checked checked{expected, errors.u.is_decided() || errors.v.is_decided(), {}};
+  if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
+  if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
+  if (checked.is_decided) {
+    checked.text = "checked against truth, mean grey error after warping: " +
+                   axis_text("u", errors.u, checked.flip.u) + ", " +
+                   axis_text("v", errors.v, checked.flip.v);
+  }
+  if (truth.size() == 1) checked.warning = poor_truth(errors);
+  return checked;
+}
+
+Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
+                        const Progress& progress) {
+  const SlopeCorrelation slopes = correlate_epi_slopes(samples, progress);
+  Checked checked{expected, slopes.is_decided(), {}};
+  if (!checked.is_decided) return checked;
+  const bool must_differ = slopes.value < 0;
+  if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
+  checked.text = "checked by the slopes of horizontal and vertical EPIs: correlation " +
+                 number(slopes.value) + " as stored at " + std::to_string(slopes.points) +
+                 " points, " +
+                 (must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  return checked;
+}
+
+/// The truth of one view: the disparity, or the two layers of a transparent scene.
+std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex center) {
+  std::vector<OrderEvidence> found;
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    if (field->empty() || (field != &truth.field && truth.has_disparity())) continue;
+    const ViewIndex at = field->contains(center) ? center : field->disparity.first();
+    found.push_back({at, field->view(at)});
+  }
+  return found;
+}
+
+ViewFlip chosen_flip(OpenOptions::Flip choice) {
+  using Flip = OpenOptions::Flip;
+  return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
+}
+
+}  // namespace
+
+OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
+                        const ExpectedOrder& expected, OpenOptions::Flip choice,
+                        const Progress& progress) {
+  progress.check();
+  Checked checked = check_by_truth(samples, truth, expected.flip);
+  OrderFinding finding;
+  if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
+  if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip, progress);
+
+  finding.flip = checked.flip;
+  finding.check = checked.is_decided
+                      ? checked.text
+                      : "not checked (too little depth or texture); " + expected.reason;
+  if (choice != OpenOptions::Flip::Auto) {
+    finding.flip = chosen_flip(choice);
+    finding.order = flip_text(finding.flip) + ", as chosen by hand";
+    if (checked.is_decided && !(finding.flip == checked.flip)) {
+      finding.check = "the check speaks for \"" + flip_text(checked.flip) + "\": " + checked.text;
+      finding.warnings.push_back("The order of views was chosen by hand (" +
+                                 flip_text(finding.flip) + "), but the check speaks for \"" +
+                                 flip_text(checked.flip) + "\".");
+    }
+    return finding;
+  }
+  finding.order = flip_text(finding.flip);
+  if (!(finding.flip == expected.flip)) {
+    finding.warnings.push_back("The order of views is \"" + finding.order + "\" and not \"" +
+                               flip_text(expected.flip) + "\", which was expected because " +
+                               expected.reason + ".");
+  }
+  return finding;
+}
+
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress) {
+  progress.step("checking the order of views");
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const OrderFinding finding =
+      find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
+  report.order = finding.order;
+  report.order_check = finding.check;
+  report.reversed_u = finding.flip.u;
+  report.reversed_v = finding.flip.v;
+  report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
+
+  std::visit([&](auto& stack) { reverse_views(stack, grid, finding.flip); }, samples);
+  for (DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    reverse_views(*field, grid, finding.flip);
+  }
+  reverse_views(truth.labels, grid, finding.flip);
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/io/open/open.h"
+#include "engine/io/order/view_order.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What a format lets us expect of the order of views before it is checked.
+struct ExpectedOrder {
+  ViewFlip flip;
+  std::string reason;  ///< "raw files of the archive store h reversed", …
+};
+
+/// A disparity map as stored, by which neighbouring views can be warped.
+struct OrderEvidence {
+  ViewIndex at;
+  DisparityView disparity;
+};
+
+struct OrderFinding {
+  ViewFlip flip;
+  std::string order;  ///< As ConventionReport::order,
+  std::string check;  ///< and `order_check`.
+  std::vector<std::string> warnings;
+};
+
+/// Finds which view axes to reverse: by warping with truth where there is some, else by the sign of
+/// the correlation of EPI slopes, else as expected. A `choice` other than Auto wins
+/// over all, but is checked and contradicted in the warnings. Nothing is reversed
+/// yet. Throws Cancelled.
+[[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
+                                      const std::vector<OrderEvidence>& truth,
+                                      const ExpectedOrder& expected, OpenOptions::Flip choice,
+                                      const Progress& progress);
+
+/// Brings views and truth as stored into the house order, as `find_order` finds it by the disparity
+/// of the truth, and tells `report`. Throws Cancelled.
+void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
+                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/warp_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace episcope::io {
+namespace {
+
+float sample(const Image<float>& image, double y, double x) {
+  const int x0 = static_cast<int>(x);
+  const int y0 = static_cast<int>(y);
+  const int x1 = std::min(x0 + 1, image.width() - 1);
+  const int y1 = std::min(y0 + 1, image.height() - 1);
+  const auto fx = static_cast<float>(x - x0);
+  const auto fy = static_cast<float>(y - y0);
+  const float top = image.at(y0, x0) + fx * (image.at(y0, x1) - image.at(y0, x0));
+  const float bottom = image.at(y1, x0) + fx * (image.at(y1, x1) - image.at(y1, x0));
+  return top + fy * (bottom - top);
+}
+
+/// Adds the errors against the view one step along the axis (`step` +1 or −1).
+void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bool is_u, int step,
+                   const DisparityView& disparity, AxisErrors& sums) {
+  const int width = center.width();
+  const int height = center.height();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (!disparity.is_valid(y, x)) continue;
+      const double shift = step * static_cast<double>(disparity.disparity.at(y, x));
+      const double place = is_u ? x : y;
+      const double last = (is_u ? width : height) - 1;
+      if (place - std::abs(shift) < 0 || place + std::abs(shift) > last) continue;
+      const float here = center.at(y, x);
+      const float forward =
+          is_u ? sample(neighbour, y, x - shift) : sample(neighbour, y - shift, x);
+      const float backward =
+          is_u ? sample(neighbour, y, x + shift) : sample(neighbour, y + shift, x);
+      const float unwarped = neighbour.at(y, x);
+      sums.forward += std::abs(here - forward);
+      sums.reversed += std::abs(here - backward);
+      sums.unwarped += std::abs(here - unwarped);
+      ++sums.pixels;
+    }
+  }
+}
+
+AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is_u,
+                       const DisparityView& disparity) {
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const Image<float> center = grey_levels(samples, at);
+  AxisErrors errors;
+  for (const int step : {-1, 1}) {
+    const ViewIndex next = is_u ? ViewIndex{at.v, at.u + step} : ViewIndex{at.v + step, at.u};
+    if (!grid.contains(next)) continue;
+    add_neighbour(center, grey_levels(samples, next), is_u, step, disparity, errors);
+  }
+  if (errors.pixels > 0) {
+    errors.forward /= static_cast<double>(errors.pixels);
+    errors.reversed /= static_cast<double>(errors.pixels);
+    errors.unwarped /= static_cast<double>(errors.pixels);
+  }
+  return errors;
+}
+
+}  // namespace
+
+bool AxisErrors::is_decided() const {
+  const double difference = std::abs(forward - reversed);
+  return pixels > 0 && difference > 0.02 && difference > 0.03 * std::min(forward, reversed);
+}
+
+bool AxisErrors::is_poor() const {
+  if (pixels == 0) return false;
+  const double best = std::min(forward, reversed);
+  const double other = std::max(forward, reversed);
+  if (is_decided()) return best > 0.9 * std::min(other, unwarped);
+  return best > 1.1 * unwarped + 0.5;
+}
+
+double WarpErrors::best() const {
+  if (u.pixels + v.pixels == 0) return std::numeric_limits<double>::infinity();
+  const double sum = std::min(u.forward, u.reversed) * static_cast<double>(u.pixels) +
+                     std::min(v.forward, v.reversed) * static_cast<double>(v.pixels);
+  return sum / static_cast<double>(u.pixels + v.pixels);
+}
+
+Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
+  return std::visit(
+      [view]<class T>(const ViewStack<T>& stack) {
+        const auto image = stack.view(view);
+        const float scale =
+            (std::is_same_v<T, float> ? 255.0F : 255.0F / std::numeric_limits<T>::max()) /
+            static_cast<float>(image.channels);
+        Image<float> grey(image.height, image.width);
+        for (int y = 0; y < image.height; ++y) {
+          std::array<float, 4> last{};
+          for (int x = 0; x < image.width; ++x) {
+            float sum = 0;
+            for (int c = 0; c < image.channels; ++c) {
+              const auto value = static_cast<float>(image.at(y, x, c));
+              float& kept = last[static_cast<std::size_t>(c)];
+              if (std::isfinite(value)) kept = value;
+              sum += kept;
+            }
+            grey.at(y, x) = scale * sum;
+          }
+        }
+        return grey;
+      },
+      samples);
+}
+
+WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
+                       const DisparityView& disparity) {
+  return {axis_errors(samples, at, true, disparity), axis_errors(samples, at, false, disparity)};
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/light_field.h"
+
+namespace episcope::io {
+
+/// Mean absolute differences in grey levels (0…255) between a view and its neighbours along one
+/// view axis, warped onto it by a disparity map.
+struct AxisErrors {
+  double forward = 0;    ///< If the axis runs as the house says,
+  double reversed = 0;   ///< and if it runs the other way.
+  double unwarped = 0;   ///< Without warping: as if all disparities were 0.
+  long long pixels = 0;  ///< Compared; 0 if the axis has one view only.
+
+  /// Whether the two differ by more than noise does: 3 % and 0.02 grey levels.
+  [[nodiscard]] bool is_decided() const;
+  /// Whether warping hardly explains the views: better than the other order or than no warping by
+  /// less than a tenth, or worse than no warping where the order is undecided.
+  [[nodiscard]] bool is_poor() const;
+  [[nodiscard]] bool says_reversed() const { return reversed < forward; }
+};
+
+struct WarpErrors {
+  AxisErrors u;
+  AxisErrors v;
+
+  /// Mean error of the better order of each axis.
+  [[nodiscard]] double best() const;
+};
+
+/// A view as grey values in 0…255; a sample that is not finite takes the value to its left.
+[[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
+
+/// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
+/// targets lie inside the image for both orders count, so that both are judged on the same pixels.
+[[nodiscard]] WarpErrors warp_errors(const LightField::Samples& samples, ViewIndex at,
+                                     const DisparityView& disparity);
+
+}  // namespace episcope::io

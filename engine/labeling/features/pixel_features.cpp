@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/features/pixel_features.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+
+namespace episcope {
+namespace {
+
+constexpr double kFineScale = 1;
+/// Differences of Lab/100 that the filters that keep edges take for the same surface.
+constexpr double kSurfaceContrast = 0.06;
+constexpr double kWiderSurfaceContrast = 0.15;
+constexpr double kSurfaceScale = 6;
+constexpr int kSurfaceWindow = 13;
+constexpr int kSurfacePasses = 2;
+constexpr double kDisparityScale = 2;
+constexpr double kLabUnit = 0.01;
+
+// First layers of the groups, in the order of `pixel_feature_names`.
+constexpr int kSurfaceLayer = 9;
+constexpr int kShapeLayer = 15;
+
+cv::Mat smoothed(const cv::Mat& plane, double sigma) {
+  cv::Mat out;
+  cv::GaussianBlur(plane, out, {}, sigma, sigma, cv::BORDER_REPLICATE);
+  return out;
+}
+
+cv::Mat derivative(const cv::Mat& plane, int dx, int dy) {
+  cv::Mat out;
+  // The kernels of Sobel weigh 8 for a first and 4 for a second derivative, the mixed one 4.
+  cv::Sobel(plane, out, CV_32F, dx, dy, 3, dx + dy == 1 ? 1.0 / 8 : 1.0 / 4, 0,
+            cv::BORDER_REPLICATE);
+  return out;
+}
+
+cv::Mat magnitude(const cv::Mat& dx, const cv::Mat& dy) {
+  cv::Mat out;
+  cv::magnitude(dx, dy, out);
+  return out;
+}
+
+/// Fills layers of a volume one after the other, from `first` on.
+class LayerWriter {
+ public:
+  LayerWriter(VolumeView<float> features, int first) : features_(features), layer_(first) {}
+
+  void add(const cv::Mat& plane, float unit = 1) {
+    for (int y = 0; y < features_.height; ++y) {
+      const auto* in = plane.ptr<float>(y);
+      std::transform(in, in + features_.width, features_.row(y, layer_),
+                     [unit](float value) { return value * unit; });
+    }
+    ++layer_;
+  }
+
+  void add(const std::vector<cv::Mat>& planes) {
+    for (const cv::Mat& plane : planes) add(plane);
+  }
+
+  /// The larger and the smaller eigenvalue of [a b; b c] in each pixel.
+  void add_eigenvalues(const cv::Mat& a, const cv::Mat& b, const cv::Mat& c) {
+    for (int y = 0; y < features_.height; ++y) {
+      const auto *pa = a.ptr<float>(y), *pb = b.ptr<float>(y), *pc = c.ptr<float>(y);
+      float* larger = features_.row(y, layer_);
+      float* smaller = features_.row(y, layer_ + 1);
+      for (int x = 0; x < features_.width; ++x) {
+        const float mean = 0.5F * (pa[x] + pc[x]);
+        const float half = 0.5F * (pa[x] - pc[x]);
+        const float spread = std::sqrt(half * half + pb[x] * pb[x]);
+        larger[x] = mean + spread;
+        smaller[x] = mean - spread;
+      }
+    }
+    layer_ += 2;
+  }
+
+ private:
+  VolumeView<float> features_;
+  int layer_;
+};
+
+cv::Mat color_image(const LightField& lf, ViewIndex view) {
+  Image<float> samples = lf.view_as_float(view);
+  const cv::Mat wrapped(lf.height(), lf.width(), CV_32FC(lf.channels()), samples.data());
+  if (lf.channels() == 3) return wrapped.clone();
+  cv::Mat color;
+  cv::cvtColor(wrapped, color, cv::COLOR_GRAY2RGB);
+  return color;
+}
+
+void add_color(LayerWriter& layers, const cv::Mat& rgb, const std::vector<cv::Mat>& lab) {
+  std::vector<cv::Mat> channels;
+  cv::split(rgb, channels);
+  layers.add(channels);
+  layers.add(lab);
+  for (const cv::Mat& channel : lab) layers.add(smoothed(channel, kFineScale));
+}
+
+/// Colours averaged within a surface and not across its outline.
+void add_surface(LayerWriter& layers, const cv::Mat& lab, double contrast,
+                 const Progress& progress) {
+  cv::Mat flat = lab;
+  for (int pass = 0; pass < kSurfacePasses; ++pass) {
+    progress.check();
+    cv::Mat next;
+    cv::bilateralFilter(flat, next, kSurfaceWindow, contrast, kSurfaceScale, cv::BORDER_REPLICATE);
+    flat = next;
+  }
+  std::vector<cv::Mat> channels;
+  cv::split(flat, channels);
+  layers.add(channels);
+}
+
+void add_shape(LayerWriter& layers, const cv::Mat& lightness) {
+  const cv::Mat smooth = smoothed(lightness, kFineScale);
+  const cv::Mat dx = derivative(smooth, 1, 0);
+  const cv::Mat dy = derivative(smooth, 0, 1);
+  const cv::Mat dxx = derivative(smooth, 2, 0);
+  const cv::Mat dyy = derivative(smooth, 0, 2);
+  layers.add(magnitude(dx, dy));
+  layers.add(dxx + dyy);
+  layers.add_eigenvalues(dxx, derivative(smooth, 1, 1), dyy);
+  layers.add_eigenvalues(smoothed(dx.mul(dx), 2 * kFineScale), smoothed(dx.mul(dy), 2 * kFineScale),
+                         smoothed(dy.mul(dy), 2 * kFineScale));
+}
+
+void add_place(LayerWriter& layers, const cv::Mat& disparity, ViewIndex step) {
+  const float unit = 1.0F / static_cast<float>(std::max(disparity.rows, disparity.cols));
+  cv::Mat column(disparity.size(), CV_32F);
+  cv::Mat row(disparity.size(), CV_32F);
+  for (int y = 0; y < disparity.rows; ++y) {
+    const auto* d = disparity.ptr<float>(y);
+    for (int x = 0; x < disparity.cols; ++x) {
+      column.at<float>(y, x) = static_cast<float>(x) + d[x] * static_cast<float>(step.u);
+      row.at<float>(y, x) = static_cast<float>(y) + d[x] * static_cast<float>(step.v);
+    }
+  }
+  layers.add(column, unit);
+  layers.add(row, unit);
+}
+
+void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
+  const cv::Mat smooth = smoothed(disparity, kDisparityScale);
+  layers.add(disparity);
+  layers.add(smooth);
+  layers.add(magnitude(derivative(smooth, 1, 0), derivative(smooth, 0, 1)));
+}
+
+}  // namespace
+
+std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
+  std::vector<std::string> names{"red", "green", "blue"};
+  const auto add_lab = [&](const std::string& what) {
+    for (const char* channel : {"lightness", "Lab a", "Lab b"}) {
+      names.push_back(channel + what);
+    }
+  };
+  add_lab("");
+  add_lab(", smoothed");
+  add_lab(", of the surface");
+  add_lab(", of the wider surface");
+  names.insert(names.end(),
+               {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller", "structure, larger",
+                "structure, smaller", "column in the centre view", "row in the centre view"});
+  if (set.with_disparity) {
+    names.insert(names.end(), {"disparity", "disparity, smoothed", "disparity, gradient"});
+  }
+  return names;
+}
+
+PixelFeatures compute_pixel_features(const LightField& lf, ViewIndex view,
+                                     const DisparityView& disparity, PixelFeatureSet set,
+                                     const Progress& progress) {
+  if (set.with_disparity && disparity.disparity.empty()) {
+    throw InvalidInput("features of disparity were asked for, but view " + view_text(view) +
+                       " has no disparity; estimate all views first");
+  }
+  PixelFeatures features(lf.height(), static_cast<int>(pixel_feature_names(set).size()),
+                         lf.width());
+  const cv::Mat rgb = color_image(lf, view);
+  cv::Mat lab_image;
+  cv::cvtColor(rgb, lab_image, cv::COLOR_RGB2Lab);
+  lab_image *= kLabUnit;
+  std::vector<cv::Mat> lab;
+  cv::split(lab_image, lab);
+  Image<float> filled(lf.height(), lf.width());
+  if (!disparity.disparity.empty()) filled = filled_disparity(disparity);
+  const cv::Mat map(lf.height(), lf.width(), CV_32F, filled.data());
+
+  const auto writer = [&](int first) { return LayerWriter(features.view(), first); };
+  const std::function<void()> groups[] = {
+      [&] {
+        auto layers = writer(kWiderSurfaceLayer);
+        add_surface(layers, lab_image, kWiderSurfaceContrast, progress);
+      },
+      [&] {
+        auto layers = writer(kSurfaceLayer);
+        add_surface(layers, lab_image, kSurfaceContrast, progress);
+      },
+      [&] {
+        auto layers = writer(0);
+        add_color(layers, rgb, lab);
+      },
+      [&] {
+        auto layers = writer(kShapeLayer);
+        add_shape(layers, lab[0]);
+        add_place(layers, map, {view.v - lf.center().v, view.u - lf.center().u});
+        if (set.with_disparity) add_disparity(layers, map);
+      },
+  };
+  parallel_for(static_cast<int>(std::size(groups)), progress, [&](int i) { groups[i](); });
+  return features;
+}
+
+Image<float> filled_disparity(const DisparityView& disparity) {
+  const ImageView<const float> map = disparity.disparity;
+  Image<float> filled(map.height, map.width);
+  for (int y = 0; y < map.height; ++y) {
+    float* row = filled.row(y);
+    int last = -1;
+    for (int x = 0; x < map.width; ++x) {
+      if (!disparity.is_valid(y, x)) continue;
+      row[x] = map.at(y, x);
+      // Holes are filled half from either side.
+      const int middle = last < 0 ? 0 : (last + x + 1) / 2;
+      for (int hole = last + 1; hole < x; ++hole) row[hole] = hole < middle ? row[last] : row[x];
+      last = x;
+    }
+    if (last < 0) {
+      if (y > 0) std::copy_n(filled.row(y - 1), map.width, row);
+      continue;
+    }
+    std::fill(row + last + 1, row + map.width, row[last]);
+  }
+  return filled;
+}
+
+}  // namespace episcope

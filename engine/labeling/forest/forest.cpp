@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/forest/forest.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/labeling/forest/flat_tree.h"
+
+#include <opencv2/ml.hpp>
+
+#include <algorithm>
+#include <random>
+#include <string>
+
+namespace episcope {
+namespace {
+
+// The widest vector of floats.
+constexpr int kVectorLanes = 16;
+
+std::vector<std::vector<int>> samples_by_label(const ForestSamples& samples) {
+  std::vector<std::vector<int>> of_label(static_cast<std::size_t>(samples.label_count));
+  for (int i = 0; i < samples.count(); ++i) of_label[samples.labels[i]].push_back(i);
+  return of_label;
+}
+
+/// As many samples of each label, drawn with replacement.
+cv::Ptr<cv::ml::TrainData> draw(const ForestSamples& samples,
+                                const std::vector<std::vector<int>>& of_label, int count,
+                                std::mt19937& random) {
+  const int rows = count * samples.label_count;
+  cv::Mat features(rows, samples.feature_count, CV_32F);
+  cv::Mat labels(rows, 1, CV_32S);
+  int row = 0;
+  for (const std::vector<int>& candidates : of_label) {
+    for (int i = 0; i < count; ++i, ++row) {
+      // The distributions of the standard library differ between implementations.
+      const int sample = candidates[random() % candidates.size()];
+      std::copy_n(
+          samples.features.data() + static_cast<std::ptrdiff_t>(sample) * samples.feature_count,
+          samples.feature_count, features.ptr<float>(row));
+      labels.at<int>(row) = samples.labels[sample];
+    }
+  }
+  return cv::ml::TrainData::create(features, cv::ml::ROW_SAMPLE, labels);
+}
+
+cv::Ptr<cv::ml::RTrees> grow(const cv::Ptr<cv::ml::TrainData>& data, const ForestOptions& options,
+                             std::uint64_t seed) {
+  const auto trees = cv::ml::RTrees::create();
+  trees->setMaxDepth(options.depth);
+  trees->setMinSampleCount(options.least_samples);
+  trees->setCalculateVarImportance(false);
+  trees->setTermCriteria({cv::TermCriteria::MAX_ITER, kForestTreesPerBlock, 0});
+  // OpenCV draws from the generator of the calling thread.
+  cv::theRNG().state = seed;
+  trees->train(data);
+  return trees;
+}
+
+void check(const ForestSamples& samples) {
+  std::vector<int> counts(static_cast<std::size_t>(std::max(samples.label_count, 0)));
+  for (const std::int32_t label : samples.labels) ++counts.at(static_cast<std::size_t>(label));
+  if (samples.label_count < 2 || std::ranges::count(counts, 0) > 0 ||
+      samples.features.size() !=
+          static_cast<std::size_t>(samples.count()) * samples.feature_count) {
+    throw InvalidInput("a forest needs samples of two labels at least, but got " +
+                       std::to_string(samples.count()) + " samples of " +
+                       std::to_string(samples.label_count) + " labels");
+  }
+}
+
+}  // namespace
+
+class Forest::Trainer {
+ public:
+  Trainer(const ForestSamples& samples, const ForestOptions& options)
+      : samples_(samples), options_(options), of_label_(samples_by_label(samples)) {
+    const int blocks = (options.trees + kForestTreesPerBlock - 1) / kForestTreesPerBlock;
+    trees_.resize(static_cast<std::size_t>(blocks) * kForestTreesPerBlock);
+  }
+
+  void grow_block(int block) {
+    std::mt19937 random(static_cast<unsigned>(options_.seed) * 7919U +
+                        static_cast<unsigned>(block));
+    const auto data = draw(samples_, of_label_, options_.samples_a_label, random);
+    const auto trees = grow(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
+    const std::vector<int>& roots = trees->getRoots();
+    for (int i = 0; i < kForestTreesPerBlock; ++i) {
+      trees_[static_cast<std::size_t>(block) * kForestTreesPerBlock + i] =
+          flatten_tree(*trees, roots[static_cast<std::size_t>(i)]);
+    }
+  }
+
+  [[nodiscard]] int blocks() const {
+    return static_cast<int>(trees_.size()) / kForestTreesPerBlock;
+  }
+
+  void join(Forest& forest) const {
+    int leaf_count = 0;
+    for (const FlatTree& tree : trees_) {
+      forest.roots_.push_back(static_cast<int>(forest.nodes_.size()));
+      forest.nodes_.insert(forest.nodes_.end(), tree.nodes.begin(), tree.nodes.end());
+      for (const int leaf : tree.leaves)
+        forest.leaves_.push_back(leaf < 0 ? -1 : leaf + leaf_count);
+      leaf_count += tree.leaf_count;
+    }
+    forest.votes_.assign(static_cast<std::size_t>(leaf_count) * forest.pitch_, 0.F);
+  }
+
+  /// Leads all samples down a tree.
+  void count_votes(Forest& forest, int tree) const {
+    const int end = tree + 1 < forest.tree_count()
+                        ? forest.roots_[static_cast<std::size_t>(tree) + 1]
+                        : static_cast<int>(forest.nodes_.size());
+    for (int i = 0; i < samples_.count(); ++i) {
+      const float* sample =
+          samples_.features.data() + static_cast<std::ptrdiff_t>(i) * samples_.feature_count;
+      const std::int32_t label = samples_.labels[static_cast<std::size_t>(i)];
+      forest
+          .votes_[static_cast<std::size_t>(forest.leaf_of(sample, tree)) * forest.pitch_ + label] +=
+          1.0F / static_cast<float>(of_label_[static_cast<std::size_t>(label)].size());
+    }
+    for (int node = forest.roots_[static_cast<std::size_t>(tree)]; node < end; ++node) {
+      const int leaf = forest.leaves_[static_cast<std::size_t>(node)];
+      if (leaf >= 0) forest.normalise(leaf);
+    }
+  }
+
+ private:
+  const ForestSamples& samples_;
+  const ForestOptions& options_;
+  std::vector<std::vector<int>> of_label_;
+  std::vector<FlatTree> trees_;
+};
+
+Forest Forest::train(const ForestSamples& samples, const ForestOptions& options,
+                     const Progress& progress) {
+  check(samples);
+  Forest forest;
+  forest.feature_count_ = samples.feature_count;
+  forest.label_count_ = samples.label_count;
+  forest.pitch_ = (samples.label_count + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+  Trainer trainer(samples, options);
+  parallel_for(trainer.blocks(), progress.part(0, 0.9),
+               [&](int block) { trainer.grow_block(block); });
+  trainer.join(forest);
+  parallel_for(forest.tree_count(), progress.part(0.9, 1),
+               [&](int tree) { trainer.count_votes(forest, tree); });
+  return forest;
+}
+
+void Forest::normalise(int leaf) {
+  float* votes = votes_.data() + static_cast<std::ptrdiff_t>(leaf) * pitch_;
+  float sum = 0;
+  for (int l = 0; l < label_count_; ++l) sum += votes[l];
+  // A leaf that no sample reaches knows nothing.
+  const float even = 1.0F / static_cast<float>(label_count_);
+  for (int l = 0; l < label_count_; ++l) votes[l] = sum > 0 ? votes[l] / sum : even;
+}
+
+int Forest::leaf_of(const float* sample, int tree) const {
+  const ForestNode* nodes = nodes_.data() + roots_[static_cast<std::size_t>(tree)];
+  int at = 0;
+  for (;;) {
+    const ForestNode& node = nodes[at];
+    const int next = node.next + (sample[node.feature] > node.threshold ? 1 : 0);
+    if (next == at)
+      return leaves_[static_cast<std::size_t>(roots_[static_cast<std::size_t>(tree)] + at)];
+    at = next;
+  }
+}
+
+void Forest::predict_row(VolumeView<const float> features, int y, float* out, Isa isa) const {
+  const ForestKernel& kernel = EPISCOPE_CHOOSE_KERNEL(isa, kForestKernel);
+  const FlatForest flat{nodes_.data(), roots_.data(), leaves_.data(),
+                        votes_.data(), tree_count(),  pitch_};
+  // A block's features together fit the first-level cache.
+  std::vector<float> block(static_cast<std::size_t>(feature_count_) * kForestBlock);
+  const float scale = 1.0F / static_cast<float>(tree_count());
+  for (int x = 0; x < features.width; x += kForestBlock) {
+    const int count = std::min(kForestBlock, features.width - x);
+    for (int f = 0; f < feature_count_; ++f) {
+      std::copy_n(features.row(y, f) + x, count, block.data() + f * kForestBlock);
+    }
+    float* sums = out + static_cast<std::ptrdiff_t>(x) * pitch_;
+    kernel.vote(flat, block.data(), kForestBlock, count, sums);
+    std::transform(sums, sums + static_cast<std::ptrdiff_t>(count) * pitch_, sums,
+                   [scale](float sum) { return sum * scale; });
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/volume.h"
+#include "engine/core/parallel/isa.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/labeling/forest/forest_kernel.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// Examples to learn from: rows of features with the index of their label.
+struct ForestSamples {
+  int feature_count = 0;
+  int label_count = 0;
+  std::vector<float> features;       ///< `[sample][feature]`
+  std::vector<std::int32_t> labels;  ///< `[sample]` in [0, label_count).
+
+  [[nodiscard]] int count() const { return static_cast<int>(labels.size()); }
+  friend bool operator==(const ForestSamples&, const ForestSamples&) = default;
+};
+
+struct ForestOptions {
+  int trees = 96;             ///< Rounded up to whole blocks of kForestTreesPerBlock.
+  int depth = 14;             ///< Of a tree at most.
+  int least_samples = 12;     ///< A node of fewer is not split.
+  int samples_a_label = 250;  ///< Drawn for each block of trees, with replacement.
+  int seed = 1;
+
+  friend bool operator==(const ForestOptions&, const ForestOptions&) = default;
+};
+
+/// Trees that are trained one after the other on the same draw of samples.
+inline constexpr int kForestTreesPerBlock = 4;
+
+/// A random forest that votes for labels by the shares of labels in the leaves ("soft votes").
+/// Trained by OpenCV's RTrees (Gini impurity, √F features tried at each split), in blocks of trees
+/// that run in parallel, each on its own seeded draw with as many samples of each label; so the
+/// result depends on the seed and not on the number of threads. The trees are then flattened, and
+/// all samples are led down them: a leaf's vote for a label is the share of the label's samples
+/// that arrive there, normalised over labels.
+/// Source: Breiman 2001 [Bre01]; probabilities as in Wanner, Straehle, Goldluecke 2013 [WSG13].
+class Forest {
+ public:
+  /// Throws InvalidInput unless there are two labels at least, each with a sample; Cancelled.
+  [[nodiscard]] static Forest train(const ForestSamples& samples, const ForestOptions& options,
+                                    const Progress& progress);
+
+  [[nodiscard]] int label_count() const { return label_count_; }
+  [[nodiscard]] int feature_count() const { return feature_count_; }
+  [[nodiscard]] int tree_count() const { return static_cast<int>(roots_.size()); }
+
+  /// Probabilities of the pixels of row `y` of `features`, `[x][label]`, `pitch()` apart, into
+  /// `out` of width·pitch() floats. The lanes beyond the labels become 0. Needs
+  /// features.layers == feature_count().
+  void predict_row(VolumeView<const float> features, int y, float* out, Isa isa = best_isa()) const;
+  /// Floats of a pixel in `predict_row`: labels rounded up to whole vectors.
+  [[nodiscard]] int pitch() const { return pitch_; }
+
+  /// The leaf that a sample reaches in a tree, counted over all trees; for tests.
+  [[nodiscard]] int leaf_of(const float* sample, int tree) const;
+
+ private:
+  class Trainer;
+  void normalise(int leaf);
+
+  int feature_count_ = 0;
+  int label_count_ = 0;
+  int pitch_ = 0;
+  std::vector<ForestNode> nodes_;
+  std::vector<int> roots_;
+  std::vector<int> leaves_;   // Row of votes for each node; -1 for inner ones.
+  std::vector<float> votes_;  // [leaf][label], pitch_ apart.
+};
+
+}  // namespace episcope

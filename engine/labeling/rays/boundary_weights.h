@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_rectangle.h"
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+namespace episcope {
+
+/// How edges of image and disparity are told from noise.
+struct EdgeParameters {
+  double image = 10;     ///< β: larger makes weaker edges of the image count; ≥ 0.
+  double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
+};
+
+/// How probable an edge is at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
+/// archive: 1 − exp(−β·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
+/// channels. Views that `disparity` (which may be empty) does not hold, and pixels where it is
+/// invalid, go by the image alone. Throws InvalidInput on a wrong size, Cancelled.
+///
+/// The archive does not tell how its own weights were made; this is the exponential that the plan
+/// gives for J_st, with disparity added.
+[[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
+                                            const DisparityField& disparity,
+                                            const EdgeParameters& parameters);
+/// Of all views, or of those of a rectangle, `[v][u][y][x]`.
+[[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
+                                                  const DisparityField& disparity,
+                                                  const EdgeParameters& parameters,
+                                                  const Progress& progress);
+[[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
+                                                  ViewRectangle views,
+                                                  const DisparityField& disparity,
+                                                  const EdgeParameters& parameters,
+                                                  const Progress& progress);
+
+/// One probability for each pixel, `[y][x]`: of one per direction (two channels) the larger one.
+[[nodiscard]] Image<float> larger_edge_probability(ImageView<const float> edge_probability);
+
+/// Weights g of boundaries between labels, `[y][x]` in [kLeastBoundaryWeight, 1]: 1 − the
+/// larger probability of an edge.
+inline constexpr float kLeastBoundaryWeight = 0.02F;
+[[nodiscard]] Image<float> boundary_weights(ImageView<const float> edge_probability);
+
+}  // namespace episcope

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/rays/label_costs.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/labeling/rays/ray_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr int kNearViews = 5;
+
+// What one thread sums up of one row.
+struct Row {
+  explicit Row(int width) : targets(width), weight(width) {}
+  std::vector<std::int32_t> targets;
+  std::vector<std::ptrdiff_t> offsets;  // of the first layer of the rays that arrive,
+  std::vector<int> columns;             // where they came from,
+  std::vector<float> trusts;            // and how much each is trusted
+  std::vector<float> weight;            // of all, by column
+};
+
+void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, Row& row, float* costs) {
+  for (int layer = 0; layer < p.layers; ++layer) {
+    const std::uint8_t* const from = p.data + static_cast<std::ptrdiff_t>(layer) * p.width;
+    float* const to = costs + static_cast<std::ptrdiff_t>(layer) * p.width;
+    for (std::size_t i = 0; i < row.columns.size(); ++i) {
+      to[row.columns[i]] += row.trusts[i] * table[from[row.offsets[i]]];
+    }
+  }
+}
+
+void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
+  const auto& [probabilities, disparity, view, others, colors] = sources;
+  find_ray_targets(disparity.view(view), disparity.view(other),
+                   {other.v - view.v, other.u - view.u}, y, row.targets.data());
+  const auto pair = colors != nullptr ? colors->pair(view, y, other) : RayColors::Pair{};
+  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(row.targets.size());
+  const std::ptrdiff_t layers = probabilities.view(other).layers();
+  row.offsets.clear();
+  row.columns.clear();
+  row.trusts.clear();
+  for (int x = 0; x < width; ++x) {
+    const std::int32_t target = row.targets[x];
+    if (target < 0) continue;
+    const float trust = colors != nullptr ? colors->trust(pair, x, target) : 1;
+    if (trust == 0) continue;
+    row.offsets.push_back(target / width * layers * width + target % width);
+    row.columns.push_back(x);
+    row.trusts.push_back(trust);
+    row.weight[x] += trust;
+  }
+}
+
+// Whether `at` of `count` places is among those nearest to `here`, as many at the border.
+bool is_near(int at, int here, int count) {
+  const int first = std::clamp(here - kNearViews / 2, 0, std::max(count - kNearViews, 0));
+  return at >= first && at < first + kNearViews;
+}
+
+bool is_asked(const TrackSources& sources, ViewIndex other) {
+  const ViewIndex view = sources.view;
+  if (other == view || !sources.disparity.contains(other)) return false;
+  if (sources.others == TrackViews::All) return true;
+  const auto& [v, u] = sources.probabilities.first;
+  const GridShape grid = sources.probabilities.grid;
+  return is_near(other.v - v, view.v - v, grid.v) && is_near(other.u - u, view.u - u, grid.u);
+}
+
+void fill_row(const TrackSources& sources, const CostTable& table, VolumeView<float> costs, int y,
+              Row& row) {
+  const LabelProbabilities& probabilities = sources.probabilities;
+  const std::uint8_t* const own = probabilities.view(sources.view).view().row(y, 0);
+  float* const sums = costs.row(y, 0);
+  std::transform(own, own + static_cast<std::ptrdiff_t>(costs.layers) * costs.width, sums,
+                 [&table](std::uint8_t p) { return table[p]; });
+  std::fill(row.weight.begin(), row.weight.end(), 1.0F);
+  for (int i = 0; i < probabilities.grid.count(); ++i) {
+    const ViewIndex other = probabilities.view_at(i);
+    if (!is_asked(sources, other)) continue;
+    find_rays(sources, other, y, row);
+    add_view(probabilities.view(other).view(), table, row, sums);
+  }
+  for (int layer = 0; layer < costs.layers; ++layer) {
+    float* const sum = costs.row(y, layer);
+    for (int x = 0; x < costs.width; ++x) sum[x] /= row.weight[x];
+  }
+}
+
+}  // namespace
+
+CostTable cost_table(double floor) {
+  CostTable table;
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    table[i] = static_cast<float>(-std::log(std::max(static_cast<double>(i) / 255, floor)));
+  }
+  return table;
+}
+
+void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
+                VolumeView<float> costs) {
+  std::transform(probabilities.data, probabilities.data + probabilities.size(), costs.data,
+                 [&table](std::uint8_t p) { return table[p]; });
+}
+
+void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
+                      VolumeView<float> costs) {
+  const auto make_worker = [&]() -> std::function<void(int)> {
+    auto row = std::make_shared<Row>(costs.width);
+    return [&, row](int y) { fill_row(sources, table, costs, y, *row); };
+  };
+  parallel_for_workers(costs.height, progress, make_worker);
+}
+
+}  // namespace episcope

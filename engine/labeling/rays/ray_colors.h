@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <memory>
+
+namespace episcope {
+
+/// Tells by their colours whether two rays see the same scene point: at an outline, disparities are
+/// wrong by more than anywhere else, and a ray that is taken for one of the neighbouring object has
+/// another colour. With σ = 20 instead of 10 of 255, `objects` comes out at 99.90 instead of 99.91
+/// % right, a demo the same. Where noise or gloss exceeds σ, rays are left to themselves. Looks
+/// into samples of 8 bits; of others it keeps those of a rectangle of views, rounded to 8 bits.
+class RayColors {
+ public:
+  /// Knows nothing: all rays are trusted.
+  RayColors() = default;
+  /// Precondition: the light field has these views, and outlives the object. Throws Cancelled.
+  RayColors(const LightField& light_field, GridShape grid, ViewIndex first,
+            const Progress& progress);
+
+  /// One row of a view, and a whole other view, to be compared.
+  struct Pair {
+    const std::uint8_t* row = nullptr;
+    const std::uint8_t* other = nullptr;
+  };
+  [[nodiscard]] Pair pair(ViewIndex view, int y, ViewIndex other) const {
+    if (colors_ == nullptr) return {};
+    return {colors_->view(view).row(y), colors_->view(other).data};
+  }
+
+  /// exp(−|ΔI|²/2σ²) of column x and of pixel `target` = y'·width + x' of the other view, |ΔI| the
+  /// difference of their colours, σ = 10/255; 0 beyond 4σ. 1 where nothing is known.
+  [[nodiscard]] float trust(const Pair& pair, int x, std::int32_t target) const {
+    if (pair.row == nullptr) return 1;
+    const std::ptrdiff_t channels = colors_->channels();
+    int sum = 0;
+    for (std::ptrdiff_t c = 0; c < channels; ++c) {
+      const int difference = pair.row[x * channels + c] - pair.other[target * channels + c];
+      sum += difference * difference;
+    }
+    if (channels == 1) sum *= 3;
+    return table_[std::min(sum, kNoTrust)];
+  }
+
+ private:
+  static constexpr int kNoTrust = 1600;  // squares summed over three channels
+
+  std::unique_ptr<const ViewStack<std::uint8_t>> rounded_;
+  const ViewStack<std::uint8_t>* colors_ = nullptr;  // of the light field, or `rounded_`
+  std::array<float, kNoTrust + 1> table_ = {};
+};
+
+}  // namespace episcope

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/scenes/cast/model.h"
+
+#include <array>
+#include <vector>
+
+namespace episcope::scenes {
+
+using Vector3 = std::array<double, 3>;
+
+/// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the centre
+/// view, so that a scene looks alike at every image size.
+struct Stage {
+  int width = 0;
+  int height = 0;
+  double focal_px = 0;
+  double zero_depth = 10;  ///< Z0: depth of disparity 0.
+  double parallax = 60;    ///< B·f in px · depth unit, at disparity scale 1.
+
+  /// Depth of a disparity in px per view step.
+  [[nodiscard]] double depth(double disparity_px) const {
+    return parallax / (disparity_px + parallax / zero_depth);
+  }
+  /// Size of a pixel at a depth.
+  [[nodiscard]] double pixel(double depth_units) const { return depth_units / focal_px; }
+  /// The point seen at pixel (x, y) of the centre view.
+  [[nodiscard]] Vector3 point(double x, double y, double depth_units) const {
+    return {(x - (width - 1) / 2.0) * pixel(depth_units),
+            (y - (height - 1) / 2.0) * pixel(depth_units), depth_units};
+  }
+};
+
+/// A stage with the lens of the built-in scenes.
+[[nodiscard]] Stage make_stage(int width, int height);
+
+/// An owned scene, ready to be cast.
+struct Model {
+  std::vector<Primitive> primitives;
+  std::vector<Texture> textures;
+  std::vector<Occluder> occluders;
+  Lighting lighting;
+
+  /// Index of the added texture.
+  int add(const Texture& texture);
+  [[nodiscard]] ModelView view() const;
+};
+
+/// Noise of which the finest octave is just resolved where a pixel has size `pixel_units`, around
+/// `color`, of `contrast` between 0 and 1.
+[[nodiscard]] Texture noise_texture(double pixel_units, unsigned seed,
+                                    const std::array<float, 3>& color, float contrast);
+
+/// A rectangle facing the cameras between two pixels' corners of the centre view, at a disparity.
+struct Card {
+  double left = 0;
+  double top = 0;
+  double right = 0;
+  double bottom = 0;
+  double disparity_px = 0;
+};
+[[nodiscard]] Primitive make_card(const Stage& stage, const Card& card);
+
+/// The plane on which the disparity of the centre view is `center` + `per_x`·(x − x_c) +
+/// `per_y`·(y − y_c), without end.
+struct DisparityPlane {
+  double center = 0;
+  double per_x = 0;
+  double per_y = 0;
+};
+[[nodiscard]] Primitive make_plane(const Stage& stage, const DisparityPlane& plane);
+
+/// Rectangle of pixels of a view that may show a primitive, [x_begin, x_end) × [y_begin, y_end).
+struct Bounds {
+  int x_begin = 0;
+  int x_end = 0;
+  int y_begin = 0;
+  int y_end = 0;
+};
+[[nodiscard]] Bounds bounds_in_view(const Primitive& primitive, const ViewCamera& camera, int width,
+                                    int height);
+
+}  // namespace episcope::scenes

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/array/volume.h"
+#include "engine/solvers/simplex/pair_limits.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+// What the solvers share that choose one layer, a label, for every pixel.
+
+/// The cheapest layer of each pixel of row `y` into `labels`, of equals the lowest; its cost into
+/// `least`. Both get a row's width.
+void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector<float>& least);
+
+/// Throws InvalidInput unless `g`, if there is any, is one channel of height × width, and the
+/// smoothness at least 0.
+void check_boundaries(ImageView<const float> g, double smoothness, int height, int width);
+
+/// (energy − bound)/|energy|; 0 if they are equal.
+[[nodiscard]] double labeling_gap(double energy, double bound);
+
+/// The stage of a solver that has come so far: "labeling, gap 1.0e-03".
+[[nodiscard]] std::string labeling_gap_text(double gap);
+
+/// Energy of row `y` of a labeling `u`: the costs of its pixels, and of the pairs that begin there,
+/// each its limit times `jump(from, to)`.
+template <class Jump>
+[[nodiscard]] double pair_row_energy(VolumeView<const float> cost, const PairLimits& limits,
+                                     ImageView<const int> u, int y, const Jump& jump) {
+  const int* const here = u.row(y);
+  const int* const below = u.row(std::min(y + 1, u.height - 1));
+  const auto pair = [&](int kind, int x, int from, int to) {
+    return static_cast<double>(limits.row(y, kind)[x]) * jump(from, to);
+  };
+  double sum = 0;
+  for (int x = 0; x < cost.width; ++x) {
+    const int right = std::min(x + 1, cost.width - 1);
+    sum += cost.at(y, here[x], x) + pair(0, x, here[x], here[right]) +
+           pair(1, x, here[x], below[x]) + pair(2, x, here[x], below[right]) +
+           pair(3, x, here[right], below[x]);
+  }
+  return sum;
+}
+
+}  // namespace episcope

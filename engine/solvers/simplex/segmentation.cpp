@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/solvers/simplex/segmentation.h"
+
+#include "engine/core/error.h"
+
+namespace episcope {
+
+TvL2Result segment(TvL2Solver& solver, const SegmentationProblem& problem,
+                   const TvL2Options& options, const Progress& progress, ImageView<float> scratch,
+                   ImageView<std::uint8_t> region) {
+  const TvL2Result result = solver.solve(
+      {problem.score, problem.weight, problem.border, problem.lambda}, options, progress, scratch);
+  if (region.height != scratch.height || region.width != scratch.width || region.channels != 1) {
+    throw InvalidInput("a segmentation needs a region as large as its score");
+  }
+  for (int y = 0; y < region.height; ++y) {
+    const float* const from = scratch.row(y);
+    std::uint8_t* const to = region.row(y);
+    for (int x = 0; x < region.width; ++x) to[x] = from[x] > 0 ? 1 : 0;
+  }
+  return result;
+}
+
+}  // namespace episcope

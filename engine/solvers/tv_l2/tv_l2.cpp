@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/solvers/tv_l2/tv_l2.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/flush_denormals.h"
+#include "engine/solvers/tv_l2/tv_l2_grid.h"
+#include "engine/solvers/tv_l2/tv_l2_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+constexpr float kLeastWeight = 1e-4F;
+// Iterations on each level below the finest, and between two fits of the penalty.
+constexpr int kCoarseIterations = 20;
+constexpr int kPenaltyEvery = 10;
+
+// Between Galerkin's coarse edges (1, always stable) and those right for smooth corrections (½),
+// and ADMM's over-relaxation. Should the gap grow, the safe values take their place.
+struct Pace {
+  float coarse_edge = 0.75F;
+  float relaxation = 1.7F;
+};
+constexpr Pace kSafePace = {1.0F, 1.0F};
+
+// The penalty, in units of the spread of f; found on structure-tensor disparities of several
+// scenes. A weaker one leaves u, not the dual, behind: it stays uneven where the solution is flat.
+constexpr float kPenaltyScale = 5.0F;
+constexpr float kPenaltyKnee = 0.07F;
+constexpr float kPenaltySpread = 16.0F;
+
+template <class T>
+void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
+  if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
+    throw InvalidInput(std::string("TV-L2 needs ") + what + " as one channel of " +
+                       std::to_string(width) + " by " + std::to_string(height) + ", not " +
+                       std::to_string(image.channels) + " of " + std::to_string(image.width) +
+                       " by " + std::to_string(image.height));
+  }
+}
+
+}  // namespace
+
+struct TvL2Solver::State {
+  const TvL2Kernel& kernel;
+  std::vector<TvL2Grid> grids;
+  std::vector<float> rows;
+  float offset = 0;  // weighted mean of f, taken off for the sake of float32
+  TvL2Penalty penalty;
+  Pace pace;
+
+  State(int height, int width, Isa isa);
+  void load(const TvL2Problem& problem);
+  void centre();
+  void renew_penalty(std::size_t stage, bool first);
+  void correct(std::size_t stage);
+  void iterate(std::size_t stage, int iteration, const Progress& progress);
+  void climb(const Progress& progress);
+  TvL2Result finish(const TvL2Options& options, const Progress& progress);
+  void copy_to(ImageView<float> u) const;
+};
+
+TvL2Solver::State::State(int height, int width, Isa isa)
+    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2Kernel)) {
+  grids.emplace_back(height, width);
+  // Down to a single pixel, whose equation is the mean of all: no smoother would ever find that.
+  while (std::max(height, width) > 1 || grids.size() < 2) {
+    height = (height + 1) / 2;
+    width = (width + 1) / 2;
+    grids.emplace_back(height, width);
+  }
+  rows.resize(static_cast<std::size_t>(kTvL2ScratchRows) * grids[0].level.pitch);
+}
+
+void TvL2Solver::State::load(const TvL2Problem& problem) {
+  const TvL2Level& level = grids[0].level;
+  const float inverse_lambda = static_cast<float>(1 / problem.lambda);
+  for (int y = 0; y < level.height; ++y) {
+    const long at = y * level.pitch;
+    const float* const f = problem.f.row(y);
+    const float* const w = problem.w.empty() ? nullptr : problem.w.row(y);
+    const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
+    for (int x = 0; x < level.width; ++x) {
+      const bool known = std::isfinite(f[x]);
+      const float weight = !known ? kLeastWeight : w != nullptr ? w[x] : 1.0F;
+      level.f[at + x] = known ? f[x] : 0.0F;
+      level.c[at + x] = std::max(weight, kLeastWeight) * inverse_lambda;
+      level.g[at + x] = g != nullptr ? std::max(g[x], kLeastWeight) : 1.0F;
+    }
+  }
+  centre();
+  for (std::size_t k = 1; k < grids.size(); ++k)
+    coarsen_problem(grids[k - 1].level, grids[k].level);
+}
+
+void TvL2Solver::State::centre() {
+  const TvL2Level& level = grids[0].level;
+  double weight = 0, sum = 0, squares = 0;
+  for (int y = 0; y < level.height; ++y) {
+    double row_weight = 0, row_sum = 0, row_squares = 0;
+    for (int x = 0; x < level.width; ++x) {
+      const double c = level.c[y * level.pitch + x], f = level.f[y * level.pitch + x];
+      row_weight += c;
+      row_sum += c * f;
+      row_squares += c * f * f;
+    }
+    weight += row_weight;
+    sum += row_sum;
+    squares += row_squares;
+  }
+  offset = static_cast<float>(sum / weight);
+  const double variance = squares / weight - (sum / weight) * (sum / weight);
+  const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) level.f[y * level.pitch + x] -= offset;
+  }
+  penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
+}
+
+void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
+  TvL2Level& level = grids[stage].level;
+  penalty.first = first;
+  kernel.penalise(level, penalty);
+  level.data_scale = 1;
+  invert_diagonal(level);
+  for (std::size_t k = stage + 1; k < grids.size(); ++k) {
+    // A multigrid cell weighs as much as its pixels together; coarsen_problem halves that.
+    grids[k].level.data_scale = 2 * grids[k - 1].level.data_scale;
+    coarsen_penalty(grids[k - 1].level, grids[k].level, pace.coarse_edge);
+    invert_diagonal(grids[k].level);
+  }
+}
+
+void TvL2Solver::State::correct(std::size_t stage) {
+  const std::size_t last = grids.size() - 1;
+  for (std::size_t k = stage + 1; k < last; ++k) {
+    kernel.descend(grids[k].level, grids[k + 1].level);
+  }
+  kernel.solve(grids[last].level);
+  for (std::size_t k = last; --k > stage;) kernel.ascend(grids[k].level, grids[k + 1].level);
+}
+
+void TvL2Solver::State::iterate(std::size_t stage, int iteration, const Progress& progress) {
+  progress.check();
+  if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
+  if (iteration > 0) correct(stage);
+  kernel.iterate(grids[stage].level, grids[stage + 1].level,
+                 {pace.relaxation, iteration == 0, rows.data()});
+}
+
+// Coarse to fine, up to the start of the finest level.
+void TvL2Solver::State::climb(const Progress& progress) {
+  pace = {};
+  // The single pixel below has no level to correct it.
+  std::size_t stage = grids.size() - 2;
+  start_from_data(grids[stage].level);
+  for (; stage > 0; --stage) {
+    for (int i = 0; i < kCoarseIterations; ++i) iterate(stage, i, progress);
+    kernel.project(grids[stage].level);
+    prolong(grids[stage].level, grids[stage - 1].level);
+    kernel.project(grids[stage - 1].level);
+  }
+}
+
+TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress& progress) {
+  const int check_every = std::max(1, options.check_every);
+  TvL2Result result;
+  double gap_before = std::numeric_limits<double>::infinity();
+  bool is_last = false;
+  while (!is_last && !result.converged) {
+    iterate(0, result.iterations++, progress);
+    is_last = result.iterations >= options.max_iterations || progress.finish_requested();
+    if (!is_last && result.iterations % check_every != 0) continue;
+    const TvL2Sums sums = kernel.measure(grids[0].level, rows.data());
+    result.energy = sums.energy;
+    result.gap = sums.energy - sums.dual;
+    result.converged = result.gap <= options.gap * sums.energy;
+    if (result.gap > 2 * gap_before) {
+      pace = kSafePace;
+      renew_penalty(0, false);
+    }
+    gap_before = result.gap;
+  }
+  return result;
+}
+
+void TvL2Solver::State::copy_to(ImageView<float> u) const {
+  const TvL2Level& level = grids[0].level;
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) u.row(y)[x] = level.u[y * level.pitch + x] + offset;
+  }
+}
+
+TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
+  if (height < 1 || width < 1) {
+    throw InvalidInput("TV-L2 needs an image of at least one pixel, not " + std::to_string(width) +
+                       " by " + std::to_string(height));
+  }
+  state_ = std::make_unique<State>(height, width, isa);
+}
+TvL2Solver::~TvL2Solver() = default;
+TvL2Solver::TvL2Solver(TvL2Solver&&) noexcept = default;
+
+TvL2Result TvL2Solver::solve(const TvL2Problem& problem, const TvL2Options& options,
+                             const Progress& progress, ImageView<float> u) {
+  State& state = *state_;
+  const TvL2Level& finest = state.grids[0].level;
+  check_shape(problem.f, finest.height, finest.width, "f");
+  check_shape(u, finest.height, finest.width, "u");
+  if (!problem.w.empty()) check_shape(problem.w, finest.height, finest.width, "w");
+  if (!problem.g.empty()) check_shape(problem.g, finest.height, finest.width, "g");
+  if (!(problem.lambda > 0)) throw InvalidInput("TV-L2 needs a positive lambda");
+  const FlushDenormals flush;
+  state.load(problem);
+  state.climb(progress);
+  const TvL2Result result = state.finish(options, progress);
+  state.copy_to(u);
+  return result;
+}
+
+}  // namespace episcope

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/local_noise.h"
+
+#include "engine/core/array/quantile.h"
+#include "tests/engine/disparity/light_fields.h"
+#include "tests/test_main.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace episcope::in_local_noise_test {
+
+using namespace episcope::test;
+
+namespace {
+
+constexpr float kSigma = 0.02F;
+
+// A single view with an edge at x = 30; noise right of x = `noisy_from` only.
+LightField view_of(int channels, float step, int noisy_from) {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, kSigma);
+  return make_light_field({1, 1}, 60, 80, channels, [&](ViewIndex, int y, int x, int) {
+    const float clean = 0.3F + 0.001F * static_cast<float>(y) + (x >= 30 ? step : 0);
+    return clean + (x >= noisy_from ? noise(random) : 0);
+  });
+}
+
+Image<float> variance_of(const LightField& lf) {
+  return local_noise_variance(lf, {0, 0}, Progress());
+}
+
+}  // namespace
+
+class LocalNoiseTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void noise_isMeasured_data();
+  void noise_isMeasured();
+  void gradientAndEdge_areNoNoise();
+  void noise_isThatOfItsPlace();
+  void tinyView_hasNone();
+};
+
+void LocalNoiseTest::noise_isMeasured_data() {
+  QTest::addColumn<int>("channels");
+  QTest::newRow("grey") << 1;
+  QTest::newRow("colour") << 3;
+}
+
+void LocalNoiseTest::noise_isMeasured() {
+  QFETCH(int, channels);
+  Image<float> variance = variance_of(view_of(channels, 0, 0));
+  const double sigma = std::sqrt(quantile({variance.data(), variance.size()}, 0.5));
+  // The least of four measurements is a little low.
+  QVERIFY2(sigma > 0.75 * kSigma && sigma < 1.05 * kSigma, qPrintable(QString::number(sigma)));
+}
+
+void LocalNoiseTest::gradientAndEdge_areNoNoise() {
+  const Image<float> variance = variance_of(view_of(3, 0.5F, 80));
+  QVERIFY(*std::max_element(variance.begin(), variance.end()) < 1e-9F);
+}
+
+void LocalNoiseTest::noise_isThatOfItsPlace() {
+  const Image<float> variance = variance_of(view_of(3, 0.5F, 40));
+  QVERIFY(variance.at(30, 20) < 1e-9F);
+  QVERIFY(variance.at(30, 60) > 0.2F * kSigma * kSigma);
+}
+
+void LocalNoiseTest::tinyView_hasNone() {
+  const LightField tiny =
+      make_light_field({1, 1}, 2, 9, 1, [](ViewIndex, int, int x, int) { return 0.1F * x; });
+  const Image<float> variance = variance_of(tiny);
+  QVERIFY(std::all_of(variance.begin(), variance.end(), [](float v) { return v == 0; }));
+}
+
+}  // namespace episcope::in_local_noise_test
+
+EPISCOPE_TEST(local_noise_test, LocalNoiseTest)
+#include "local_noise_test.moc"

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/archive_folder.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <cmath>
+
+namespace episcope::in_archive_convention_test {
+
+using namespace episcope::test;
+
+/// The order of views and the units of depth: found, checked, reported, overridden.
+class ArchiveConventionTest : public QObject, private ArchiveFolder {
+  Q_OBJECT
+
+ private slots:
+  void init() { renew(); }
+
+  void rawOrder_isFoundByTruth_data() {
+    QTest::addColumn<bool>("u");
+    QTest::addColumn<bool>("v");
+    QTest::newRow("in order") << false << false;
+    QTest::newRow("h reversed") << true << false;
+    QTest::newRow("v reversed") << false << true;
+    QTest::newRow("both reversed") << true << true;
+  }
+  void rawOrder_isFoundByTruth() {
+    QFETCH(bool, u);
+    QFETCH(bool, v);
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {u, v};
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
+    QCOMPARE(read.convention.reversed_u, u);
+    QCOMPARE(read.convention.reversed_v, v);
+    QVERIFY(QString::fromStdString(read.convention.order_check).contains("truth"));
+  }
+
+  void rawOrder_isFoundBySlopesWithoutTruth_data() {
+    QTest::addColumn<bool>("u");
+    QTest::newRow("in order") << false;
+    QTest::newRow("h reversed") << true;
+  }
+  void rawOrder_isFoundBySlopesWithoutTruth() {
+    QFETCH(bool, u);
+    PlaneOptions options;
+    options.slope_x = 0.04;
+    const Scene scene = plane_scene(options);
+    RawArchive form;
+    form.flip = {u, false};
+    form.has_depth = false;
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+    QVERIFY(QString::fromStdString(read.convention.order_check).contains("slopes"));
+  }
+
+  void statedOrder_isCheckedAgainstTruth() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {true, false};
+    form.more = [](io::Hdf5Output& file) {
+      file.set_text("/", "convention", "house order, so it says");
+    };
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY(has_same_samples(scene, read));
+    QVERIFY(!read.convention.warnings.empty());
+  }
+
+  void orderChosenByHand_winsAndIsContradicted() {
+    const Scene scene = plane_scene();
+    write_raw_archive(path("lf.h5"), scene, {});
+    io::OpenOptions options;
+    options.flip = io::OpenOptions::Flip::U;
+
+    const Scene read = open(path("lf.h5"), options);
+
+    QVERIFY(!has_same_samples(scene, read));
+    QVERIFY(read.convention.reversed_u);
+    QVERIFY(QString::fromStdString(describe(read.convention)).contains("speaks for"));
+    // Truth moves with its view.
+    const auto moved = read.truth->field.disparity.view({1, 0});
+    QVERIFY(std::abs(moved.at(5, 5) - scene.truth->field.disparity.view({1, 4}).at(5, 5)) <
+            kDepthRounding);
+  }
+
+  void units_withoutWidthAreFound() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.attribute_scale = 1.0 / 80;
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding,
+             describe(read.convention).c_str());
+    QVERIFY(QString::fromStdString(read.convention.units).contains("times xRes"));
+  }
+
+  void unitsChosenByHand_win() {
+    const Scene scene = plane_scene();
+    write_raw_archive(path("lf.h5"), scene, {});
+    io::OpenOptions options;
+    options.units = io::OpenOptions::Units::WithoutWidth;
+
+    const Scene read = open(path("lf.h5"), options);
+
+    QCOMPARE(read.light_field->info().camera.baseline, 80 * 40.0);
+    QVERIFY(QString::fromStdString(read.convention.units).contains("by hand"));
+  }
+
+  void camDistance_isCheckedAgainstTheShift() {
+    RawArchive form;
+    form.more = [](io::Hdf5Output&) {};
+    Scene scene = plane_scene();
+    LightFieldInfo info = scene.light_field->info();
+    info.camera.cam_distance = 17;
+    scene.light_field = std::make_shared<LightField>(bytes_of(scene).clone(), info);
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    QVERIFY(QString::fromStdString(describe(open(path("lf.h5")).convention)).contains("17"));
+  }
+};
+
+}  // namespace episcope::in_archive_convention_test
+
+EPISCOPE_TEST(archive_convention_test, ArchiveConventionTest)
+#include "archive_convention_test.moc"

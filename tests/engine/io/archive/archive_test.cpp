@@ -1,0 +1,476 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/archive/companions.h"
+#include "engine/io/archive/write_scene.h"
+#include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/archive_folder.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <cmath>
+#include <limits>
+
+namespace episcope::in_archive_test {
+
+using namespace episcope::test;
+
+class ArchiveTest : public QObject, private ArchiveFolder {
+  Q_OBJECT
+
+ private slots:
+  void init() { renew(); }
+
+  void archive_readsWhatItWrote() {
+    const Scene scene = plane_scene();
+
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    const Scene read = open(path());
+
+    QVERIFY(has_same_samples(scene, read));
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
+    QCOMPARE(read.convention.order, std::string("as stored"));
+    QVERIFY(QString::fromStdString(read.convention.order_check).contains("checked against truth"));
+    QCOMPARE(read.light_field->info().camera.shift, 5.0);
+    QCOMPARE(*read.light_field->info().disparity_range, (Interval{-3, 3}));
+    QCOMPARE(std::memcmp(read.truth->labels.data(), scene.truth->labels.data(),
+                         scene.truth->labels.size() * 4),
+             0);
+    QCOMPARE(read.scribbles.views.at(0).view, scene.scribbles.views.at(0).view);
+    QVERIFY(std::equal(read.scribbles.views.at(0).labels.begin(),
+                       read.scribbles.views.at(0).labels.end(),
+                       scene.scribbles.views.at(0).labels.begin()));
+    QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
+  }
+
+  void truthNotNeeded_isNotRead_data() {
+    QTest::addColumn<bool>("is_reversed");
+    QTest::newRow("in order") << false;
+    QTest::newRow("h reversed") << true;
+  }
+  // What it is needed for is as with it: the order of views and the units.
+  void truthNotNeeded_isNotRead() {
+    QFETCH(bool, is_reversed);
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {is_reversed, false};
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"), {.needs_truth = false});
+
+    const Scene whole = open(path("lf.h5"));
+    QVERIFY(has_same_samples(whole, read));
+    QCOMPARE(read.convention.order_check, whole.convention.order_check);
+    QCOMPARE(read.convention.units, whole.convention.units);
+    QCOMPARE(read.light_field->info().camera.baseline, whole.light_field->info().camera.baseline);
+    QVERIFY(read.truth->field.empty());
+    QVERIFY(read.truth->labels.empty());
+    QVERIFY(whole.truth->has_disparity());
+  }
+
+  void archive_keepsInvalidPixels() {
+    Scene scene = plane_scene();
+    GroundTruth truth;
+    truth.field.disparity = scene.truth->field.disparity.clone();
+    const ViewStack<float>& like = truth.field.disparity;
+    truth.field.valid = ViewStack<std::uint8_t>(like.grid(), like.height(), like.width());
+    std::fill_n(truth.field.valid.data(), truth.field.valid.size(), std::uint8_t{1});
+    truth.field.valid.view({2, 2}).at(10, 11) = 0;
+    scene.truth = std::make_shared<GroundTruth>(std::move(truth));
+
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY(largest_difference(scene.truth->field, read.truth->field) < kDepthRounding);
+    QVERIFY(!read.truth->field.view({2, 2}).is_valid(10, 11));
+  }
+
+  void disparityOfAnUnknownCamera_survivesTheArchive() {
+    const Scene known = plane_scene();
+    Scene scene = plane_scene();
+    LightFieldInfo info = known.light_field->info();
+    info.camera = {};
+    scene.light_field = std::make_shared<LightField>(bytes_of(known).clone(), info);
+
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+
+    QVERIFY(largest_difference(scene.truth->field, open(path("lf.h5")).truth->field) <
+            kDepthRounding);
+  }
+
+  void twoLightFieldsInAFolder_keepTheirLabelsApart() {
+    const Scene small = plane_scene();
+    PlaneOptions options;
+    options.width = 48;
+    const Scene other = plane_scene(options);
+
+    io::write_archive(path("a.h5"), small, Progress(1));
+    io::write_archive(path("b.h5"), other, Progress(1));
+
+    QCOMPARE(open(path("a.h5")).truth->labels.width(), 80);
+    QCOMPARE(open(path("b.h5")).truth->labels.width(), 48);
+  }
+
+  void labelsOfOthers_areNeverWrittenOver() {
+    const Scene scene = plane_scene();
+    {
+      io::AtomicFile target(path("labels.h5"));
+      io::Hdf5Output file(target);
+      add_bytes(file, "GT_LABELS", {1}, {7});
+      file.close();
+      target.commit();
+    }
+
+    io::write_archive(path("mine.h5"), scene, Progress(1));
+
+    QCOMPARE(io::Hdf5Input(path("labels.h5")).dataset("GT_LABELS").shape, io::Hdf5Shape{1});
+    QCOMPARE(open(path("mine.h5")).truth->labels.size(), scene.truth->labels.size());
+  }
+
+  void depthOfTheCenterOnly_isOneView_data() {
+    QTest::addColumn<bool>("is_padded");
+    QTest::newRow("[y][x]") << false;
+    QTest::newRow("[v][h][y][x], other views zero") << true;
+  }
+  void depthOfTheCenterOnly_isOneView() {
+    QFETCH(bool, is_padded);
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.is_center_only = !is_padded;
+    if (is_padded) {
+      form.depth = [](ViewIndex view, int, int, float z) {
+        return view == ViewIndex{2, 2} ? z : 0.0F;
+      };
+    }
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QCOMPARE(read.truth->field.disparity.grid(), (GridShape{1, 1}));
+    QCOMPARE(read.truth->field.disparity.first(), (ViewIndex{2, 2}));
+    QVERIFY(std::abs(read.truth->field.disparity.view({2, 2}).at(9, 9) -
+                     scene.truth->field.disparity.view({2, 2}).at(9, 9)) < kDepthRounding);
+  }
+
+  void depthWithoutSurface_isInvalid() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.depth = [](ViewIndex, int y, int x, float z) {
+      if (y == 1 && x == 1) return std::numeric_limits<float>::quiet_NaN();
+      if (y == 1 && x == 2) return 0.0F;
+      if (y == 1 && x == 3) return -4.0F;
+      if (y == 1 && x == 4) return std::numeric_limits<float>::infinity();
+      return z;
+    };
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    const DisparityView map = read.truth->field.view({0, 0});
+    for (int x = 1; x <= 4; ++x) QVERIFY(!map.is_valid(1, x));
+    QVERIFY(map.is_valid(1, 0) && map.is_valid(1, 5));
+    QVERIFY(std::isfinite(map.disparity.at(1, 1)));
+    QVERIFY(QString::fromStdString(describe(read.convention)).contains("GT_DEPTH holds no depth"));
+  }
+
+  void mask_excludesPixels_data() {
+    QTest::addColumn<int>("inside");
+    QTest::addColumn<bool>("is_one_view");
+    QTest::newRow("0/1, all views") << 1 << false;
+    QTest::newRow("0/255, all views") << 255 << false;
+    QTest::newRow("0/255, centre") << 255 << true;
+  }
+  void mask_excludesPixels() {
+    QFETCH(int, inside);
+    QFETCH(bool, is_one_view);
+    const Scene scene = plane_scene();
+    const std::size_t views = is_one_view ? 1 : 25;
+    std::vector<std::uint8_t> mask(views * 64 * 80, static_cast<std::uint8_t>(inside));
+    for (std::size_t view = 0; view < views; ++view) mask[view * 64 * 80 + 7] = 0;
+    RawArchive form;
+    form.is_center_only = is_one_view;
+    form.more = [&](io::Hdf5Output& file) {
+      add_bytes(file, "GT_DEPTH_MASK",
+                is_one_view ? io::Hdf5Shape{64, 80} : io::Hdf5Shape{5, 5, 64, 80}, mask);
+    };
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+    const DisparityView map = read.truth->field.view({2, 2});
+
+    QVERIFY(!map.is_valid(0, 7));
+    QVERIFY(map.is_valid(0, 8));
+  }
+
+  void transparency_hasTwoTruths() {
+    const Scene scene = plane_scene();
+    std::vector<float> near(64 * 80, 9.0F);
+    std::vector<float> far(64 * 80, 14.0F);
+    std::vector<std::uint8_t> mask(64 * 80, 255);
+    mask[5] = 0;
+    RawArchive form;
+    form.has_depth = false;
+    form.more = [&](io::Hdf5Output& file) {
+      const io::Hdf5Shape shape{64, 80};
+      file.add_dataset<float>("GT_DEPTH_FOREGROUND", shape, "", "");
+      file.write("GT_DEPTH_FOREGROUND", {{0, 0}, shape}, near.data());
+      file.add_dataset<float>("GT_DEPTH_BACKGROUND", shape, "", "");
+      file.write("GT_DEPTH_BACKGROUND", {{0, 0}, shape}, far.data());
+      add_bytes(file, "GT_DEPTH_FOREGROUND_MASK", shape, mask);
+    };
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY(read.truth->has_layers());
+    QVERIFY(!read.truth->has_disparity());
+    const CameraGrid& camera = scene.light_field->info().camera;
+    const DisparityView foreground = read.truth->foreground.view({2, 2});
+    QCOMPARE(foreground.disparity.at(20, 20), static_cast<float>(camera.disparity_from_depth(9)));
+    QVERIFY(!foreground.is_valid(0, 5));
+    QVERIFY(read.truth->background.view({2, 2}).is_valid(0, 5));
+  }
+
+  void labelsAndScribbles_moveWithTheirViews() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {true, false};
+    form.more = [](io::Hdf5Output& file) {
+      std::vector<std::uint8_t> labels(5 * 5 * 64 * 80, 3);
+      std::fill_n(labels.begin(), 64 * 80, 9);  // view (0, 0) as stored
+      add_bytes(file, "GT_LABELS", {5, 5, 64, 80}, labels);
+      std::vector<std::uint8_t> scribbles(5 * 5 * 64 * 80, 255);
+      scribbles[(1 * 5 + 0) * 64 * 80 + 17] = 4;
+      add_bytes(file, "SCRIBBLES", {5, 5, 64, 80}, scribbles);
+    };
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QCOMPARE(read.truth->labels.view({0, 4}).at(0, 0), 9);
+    QCOMPARE(read.truth->labels.view({0, 0}).at(0, 0), 3);
+    QCOMPARE(read.scribbles.views.at(0).view, (ViewIndex{1, 4}));
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 17), 4);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 16), 0);
+  }
+
+  void scribbles_acceptEveryNone_data() {
+    QTest::addColumn<int>("none");
+    QTest::newRow("0") << 0;
+    QTest::newRow("-1") << -1;
+    QTest::newRow("255") << 255;
+  }
+  void scribbles_acceptEveryNone() {
+    QFETCH(int, none);
+    RawArchive form;
+    form.more = [none](io::Hdf5Output& file) {
+      std::vector<std::int32_t> scribbles(64 * 80, none);
+      scribbles[80 + 2] = 6;
+      file.add_dataset<std::int32_t>("SCRIBBLES", {64, 80}, "", "");
+      file.write("SCRIBBLES", {{0, 0}, {64, 80}}, scribbles.data());
+    };
+    write_raw_archive(path("lf.h5"), plane_scene(), form);
+
+    const Scribbles scribbles = open(path("lf.h5")).scribbles;
+
+    QCOMPARE(scribbles.views.at(0).view, (ViewIndex{2, 2}));
+    QCOMPARE(scribbles.views.at(0).labels.at(1, 2), 6);
+    QCOMPARE(scribbles.views.at(0).labels.at(0, 0), 0);
+  }
+
+  void labelZero_isRaisedWhereNoneIsMarkedOtherwise() {
+    RawArchive form;
+    form.more = [](io::Hdf5Output& file) {
+      std::vector<std::int32_t> scribbles(64 * 80, -1);
+      scribbles[5] = 0;
+      scribbles[6] = 1;
+      file.add_dataset<std::int32_t>("SCRIBBLES", {64, 80}, "", "");
+      file.write("SCRIBBLES", {{0, 0}, {64, 80}}, scribbles.data());
+      std::vector<std::uint8_t> labels(5 * 5 * 64 * 80, 0);
+      labels[1] = 1;
+      add_bytes(file, "GT_LABELS", {5, 5, 64, 80}, labels);
+    };
+    write_raw_archive(path("lf.h5"), plane_scene(), form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 5), 1);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 6), 2);
+    QCOMPARE(read.scribbles.views.at(0).labels.at(0, 7), 0);
+    QCOMPARE(read.truth->labels.view({0, 0}).at(0, 0), 1);
+    QVERIFY(QString::fromStdString(describe(read.convention)).contains("raised by one"));
+  }
+
+  void companions_areFoundAndReadInTheHouseOrder() {
+    const Scene scene = plane_scene();
+    RawArchive form;
+    form.flip = {true, false};
+    write_raw_archive(path("lf.h5"), scene, form);
+    const auto write = [&](const char* file, const char* dataset, const io::Hdf5Shape& shape) {
+      std::size_t count = 1;
+      for (const std::size_t length : shape) count *= length;
+      std::vector<float> values(count);
+      for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<float>(i);
+      io::AtomicFile target(path(file));
+      io::Hdf5Output out(target);
+      out.add_dataset<float>(dataset, shape, "", "");
+      out.write(dataset, {io::Hdf5Shape(shape.size(), 0), shape}, values.data());
+      out.close();
+      target.commit();
+    };
+    write("edge_weights.h5", "EDGE_WEIGHTS", {5, 5, 64, 80});
+    write("feature_depth_probabilities.h5", "Probabilities", {3, 5, 5, 64, 80});
+    write("feature_single_view_probabilities.h5", "Probabilities", {64, 80, 4});
+
+    const Scene read = open(path("lf.h5"));
+    const ViewStack<float> weights =
+        io::read_edge_weights(path("edge_weights.h5"), read, Progress(1));
+    const io::ProbabilityFile all(path("feature_depth_probabilities.h5"), read);
+    const io::ProbabilityFile single(path("feature_single_view_probabilities.h5"), read);
+
+    QCOMPARE(read.companions.size(), std::size_t{3});
+    QCOMPARE(read.companions[0].kind, std::string("edge weights"));
+    QCOMPARE(read.companions[0].shape, std::string("5×5×64×80"));
+    QCOMPARE(weights.view({0, 4}).at(0, 3), 3.0F);  // stored at h = 0
+    io::write_edge_weights(path("written.h5"), weights, read, Progress(1));
+    const auto again = io::read_edge_weights(path("written.h5"), read, Progress(1));
+    QVERIFY(std::equal(again.data(), again.data() + again.size(), weights.data()));
+    QCOMPARE(io::Hdf5Input(path("written.h5")).dataset("EDGE_WEIGHTS").shape,
+             (io::Hdf5Shape{5, 5, 64, 80}));
+    QVERIFY_EXCEPTION_THROWN(
+        io::write_edge_weights(path("few.h5"), ViewStack<float>({1, 1}, 64, 80), read, Progress(1)),
+        IoError);
+    QCOMPARE(all.label_count(), 3);
+    QVERIFY(all.contains({0, 0}));
+    QCOMPARE(all.view({0, 4}).at(1, 2, 1), 5.0F * 5 * 64 * 80 + 80 + 2);
+    QCOMPARE(single.label_count(), 4);
+    QVERIFY(!single.contains({0, 0}) && single.contains({2, 2}));
+    QCOMPARE(single.view({2, 2}).at(1, 2, 3), (80.0F + 2) * 4 + 3);
+  }
+
+  void centerView_comesFirst() {
+    io::write_archive(path("lf.h5"), plane_scene(), Progress(1));
+    double fraction = -1;
+    double fraction_at_center = -1;
+    int calls = 0;
+    io::OpenOptions options;
+    options.on_center_view = [&](const Image<std::uint8_t>& rgb, const LightFieldInfo&,
+                                 GridShape grid) {
+      ++calls;
+      fraction_at_center = fraction;
+      QCOMPARE(grid, (GridShape{5, 5}));
+      QCOMPARE(rgb.width(), 80);
+      QCOMPARE(rgb.at(3, 4, 1), bytes_of(plane_scene()).view({2, 2}).at(3, 4, 1));
+    };
+    const Progress progress(
+        {}, [&](const ProgressState& state) { fraction = state.fraction; }, 1);
+
+    (void)io::open_scene(path("lf.h5"), options, progress);
+
+    QCOMPARE(calls, 1);
+    QVERIFY(fraction_at_center <= 0);
+    QVERIFY(fraction > 0.5);
+  }
+
+  void reading_stopsOnRequest() {
+    io::write_archive(path("lf.h5"), plane_scene(), Progress(1));
+    std::stop_source stop;
+    io::OpenOptions options;
+    options.on_center_view = [&](const Image<std::uint8_t>&, const LightFieldInfo&, GridShape) {
+      stop.request_stop();
+    };
+
+    QVERIFY_EXCEPTION_THROWN(
+        (void)io::open_scene(path("lf.h5"), options, Progress(stop.get_token(), {}, 1)), Cancelled);
+  }
+
+  void writing_stopsOnRequestAndLeavesNothing() {
+    std::stop_source stop;
+    const Progress progress(
+        stop.get_token(),
+        [&](const ProgressState& state) {
+          if (state.fraction > 0.2) stop.request_stop();
+        },
+        1);
+
+    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
+    QVERIFY(std::filesystem::is_empty(path()));
+  }
+
+  void failingLabels_bringTheOldLightFieldBack_data() {
+    QTest::addColumn<bool>("was_there");
+    QTest::newRow("new file") << false;
+    QTest::newRow("over an old one") << true;
+  }
+  void failingLabels_bringTheOldLightFieldBack() {
+    QFETCH(bool, was_there);
+    PlaneOptions options;
+    options.d0 = 0.5;
+    const Scene former = plane_scene(options);
+    if (was_there) io::write_archive(path("lf.h5"), former, Progress(2));
+    // A folder in the place of the labels, made when they are being written, cannot be replaced.
+    const std::stop_source stop;
+    const Progress progress(stop.get_token(), [&](const ProgressState& state) {
+      if (state.fraction < 0.9) return;
+      std::filesystem::remove(path("labels.h5"));
+      std::filesystem::create_directories(path("labels.h5"));
+    });
+
+    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), IoError);
+
+    const std::size_t files =
+        static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(path("")), {}));
+    QCOMPARE(files, std::size_t{was_there ? 2U : 1U});
+    if (!was_there) return;
+    std::filesystem::remove(path("labels.h5"));
+    QVERIFY(has_same_samples(former, open(path("lf.h5"))));
+  }
+
+  void writing_stopsWithinDepth() {
+    std::stop_source stop;
+    int later = 0;
+    const Progress progress(stop.get_token(), [&](const ProgressState& state) {
+      later += stop.stop_requested() ? 1 : 0;
+      if (state.fraction > 0.61) stop.request_stop();
+    });
+
+    QVERIFY_EXCEPTION_THROWN(io::write_archive(path("lf.h5"), plane_scene(), progress), Cancelled);
+    QCOMPARE(later, 0);
+    QVERIFY(std::filesystem::is_empty(path("")));
+  }
+
+  void evenGrids_andGreyViews_areRead() {
+    PlaneOptions options;
+    options.grid = {4, 6};
+    options.channels = 1;
+    const Scene scene = plane_scene(options);
+    RawArchive form;
+    form.flip = {true, false};
+    write_raw_archive(path("lf.h5"), scene, form);
+
+    const Scene read = open(path("lf.h5"));
+
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+    QCOMPARE(read.light_field->channels(), 1);
+  }
+
+  void sixteenBitSamples_stay() {
+    ViewStack<std::uint16_t> views({3, 3}, 8, 9, 1);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      views.data()[i] = static_cast<std::uint16_t>(i * 311);
+    }
+    Scene scene;
+    scene.truth = std::make_shared<GroundTruth>();
+    scene.light_field = std::make_shared<LightField>(std::move(views), LightFieldInfo{});
+
+    io::write_archive(path("lf.h5"), scene, Progress(1));
+    const Scene read = open(path("lf.h5"));
+
+    QCOMPARE(read.light_field->sample_type(), SampleType::UInt16);
+    QVERIFY(has_same_samples(scene, read));
+  }
+};
+
+}  // namespace episcope::in_archive_test
+
+EPISCOPE_TEST(archive_test, ArchiveTest)
+#include "archive_test.moc"

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/ply.h"
+#include "engine/io/maps/result_file.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+namespace episcope::in_result_test {
+
+namespace {
+
+constexpr GridShape kGrid{3, 5};
+constexpr int kHeight = 6;
+constexpr int kWidth = 7;
+
+DisparityField sample_field(GridShape views, ViewIndex first) {
+  DisparityField field;
+  field.disparity = ViewStack<float>(views, kHeight, kWidth, 1, first);
+  field.valid = ViewStack<std::uint8_t>(views, kHeight, kWidth, 1, first);
+  for (std::size_t i = 0; i < field.disparity.size(); ++i) {
+    field.disparity.data()[i] = 0.01F * static_cast<float>(i) - 1;
+    field.valid.data()[i] = i % 5 == 0 ? 0 : 1;
+  }
+  return field;
+}
+
+void compare(const DisparityField& read, const DisparityField& written) {
+  QCOMPARE(read.disparity.grid(), written.disparity.grid());
+  QCOMPARE(read.disparity.first(), written.disparity.first());
+  for (std::size_t i = 0; i < written.disparity.size(); ++i) {
+    QCOMPARE(read.valid.data()[i], written.valid.data()[i]);
+    if (written.valid.data()[i] != 0) {
+      QCOMPARE(read.disparity.data()[i], written.disparity.data()[i]);
+    }
+  }
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+}  // namespace
+
+class ResultTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  std::filesystem::path path(const char* name) const {
+    return std::filesystem::path(folder_->path().toStdString()) / name;
+  }
+  void write_floats(const char* file,
+                    const std::vector<std::pair<std::string, io::Hdf5Shape>>& sets,
+                    float value) const {
+    io::AtomicFile target(path(file));
+    io::Hdf5Output out(target);
+    for (const auto& [name, shape] : sets) {
+      std::size_t count = 1;
+      for (const std::size_t length : shape) count *= length;
+      const std::size_t slash = name.find('/');
+      if (slash != std::string::npos) out.add_group(name.substr(0, slash));
+      out.add_dataset<float>(name, shape, "", "");
+      out.write(name, {io::Hdf5Shape(shape.size(), 0), shape},
+                std::vector<float>(count, value).data());
+    }
+    out.close();
+    target.commit();
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void result_readsWhatItWrote_data() {
+    QTest::addColumn<bool>("is_all_views");
+    QTest::newRow("all views") << true;
+    QTest::newRow("one view") << false;
+  }
+  void result_readsWhatItWrote() {
+    QFETCH(bool, is_all_views);
+    const GridShape views = is_all_views ? kGrid : GridShape{1, 1};
+    const ViewIndex first = is_all_views ? ViewIndex{} : ViewIndex{2, 4};
+    Estimate estimate;
+    estimate.field = sample_field(views, first);
+    estimate.confidence = ViewStack<float>(views, kHeight, kWidth, 1, first);
+    std::fill_n(estimate.confidence.data(), estimate.confidence.size(), 0.25F);
+    estimate.method = "epi_s";
+    estimate.parameters = {{"scale", 0.8},
+                           {"whole", 2.0},
+                           {"steps", 12},
+                           {"fast", true},
+                           {"kind", std::string("größer")},
+                           {"range", IntervalOrAuto(Interval{-1.5, 2})},
+                           {"window", IntervalOrAuto{}},
+                           {"view", ViewOrAuto(ViewIndex{3, 5})}};
+    estimate.range = {-1.5, 2};
+    estimate.seconds = 1.25;
+    estimate.source = "/somewhere/lf.h5";
+    estimate.source_hash = 0xFEDCBA9876543210U;
+    estimate.notes = {"gap 0.001", "two views unsolved"};
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const Estimate read = io::read_result(path("r.h5"), kGrid);
+
+    QVERIFY(io::is_result_file(path("r.h5")));
+    compare(read.field, estimate.field);
+    QCOMPARE(read.confidence.first(), first);
+    QCOMPARE(read.confidence.data()[3], 0.25F);
+    QCOMPARE(read.method, estimate.method);
+    QVERIFY(read.parameters == estimate.parameters);
+    QCOMPARE(read.range, estimate.range);
+    QCOMPARE(read.seconds, 1.25);
+    QCOMPARE(read.version, std::string(kVersion));
+    QCOMPARE(read.source, estimate.source);
+    QCOMPARE(read.source_hash, estimate.source_hash);
+    QVERIFY(read.notes == estimate.notes);
+  }
+
+  void layers_areKept() {
+    Estimate estimate;
+    estimate.field = sample_field({1, 1}, kGrid.center());
+    estimate.layered.foreground = sample_field({1, 1}, kGrid.center());
+    estimate.layered.background = sample_field({1, 1}, kGrid.center());
+    estimate.layered.background.valid.data()[7] = 0;
+    estimate.layered.layers = ViewStack<std::uint8_t>({1, 1}, kHeight, kWidth, 1, kGrid.center());
+    std::fill_n(estimate.layered.layers.data(), estimate.layered.layers.size(), std::uint8_t{2});
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const Estimate read = io::read_result(path("r.h5"), kGrid);
+
+    compare(read.layered.foreground, estimate.layered.foreground);
+    compare(read.layered.background, estimate.layered.background);
+    QCOMPARE(read.layered.layers.data()[0], std::uint8_t{2});
+  }
+
+  void file_statesAxesUnitsAndInvalidPixels() {
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+
+    io::write_result(path("r.h5"), estimate, Progress(1));
+    const io::Hdf5Input file(path("r.h5"));
+    float first = 0;
+    file.read("estimate/disparity", {{0, 0, 0, 0}, {1, 1, 1, 1}}, &first);
+
+    QCOMPARE(*file.text("estimate/disparity", "axes"), std::string("v,u,y,x"));
+    QCOMPARE(*file.text("estimate/disparity", "units"), std::string("px per view step"));
+    QVERIFY(file.text("estimate/valid", "axes").has_value());
+    QVERIFY(std::isnan(first));
+  }
+
+  void foreignMaps_belongToTheCenterView_data() {
+    QTest::addColumn<QString>("kind");
+    for (const char* kind : {"pfm", "tiff", "h5", "submission"}) QTest::newRow(kind) << kind;
+  }
+  void foreignMaps_belongToTheCenterView() {
+    QFETCH(QString, kind);
+    Image<float> map(kHeight, kWidth, 1, 0.5F);
+    map.at(1, 2) = std::numeric_limits<float>::quiet_NaN();
+    map.at(1, 3) = std::numeric_limits<float>::infinity();
+    std::filesystem::path file = path(("map." + kind).toStdString().c_str());
+    std::string scene;
+    if (kind == "pfm") io::write_pfm(file, map.view());
+    if (kind == "tiff") io::write_tiff(file, map.view());
+    if (kind == "h5") {
+      io::AtomicFile target(file);
+      io::Hdf5Output out(target);
+      out.add_dataset<float>("depth_map", {kHeight, kWidth}, "", "");
+      out.write("depth_map", {{0, 0}, {kHeight, kWidth}}, map.data());
+      out.close();
+      target.commit();
+    }
+    if (kind == "submission") {
+      file = path("sub");
+      scene = "cotton";
+      std::filesystem::create_directories(file / "disp_maps");
+      std::filesystem::create_directories(file / "runtimes");
+      io::write_pfm(file / "disp_maps/cotton.pfm", map.view());
+      io::write_pfm(file / "disp_maps/boxes.pfm", Image<float>(2, 2).view());
+      std::ofstream(file / "runtimes/cotton.txt") << "12.5\n";
+    }
+
+    const Estimate read = io::read_result(file, kGrid, scene);
+
+    QVERIFY(!io::is_result_file(file));
+    QCOMPARE(read.field.disparity.grid(), (GridShape{1, 1}));
+    QCOMPARE(read.field.disparity.first(), kGrid.center());
+    const DisparityView view = read.field.view(kGrid.center());
+    QCOMPARE(view.disparity.at(0, 0), 0.5F);
+    QVERIFY(!view.is_valid(1, 2) && !view.is_valid(1, 3) && view.is_valid(1, 4));
+    QCOMPARE(read.seconds, kind == "submission" ? 12.5 : 0.0);
+  }
+
+  void foreignHdf5_mayHoldAllViews() {
+    write_floats("all.h5", {{"result/d", {3, 5, 6, 7}}}, 0.75F);
+    write_floats("other.h5", {{"d", {9, 9, 6, 7}}}, 0.75F);
+
+    QCOMPARE(io::read_result(path("all.h5"), kGrid).field.disparity.grid(), kGrid);
+    QVERIFY_EXCEPTION_THROWN((void)io::read_result(path("other.h5"), kGrid), IoError);
+  }
+
+  void badResults_areRefused_data() {
+    QTest::addColumn<QString>("file");
+    QTest::addColumn<QString>("expected");
+    QTest::newRow("missing") << "none.h5"
+                             << "no such file";
+    QTest::newRow("two maps") << "two.h5"
+                              << "2 are there (a, b)";
+    QTest::newRow("no map") << "rank.h5"
+                            << "none is there";
+    QTest::newRow("text") << "text.h5"
+                          << "not an HDF5 file";
+    QTest::newRow("unknown kind") << "map.xyz"
+                                  << "no disparity map";
+    QTest::newRow("8-bit TIFF") << "grey.tiff"
+                                << "32-bit float";
+    QTest::newRow("folder") << "folder"
+                            << "disp_maps";
+    QTest::newRow("other grid") << "grid.h5"
+                                << "does not fit";
+    QTest::newRow("cut short") << "cut.h5"
+                               << "cut short";
+  }
+  void badResults_areRefused() {
+    QFETCH(QString, file);
+    QFETCH(QString, expected);
+    write_floats("two.h5", {{"a", {6, 7}}, {"b", {6, 7}}}, 1);
+    write_floats("rank.h5", {{"a", {6, 7, 2}}}, 1);
+    std::ofstream(path("text.h5")) << "hello";
+    std::ofstream(path("map.xyz")) << "hello";
+    io::write_png(path("grey.png"), Image<std::uint8_t>(3, 3).view());
+    std::filesystem::rename(path("grey.png"), path("grey.tiff"));
+    std::filesystem::create_directory(path("folder"));
+    Estimate estimate;
+    estimate.field = sample_field({9, 9}, {});
+    io::write_result(path("grid.h5"), estimate, Progress(1));
+    std::filesystem::copy_file(path("grid.h5"), path("cut.h5"));
+    std::filesystem::resize_file(path("cut.h5"), 3000);
+
+    try {
+      (void)io::read_result(path(file.toStdString().c_str()), kGrid);
+      QFAIL("the result was accepted");
+    } catch (const IoError& error) {
+      QVERIFY2(QString(error.what()).contains(expected), error.what());
+      QVERIFY(QString(error.what()).contains(file));
+    }
+  }
+
+  void cancelledWriting_leavesTheOldFile() {
+    std::ofstream(path("r.h5")) << "old";
+    Estimate estimate;
+    estimate.field = sample_field(kGrid, {});
+    std::stop_source stop;
+    const Progress progress(
+        stop.get_token(),
+        [&](const ProgressState& state) {
+          if (state.fraction > 0.1) stop.request_stop();
+        },
+        1);
+
+    QVERIFY_EXCEPTION_THROWN(io::write_result(path("r.h5"), estimate, progress), Cancelled);
+    QCOMPARE(text_of(path("r.h5")), std::string("old"));
+    QCOMPARE(std::distance(std::filesystem::directory_iterator(path("")),
+                           std::filesystem::directory_iterator()),
+             1);
+  }
+
+  void ply_placesPointsByTheCamera_data() {
+    QTest::addColumn<bool>("is_known");
+    QTest::newRow("camera known") << true;
+    QTest::newRow("camera unknown") << false;
+  }
+  void ply_placesPointsByTheCamera() {
+    QFETCH(bool, is_known);
+    DisparityField field = sample_field({1, 1}, {});
+    std::fill_n(field.disparity.data(), field.disparity.size(), 1.0F);
+    field.disparity.data()[1] = 2;
+    const Image<std::uint8_t> rgb(kHeight, kWidth, 3, 200);
+    io::PointCloud cloud{field.view({0, 0}), rgb.view(), {}, false};
+    if (is_known) {
+      cloud.camera.baseline = 10;
+      cloud.camera.focal_length = 2;
+      cloud.camera.shift = 1;
+    }
+
+    io::write_ply(path("c.ply"), cloud);
+    std::istringstream in(text_of(path("c.ply")));
+    std::string line;
+    while (std::getline(in, line) && line != "end_header") {
+    }
+    double x = 0, y = 0, z = 0;
+    in >> x >> y >> z;
+
+    // The first valid pixel is (y 0, x 1); nearer points have the larger z.
+    if (is_known) {
+      const double depth = 20.0 / 3;
+      QVERIFY(std::abs(z + depth) < 1e-5);
+      QVERIFY(std::abs(x - (1 - 3.0) * depth / 14) < 1e-5);
+      QVERIFY(std::abs(y - 2.5 * depth / 14) < 1e-5);
+    } else {
+      QVERIFY(z > 0);
+      QCOMPARE(x, -2.0);
+      QCOMPARE(y, 2.5);
+    }
+  }
+
+  void ply_withoutPointsIsRefused() {
+    DisparityField field = sample_field({1, 1}, {});
+    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
+    const Image<std::uint8_t> rgb(kHeight, kWidth, 3);
+
+    QVERIFY_EXCEPTION_THROWN(
+        io::write_ply(path("c.ply"), {field.view({0, 0}), rgb.view(), {}, true}), InvalidInput);
+    QVERIFY(!std::filesystem::exists(path("c.ply")));
+  }
+};
+
+}  // namespace episcope::in_result_test
+
+EPISCOPE_TEST(result_test, ResultTest)
+#include "result_test.moc"

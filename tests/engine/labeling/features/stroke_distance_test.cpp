@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/features/stroke_distance.h"
+#include "tests/test_main.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace episcope::in_stroke_distance_test {
+
+namespace {
+
+constexpr int kHeight = 9;
+constexpr int kWidth = 11;
+
+Image<std::int32_t> two_dots() {
+  Image<std::int32_t> strokes(kHeight, kWidth);
+  strokes.at(4, 1) = 1;
+  strokes.at(4, 9) = 2;
+  return strokes;
+}
+
+// By relaxing all steps until nothing changes.
+std::vector<double> reference(const Image<std::int32_t>& strokes, int label,
+                              const Image<float>& guide) {
+  const int height = strokes.height();
+  const int width = strokes.width();
+  std::vector<double> distance(strokes.size(), 1e9);
+  for (std::size_t i = 0; i < strokes.size(); ++i) {
+    if (strokes.data()[i] == label + 1) distance[i] = 0;
+  }
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (int i = 0; i < height * width * 9; ++i) {
+      const int y = i / 9 / width, x = i / 9 % width;
+      const int ny = y + i % 9 / 3 - 1, nx = x + i % 3 - 1;
+      if (ny < 0 || ny >= height || nx < 0 || nx >= width) continue;
+      const double way = distance[static_cast<std::size_t>(ny) * width + nx] +
+                         StrokeDistances::kStep * std::hypot(ny - y, nx - x) +
+                         std::abs(guide.at(y, x) - guide.at(ny, nx));
+      double& own = distance[static_cast<std::size_t>(y) * width + x];
+      if (way < own - 1e-9) {
+        own = way;
+        changed = true;
+      }
+    }
+  }
+  return distance;
+}
+
+}  // namespace
+
+class StrokeDistanceTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void distances_areThoseOfShortestWays();
+  void wall_parts();
+  void labelWithoutStroke_isLeftToTheForest();
+  void weighing_keepsTheSum();
+  void instructionSets_agree();
+  void strokes_areCarriedAlongRays_andHiddenOnesAreNot();
+};
+
+void StrokeDistanceTest::distances_areThoseOfShortestWays() {
+  // Hills without mazes, so that three sweeps find every way.
+  Image<float> guide(kHeight, kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      guide.at(y, x) = 0.0005F * static_cast<float>((x - 6) * (x - 6) + 2 * y * y);
+    }
+  }
+  const Image<std::int32_t> strokes = two_dots();
+
+  const StrokeDistances distances(strokes, 2, {guide.view()}, Progress());
+
+  const auto first = reference(strokes, 0, guide);
+  const auto second = reference(strokes, 1, guide);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * kWidth + x;
+      const double excess = first[i] - std::min(first[i], second[i]);
+      QVERIFY(std::abs(distances.excess(y, x, 0) - excess) < 1e-5);
+    }
+  }
+}
+
+void StrokeDistanceTest::wall_parts() {
+  Image<float> guide(kHeight, kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 8; x < kWidth; ++x) guide.at(y, x) = 1;
+  }
+
+  const StrokeDistances distances(two_dots(), 2, {guide.view()}, Progress());
+
+  // Column 7 is nearer to the second dot, but beyond the wall.
+  QCOMPARE(distances.excess(4, 7, 0), 0.F);
+  QVERIFY(distances.excess(4, 7, 1) > 0.9F);
+  QCOMPARE(distances.excess(4, 8, 1), 0.F);
+}
+
+void StrokeDistanceTest::labelWithoutStroke_isLeftToTheForest() {
+  const Image<float> guide(kHeight, kWidth);
+
+  const StrokeDistances distances(two_dots(), 3, {guide.view()}, Progress());
+
+  QCOMPARE(distances.excess(0, 0, 2), 0.F);
+}
+
+void StrokeDistanceTest::weighing_keepsTheSum() {
+  Image<float> guide(kHeight, kWidth);
+  for (int y = 0; y < kHeight; ++y) guide.at(y, 10) = 1;
+  const StrokeDistances distances(two_dots(), 2, {guide.view()}, Progress());
+  std::vector<float> row(static_cast<std::size_t>(kWidth) * 16);
+  for (int x = 0; x < kWidth; ++x) row[x * 16] = row[x * 16 + 1] = 0.5F;
+
+  distances.weigh_row(4, 100, 16, row.data());
+
+  for (int x = 0; x < kWidth; ++x) QVERIFY(std::abs(row[x * 16] + row[x * 16 + 1] - 1) < 1e-5F);
+  QVERIFY(row[1 * 16] > 0.6F);      // At the first dot,
+  QVERIFY(row[9 * 16 + 1] > 0.6F);  // and at the second.
+}
+
+void StrokeDistanceTest::instructionSets_agree() {
+  std::mt19937 random(7);
+  Image<float> guide(kHeight, kWidth);
+  for (float& value : guide) value = static_cast<float>(random() % 100) * 0.01F;
+
+  const StrokeDistances best(two_dots(), 2, {guide.view()}, Progress());
+  const StrokeDistances plain(two_dots(), 2, {guide.view()}, Progress(), Isa::Baseline);
+
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) QCOMPARE(best.excess(y, x, 0), plain.excess(y, x, 0));
+  }
+}
+
+void StrokeDistanceTest::strokes_areCarriedAlongRays_andHiddenOnesAreNot() {
+  DisparityField field;
+  field.disparity = ViewStack<float>({1, 2}, 1, 8);
+  std::fill_n(field.disparity.data(), field.disparity.size(), 1.F);
+  field.disparity.view({0, 1}).at(0, 4) = 3;  // Something nearer hides what arrives here.
+  Scribbles scribbles;
+  scribbles.views.push_back({{0, 0}, Image<std::int32_t>(1, 8)});
+  scribbles.views[0].labels.at(0, 3) = 7;
+  scribbles.views[0].labels.at(0, 5) = 9;
+  const std::vector<std::int32_t> ids{7, 9};
+
+  const auto own = carried_strokes(scribbles, ids, &field, {0, 0}, 1, 8);
+  const auto carried = carried_strokes(scribbles, ids, &field, {0, 1}, 1, 8);
+  const auto without = carried_strokes(scribbles, ids, nullptr, {0, 1}, 1, 8);
+
+  QCOMPARE(own.at(0, 3), 1);
+  QCOMPARE(own.at(0, 5), 2);
+  QCOMPARE(carried.at(0, 2), 1);  // x − d·1
+  QCOMPARE(std::ranges::count(carried, 2), 0);
+  QVERIFY(std::ranges::all_of(without, [](std::int32_t l) { return l == 0; }));
+}
+
+}  // namespace episcope::in_stroke_distance_test
+
+EPISCOPE_TEST(stroke_distance_test, StrokeDistanceTest)
+#include "stroke_distance_test.moc"

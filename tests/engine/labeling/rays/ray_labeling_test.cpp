@@ -1,0 +1,374 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/rays/ray_labeling.h"
+
+#include "engine/core/error.h"
+#include "engine/labeling/consistency.h"
+#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/label_costs.h"
+#include "engine/labeling/rays/ray_colors.h"
+#include "engine/scenes/builtin.h"
+#include "tests/engine/labeling/noisy_labels.h"
+#include "tests/test_main.h"
+
+#include <chrono>
+#include <cmath>
+
+namespace episcope::in_ray_labeling_test {
+
+using namespace episcope::test;
+
+namespace {
+
+constexpr GridShape kGrid{5, 5};
+
+Scene render(const std::string& id, int size = 96) {
+  scenes::RenderOptions options;
+  options.grid = kGrid;
+  options.height = options.width = size;
+  return scenes::render_builtin(id, options, Progress());
+}
+
+// A scene, what is said of its labels, and its edges.
+struct Case {
+  explicit Case(const std::string& id, double share = 0.4, int size = 96)
+      : scene(render(id, size)),
+        probabilities(mistaken(scene.truth->labels, share)),
+        edges(edge_probabilities(*scene.light_field, scene.truth->field, {}, Progress())) {}
+
+  [[nodiscard]] RayLabelingInput input() const {
+    return {&probabilities, &scene.truth->field, &edges, scene.light_field.get()};
+  }
+  [[nodiscard]] RayLabeling label(LabelCoupling coupling, RayLabelingParameters parameters = {},
+                                  int threads = 0) const {
+    return label_rays(input(), coupling, parameters, Progress(threads));
+  }
+  [[nodiscard]] double right(const RayLabeling& labeling) const {
+    return accuracy(labeling.labels, scene.truth->labels);
+  }
+
+  Scene scene;
+  LabelProbabilities probabilities;
+  ViewStack<float> edges;
+};
+
+// Each pixel takes the largest disparity within `radius`.
+DisparityField widened(const DisparityField& field, int radius) {
+  DisparityField wide{field.disparity.clone(), {}};
+  for (int i = 0; i < wide.disparity.grid().count(); ++i) {
+    const auto from = field.disparity.view(wide.disparity.view_at(i));
+    const auto to = wide.disparity.view(wide.disparity.view_at(i));
+    for (int y = 0; y < to.height; ++y) {
+      for (int x = 0; x < to.width; ++x) {
+        for (int k = std::max(y - radius, 0); k <= std::min(y + radius, to.height - 1); ++k) {
+          const float* const row = from.row(k);
+          const float most = *std::max_element(row + std::max(x - radius, 0),
+                                               row + std::min(x + radius + 1, to.width));
+          to.at(y, x) = std::max(to.at(y, x), most);
+        }
+      }
+    }
+  }
+  return wide;
+}
+
+bool same(const ViewStack<std::int32_t>& a, const ViewStack<std::int32_t>& b) {
+  return a.size() == b.size() && std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+}  // namespace
+
+class RayLabelingTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void rays_beatViews_andViewsBeatNone_data();
+  void rays_beatViews_andViewsBeatNone();
+  void rays_areConstantAlongLinesOfPlanes();
+  void rays_agreeOnObjects();
+  void rays_leaveCertainLabelsAlone();
+  void label_isTheSameForAnyThreads();
+  void rays_beatViews_whereDisparityIsWrongAtOutlines_data();
+  void rays_beatViews_whereDisparityIsWrongAtOutlines();
+  void labelView_isNearlyThatOfAllViews();
+  void labelView_takesWhatItsNeighboursKnow();
+  void label_keepsIds();
+  void label_certifiesItself();
+  void trackCosts_areMeansOverVisibleRays();
+  void colors_doNotDependOnTheStoredType();
+  void label_stopsOnRequest();
+  void label_endsEarlyWhenAsked();
+  void label_refusesBadInput();
+};
+
+void RayLabelingTest::rays_beatViews_andViewsBeatNone_data() {
+  QTest::addColumn<QString>("scene");
+  QTest::newRow("edge") << "edge";
+  QTest::newRow("objects") << "objects";
+  QTest::newRow("bars") << "bars";
+}
+
+// 40 % of all rays are mistaken at random: λ of the order of log(0.6/0.4).
+void RayLabelingTest::rays_beatViews_andViewsBeatNone() {
+  QFETCH(QString, scene);
+  const Case noisy(scene.toStdString());
+  RayLabelingParameters parameters;
+  parameters.smoothness = 1;
+
+  const double none = noisy.right(noisy.label(LabelCoupling::None));
+  const double views = noisy.right(noisy.label(LabelCoupling::Views, parameters));
+  const double rays = noisy.right(noisy.label(LabelCoupling::Rays, parameters));
+
+  const QByteArray told = QString("%1 %2 %3").arg(none).arg(views).arg(rays).toUtf8();
+  QVERIFY2(std::fabs(none - 0.6) < 0.01, told);
+  QVERIFY2(views > none + 0.1, told);
+  QVERIFY2(rays > views + 0.01, told);
+  QVERIFY2(rays > (scene == "bars" ? 0.97 : 0.985), told);  // thin, and 25 views only
+}
+
+void RayLabelingTest::rays_areConstantAlongLinesOfPlanes() {
+  for (const char* const id : {"fronto", "slant", "edge"}) {
+    const Case noisy(id);
+
+    const RayLabeling labeling = noisy.label(LabelCoupling::Rays);
+
+    const auto agreed = label_consistency(labeling.labels, noisy.scene.truth->field, Progress());
+    QVERIFY(agreed.checked() > 0.9);
+    QCOMPARE(agreed.agreeing, agreed.visible);
+  }
+}
+
+void RayLabelingTest::rays_agreeOnObjects() {
+  const Case noisy("objects");
+
+  const RayLabeling labeling = noisy.label(LabelCoupling::Rays);
+
+  const auto agreed = label_consistency(labeling.labels, noisy.scene.truth->field, Progress());
+  // Rays that arrive between pixels: exact labels do not always agree.
+  const double exact =
+      label_consistency(noisy.scene.truth->labels, noisy.scene.truth->field, Progress()).share();
+  QVERIFY2(agreed.share() > std::min(exact, 0.99) - 0.003,
+           qPrintable(QString("%1, exact %2").arg(agreed.share()).arg(exact)));
+}
+
+void RayLabelingTest::rays_leaveCertainLabelsAlone() {
+  const Case certain("objects", 0);
+  RayLabelingParameters parameters;
+  parameters.smoothness = 0.2;
+
+  const RayLabeling labeling = certain.label(LabelCoupling::Rays, parameters);
+
+  // Rays that arrive between pixels at a boundary take the nearest one's label.
+  QVERIFY2(certain.right(labeling) > 0.995, qPrintable(QString::number(certain.right(labeling))));
+}
+
+void RayLabelingTest::label_isTheSameForAnyThreads() {
+  const Case noisy("objects", 0.4, 48);
+
+  for (const LabelCoupling coupling :
+       {LabelCoupling::None, LabelCoupling::Views, LabelCoupling::Rays}) {
+    const RayLabeling one = noisy.label(coupling, {}, 1);
+    const RayLabeling three = noisy.label(coupling, {}, 3);
+    QVERIFY(same(one.labels, three.labels));
+    QCOMPARE(three.energy, one.energy);
+  }
+}
+
+void RayLabelingTest::rays_beatViews_whereDisparityIsWrongAtOutlines_data() {
+  QTest::addColumn<QString>("scene");
+  QTest::newRow("objects") << "objects";
+  QTest::newRow("bars") << "bars";
+  QTest::newRow("demo") << "demo";
+}
+
+// Foreground disparities reach three pixels too far, as estimates do.
+void RayLabelingTest::rays_beatViews_whereDisparityIsWrongAtOutlines() {
+  QFETCH(QString, scene);
+  const Case fair(scene.toStdString(), 0.1);
+  const DisparityField wide = widened(fair.scene.truth->field, 3);
+  RayLabelingInput input = fair.input();
+  input.disparity = &wide;
+  RayLabelingParameters parameters;
+  parameters.smoothness = 1;
+
+  const auto views = label_rays(input, LabelCoupling::Views, parameters, Progress());
+  const auto rays = label_rays(input, LabelCoupling::Rays, parameters, Progress());
+
+  const DisparityField& truth = fair.scene.truth->field;
+  const double alone = label_consistency(views.labels, truth, Progress()).share();
+  const double agreed = label_consistency(rays.labels, truth, Progress()).share();
+  const auto told = QString("%1 %2, %3 %4")
+                        .arg(fair.right(views))
+                        .arg(fair.right(rays))
+                        .arg(alone)
+                        .arg(agreed)
+                        .toUtf8();
+  QVERIFY2(fair.right(rays) >= fair.right(views), told);
+  QVERIFY2(agreed >= alone, told);
+  QVERIFY2(agreed > 0.97, told);
+}
+
+void RayLabelingTest::labelView_isNearlyThatOfAllViews() {
+  const Case noisy("objects", 0.4, 48);
+  const ViewIndex center = kGrid.center();
+
+  const RayLabeling all = noisy.label(LabelCoupling::Rays);
+  const RayLabeling one = label_view(noisy.input(), center, LabelCoupling::Rays, {}, Progress());
+
+  // All rays have voted besides, and their problems were solved to a wider gap.
+  const auto expected = all.labels.view(center), found = one.labels.view(center);
+  QCOMPARE(one.labels.grid(), (GridShape{1, 1}));
+  int equal = 0;
+  for (std::size_t i = 0; i < found.size(); ++i) equal += found.data[i] == expected.data[i] ? 1 : 0;
+  QVERIFY2(equal > 0.97 * 48 * 48, qPrintable(QString::number(equal)));
+}
+
+void RayLabelingTest::labelView_takesWhatItsNeighboursKnow() {
+  const Case noisy("edge");
+  RayLabelingParameters parameters;
+  parameters.smoothness = 1;
+  const ViewIndex corner{0, 4};
+
+  const auto alone =
+      label_view(noisy.input(), corner, LabelCoupling::Views, parameters, Progress());
+  const auto together =
+      label_view(noisy.input(), corner, LabelCoupling::Rays, parameters, Progress());
+
+  QVERIFY(noisy.right(together) > noisy.right(alone));
+  QVERIFY(together.labels.contains(corner));
+}
+
+void RayLabelingTest::label_keepsIds() {
+  Case noisy("edge", 0.1, 48);
+  for (std::int32_t& id : noisy.probabilities.ids) id = 10 * id + 7;
+
+  for (const LabelCoupling coupling :
+       {LabelCoupling::None, LabelCoupling::Views, LabelCoupling::Rays}) {
+    const auto ids = label_ids(noisy.label(coupling).labels);
+    QVERIFY(std::ranges::includes(noisy.probabilities.ids, ids));
+  }
+}
+
+void RayLabelingTest::label_certifiesItself() {
+  const Case noisy("objects", 0.4, 64);
+
+  for (const LabelCoupling coupling : {LabelCoupling::Views, LabelCoupling::Rays}) {
+    const RayLabeling labeling = noisy.label(coupling);
+    QVERIFY(labeling.bound <= labeling.energy);
+    QVERIFY2(labeling.relative_gap() < 1e-2, qPrintable(QString::number(labeling.relative_gap())));
+    QVERIFY(labeling.iterations > 0);
+  }
+}
+
+void RayLabelingTest::trackCosts_areMeansOverVisibleRays() {
+  const Case noisy("fronto", 0.3, 32);
+  const CostTable table = cost_table(0.01);
+  const ViewIndex center = kGrid.center();
+  Volume<float> costs(32, 2, 32);
+
+  fill_track_costs({noisy.probabilities, noisy.scene.truth->field, center}, table, Progress(),
+                   costs.view());
+
+  // A plane of 0.37 px: by hand for a pixel far from the border.
+  double sum = 0;
+  for (int v = 0; v < 5; ++v) {
+    for (int u = 0; u < 5; ++u) {
+      const auto x = static_cast<int>(std::lround(14 - 0.37 * (u - 2)));
+      const auto y = static_cast<int>(std::lround(17 - 0.37 * (v - 2)));
+      sum += table[noisy.probabilities.view({v, u}).view().at(y, 1, x)];
+    }
+  }
+  QVERIFY(std::fabs(costs.view().at(17, 1, 14) - sum / 25) < 1e-4);
+}
+
+// Samples of 8 bits are looked into, others are rounded to 8 bits.
+void RayLabelingTest::colors_doNotDependOnTheStoredType() {
+  const Case noisy("objects");
+  const LightField& bytes = *noisy.scene.light_field;
+  ViewStack<float> samples(bytes.grid(), bytes.height(), bytes.width(), bytes.channels());
+  for (int i = 0; i < bytes.grid().count(); ++i) {
+    const Image<float> view = bytes.view_as_float(bytes.grid().view_at(i));
+    std::copy(view.begin(), view.end(), samples.view(bytes.grid().view_at(i)).data);
+  }
+  const LightField floats(std::move(samples), {});
+  const RayColors looked_into(bytes, {2, 2}, {1, 1}, Progress());
+  const RayColors rounded(floats, {2, 2}, {1, 1}, Progress());
+
+  int told_apart = 0;
+  for (int y = 0; y < bytes.height(); y += 3) {
+    const auto a = looked_into.pair({1, 1}, y, {2, 2}), b = rounded.pair({1, 1}, y, {2, 2});
+    for (int x = 0; x < bytes.width(); ++x) {
+      const float trust = looked_into.trust(a, x, y * bytes.width() + x);
+      QCOMPARE(rounded.trust(b, x, y * bytes.width() + x), trust);
+      told_apart += trust < 0.5F ? 1 : 0;
+    }
+  }
+  QVERIFY(told_apart > 0);
+}
+
+void RayLabelingTest::label_stopsOnRequest() {
+  const Case noisy("objects", 0.4, 128);
+  for (const LabelCoupling coupling : {LabelCoupling::Views, LabelCoupling::Rays}) {
+    std::stop_source stop;
+    std::chrono::steady_clock::time_point asked;
+    const Progress progress(stop.get_token(), [&](const ProgressState&) {
+      if (stop.stop_requested()) return;
+      asked = std::chrono::steady_clock::now();
+      stop.request_stop();
+    });
+
+    QVERIFY_EXCEPTION_THROWN((void)label_rays(noisy.input(), coupling, {}, progress), Cancelled);
+
+    QVERIFY(std::chrono::steady_clock::now() - asked < std::chrono::milliseconds(200));
+  }
+}
+
+void RayLabelingTest::label_endsEarlyWhenAsked() {
+  const Case noisy("objects", 0.4, 48);
+  std::stop_source finish;
+  finish.request_stop();
+
+  const RayLabeling labeling =
+      label_rays(noisy.input(), LabelCoupling::Rays, {}, Progress({}, finish.get_token(), {}));
+
+  QCOMPARE(labeling.iterations, 1);
+  QVERIFY(noisy.right(labeling) > 0.6);
+}
+
+void RayLabelingTest::label_refusesBadInput() {
+  const Case noisy("edge", 0.1, 16);
+  const LabelProbabilities nothing;
+  const auto refused = [](const RayLabelingInput& input, LabelCoupling coupling,
+                          RayLabelingParameters parameters = {}) {
+    QVERIFY_EXCEPTION_THROWN((void)label_rays(input, coupling, parameters, Progress()),
+                             InvalidInput);
+  };
+  RayLabelingInput input = noisy.input();
+  RayLabelingParameters parameters;
+
+  refused({}, LabelCoupling::None);
+  refused({&nothing, nullptr, nullptr, nullptr}, LabelCoupling::Views);
+  refused({&noisy.probabilities, nullptr, nullptr, nullptr}, LabelCoupling::Rays);
+  parameters.smoothness = -1;
+  refused(input, LabelCoupling::Views, parameters);
+  parameters = {};
+  parameters.floor = 0;
+  refused(input, LabelCoupling::Views, parameters);
+  const DisparityField small{ViewStack<float>({1, 1}, 16, 16, 1, {2, 2}), {}};
+  input.disparity = &small;
+  refused(input, LabelCoupling::Rays);
+  const ViewStack<float> other({5, 5}, 8, 8);
+  input = noisy.input();
+  input.edges = &other;
+  refused(input, LabelCoupling::Views);
+  const Case larger("edge", 0.1, 24);
+  input = noisy.input();
+  input.light_field = larger.scene.light_field.get();
+  refused(input, LabelCoupling::Rays);
+  QVERIFY_EXCEPTION_THROWN(
+      (void)label_view(noisy.input(), {9, 9}, LabelCoupling::Views, {}, Progress()), InvalidInput);
+}
+
+}  // namespace episcope::in_ray_labeling_test
+
+EPISCOPE_TEST(ray_labeling_test, RayLabelingTest)
+#include "ray_labeling_test.moc"

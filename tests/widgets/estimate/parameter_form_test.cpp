@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/estimate/parameter_form.h"
+#include "engine/core/parameter/schema.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/number_scale.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QSlider>
+#include <QSpinBox>
+#include <QToolButton>
+
+#include <cmath>
+
+namespace episcope::in_parameter_form_test {
+
+namespace {
+
+struct Parameters {
+  double inner = 0.8;
+  double weight = 0.2;
+  int scales = 3;
+  bool edges = true;
+  std::string fusion = "weighted";
+  std::string note = "none";
+  IntervalOrAuto range;
+  ViewOrAuto view;
+};
+
+Schema<Parameters> schema() {
+  Schema<Parameters> s;
+  s.real("inner", &Parameters::inner, {"Inner scale", "Width of the filter.", "px"}, {0.4, 3})
+      .real("weight", &Parameters::weight, {"Smoothing", "Weight <of> data."}, {0.001, 10, true})
+      .integer("scales", &Parameters::scales, {"Scales", "How many."}, {1, 5})
+      .flag("edges", &Parameters::edges, {"Edges", "Stop at edges."})
+      .choice("fusion", &Parameters::fusion, {"Fusion", "How."}, {"weighted", "best"});
+  s.interval("range", &Parameters::range, {"Range", "Searched.", "px"}, {-8, 8});
+  s.view("view", &Parameters::view, {"View", "Which."});
+  return s;
+}
+
+template <class T>
+T get(const ParameterForm& form, const std::string& key) {
+  for (const auto& [name, value] : form.values()) {
+    if (name == key) return std::get<T>(value);
+  }
+  qFatal("no such parameter");
+}
+
+}  // namespace
+
+class ParameterFormTest : public QObject {
+  Q_OBJECT
+
+  ParameterForm form_;
+
+  template <class Widget>
+  Widget* control(const char* name) {
+    return form_.findChild<Widget*>(name);
+  }
+
+  /// Whether every value lies in its domain.
+  bool is_accepted() const {
+    try {
+      return schema().values(schema().parse(form_.values())) == form_.values();
+    } catch (const InvalidInput&) {
+      return false;
+    }
+  }
+
+ private slots:
+  void init() { form_.setParameters(schema().descriptions()); }
+
+  void freshForm_holdsTheDefaults() {
+    QVERIFY(form_.values() == schema().values(Parameters{}));
+    QVERIFY(form_.modifiedValues().empty());
+  }
+
+  void values_goThroughFormAndSchemaUnchanged() {
+    Parameters parameters;
+    parameters.inner = 1.2345678901234;  // More digits than the spin box shows.
+    parameters.weight = 0.0042;
+    parameters.scales = 5;
+    parameters.edges = false;
+    parameters.fusion = "best";
+    parameters.range = Interval{-1.25, 3.5};
+    parameters.view = ViewIndex{2, 7};
+
+    form_.setValues(schema().values(parameters));
+    const Parameters back = schema().parse(form_.values());
+
+    QCOMPARE(back.inner, parameters.inner);
+    QCOMPARE(back.weight, parameters.weight);
+    QCOMPARE(back.scales, 5);
+    QCOMPARE(back.edges, false);
+    QCOMPARE(back.fusion, parameters.fusion);
+    QVERIFY(back.range == parameters.range);
+    QVERIFY(back.view == parameters.view);
+    QCOMPARE(int(form_.modifiedValues().size()), 7);
+  }
+
+  void setValues_clampsAndIgnoresWhatDoesNotFit() {
+    QSignalSpy changed(&form_, &ParameterForm::valuesChanged);
+
+    form_.setValues({{"inner", 99.0},
+                     {"scales", -7},
+                     {"edges", std::string("no flag")},
+                     {"fusion", std::string("unknown")},
+                     {"no-such-key", 1.0},
+                     {"range", IntervalOrAuto(Interval{-100, 2})}});
+
+    QCOMPARE(get<double>(form_, "inner"), 3.0);
+    QCOMPARE(get<int>(form_, "scales"), 1);
+    QCOMPARE(get<bool>(form_, "edges"), true);
+    QCOMPARE(get<std::string>(form_, "fusion"), std::string("weighted"));
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == (Interval{-8, 2}));
+    QCOMPARE(changed.size(), 0);
+    QVERIFY(is_accepted());
+  }
+
+  void typing_changesTheValueAndIsClamped() {
+    QSignalSpy changed(&form_, &ParameterForm::valuesChanged);
+    auto* spin = control<QDoubleSpinBox>("inner.spin");
+
+    spin->selectAll();
+    QTest::keyClicks(spin, "2.5");
+    QTest::keyClick(spin, Qt::Key_Return);
+    QCOMPARE(get<double>(form_, "inner"), 2.5);
+    QCOMPARE(changed.size(), 1);
+    spin->setValue(7);
+    QCOMPARE(get<double>(form_, "inner"), 3.0);
+  }
+
+  void sliderEnds_areTheDomain() {
+    auto* slider = control<QSlider>("weight.slider");
+
+    slider->setValue(slider->maximum());
+    QCOMPARE(get<double>(form_, "weight"), 10.0);
+    slider->setValue(slider->minimum());
+    QCOMPARE(get<double>(form_, "weight"), 0.001);
+  }
+
+  void logarithmicSlider_movesInPowers() {
+    auto* slider = control<QSlider>("weight.slider");
+    const int quarter = slider->maximum() / 4;
+
+    // Four decades: a quarter of the way is a factor of ten.
+    slider->setValue(quarter);
+    QVERIFY(std::abs(get<double>(form_, "weight") - 0.01) < 1e-4);
+    slider->setValue(2 * quarter);
+    QVERIFY(std::abs(get<double>(form_, "weight") - 0.1) < 1e-4);
+    slider->setValue(3 * quarter);
+    QVERIFY(std::abs(get<double>(form_, "weight") - 1) < 1e-4);
+  }
+
+  void integerSlider_stepsByOne() {
+    auto* slider = control<QSlider>("scales.slider");
+
+    QCOMPARE(slider->maximum() - slider->minimum(), 4);
+    slider->setFocus();
+    QTest::keyClick(slider, Qt::Key_Right);
+    QCOMPARE(get<int>(form_, "scales"), 4);
+  }
+
+  void flagAndChoice_followTheirControls() {
+    control<QCheckBox>("edges.check")->click();
+    QTest::keyClick(control<QComboBox>("fusion.combo"), Qt::Key_Down);
+
+    QCOMPARE(get<bool>(form_, "edges"), false);
+    QCOMPARE(get<std::string>(form_, "fusion"), std::string("best"));
+  }
+
+  void interval_keepsItsEndsApart() {
+    control<QCheckBox>("range.auto")->click();
+    auto* min = control<QDoubleSpinBox>("range.min");
+    auto* max = control<QDoubleSpinBox>("range.max");
+    QVERIFY(min->isEnabled());
+
+    for (const double value : {3.0, 8.0}) {
+      min->setValue(value);
+      const auto range = get<IntervalOrAuto>(form_, "range");
+      QVERIFY(range && range->min < range->max);
+      QVERIFY(is_accepted());
+    }
+    max->setValue(-8);
+    const auto range = get<IntervalOrAuto>(form_, "range");
+    QVERIFY(range && range->min < range->max);
+    control<QCheckBox>("range.auto")->click();
+    QVERIFY(!get<IntervalOrAuto>(form_, "range"));
+  }
+
+  void view_isChosenByRowAndColumn() {
+    auto* v = control<QSpinBox>("view.v");
+    QVERIFY(!v->isEnabled());
+
+    control<QCheckBox>("view.auto")->click();
+    v->setValue(3);
+    control<QSpinBox>("view.u")->setValue(5);
+
+    QVERIFY(get<ViewOrAuto>(form_, "view") == (ViewIndex{3, 5}));
+    QVERIFY(is_accepted());
+    control<QCheckBox>("view.auto")->click();
+    QVERIFY(!get<ViewOrAuto>(form_, "view"));
+  }
+
+  void modifiedParameter_isMarkedAndReset() {
+    auto* label = control<QLabel>("inner.label");
+    auto* reset = control<QToolButton>("inner.reset");
+    QVERIFY(!label->font().bold());
+    QVERIFY(reset->isHidden());
+
+    control<QDoubleSpinBox>("inner.spin")->setValue(1.5);
+    QVERIFY(label->font().bold());
+    QVERIFY(!reset->isHidden());
+    reset->click();
+
+    QVERIFY(!label->font().bold());
+    QCOMPARE(get<double>(form_, "inner"), 0.8);
+  }
+
+  void resetToDefaults_resetsAllAtOnce() {
+    form_.setValues({{"inner", 2.0}, {"scales", 4}, {"edges", false}});
+    QSignalSpy changed(&form_, &ParameterForm::valuesChanged);
+
+    form_.resetToDefaults();
+
+    QVERIFY(form_.values() == schema().values(Parameters{}));
+    QCOMPARE(changed.size(), 1);
+  }
+
+  void toolTip_tellsHelpRangeUnitAndDefault() {
+    const QString tip = control<QLabel>("inner.label")->toolTip();
+
+    for (const char* part : {"Width of the filter.", "0.4", "3 px", "0.8 px", "--inner"}) {
+      QVERIFY2(tip.contains(part), part);
+    }
+    // Help is text, not markup.
+    QVERIFY(control<QLabel>("weight.label")->toolTip().contains("&lt;of&gt;"));
+  }
+
+  void textParameter_isEdited() {
+    ParameterDescription description;
+    description.key = "note";
+    description.default_value = std::string("none");
+    form_.setParameters({description});
+    auto* line = control<QLineEdit>("note.text");
+
+    line->selectAll();
+    QTest::keyClicks(line, "abc");
+
+    QCOMPARE(get<std::string>(form_, "note"), std::string("abc"));
+  }
+
+  void numberScale_isInverseOfItself_data() {
+    QTest::addColumn<double>("min");
+    QTest::addColumn<double>("max");
+    QTest::addColumn<bool>("logarithmic");
+    QTest::newRow("linear") << -3.0 << 5.0 << false;
+    QTest::newRow("powers") << 0.001 << 10.0 << true;
+    QTest::newRow("powers from zero") << 0.0 << 10.0 << true;
+    QTest::newRow("powers from below zero") << -1.0 << 1.0 << true;
+    QTest::newRow("single value") << 2.0 << 2.0 << true;
+  }
+
+  void numberScale_isInverseOfItself() {
+    QFETCH(double, min);
+    QFETCH(double, max);
+    QFETCH(bool, logarithmic);
+    const NumberScale scale(min, max, logarithmic, 200);
+
+    QCOMPARE(scale.value(0), min);
+    QCOMPARE(scale.value(200), max);
+    for (int position = 0; position <= 200; ++position) {
+      const double value = scale.value(position);
+      QVERIFY(value >= min && value <= max);
+      QVERIFY(max == min || scale.position(value) == position);
+    }
+  }
+};
+
+}  // namespace episcope::in_parameter_form_test
+
+EPISCOPE_WINDOW_TEST(parameter_form_test, ParameterFormTest)
+#include "parameter_form_test.moc"

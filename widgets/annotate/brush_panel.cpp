@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/annotate/brush_panel.h"
+
+#include "annotation/paint/brush.h"
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/theme.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QSpinBox>
+#include <QStandardItemModel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+constexpr double kFirstGradient = 8;
+constexpr int kFirstOpacity = 70;
+
+}  // namespace
+
+BrushPanel::BrushPanel(QWidget* parent)
+    : QWidget(parent),
+      buttons_(new QHBoxLayout),
+      protects_(new QCheckBox(tr("Protect other labels"), this)),
+      bound_(new QComboBox(this)),
+      gradient_(new QDoubleSpinBox(this)),
+      opacity_(new QSlider(Qt::Horizontal, this)) {
+  setObjectName("brushPanel");
+  buttons_->setSpacing(2);
+  buttons_->addStretch(1);
+  auto* form = new QFormLayout;
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setSpacing(theme::kSpacing);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  brush_ = addSize(*form, "brush", tr("Brush"), &BrushPanel::brushSizeEdited);
+  eraser_ = addSize(*form, "eraser", tr("Eraser"), &BrushPanel::eraserSizeEdited);
+  setSizeKeys({});
+  addFill(*form);
+  opacity_->setObjectName("brush.opacity");
+  opacity_->setRange(0, 100);
+  opacity_->setValue(kFirstOpacity);
+  opacity_->setToolTip(tr("Opacity of what is painted"));
+  form->addRow(tr("Opacity"), opacity_);
+  protects_->setObjectName("brush.protect");
+  protects_->setToolTip(
+      tr("The brush paints over bare pixels only, the eraser erases the current label only; or "
+         "hold Shift while painting"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  layout->addLayout(buttons_);
+  layout->addLayout(form);
+  layout->addWidget(protects_);
+  connect(protects_, &QCheckBox::toggled, this, &BrushPanel::protectsOthersEdited);
+  connect(opacity_, &QSlider::valueChanged, this,
+          [this] { emit scribbleOpacityEdited(scribbleOpacity()); });
+}
+
+BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, const QString& text,
+                                        void (BrushPanel::*edited)(double)) {
+  const SizeRow row{new QSlider(Qt::Horizontal, this), new QSpinBox(this)};
+  row.slider->setObjectName(name + ".slider");
+  row.spin->setObjectName(name + ".spin");
+  row.slider->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
+  row.spin->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
+  row.spin->setSuffix(tr(" px"));
+  row.spin->setKeyboardTracking(false);
+  auto* line = new QHBoxLayout;
+  line->setSpacing(theme::kSpacing);
+  line->addWidget(row.slider, 1);
+  line->addWidget(row.spin);
+  form.addRow(text, line);
+  connect(row.slider, &QSlider::valueChanged, row.spin, &QSpinBox::setValue);
+  connect(row.spin, &QSpinBox::valueChanged, this, [this, row, edited](int diameter_px) {
+    const QSignalBlocker blocker(row.slider);
+    row.slider->setValue(diameter_px);
+    emit(this->*edited)(diameter_px);
+  });
+  return row;
+}
+
+void BrushPanel::addFill(QFormLayout& form) {
+  bound_->setObjectName("fill.bound");
+  bound_->addItem(tr("up to edges"), static_cast<int>(FillBound::Edges));
+  bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
+  bound_->setToolTip(
+      tr("What a fill is bounded by: edges of the view, or the segment of the "
+         "current segmentation"));
+  gradient_->setObjectName("fill.gradient");
+  gradient_->setLocale(QLocale::c());
+  gradient_->setRange(0.5, 99);
+  gradient_->setDecimals(1);
+  gradient_->setValue(kFirstGradient);
+  gradient_->setToolTip(
+      tr("Change of colour from one pixel to the next that is an edge, in grey levels of 255"));
+  auto* line = new QHBoxLayout;
+  line->setSpacing(theme::kSpacing);
+  line->addWidget(bound_, 1);
+  line->addWidget(gradient_);
+  form.addRow(tr("Fill"), line);
+  connect(bound_, &QComboBox::currentIndexChanged, this,
+          [this] { gradient_->setEnabled(fillBound() == FillBound::Edges); });
+  setSegmentationAvailable(false);
+}
+
+void BrushPanel::addAction(QAction* action, const QString& object_name) {
+  buttons_->insertWidget(buttons_->count() - 1, make_action_button(action, object_name, this));
+}
+
+void BrushPanel::addGap() {
+  buttons_->insertSpacing(buttons_->count() - 1, theme::kMargin);
+}
+
+void BrushPanel::setSize(const SizeRow& row, double diameter_px) {
+  const QSignalBlocker slider(row.slider);
+  const QSignalBlocker spin(row.spin);
+  row.slider->setValue(static_cast<int>(std::lround(diameter_px)));
+  row.spin->setValue(static_cast<int>(std::lround(diameter_px)));
+}
+
+void BrushPanel::setBrushSize(double diameter_px) {
+  setSize(brush_, diameter_px);
+}
+
+void BrushPanel::setEraserSize(double diameter_px) {
+  setSize(eraser_, diameter_px);
+}
+
+void BrushPanel::setSizeKeys(const QString& keys) {
+  const QString tip =
+      tr("Diameter in pixels of the view (%1)")
+          .arg(keys.isEmpty() ? tr("Ctrl+Shift+wheel") : tr("%1, or Ctrl+Shift+wheel").arg(keys));
+  for (const SizeRow& row : {brush_, eraser_}) {
+    row.slider->setToolTip(tip);
+    row.spin->setToolTip(tip);
+  }
+}
+
+void BrushPanel::setProtectsOthers(bool protects) {
+  const QSignalBlocker blocker(protects_);
+  protects_->setChecked(protects);
+}
+
+void BrushPanel::setScribbleOpacity(double opacity) {
+  const QSignalBlocker blocker(opacity_);
+  opacity_->setValue(static_cast<int>(std::lround(100 * opacity)));
+}
+
+void BrushPanel::setSegmentationAvailable(bool is_available) {
+  auto* model = qobject_cast<QStandardItemModel*>(bound_->model());
+  model->item(1)->setEnabled(is_available);
+  if (!is_available) bound_->setCurrentIndex(0);
+}
+
+FillBound BrushPanel::fillBound() const {
+  return static_cast<FillBound>(bound_->currentData().toInt());
+}
+
+double BrushPanel::fillGradient() const {
+  return gradient_->value();
+}
+
+bool BrushPanel::protectsOthers() const {
+  return protects_->isChecked();
+}
+
+double BrushPanel::scribbleOpacity() const {
+  return opacity_->value() / 100.0;
+}
+
+}  // namespace episcope

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/annotate/label_palette.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/icon.h"
+#include "widgets/style/theme.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+constexpr int kRowPadding = 8;
+constexpr int kSwatch = 16;
+
+enum Column { kColor, kId, kName, kColumnCount };
+
+int id_of(const QTreeWidgetItem* item) {
+  return item->data(kColor, Qt::UserRole).toInt();
+}
+
+QIcon swatch(const Rgb& rgb, const QPalette& palette) {
+  QPixmap pixmap(2 * kSwatch, 2 * kSwatch);
+  pixmap.setDevicePixelRatio(2);
+  pixmap.fill(Qt::transparent);
+  QPainter painter(&pixmap);
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(theme::blend(palette.color(QPalette::Base), palette.color(QPalette::Text), 0.5));
+  painter.setBrush(QColor(rgb[0], rgb[1], rgb[2]));
+  painter.drawRoundedRect(QRectF(1.5, 1.5, kSwatch - 3, kSwatch - 3), 3, 3);
+  painter.end();
+  QIcon icon(pixmap);
+  icon.addPixmap(pixmap, QIcon::Selected);
+  return icon;
+}
+
+}  // namespace
+
+LabelPalette::LabelPalette(QWidget* parent)
+    : QWidget(parent),
+      tree_(new QTreeWidget(this)),
+      hint_(new QLabel(this)),
+      add_(make_tool_button({"labels.add", "add", tr("Add a label"), tr("Add")}, this)),
+      rename_(make_tool_button({"labels.rename", "rename", tr("Rename this label"), tr("Rename")},
+                               this)),
+      remove_(make_tool_button(
+          {"labels.remove", "trash", tr("Remove this label and what is painted with it (Delete)"),
+           tr("Remove")},
+          this)) {
+  setObjectName("labelPalette");
+  setUpTree();
+  setUpActions();
+  hint_->setObjectName("labels.hint");
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setWordWrap(true);
+  hint_->setMargin(theme::kMargin);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(2);
+  for (auto* button : {add_, rename_, remove_}) row->addWidget(button);
+  row->addStretch(1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(hint_, 1);
+  layout->addWidget(tree_, 1);
+  layout->addLayout(row);
+  setLabels({});
+}
+
+void LabelPalette::setUpTree() {
+  tree_->setObjectName("labels.tree");
+  tree_->setAccessibleName(tr("Labels"));
+  tree_->viewport()->installEventFilter(this);
+  tree_->setColumnCount(kColumnCount);
+  tree_->setHeaderHidden(true);
+  tree_->setRootIsDecorated(false);
+  tree_->setUniformRowHeights(true);
+  tree_->setTextElideMode(Qt::ElideMiddle);  // long names often differ at their end
+  tree_->setIconSize({kSwatch, kSwatch});
+  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+  tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  tree_->header()->setMinimumSectionSize(22);
+  tree_->header()->setStretchLastSection(true);
+  for (const int column : {kColor, kId}) {
+    tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  }
+  connect(tree_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
+    if (!item) return;
+    current_ = id_of(item);
+    markCurrent();
+    emit currentChosen(current_);
+  });
+  connect(tree_, &QTreeWidget::itemDoubleClicked, this,
+          [this](const QTreeWidgetItem* item) { editName(id_of(item)); });
+  connect(tree_, &QTreeWidget::itemChanged, this, [this](QTreeWidgetItem* item, int column) {
+    if (column == kName) emit renameRequested(id_of(item), item->text(kName));
+  });
+  connect(tree_, &QTreeWidget::customContextMenuRequested, this, &LabelPalette::showMenu);
+}
+
+void LabelPalette::setUpActions() {
+  auto* remove = new QAction(tree_);
+  remove->setObjectName("labels.removeAction");
+  remove->setShortcut(QKeySequence::Delete);
+  remove->setShortcutContext(Qt::WidgetShortcut);
+  tree_->addAction(remove);
+  connect(remove, &QAction::triggered, remove_, &QToolButton::click);
+  connect(add_, &QToolButton::clicked, this, &LabelPalette::addRequested);
+  connect(rename_, &QToolButton::clicked, this, [this] { editName(current_); });
+  connect(remove_, &QToolButton::clicked, this, [this] { emit removeRequested(current_); });
+}
+
+void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
+  const QSignalBlocker blocker(tree_);
+  labels_ = labels;
+  const bool has_focus = tree_->hasFocus();
+  tree_->clear();
+  for (const LabelInfo& label : labels) {
+    auto* item = new QTreeWidgetItem(tree_);
+    const QString name = QString::fromStdString(label.name);
+    item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsEditable);
+    item->setData(kColor, Qt::UserRole, label.id);
+    item->setIcon(kColor, swatch(label.color, palette()));
+    item->setSizeHint(kColor, {0, fontMetrics().height() + kRowPadding});
+    item->setToolTip(kColor, tr("Click to change the colour of “%1”").arg(name));
+    item->setText(kId, QString::number(label.id));
+    item->setTextAlignment(kId, Qt::AlignRight | Qt::AlignVCenter);
+    item->setText(kName, name);
+    item->setToolTip(kName, name);
+  }
+  if (has_focus) tree_->setFocus();
+  tree_->setVisible(!labels.empty());
+  hint_->setVisible(labels.empty());
+  markCurrent();
+}
+
+void LabelPalette::setCurrent(int id) {
+  current_ = id;
+  markCurrent();
+}
+
+void LabelPalette::setHint(const QString& hint) {
+  hint_->setText(hint);
+}
+
+QTreeWidgetItem* LabelPalette::itemOf(int id) const {
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    if (id_of(tree_->topLevelItem(i)) == id) return tree_->topLevelItem(i);
+  }
+  return nullptr;
+}
+
+void LabelPalette::markCurrent() {
+  const QSignalBlocker blocker(tree_);
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QFont font = tree_->font();
+    font.setBold(id_of(tree_->topLevelItem(i)) == current_);
+    for (const int column : {kId, kName}) tree_->topLevelItem(i)->setFont(column, font);
+  }
+  QTreeWidgetItem* item = itemOf(current_);
+  tree_->setCurrentItem(item);
+  if (item) tree_->scrollToItem(item);
+  updateButtons();
+}
+
+void LabelPalette::updateButtons() {
+  for (auto* button : {rename_, remove_}) button->setEnabled(itemOf(current_) != nullptr);
+}
+
+void LabelPalette::editName(int id) {
+  QTreeWidgetItem* item = itemOf(id);
+  if (!item) return;
+  tree_->scrollToItem(item);
+  tree_->editItem(item, kName);
+}
+
+bool LabelPalette::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonRelease) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    const QPoint position = mouse->position().toPoint();
+    const auto* item = tree_->itemAt(position);
+    const bool is_on_color = tree_->header()->logicalIndexAt(position.x()) == kColor;
+    if (item && is_on_color && mouse->button() == Qt::LeftButton) emit colorRequested(id_of(item));
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void LabelPalette::showMenu(const QPoint& position) {
+  const auto* item = tree_->itemAt(position);
+  if (!item) return;
+  const int id = id_of(item);
+  auto* menu = new QMenu(this);
+  menu->setObjectName("labels.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
+  menu->addAction(tr("Change colour…"), this, [this, id] { emit colorRequested(id); });
+  menu->addSeparator();
+  menu->addAction(themed_icon("trash"), tr("Remove"), this,
+                  [this, id] { emit removeRequested(id); });
+  menu->popup(tree_->viewport()->mapToGlobal(position));
+}
+
+}  // namespace episcope

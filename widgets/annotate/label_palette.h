@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/label_info.h"
+
+#include <QColor>
+#include <QString>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QLabel;
+class QToolButton;
+class QTreeWidget;
+class QTreeWidgetItem;
+
+namespace episcope {
+
+/// The labels that can be painted with: id, colour and name of each, the current one marked. A
+/// click makes a label the current one, a click on its colour asks for another colour, a double
+/// click renames it in its row, Delete removes it. Setters never emit; what the user wants comes
+/// out as an intent.
+class LabelPalette : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit LabelPalette(QWidget* parent = nullptr);
+
+  void setLabels(const std::vector<LabelInfo>& labels);
+  /// 0 = none.
+  void setCurrent(int id);
+  /// Shown instead of an empty list.
+  void setHint(const QString& hint);
+  /// Begins to edit the name of a label in its row.
+  void editName(int id);
+
+  [[nodiscard]] int current() const { return current_; }
+
+ signals:
+  void currentChosen(int id);
+  void addRequested();
+  void renameRequested(int id, const QString& name);
+  void colorRequested(int id);
+  void removeRequested(int id);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void setUpTree();
+  void setUpActions();
+  void showMenu(const QPoint& position);
+  void markCurrent();
+  void updateButtons();
+  [[nodiscard]] QTreeWidgetItem* itemOf(int id) const;
+
+  QTreeWidget* tree_;
+  QLabel* hint_;
+  QToolButton* add_;
+  QToolButton* rename_;
+  QToolButton* remove_;
+  std::vector<LabelInfo> labels_;
+  int current_ = 0;
+};
+
+}  // namespace episcope

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/browse/info_panel.h"
+
+#include "widgets/controls/elided_label.h"
+#include "widgets/style/breakable_text.h"
+#include "widgets/style/icon.h"
+#include "widgets/style/theme.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScrollArea>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+/// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
+QLabel* make_value(const QString& text, QWidget* parent) {
+  if (!text.contains(' ')) {
+    auto* label = new ElidedLabel(parent, Qt::ElideMiddle);
+    label->setFullText(text);
+    return label;
+  }
+  auto* label = new QLabel(breakable(text), parent);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  label->setMinimumWidth(1);
+  label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  return label;
+}
+
+}  // namespace
+
+InfoPanel::InfoPanel(QWidget* parent)
+    : QWidget(parent),
+      title_(new ElidedLabel(this)),
+      conventions_(new QToolButton(this)),
+      scroll_(new QScrollArea(this)) {
+  setObjectName("infoPanel");
+  title_->setObjectName("info.title");
+  QFont bold = font();
+  bold.setBold(true);
+  title_->setFont(bold);
+  conventions_->setObjectName("info.conventions");
+  conventions_->setAutoRaise(true);
+  scroll_->setObjectName("info.scroll");
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setWidgetResizable(true);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll_->viewport()->setAutoFillBackground(false);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(title_);
+  layout->addWidget(scroll_, 1);
+  layout->addWidget(conventions_, 0, Qt::AlignLeft);
+  setInfo({}, {}, {});
+}
+
+void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
+                        const QStringList& warnings) {
+  title_->setFullText(title.isEmpty() ? tr("No light field") : title);
+  rows_ = rows;
+  warnings_ = warnings;
+  rebuild();
+}
+
+void InfoPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) rebuild();
+}
+
+void InfoPanel::rebuild() {
+  auto* body = new QWidget;
+  auto* grid = new QGridLayout(body);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(theme::kMargin);
+  grid->setVerticalSpacing(3);
+  grid->setColumnStretch(1, 1);
+  int line = 0;
+  for (const auto& row : rows_) {
+    auto* key = new QLabel(row.key, body);
+    key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    key->setPalette(theme::text_palette(theme::muted_text(palette())));
+    auto* value = make_value(row.value, body);
+    value->setObjectName("info." + row.key);
+    grid->addWidget(key, line, 0);
+    grid->addWidget(value, line++, 1);
+    if (row.check.isEmpty()) continue;
+    auto* check = make_value(row.check, body);
+    check->setPalette(theme::text_palette(theme::muted_text(palette())));
+    grid->addWidget(check, line++, 1);
+  }
+  for (const auto& warning : warnings_) {
+    auto* icon = new QLabel(body);
+    icon->setPixmap(themed_icon("warning").pixmap(14, 14));
+    icon->setAlignment(Qt::AlignRight | Qt::AlignTop);
+    auto* text = make_value(warning, body);
+    text->setObjectName("info.warning");
+    text->setPalette(theme::text_palette(theme::warning_text(palette())));
+    grid->addWidget(icon, line, 0);
+    grid->addWidget(text, line++, 1);
+  }
+  grid->setRowStretch(line, 1);
+  scroll_->setWidget(body);  // Deletes the body before.
+  body->setAutoFillBackground(false);
+}
+
+}  // namespace episcope

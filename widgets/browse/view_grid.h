@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+#include "widgets/browse/play_path.h"
+
+#include <QImage>
+#include <QTimer>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QComboBox;
+class QLabel;
+class QToolButton;
+
+namespace episcope {
+
+class ViewGridCells;
+
+/// The camera grid as v × u thumbnails with the current view marked, and a play button. Any grid
+/// from 1×1 up is usable: cells scale with the panel, down to plain squares. Keys are left to the
+/// host.
+class ViewGrid : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit ViewGrid(QWidget* parent = nullptr);
+
+  /// A new light field: no thumbnails yet, centre view current, playing stops.
+  void setGrid(GridShape grid);
+  void setCurrent(ViewIndex view);
+  /// Ignored for a view outside the grid.
+  void setThumbnail(ViewIndex view, const QImage& thumbnail);
+  /// Marks views that are painted.
+  void setPainted(const std::vector<ViewIndex>& views);
+
+  [[nodiscard]] GridShape grid() const;
+  [[nodiscard]] ViewIndex current() const;
+  [[nodiscard]] bool isPlaying() const { return timer_.isActive(); }
+  [[nodiscard]] ViewGridCells* cells() const { return cells_; }
+  /// Size in device pixels that a thumbnail need not exceed.
+  [[nodiscard]] QSize thumbnailSize() const;
+  /// The button that plays shows the tool tip of this command, with its key.
+  void followTip(const QAction* play);
+
+ public slots:
+  void setPlaying(bool playing);
+  void setPlayPath(episcope::PlayPath path);
+
+ signals:
+  /// The user, or the player, wants to see this view.
+  void viewSelected(episcope::ViewIndex view);
+  void playingChanged(bool playing);
+
+ private:
+  void select(ViewIndex view);
+  void playNext();
+
+  ViewGridCells* cells_;
+  QToolButton* play_;
+  QComboBox* path_;
+  QLabel* position_;
+  QTimer timer_;
+  std::vector<ViewIndex> loop_;
+  std::size_t place_ = 0;  ///< In `loop_`.
+};
+
+}  // namespace episcope

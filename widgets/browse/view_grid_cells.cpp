@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/browse/view_grid_cells.h"
+
+#include "widgets/style/theme.h"
+
+#include <QHelpEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolTip>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+
+ViewGridCells::ViewGridCells(QWidget* parent) : QWidget(parent) {
+  setObjectName("viewGridCells");
+  setFocusPolicy(Qt::StrongFocus);
+  setAccessibleName(tr("Views"));
+  QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+  policy.setHeightForWidth(true);
+  setSizePolicy(policy);
+}
+
+void ViewGridCells::setGrid(GridShape grid) {
+  grid_ = grid;
+  current_ = grid.center();
+  thumbnails_.assign(static_cast<std::size_t>(std::max(0, grid.count())), QImage());
+  painted_.clear();
+  updateGeometry();
+  update();
+}
+
+void ViewGridCells::setCurrent(ViewIndex view) {
+  if (view == current_) return;
+  current_ = view;
+  update();
+}
+
+void ViewGridCells::setThumbnail(ViewIndex view, const QImage& thumbnail) {
+  if (!grid_.contains(view)) return;
+  const double before = aspect();
+  thumbnails_[static_cast<std::size_t>(view.v) * grid_.u + view.u] = thumbnail;
+  if (aspect() != before) updateGeometry();
+  update();
+}
+
+void ViewGridCells::setPainted(const std::vector<ViewIndex>& views) {
+  painted_ = views;
+  update();
+}
+
+double ViewGridCells::aspect() const {
+  for (const auto& thumbnail : thumbnails_) {
+    if (!thumbnail.isNull()) return 1.0 * thumbnail.height() / thumbnail.width();
+  }
+  return 1;
+}
+
+QRectF ViewGridCells::cellRect(ViewIndex view) const {
+  const double wide = std::min(1.0 * width() / grid_.u, height() / (grid_.v * aspect()));
+  const double high = wide * aspect();
+  const double left = (width() - wide * grid_.u) / 2;
+  const double top = (height() - high * grid_.v) / 2;
+  return {left + view.u * wide, top + view.v * high, wide, high};
+}
+
+std::optional<ViewIndex> ViewGridCells::viewAt(QPointF position) const {
+  if (grid_.count() <= 0) return std::nullopt;
+  const QRectF first = cellRect({0, 0});
+  const ViewIndex view{static_cast<int>(std::floor((position.y() - first.top()) / first.height())),
+                       static_cast<int>(std::floor((position.x() - first.left()) / first.width()))};
+  if (!grid_.contains(view)) return std::nullopt;
+  return view;
+}
+
+QSize ViewGridCells::sizeHint() const {
+  return {190, heightForWidth(190)};
+}
+QSize ViewGridCells::minimumSizeHint() const {
+  return {96, 64};
+}
+
+int ViewGridCells::heightForWidth(int width) const {
+  if (grid_.count() <= 0) return width;
+  return static_cast<int>(std::ceil(1.0 * width / grid_.u * aspect() * grid_.v));
+}
+
+bool ViewGridCells::event(QEvent* event) {
+  if (event->type() == QEvent::ToolTip) {
+    const auto* help = static_cast<QHelpEvent*>(event);
+    if (const auto view = viewAt(help->pos())) {
+      const bool is_painted = std::find(painted_.begin(), painted_.end(), *view) != painted_.end();
+      const QString name = tr("view v %1, u %2").arg(view->v).arg(view->u);
+      QToolTip::showText(help->globalPos(), is_painted ? tr("%1: painted").arg(name) : name, this);
+    } else {
+      QToolTip::hideText();
+    }
+    return true;
+  }
+  return QWidget::event(event);
+}
+
+void ViewGridCells::paintEvent(QPaintEvent*) {
+  QPainter painter(this);
+  if (grid_.count() <= 0) {
+    painter.setPen(theme::muted_text(palette()));
+    painter.drawText(rect(), Qt::AlignCenter | Qt::TextWordWrap, tr("No views"));
+    return;
+  }
+  const double gap = cellRect({0, 0}).width() >= 14 ? 2 : 1;
+  const QColor blank =
+      theme::blend(palette().color(QPalette::Window), palette().color(QPalette::WindowText), 0.25);
+  for (int v = 0; v < grid_.v; ++v) {
+    for (int u = 0; u < grid_.u; ++u) {
+      const QRectF cell = cellRect({v, u}).adjusted(0, 0, -gap, -gap);
+      const QImage& thumbnail = thumbnails_[static_cast<std::size_t>(v) * grid_.u + u];
+      if (thumbnail.isNull()) {
+        painter.fillRect(cell, blank);
+      } else {
+        painter.setRenderHint(QPainter::SmoothPixmapTransform);
+        painter.drawImage(cell, thumbnail);
+      }
+    }
+  }
+  const QRectF marked = cellRect(current_).adjusted(0, 0, -gap, -gap);
+  painter.setBrush(Qt::NoBrush);
+  painter.setPen(QPen(Qt::black, 3));
+  painter.drawRect(marked);
+  painter.setPen(QPen(theme::kCrossHair, hasFocus() ? 2 : 1.5));
+  painter.drawRect(marked);
+  for (const ViewIndex view : painted_) {
+    if (grid_.contains(view)) paintMark(painter, cellRect(view).adjusted(0, 0, -gap, -gap));
+  }
+}
+
+// A corner with a dark rim, seen on any thumbnail.
+void ViewGridCells::paintMark(QPainter& painter, const QRectF& cell) const {
+  const double side = std::max(4.0, std::min(cell.width(), cell.height()) * 0.4);
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(QPen(QColor(0, 0, 0, 180), 1));
+  painter.setBrush(theme::kPainted);
+  painter.drawPolygon(QPolygonF(
+      {cell.topRight(), cell.topRight() + QPointF(0, side), cell.topRight() - QPointF(side, 0)}));
+  painter.restore();
+}
+
+void ViewGridCells::mousePressEvent(QMouseEvent* event) {
+  if (event->button() != Qt::LeftButton) return;
+  if (const auto view = viewAt(event->position())) emit viewClicked(*view);
+}
+
+void ViewGridCells::mouseMoveEvent(QMouseEvent* event) {
+  if (!(event->buttons() & Qt::LeftButton)) return;
+  if (const auto view = viewAt(event->position()); view && *view != current_) {
+    emit viewClicked(*view);
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/canvas/canvas_text.h"
+
+#include <QFontMetricsF>
+
+namespace episcope {
+
+QRectF draw_plate(QPainter& painter, const QRectF& canvas, Qt::Alignment corner,
+                  const QString& text, const QColor& color, Side side) {
+  if (text.isEmpty()) return {};
+  constexpr double kGap = 4;
+  constexpr double kPadding = 5;
+  const QFontMetricsF metrics(painter.font());
+  const double height = metrics.height() + 4;
+  const double badge = side == Side::None ? 0 : height;
+  const QRectF inside = canvas.adjusted(kGap, kGap, -kGap, -kGap);
+  const QString fitting =
+      metrics.elidedText(text, Qt::ElideMiddle, inside.width() - badge - 2 * kPadding + 1);
+  QRectF plate(0, 0, metrics.horizontalAdvance(fitting) + 2 * kPadding + badge, height);
+  plate.moveTopLeft(inside.topLeft());
+  if (corner & Qt::AlignRight) plate.moveRight(inside.right());
+  if (corner & Qt::AlignBottom) plate.moveBottom(inside.bottom());
+  painter.save();
+  painter.setRenderHint(QPainter::Antialiasing);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(QColor(0x14, 0x16, 0x18, 190));
+  painter.drawRoundedRect(plate, 3, 3);
+  draw_side(painter, QRectF(plate.left(), plate.top(), badge, height), side);
+  painter.setPen(color);
+  painter.drawText(plate.adjusted(badge, 0, 0, 0), Qt::AlignCenter, fitting);
+  painter.restore();
+  return plate;
+}
+
+}  // namespace episcope

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+#include "widgets/canvas/canvas_transform.h"
+#include "widgets/style/side.h"
+
+#include <QImage>
+#include <QStringList>
+#include <QWidget>
+
+#include <functional>
+#include <optional>
+
+class QTabletEvent;
+
+namespace episcope {
+
+class BrushTool;
+
+/// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
+/// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
+///
+/// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
+/// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view.
+/// Keys are left to the host, whose commands call the slots. With a tool in hand, the left and
+/// right buttons belong to it, Ctrl+click moves the cross-hair, and Ctrl+Shift+wheel changes its
+/// size.
+class ViewCanvas : public QWidget {
+  Q_OBJECT
+
+ public:
+  enum class State { Empty, Loading, Failed, Picture };
+  /// Lines printed inside pixel (y, x) when it is drawn large.
+  using PixelText = std::function<QStringList(int y, int x)>;
+
+  explicit ViewCanvas(QWidget* parent = nullptr);
+
+  /// Shows `picture`; one of another size than the last is fitted. A null picture shows the empty
+  /// state. Use `to_qimage` to hand over an Image without a copy.
+  void setPicture(const QImage& picture);
+  /// Drawn over the picture, stretched to its size; null = none.
+  void setOverlay(const QImage& overlay);
+  void setOverlayOpacity(double opacity);
+  void setCrossHair(std::optional<PixelIndex> pixel);
+  void setPixelText(PixelText text);
+  /// What is shown, e.g. "view (4, 4)", drawn in the upper left corner, after the badge of a side;
+  /// empty = none.
+  void setCaption(const QString& caption, Side side = Side::None);
+  /// Right of a divider at `position` (part of the width, clamped to [0, 1]), `overlay` is drawn
+  /// instead of the overlay, with `caption` in the upper right corner.
+  void setWipe(double position, const QImage& overlay, const QString& caption);
+  void endWipe();
+  /// What is painted on the view, drawn over the overlay; null = nothing. As large as the picture.
+  void setScribbles(const QImage& scribbles);
+  /// Replaces a rectangle of the scribbles and redraws no more than that.
+  void patchScribbles(QPoint at, const QImage& patch);
+  void setScribbleOpacity(double opacity);
+  /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
+  void setTool(BrushTool* tool);
+  /// Whether a left drag is parallax (default). Off: it pans.
+  void setParallaxEnabled(bool enabled);
+
+  /// No picture: a hint what to do.
+  void showEmpty();
+  /// What is said while nothing is shown.
+  void setEmptyHint(const QString& hint);
+  /// No picture yet: what is loading and how far it is, in [0, 1]; negative = unknown.
+  void showLoading(const QString& name, double fraction);
+  /// No picture: a sentence why.
+  void showError(const QString& sentence);
+
+  [[nodiscard]] State state() const { return state_; }
+  [[nodiscard]] const QImage& picture() const { return picture_; }
+  [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
+  [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
+  [[nodiscard]] BrushTool* tool() const { return tool_; }
+  [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
+  [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
+  /// Scale at which the whole picture just fits.
+  [[nodiscard]] double fitScale() const;
+  /// The pixels in sight; empty without a picture.
+  [[nodiscard]] QRect visiblePixels() const;
+  /// Where the divider stands; none without a wipe.
+  [[nodiscard]] std::optional<double> wipePosition() const { return wipe_position_; }
+  [[nodiscard]] bool isFitted() const { return fitted_; }
+  /// The pixel under a widget position; none outside the picture.
+  [[nodiscard]] std::optional<PixelIndex> pixelAt(QPointF position) const;
+  /// Middle of a pixel in widget coordinates.
+  [[nodiscard]] QPointF positionOf(PixelIndex pixel) const;
+
+  [[nodiscard]] QSize sizeHint() const override;
+  [[nodiscard]] QSize minimumSizeHint() const override;
+
+ public slots:
+  /// Follows a linked viewport; does not emit `transformChanged` for an equal value.
+  void setCanvasTransform(const episcope::CanvasTransform& transform);
+  void zoomIn();
+  void zoomOut();
+  /// The whole picture; kept fitted while the widget is resized, until the user zooms or pans.
+  void zoomToFit();
+  /// 100 %: one image pixel on one pixel of the screen.
+  void zoomToActualSize();
+  /// Pans as little as is needed to bring a pixel into sight.
+  void ensureVisible(episcope::PixelIndex pixel);
+
+ signals:
+  void transformChanged(const episcope::CanvasTransform& transform);
+  /// The user clicked a pixel.
+  void crossHairRequested(episcope::PixelIndex pixel);
+  void focusRequested(episcope::PixelIndex pixel);
+  void centerRequested();
+  /// Pixel under the mouse, or none.
+  void cursorMoved(std::optional<episcope::PixelIndex> pixel);
+  /// A left drag in browse mode: begin, way since the beginning, end. `views` is (du, dv), not
+  /// rounded; what is nearer than the zero plane follows the hand.
+  void parallaxStarted();
+  void parallaxDragged(QPointF views);
+  void parallaxFinished();
+  /// The divider was dragged to a part of the width.
+  void wipeMoved(double position);
+  /// Space pressed and released without a drag. Held, it pans: no shortcut hears it in the canvas.
+  void spaceTapped();
+  /// Alt+wheel: steps of the focus plane, positive = nearer.
+  void focusStepped(double steps);
+
+ protected:
+  bool event(QEvent* event) override;
+  void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void tabletEvent(QTabletEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
+
+ private:
+  enum class Gesture { None, Press, Pan, Parallax, Wipe, Paint };
+
+  void changeTransform(const CanvasTransform& transform, bool fitted);
+  void zoomAt(QPointF anchor, double factor);
+  void beginDrag();
+  void drag(QPointF position);
+  [[nodiscard]] bool pressTool(QPointF position, Qt::MouseButton button,
+                               Qt::KeyboardModifiers modifiers);
+  void endTool();
+  void updatePixels(const QRect& pixels);
+  void updateRing();
+  void updateCursorShape();
+  void showMessage(State state, const QString& text);
+  [[nodiscard]] double dividerX() const;
+  [[nodiscard]] bool isOnDivider(QPointF position) const;
+  void paintPicture(QPainter& painter, const QRect& exposed, const QImage& overlay) const;
+  void paintWipe(QPainter& painter, const QRect& exposed) const;
+  void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
+  void paintCrossHair(QPainter& painter) const;
+  void paintRing(QPainter& painter) const;
+  void paintCaption(QPainter& painter) const;
+  void paintMessage(QPainter& painter) const;
+  void followCursor(std::optional<QPointF> position);
+
+  State state_ = State::Empty;
+  QString message_;
+  QString empty_hint_ = tr("Open a light field to see it here.");
+  double loading_fraction_ = -1;
+  QString caption_;
+  Side side_ = Side::None;
+  std::optional<double> wipe_position_;
+  QImage wipe_overlay_;
+  QString wipe_caption_;
+  QImage picture_;
+  QImage overlay_;
+  double overlay_opacity_ = 0.7;
+  QImage scribbles_;
+  double scribble_opacity_ = 0.7;
+  std::optional<PixelIndex> cross_hair_;
+  PixelText pixel_text_;
+  CanvasTransform transform_;
+  bool fitted_ = true;
+  bool parallax_enabled_ = true;
+
+  BrushTool* tool_ = nullptr;
+  QRect ring_rect_;       // as it was drawn last
+  bool has_pen_ = false;  // a pen is drawing
+  Gesture gesture_ = Gesture::None;
+  Qt::MouseButton gesture_button_ = Qt::NoButton;  // that ends it
+  Qt::KeyboardModifiers press_modifiers_;
+  QPointF press_position_;
+  QPointF last_position_;
+  std::optional<QPointF> cursor_;
+  std::optional<PixelIndex> hovered_;
+  bool space_held_ = false;
+  bool space_used_ = false;
+};
+
+}  // namespace episcope

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/camera_grid.h"
+#include "engine/core/light_field/disparity_field.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// Coloured points: x to the right, y up, z towards the viewer (image axes with y and z turned).
+struct PointCloud {
+  std::vector<std::array<float, 3>> positions;
+  std::vector<std::array<std::uint8_t, 3>> colors;  ///< One a position.
+  bool is_metric = false;  ///< Positions are in scene units, not in stretched disparity.
+};
+
+/// A box {x0, x1, y0, y1, z0, z1} around the bulk of a cloud: half a percent of the points may lie
+/// beyond each of its sides, so that a few wild depths do not shrink the rest to a dot. All 0 for
+/// an empty cloud. Linear.
+[[nodiscard]] std::array<double, 6> robust_bounds(const PointCloud& cloud);
+
+/// Points of one view. With a known camera, positions are in scene units: Z by eq. (1), X and Y by
+/// the pinhole model around the image centre, with a focal length of f·xRes px where `focal_length`
+/// is relative to the image width. Without one, x and y are pixels and z is the disparity times a
+/// fixed factor, so that a z-stretch remains a matter of taste. Every `step`-th pixel of both
+/// directions is taken; invalid pixels are left out.
+/// `rgba` is `[y][x][4]` and has the size of the map. Throws InvalidInput if not, or if step < 1.
+[[nodiscard]] PointCloud make_point_cloud(const DisparityView& view, const CameraGrid& camera,
+                                          ImageView<const std::uint8_t> rgba, int step = 1);
+
+}  // namespace episcope

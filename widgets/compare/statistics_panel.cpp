@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/compare/statistics_panel.h"
+
+#include "widgets/compare/histogram_view.h"
+#include "widgets/controls/elided_label.h"
+#include "widgets/style/number_text.h"
+#include "widgets/style/theme.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLocale>
+
+#include <cstddef>
+
+namespace episcope {
+namespace {
+
+enum Number { kMin, kMedian, kMean, kMax, kBad, kInvalid };
+
+constexpr const char* kNames[] = {QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "min"),
+                                  QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "median"),
+                                  QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "mean"),
+                                  QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "max"),
+                                  QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "bad"),
+                                  QT_TRANSLATE_NOOP("episcope::StatisticsPanel", "invalid")};
+
+}  // namespace
+
+StatisticsPanel::StatisticsPanel(QWidget* parent)
+    : QWidget(parent), title_(new ElidedLabel(this)), histogram_(new HistogramView(this)) {
+  setObjectName("statisticsPanel");
+  title_->setObjectName("statistics.title");
+  auto* layout = new QGridLayout(this);
+  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
+  layout->setVerticalSpacing(1);
+  layout->setHorizontalSpacing(theme::kSpacing);
+  layout->addWidget(title_, 0, 0, 1, static_cast<int>(names_.size()));
+  layout->addWidget(histogram_, 1, 0, 1, static_cast<int>(names_.size()));
+  for (int i = 0; i < static_cast<int>(names_.size()); ++i) {
+    const auto place = static_cast<std::size_t>(i);
+    names_[place] = new QLabel(tr(kNames[place]), this);
+    values_[place] = new QLabel(this);
+    values_[place]->setObjectName(QString("statistics.%1").arg(kNames[place]));
+    layout->addWidget(names_[place], 2, i);
+    layout->addWidget(values_[place], 3, i);
+    layout->setColumnStretch(i, 1);
+  }
+  values_[kBad]->setToolTip(tr("Judged pixels in sight that are off by more than 0.07 px"));
+  values_[kInvalid]->setToolTip(tr("Pixels in sight without a value"));
+  connect(histogram_, &HistogramView::rangeEdited, this, &StatisticsPanel::rangeEdited);
+  clear(tr("No map is shown"));
+}
+
+void StatisticsPanel::setSummary(const Summary& summary) {
+  const auto& statistics = summary.statistics;
+  const QString title =
+      summary.unit.isEmpty() ? summary.title : tr("%1 [%2]").arg(summary.title, summary.unit);
+  title_->setFullText(tr("%1 · in sight").arg(title));
+  histogram_->setHistogram(statistics.histogram, summary.shading);
+  const double numbers[] = {statistics.min, statistics.median, statistics.mean, statistics.max};
+  for (std::size_t i = 0; i < std::size(numbers); ++i) {
+    values_[i]->setText(statistics.count == 0 ? QString("–") : number_text(numbers[i]));
+  }
+  values_[kBad]->setText(summary.bad_percent ? tr("%1 %").arg(*summary.bad_percent, 0, 'f', 2)
+                                             : QString("–"));
+  values_[kInvalid]->setText(QLocale::c().toString(static_cast<qulonglong>(statistics.invalid)));
+  updateColors();
+}
+
+void StatisticsPanel::clear(const QString& why) {
+  title_->setFullText(why);
+  histogram_->setHistogram({}, {});
+  for (QLabel* value : values_) value->setText("–");
+  updateColors();
+}
+
+void StatisticsPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateColors();
+}
+
+void StatisticsPanel::updateColors() {
+  for (QLabel* name : names_) name->setPalette(theme::text_palette(theme::muted_text(palette())));
+}
+
+QString StatisticsPanel::text() const {
+  QStringList texts;
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    texts << names_[i]->text() + ' ' + values_[i]->text();
+  }
+  return texts.join(", ");
+}
+
+}  // namespace episcope

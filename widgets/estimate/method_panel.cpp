@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/estimate/method_panel.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/estimate/parameter_form.h"
+#include "widgets/style/aside_delegate.h"
+#include "widgets/style/icon.h"
+#include "widgets/style/theme.h"
+
+#include <QAbstractItemView>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QEvent>
+#include <QGridLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+constexpr int kListWidth = 560;  // names and what the methods do
+
+QPushButton* make_button(const char* name, const char* icon, const QString& text,
+                         const QString& tip, QWidget* parent) {
+  auto* button = new QPushButton(themed_icon(icon), text, parent);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  return button;
+}
+
+}  // namespace
+
+MethodPanel::MethodPanel(QWidget* parent)
+    : QWidget(parent),
+      method_(new QComboBox(this)),
+      summary_(new QLabel(this)),
+      reference_(new QLabel(this)),
+      form_(new ParameterForm),
+      scroll_(new QScrollArea(this)),
+      all_views_(new QCheckBox(tr("All views"), this)),
+      run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
+      cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancels every run"), this)),
+      reset_(make_button("method.reset", "reset", tr("Reset"),
+                         tr("All parameters back to their defaults"), this)),
+      copy_(make_button("method.copyCommand", "copy", tr("Copy as command"),
+                        tr("Copy the episcope-cli line that does the same"), this)) {
+  setObjectName("methodPanel");
+  method_->setObjectName("method.combo");
+  method_->setToolTip(tr("Method of estimation"));
+  method_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, method_));
+  method_->view()->setMinimumWidth(kListWidth);
+  summary_->setObjectName("method.summary");
+  summary_->setWordWrap(true);
+  reference_->setObjectName("method.reference");
+  reference_->setWordWrap(true);
+  reference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  all_views_->setObjectName("method.allViews");
+  all_views_->setToolTip(tr("Estimate every view; else only the centre view"));
+  run_->setDefault(true);
+
+  scroll_->setObjectName("method.scroll");
+  scroll_->setFrameShape(QFrame::NoFrame);
+  scroll_->setWidgetResizable(true);
+  scroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  auto* sheet = new QWidget(scroll_);
+  auto* sheet_layout = new QVBoxLayout(sheet);
+  sheet_layout->setContentsMargins(0, 0, 0, 0);
+  sheet_layout->addWidget(form_);
+  sheet_layout->addStretch(1);
+  scroll_->setWidget(sheet);
+  // The tab shines through.
+  scroll_->viewport()->setAutoFillBackground(false);
+  sheet->setAutoFillBackground(false);
+
+  auto* buttons = new QGridLayout;
+  buttons->setSpacing(theme::kSpacing);
+  buttons->addWidget(run_, 0, 0);
+  buttons->addWidget(cancel_, 0, 1);
+  buttons->addWidget(reset_, 1, 0);
+  buttons->addWidget(copy_, 1, 1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  for (QWidget* widget : std::initializer_list<QWidget*>{method_, summary_, reference_}) {
+    layout->addWidget(widget);
+  }
+  layout->addWidget(scroll_, 1);
+  layout->addWidget(all_views_);
+  layout->addLayout(buttons);
+  connectControls();
+  setRunning(false);
+  setMethods({});
+  updateColors();
+}
+
+void MethodPanel::connectControls() {
+  connect(method_, &QComboBox::currentIndexChanged, this, [this](int index) {
+    showMethod(index);
+    emit methodChanged(QString::fromStdString(request().method));
+  });
+  connect(run_, &QPushButton::clicked, this, [this] { emit runRequested(request()); });
+  connect(cancel_, &QPushButton::clicked, this, &MethodPanel::cancelRequested);
+  connect(reset_, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
+  connect(copy_, &QPushButton::clicked, this, [this] { emit copyCommandRequested(request()); });
+  connect(form_, &ParameterForm::valuesChanged, this, &MethodPanel::updateReset);
+}
+
+void MethodPanel::setMethods(std::vector<MethodDescription> methods) {
+  const QSignalBlocker blocker(method_);
+  methods_ = std::move(methods);
+  kept_values_.clear();
+  shown_ = -1;
+  method_->clear();
+  for (const auto& method : methods_) {
+    method_->addItem(QString::fromStdString(method.name), QString::fromStdString(method.id));
+    for (const int role : {static_cast<int>(Qt::ToolTipRole), AsideDelegate::kAsideRole}) {
+      method_->setItemData(method_->count() - 1, QString::fromStdString(method.summary), role);
+    }
+  }
+  showMethod(method_->currentIndex());
+}
+
+void MethodPanel::showMethod(int index) {
+  if (shown_ >= 0) kept_values_[methods_[shown_].id] = form_->values();
+  shown_ = index;
+  const bool has_method = index >= 0;
+  for (QWidget* widget : std::initializer_list<QWidget*>{method_, reset_}) {
+    widget->setEnabled(has_method);
+  }
+  const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
+  summary_->setText(QString::fromStdString(method.summary));
+  reference_->setText(QString::fromStdString(method.reference));
+  reference_->setVisible(!method.reference.empty());
+  all_views_->setEnabled(method.all_views);
+  all_views_->setChecked(method.all_views);
+  form_->setParameters(method.parameters);
+  if (const auto kept = kept_values_.find(method.id); kept != kept_values_.end()) {
+    form_->setValues(kept->second);
+  }
+  // The form has no horizontal scroll bar: it never gets less than it needs.
+  scroll_->widget()->layout()->activate();
+  scroll_->setMinimumWidth(scroll_->widget()->minimumSizeHint().width() +
+                           scroll_->verticalScrollBar()->sizeHint().width());
+  updateGeometry();
+  updateReset();
+  setRunBlocked(blocked_);
+}
+
+void MethodPanel::updateReset() {
+  reset_->setEnabled(!form_->modifiedValues().empty());
+}
+
+void MethodPanel::setCurrentMethod(const std::string& id) {
+  const int index = method_->findData(QString::fromStdString(id));
+  if (index >= 0) method_->setCurrentIndex(index);
+}
+
+void MethodPanel::setRequest(const RunRequest& request) {
+  if (method_->findData(QString::fromStdString(request.method)) < 0) return;
+  setCurrentMethod(request.method);
+  form_->resetToDefaults();
+  form_->setValues(request.values);
+  if (all_views_->isEnabled()) all_views_->setChecked(request.all_views);
+  updateReset();
+}
+
+void MethodPanel::setRunning(bool running) {
+  cancel_->setEnabled(running);
+}
+
+void MethodPanel::setRunBlocked(const QString& reason) {
+  blocked_ = reason;
+  run_->setEnabled(reason.isEmpty() && shown_ >= 0);
+  copy_->setEnabled(run_->isEnabled());
+  run_->setToolTip(reason.isEmpty() ? tr("Estimate with these parameters") : reason);
+}
+
+void MethodPanel::followTips(const QAction* cancel, const QAction* copy) {
+  follow_tip(cancel_, cancel);
+  follow_tip(copy_, copy);
+}
+
+QSize MethodPanel::sizeHint() const {
+  int height = -layout()->spacing();
+  for (int i = 0; i < layout()->count(); ++i) {
+    const QLayoutItem* item = layout()->itemAt(i);
+    if (item->isEmpty()) continue;
+    height += layout()->spacing();
+    height += item->widget() == scroll_   ? scroll_->widget()->sizeHint().height()
+              : item->hasHeightForWidth() ? item->heightForWidth(width())
+                                          : item->sizeHint().height();
+  }
+  return {QWidget::sizeHint().width(), height};
+}
+
+RunRequest MethodPanel::request() const {
+  if (shown_ < 0) return {};
+  return {methods_[shown_].id, form_->values(), all_views_->isEnabled() && all_views_->isChecked()};
+}
+
+void MethodPanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) updateColors();
+}
+
+void MethodPanel::updateColors() {
+  reference_->setPalette(theme::text_palette(theme::muted_text(palette())));
+}
+
+}  // namespace episcope

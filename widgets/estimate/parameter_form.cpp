@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/estimate/parameter_form.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/estimate/parameter_editor.h"
+#include "widgets/style/theme.h"
+
+#include <QGridLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+QString with_unit(const std::string& number, const std::string& unit) {
+  const QString text = QString::fromStdString(number);
+  return unit.empty() ? text : text + ' ' + QString::fromStdString(unit);
+}
+
+QString domain_text(const ParameterDescription& d) {
+  if (!d.choices.empty() || std::holds_alternative<bool>(d.default_value) ||
+      std::holds_alternative<std::string>(d.default_value) ||
+      std::holds_alternative<ViewOrAuto>(d.default_value)) {
+    return {};
+  }
+  return ParameterForm::tr("Range %1 … %2")
+      .arg(QString::fromStdString(to_text(d.min)), with_unit(to_text(d.max), d.unit));
+}
+
+QString tool_tip(const ParameterDescription& d) {
+  const QString fallback = with_unit(to_text(d.default_value), d.unit);
+  QStringList facts{domain_text(d), ParameterForm::tr("Default %1").arg(fallback)};
+  facts.removeAll({});
+  return QString("<p><b>%1</b></p><p>%2</p><p>%3<br/><code>--%4</code></p>")
+      .arg(QString::fromStdString(d.label).toHtmlEscaped(),
+           QString::fromStdString(d.help).toHtmlEscaped(), facts.join(" · ").toHtmlEscaped(),
+           QString::fromStdString(d.key).toHtmlEscaped());
+}
+
+}  // namespace
+
+ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGridLayout(this)) {
+  setObjectName("parameterForm");
+  layout_->setContentsMargins(0, 0, 0, 0);
+  layout_->setHorizontalSpacing(theme::kSpacing);
+  layout_->setVerticalSpacing(4);
+  layout_->setColumnStretch(0, 2);
+  layout_->setColumnStretch(1, 3);
+}
+
+void ParameterForm::setParameters(const std::vector<ParameterDescription>& parameters) {
+  for (const auto& row : rows_) {
+    delete row.label;
+    delete row.editor;
+    delete row.reset;
+  }
+  rows_.clear();
+  for (const auto& description : parameters) addRow(description);
+}
+
+void ParameterForm::addRow(const ParameterDescription& description) {
+  const QString key = QString::fromStdString(description.key);
+  auto* label = new QLabel(QString::fromStdString(description.label), this);
+  auto* editor = make_parameter_editor(description, this);
+  const QString fallback = with_unit(to_text(description.default_value), description.unit);
+  auto* reset =
+      make_tool_button({key + ".reset", "reset", tr("Back to the default %1").arg(fallback)}, this);
+  label->setObjectName(key + ".label");
+  label->setToolTip(tool_tip(description));
+  label->setBuddy(editor);
+  label->setWordWrap(true);
+  editor->setToolTip(tool_tip(description));
+  reset->setIconSize({12, 12});
+  QSizePolicy keeps_place = reset->sizePolicy();
+  keeps_place.setRetainSizeWhenHidden(true);
+  reset->setSizePolicy(keeps_place);
+
+  const int line = static_cast<int>(rows_.size());
+  layout_->addWidget(label, line, 0);
+  layout_->addWidget(editor, line, 1);
+  layout_->addWidget(reset, line, 2);
+  const Row row{description, label, editor, reset};
+  rows_.push_back(row);
+  showModified(row);
+  connect(editor, &ParameterEditor::edited, this, [this, row] {
+    showModified(row);
+    emit valuesChanged();
+  });
+  connect(reset, &QToolButton::clicked, this, [this, row] {
+    row.editor->setValue(row.description.default_value);
+    showModified(row);
+    emit valuesChanged();
+  });
+}
+
+void ParameterForm::showModified(const Row& row) const {
+  const bool is_modified = row.editor->value() != row.description.default_value;
+  QFont font = row.label->font();
+  font.setBold(is_modified);
+  row.label->setFont(font);
+  row.reset->setVisible(is_modified);
+}
+
+void ParameterForm::setValues(const ParameterSet& values) {
+  for (const auto& [key, value] : values) {
+    for (const auto& row : rows_) {
+      if (row.description.key != key) continue;
+      row.editor->setValue(value);
+      showModified(row);
+    }
+  }
+}
+
+ParameterSet ParameterForm::values() const {
+  ParameterSet set;
+  for (const auto& row : rows_) set.emplace_back(row.description.key, row.editor->value());
+  return set;
+}
+
+ParameterSet ParameterForm::modifiedValues() const {
+  ParameterSet set;
+  for (const auto& row : rows_) {
+    if (auto value = row.editor->value(); value != row.description.default_value) {
+      set.emplace_back(row.description.key, std::move(value));
+    }
+  }
+  return set;
+}
+
+void ParameterForm::resetToDefaults() {
+  if (modifiedValues().empty()) return;
+  for (const auto& row : rows_) {
+    row.editor->setValue(row.description.default_value);
+    showModified(row);
+  }
+  emit valuesChanged();
+}
+
+}  // namespace episcope

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/estimate/result_list.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/icon.h"
+#include "widgets/style/number_text.h"
+#include "widgets/style/side.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QMenu>
+#include <QMouseEvent>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+constexpr int kRowPadding = 6;
+constexpr int kWidestMethod = 150;
+constexpr int kMethodPadding = 14;
+
+enum Column { kMark, kMethod, kMse, kSeconds, kParameters, kColumnCount };
+
+quint64 id_of(const QTreeWidgetItem* item) {
+  return item->data(kMark, Qt::UserRole).toULongLong();
+}
+
+QString seconds_text(double seconds) {
+  if (seconds <= 0) return "–";
+  return QString("%1 s").arg(seconds, 0, 'f', seconds < 10 ? 2 : 0);
+}
+
+}  // namespace
+
+ResultList::ResultList(QWidget* parent)
+    : QWidget(parent),
+      tree_(new QTreeWidget(this)),
+      hint_(new QLabel(this)),
+      export_(make_tool_button({"results.export", "export",
+                                tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
+                               this)),
+      remove_(make_tool_button(
+          {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),
+      reuse_(make_tool_button(
+          {"results.reuse", "reuse", tr("Bring the parameters of this result back into the form"),
+           tr("Reuse")},
+          this)) {
+  setObjectName("resultList");
+  setUpTree();
+  hint_->setObjectName("results.hint");
+  hint_->setAlignment(Qt::AlignCenter);
+  hint_->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(2);
+  for (auto* button : {export_, reuse_, remove_}) row->addWidget(button);
+  row->addStretch(1);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(4);
+  layout->addWidget(hint_, 1);
+  layout->addWidget(tree_, 1);
+  layout->addLayout(row);
+
+  const auto connect_button = [this](QToolButton* button, void (ResultList::*intent)(quint64)) {
+    connect(button, &QToolButton::clicked, this, [this, intent] {
+      if (const auto id = target()) emit(this->*intent)(*id);
+    });
+  };
+  connect_button(export_, &ResultList::exportRequested);
+  connect_button(remove_, &ResultList::removeRequested);
+  connect_button(reuse_, &ResultList::reuseRequested);
+  setExpecting(false);
+  setResults({});
+}
+
+void ResultList::setUpTree() {
+  tree_->setObjectName("results.tree");
+  tree_->viewport()->installEventFilter(this);
+  tree_->setColumnCount(kColumnCount);
+  tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
+  tree_->headerItem()->setToolTip(kMse, tr("Mean squared error ×100 against the truth, px²"));
+  for (const int column : {kMse, kSeconds}) {
+    tree_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  }
+  tree_->setRootIsDecorated(false);
+  tree_->setAlternatingRowColors(true);
+  tree_->setUniformRowHeights(true);
+  tree_->setTextElideMode(Qt::ElideRight);
+  tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  tree_->setContextMenuPolicy(Qt::CustomContextMenu);
+  tree_->header()->setMinimumSectionSize(22);
+  tree_->header()->setStretchLastSection(true);
+  for (const int column : {kMark, kMse, kSeconds}) {
+    tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
+  }
+  auto* remove = new QAction(tr("Remove"), tree_);
+  remove->setObjectName("results.removeAction");
+  remove->setShortcut(QKeySequence::Delete);
+  remove->setShortcutContext(Qt::WidgetShortcut);
+  tree_->addAction(remove);
+  connect(remove, &QAction::triggered, this, [this] {
+    if (const auto id = selectedId()) emit removeRequested(*id);
+  });
+  connect(tree_, &QTreeWidget::customContextMenuRequested, this, &ResultList::showMenu);
+  connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
+    updateButtons();
+    if (const auto id = selectedId()) emit selected(*id);
+  });
+}
+
+void ResultList::setResults(const std::vector<ResultRow>& results) {
+  const auto kept = selectedId();
+  const QSignalBlocker blocker(tree_);
+  tree_->clear();
+  for (const auto& result : results) {
+    auto* item = new QTreeWidgetItem(tree_);
+    item->setData(kMark, Qt::UserRole, result.id);
+    // As tall as the row with the icon.
+    item->setSizeHint(kMark, {0, fontMetrics().height() + kRowPadding});
+    item->setText(kMethod, result.method);
+    item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");
+    item->setText(kSeconds, seconds_text(result.seconds));
+    item->setText(kParameters, result.parameters);
+    item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);
+    item->setTextAlignment(kSeconds, Qt::AlignRight | Qt::AlignVCenter);
+    QStringList tip{result.method, result.parameters, result.detail};
+    tip.removeAll({});
+    for (int column = 0; column < kColumnCount; ++column) {
+      item->setToolTip(column, tip.join('\n'));
+    }
+    if (kept == result.id) tree_->setCurrentItem(item);
+  }
+  fitMethods();
+  tree_->setVisible(!results.empty());
+  hint_->setVisible(results.empty());
+  setShown(shown_, compared_);
+  updateButtons();
+}
+
+void ResultList::setExpecting(bool is_expecting) {
+  hint_->setText(is_expecting ? tr("The result appears here.")
+                              : tr("No results yet. Run a method above."));
+}
+
+void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> compared) {
+  const bool is_new = id != shown_;
+  shown_ = id;
+  compared_ = compared;
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    auto* item = tree_->topLevelItem(i);
+    const bool is_shown = shown_ == id_of(item);
+    if (compared_) {
+      item->setIcon(kMark, side_icon(is_shown                   ? Side::A
+                                     : compared_ == id_of(item) ? Side::B
+                                                                : Side::None));
+    } else {
+      item->setIcon(kMark, is_shown ? themed_icon("eye") : QIcon());
+    }
+    item->setToolTip(kMark, is_shown ? tr("A: this result is shown")
+                                     : tr("Click here to compare with this result (B)"));
+    QFont font = tree_->font();
+    font.setBold(is_shown);
+    item->setFont(kMethod, font);
+    if (is_shown && is_new) tree_->scrollToItem(item);
+  }
+  updateButtons();
+}
+
+// A long name does not push the numbers out of sight.
+void ResultList::fitMethods() {
+  QFont bold = tree_->font();
+  bold.setBold(true);
+  int width = tree_->fontMetrics().horizontalAdvance(tree_->headerItem()->text(kMethod));
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    const QString name = tree_->topLevelItem(i)->text(kMethod);
+    width = std::max(width, QFontMetrics(bold).horizontalAdvance(name));
+  }
+  tree_->setColumnWidth(kMethod, std::min(width, kWidestMethod) + kMethodPadding);
+}
+
+// A click on the mark chooses B; the selection, which is what is shown, stays.
+bool ResultList::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonPress) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    const QPoint position = mouse->position().toPoint();
+    const auto* item = tree_->itemAt(position);
+    const bool is_on_mark = tree_->header()->logicalIndexAt(position.x()) == kMark;
+    if (item && is_on_mark && mouse->button() == Qt::LeftButton && id_of(item) != shown_) {
+      emit compareRequested(id_of(item));
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+std::optional<quint64> ResultList::selectedId() const {
+  const auto items = tree_->selectedItems();
+  if (items.isEmpty()) return std::nullopt;
+  return id_of(items.front());
+}
+
+std::optional<quint64> ResultList::target() const {
+  const auto selected = selectedId();
+  return selected || tree_->topLevelItemCount() == 0 ? selected : shown_;
+}
+
+void ResultList::updateButtons() {
+  for (auto* button : {export_, remove_, reuse_}) button->setEnabled(target().has_value());
+}
+
+void ResultList::showMenu(const QPoint& position) {
+  const auto* item = tree_->itemAt(position);
+  if (!item) return;
+  const quint64 id = id_of(item);
+  auto* menu = new QMenu(this);
+  menu->setObjectName("results.menu");
+  menu->setAttribute(Qt::WA_DeleteOnClose);
+  const auto add = [&](const char* icon, const QString& text, void (ResultList::*intent)(quint64)) {
+    menu->addAction(themed_icon(icon), text, this, [this, id, intent] { emit(this->*intent)(id); });
+  };
+  add("eye", tr("Show"), &ResultList::selected);
+  menu->addAction(side_icon(Side::B), tr("Compare with"), this,
+                  [this, id] { emit compareRequested(id); });
+  add("reuse", tr("Reuse parameters"), &ResultList::reuseRequested);
+  add("copy", tr("Copy as command"), &ResultList::copyCommandRequested);
+  menu->addSeparator();
+  add("export", tr("Export…"), &ResultList::exportRequested);
+  add("trash", tr("Remove"), &ResultList::removeRequested);
+  menu->popup(tree_->viewport()->mapToGlobal(position));
+}
+
+}  // namespace episcope

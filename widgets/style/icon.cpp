@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/style/icon.h"
+
+#include "widgets/style/painted_icon_engine.h"
+
+#include <QFile>
+#include <QGuiApplication>
+#include <QPainter>
+#include <QPalette>
+#include <QSvgRenderer>
+
+// Resources of a static library register themselves only when asked to, outside of any namespace.
+static void register_resources() {
+  Q_INIT_RESOURCE(episcope);
+}
+
+namespace episcope {
+namespace {
+
+/// Draws an SVG whose `currentColor` is the palette's text colour at the time of drawing.
+class TintedSvgEngine : public PaintedIconEngine {
+ public:
+  explicit TintedSvgEngine(QByteArray svg) : svg_(std::move(svg)) {}
+
+  void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
+    QByteArray tinted = svg_;
+    QSvgRenderer renderer(tinted.replace("currentColor", color(mode).name().toLatin1()));
+    renderer.render(painter, rect);
+  }
+  [[nodiscard]] QIconEngine* clone() const override { return new TintedSvgEngine(svg_); }
+
+ private:
+  static QColor color(QIcon::Mode mode) {
+    const QPalette palette = QGuiApplication::palette();
+    if (mode == QIcon::Disabled) return palette.color(QPalette::Disabled, QPalette::ButtonText);
+    if (mode == QIcon::Selected) return palette.color(QPalette::HighlightedText);
+    return palette.color(QPalette::ButtonText);
+  }
+
+  QByteArray svg_;
+};
+
+}  // namespace
+
+QIcon themed_icon(const QString& name) {
+  register_resources();
+  QFile file(":/episcope/icons/" + name + ".svg");
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return QIcon(new TintedSvgEngine(file.readAll()));
+}
+
+}  // namespace episcope

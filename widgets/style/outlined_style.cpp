@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/style/outlined_style.h"
+
+#include "widgets/style/theme.h"
+
+#include <QPainter>
+#include <QStyleOption>
+
+namespace episcope {
+
+OutlinedStyle::OutlinedStyle() : QProxyStyle("Fusion") {}
+
+void OutlinedStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* option,
+                                  QPainter* painter, const QWidget* widget) const {
+  QProxyStyle::drawPrimitive(element, option, painter, widget);
+  if (element != PE_IndicatorCheckBox) return;
+  const bool has_focus =
+      option->state.testFlag(State_HasFocus) && option->state.testFlag(State_KeyboardFocusChange);
+  painter->save();
+  painter->setPen(has_focus ? option->palette.color(QPalette::Highlight)
+                            : theme::frame(option->palette));
+  painter->setRenderHint(QPainter::Antialiasing);
+  painter->drawRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5));
+  painter->restore();
+}
+
+}  // namespace episcope

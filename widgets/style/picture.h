@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+
+#include <QImage>
+
+#include <cstdint>
+
+namespace episcope {
+
+/// A QImage over the samples of an RGBA8 image `[y][x][4]`, which it takes over without a copy, in
+/// the form that is drawn fastest: premultiplied ARGB. Null for an empty image. Precondition: 4
+/// channels.
+[[nodiscard]] QImage to_qimage(Image<std::uint8_t>&& rgba);
+
+}  // namespace episcope

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/style/theme.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::theme {
+namespace {
+
+double luminance(const QColor& color) {
+  const auto linear = [](double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+  };
+  return 0.2126 * linear(color.redF()) + 0.7152 * linear(color.greenF()) +
+         0.0722 * linear(color.blueF());
+}
+
+struct Surfaces {
+  QColor window, base, alternate, button, text, disabled, highlight, highlighted_text, link;
+};
+
+QPalette make_palette(const Surfaces& s) {
+  QPalette palette(s.text, s.button, s.button.lighter(130), s.button.darker(160),
+                   s.button.darker(120), s.text, s.base, s.base, s.window);
+  palette.setColor(QPalette::AlternateBase, s.alternate);
+  palette.setColor(QPalette::ButtonText, s.text);
+  palette.setColor(QPalette::ToolTipBase, s.base);
+  palette.setColor(QPalette::ToolTipText, s.text);
+  palette.setColor(QPalette::Highlight, s.highlight);
+  palette.setColor(QPalette::HighlightedText, s.highlighted_text);
+  palette.setColor(QPalette::Link, s.link);
+  palette.setColor(QPalette::LinkVisited, s.link);
+  palette.setColor(QPalette::PlaceholderText, s.disabled);
+  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+    palette.setColor(QPalette::Disabled, role, s.disabled);
+  }
+  return palette;
+}
+
+/// Text as faint as it may be against windows and panes; `least` is the part of it to begin with.
+QColor text_of_contrast(const QPalette& palette, double contrast, double least) {
+  const QColor window = palette.color(QPalette::Window);
+  const QColor text = palette.color(QPalette::WindowText);
+  // Tabs and group boxes are drawn in shades of the button colour.
+  const QColor pane = palette.color(QPalette::Button).lighter(is_dark(palette) ? 128 : 104);
+  for (double part = least; part < 1; part += 0.05) {
+    const QColor color = blend(window, text, part);
+    if (contrast_ratio(window, color) >= contrast && contrast_ratio(pane, color) >= contrast) {
+      return color;
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+bool is_dark(const QPalette& palette) {
+  return luminance(palette.color(QPalette::Window)) <
+         luminance(palette.color(QPalette::WindowText));
+}
+
+double contrast_ratio(const QColor& a, const QColor& b) {
+  const double first = luminance(a);
+  const double second = luminance(b);
+  return (std::max(first, second) + 0.05) / (std::min(first, second) + 0.05);
+}
+
+QColor blend(const QColor& from, const QColor& to, double part) {
+  const auto mix = [part](double a, double b) { return static_cast<float>(a + (b - a) * part); };
+  return QColor::fromRgbF(mix(from.redF(), to.redF()), mix(from.greenF(), to.greenF()),
+                          mix(from.blueF(), to.blueF()));
+}
+
+QPalette text_palette(const QColor& color) {
+  QPalette palette;
+  palette.setColor(QPalette::WindowText, color);
+  return palette;
+}
+
+QColor muted_text(const QPalette& palette) {
+  constexpr double kLegible = 4.6;
+  return text_of_contrast(palette, kLegible, 0.6);
+}
+
+QColor frame(const QPalette& palette) {
+  constexpr double kVisible = 3;
+  return text_of_contrast(palette, kVisible, 0.3);
+}
+
+QColor error_text(const QPalette& palette) {
+  return is_dark(palette) ? QColor(0xff, 0x8f, 0x85) : QColor(0xa8, 0x1d, 0x16);
+}
+
+QColor warning_text(const QPalette& palette) {
+  return is_dark(palette) ? QColor(0xff, 0xc4, 0x6b) : QColor(0x80, 0x50, 0x00);
+}
+
+QColor success_text(const QPalette& palette) {
+  return is_dark(palette) ? QColor(0x86, 0xd9, 0x92) : QColor(0x19, 0x63, 0x28);
+}
+
+QPalette light_palette() {
+  return make_palette({.window = {0xf4, 0xf5, 0xf6},
+                       .base = {0xff, 0xff, 0xff},
+                       .alternate = {0xf0, 0xf2, 0xf4},
+                       .button = {0xec, 0xee, 0xf0},
+                       .text = {0x1d, 0x20, 0x24},
+                       .disabled = {0x8d, 0x93, 0x99},
+                       .highlight = {0x1f, 0x6f, 0xb5},
+                       .highlighted_text = {0xff, 0xff, 0xff},
+                       .link = {0x1a, 0x5f, 0x9e}});
+}
+
+QPalette dark_palette() {
+  return make_palette({.window = {0x30, 0x33, 0x37},
+                       .base = {0x26, 0x28, 0x2b},
+                       .alternate = {0x2c, 0x2f, 0x33},
+                       .button = {0x3b, 0x3f, 0x44},
+                       .text = {0xe4, 0xe6, 0xe9},
+                       .disabled = {0x85, 0x8b, 0x92},
+                       .highlight = {0x2f, 0x7d, 0xc4},
+                       .highlighted_text = {0xff, 0xff, 0xff},
+                       .link = {0x7f, 0xbd, 0xf2}});
+}
+
+}  // namespace episcope::theme
