@@ -30,9 +30,7 @@ Estimator find_estimator(const std::string& id) {
     if (estimator.info.id == id) return estimator;
     ids.push_back(estimator.info.id);
   }
-  const std::string nearest = nearest_name(id, ids);
-  throw Unavailable("there is no method '" + id + "'" +
-                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  throw Unavailable(no_such_name("method", id, ids));
 }
 
 }  // namespace episcope

@@ -111,9 +111,7 @@ ColorMap color_map(const std::string& name) {
     }
     return map;
   }
-  const std::string nearest = nearest_name(name, color_map_names());
-  throw InvalidInput("there is no colour map '" + name + "'" +
-                     (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+  throw InvalidInput(no_such_name("colour map", name, color_map_names()));
 }
 
 }  // namespace episcope::render

@@ -21,10 +21,7 @@ const Recipe& find_recipe(const std::string& id) {
   }
   std::string known;
   for (const auto& name : ids) known += (known.empty() ? "" : ", ") + name;
-  const std::string nearest = nearest_name(id, ids);
-  throw Unavailable("there is no built-in scene '" + id + "'" +
-                    (nearest.empty() ? "" : "; did you mean '" + nearest + "'?") + " (there are " +
-                    known + ")");
+  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + known + ")");
 }
 
 void require_range(const char* name, double value, double min, double max) {

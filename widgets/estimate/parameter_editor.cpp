@@ -161,7 +161,11 @@ class ChoiceEditor : public ParameterEditor {
   ChoiceEditor(const ParameterDescription& description, QWidget* parent)
       : ParameterEditor(parent), combo_(new QComboBox(this)) {
     combo_->setObjectName(control_name(description, "combo"));
-    for (const auto& choice : description.choices) combo_->addItem(text_of(choice));
+    const auto& choices = description.choices;
+    const auto& labels = description.choice_labels.empty() ? choices : description.choice_labels;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      combo_->addItem(text_of(labels[i]), text_of(choices[i]));
+    }
     new WheelGuard(combo_);
     make_row(this)->addWidget(combo_, 1);
     ChoiceEditor::setValue(description.default_value);
@@ -169,14 +173,14 @@ class ChoiceEditor : public ParameterEditor {
   }
 
   [[nodiscard]] ParameterValue value() const override {
-    return combo_->currentText().toStdString();
+    return combo_->currentData().toString().toStdString();
   }
 
   void setValue(const ParameterValue& value) override {
     const auto* text = std::get_if<std::string>(&value);
-    if (!text || combo_->findText(text_of(*text)) < 0) return;
+    if (!text || combo_->findData(text_of(*text)) < 0) return;
     const QSignalBlocker blocker(combo_);
-    combo_->setCurrentIndex(combo_->findText(text_of(*text)));
+    combo_->setCurrentIndex(combo_->findData(text_of(*text)));
   }
 
  private:

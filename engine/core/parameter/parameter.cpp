@@ -170,4 +170,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
   return nearest;
 }
 
+std::string no_such_name(const std::string& kind, const std::string& name,
+                         const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(name, names);
+  return "there is no " + kind + " '" + name + "'" +
+         (nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
+}
+
 }  // namespace episcope

@@ -32,9 +32,11 @@ struct ParameterDescription {
   ParameterValue default_value;
   double min = 0;  ///< Closed domain of numbers and of the ends of intervals.
   double max = 0;
-  bool logarithmic = false;              ///< A slider should move in powers.
-  std::vector<std::string> choices;      ///< For strings: the only values allowed.
-  std::vector<ParameterValue> searched;  ///< Values that a parameter search tries; empty = none.
+  bool logarithmic = false;               ///< A slider should move in powers.
+  bool is_toggle = false;                 ///< Of flags: on a command line `--key` alone sets it.
+  std::vector<std::string> choices = {};  ///< For strings: the only values allowed.
+  std::vector<std::string> choice_labels = {};  ///< How users read each of them; empty = as it is.
+  std::vector<ParameterValue> searched = {};    ///< Tried by a parameter search; empty = none.
 };
 
 /// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`, `4,4`.
@@ -51,6 +53,10 @@ void check_parameter(const ParameterDescription& description, const ParameterVal
 /// The name in `names` nearest to `name` by edit distance, for "did you mean"; empty if none is
 /// near.
 [[nodiscard]] std::string nearest_name(const std::string& name,
+                                       const std::vector<std::string>& names);
+
+/// "there is no <kind> '<name>'" and, if one of `names` is near, "; did you mean '<nearest>'?"
+[[nodiscard]] std::string no_such_name(const std::string& kind, const std::string& name,
                                        const std::vector<std::string>& names);
 
 }  // namespace episcope

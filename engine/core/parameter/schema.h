@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/error.h"
+#include "engine/core/parameter/named.h"
 #include "engine/core/parameter/parameter.h"
 
 #include <functional>
@@ -14,7 +15,8 @@ namespace episcope {
 
 /// The one description of a parameter struct `P`: keys, labels, help, units, domains; defaults are
 /// those of a value-initialised `P`. The form in the window, the options of the command line, JSON
-/// and validation all come from it. A parameter's range stands here and nowhere else.
+/// and validation all come from it. A parameter's range stands here and nowhere else. A struct may
+/// be put together from others that have schemas of their own (`part`). Keys must be distinct.
 template <class P>
 class Schema {
  public:
@@ -38,6 +40,26 @@ class Schema {
   Schema& flag(const char* key, bool P::*member, Text text) {
     return add(key, member, text, {0, 1});
   }
+  /// A flag that is off by default and that a command line sets by its bare name: `--key`.
+  Schema& toggle(const char* key, bool P::*member, Text text) {
+    flag(key, member, text);
+    descriptions_.back().is_toggle = true;
+    return *this;
+  }
+  /// One of the values of an enumeration; outside the struct it goes by its name.
+  template <NamedEnum E>
+  Schema& choice(const char* key, E P::*member, Text text) {
+    add_as(
+        key, text, {0, 0}, [member](const P& p) { return ParameterValue(name_of(p.*member)); },
+        [member](P& p, const ParameterValue& value) {
+          p.*member = value_named<E>(std::get<std::string>(value));
+        });
+    for (const Named<E>& each : names_of(E{})) {
+      descriptions_.back().choices.emplace_back(each.name);
+      descriptions_.back().choice_labels.emplace_back(each.label);
+    }
+    return *this;
+  }
   Schema& choice(const char* key, std::string P::*member, Text text,
                  std::vector<std::string> choices) {
     add(key, member, text, {0, 0});
@@ -51,10 +73,31 @@ class Schema {
     return add(key, member, text, {0, 0});
   }
 
+  /// All parameters of a member that is a parameter struct of its own, as `schema` describes and
+  /// completes them. Defaults are those of the member in a value-initialised `P`; the values that a
+  /// search tries are left behind.
+  template <class Part>
+  Schema& part(Part P::*member, const Schema<Part>& schema) {
+    for (std::size_t i = 0; i < schema.descriptions_.size(); ++i) {
+      ParameterDescription description = schema.descriptions_[i];
+      description.default_value = schema.read_[i](P{}.*member);
+      description.searched.clear();
+      descriptions_.push_back(std::move(description));
+      read_.push_back([member, read = schema.read_[i]](const P& p) { return read(p.*member); });
+      write_.push_back([member, write = schema.write_[i]](P& p, const ParameterValue& value) {
+        write(p.*member, value);
+      });
+    }
+    for (const auto& complete : schema.completions_) {
+      completions_.push_back([member, complete](P& p) { complete(p.*member); });
+    }
+    return *this;
+  }
+
   /// What else must hold of parameters: `complete` is called on all that `parse` returns, and may
-  /// change some by others.
+  /// change some by others; parts are completed first.
   Schema& completed_by(std::function<void(P&)> complete) {
-    complete_ = std::move(complete);
+    completions_.push_back(std::move(complete));
     return *this;
   }
 
@@ -85,7 +128,7 @@ class Schema {
       check_parameter(descriptions_[index], value);
       write_[index](parameters, value);
     }
-    if (complete_) complete_(parameters);
+    for (const auto& complete : completions_) complete(parameters);
     return parameters;
   }
 
@@ -99,20 +142,30 @@ class Schema {
   }
 
  private:
+  template <class>
+  friend class Schema;
+
+  using Read = std::function<ParameterValue(const P&)>;
+  using Write = std::function<void(P&, const ParameterValue&)>;
+
   template <class T>
   Schema& add(const char* key, T P::*member, Text text, Domain domain) {
-    descriptions_.push_back({key,
-                             text.label,
-                             text.help,
-                             text.unit,
-                             P{}.*member,
-                             domain.min,
-                             domain.max,
-                             domain.logarithmic,
-                             {},
-                             {}});
-    read_.push_back([member](const P& p) { return ParameterValue(p.*member); });
-    write_.push_back([member](P& p, const ParameterValue& v) { p.*member = std::get<T>(v); });
+    return add_as(
+        key, text, domain, [member](const P& p) { return ParameterValue(p.*member); },
+        [member](P& p, const ParameterValue& value) { p.*member = std::get<T>(value); });
+  }
+
+  Schema& add_as(const char* key, Text text, Domain domain, Read read, Write write) {
+    descriptions_.push_back({.key = key,
+                             .label = text.label,
+                             .help = text.help,
+                             .unit = text.unit,
+                             .default_value = read(P{}),
+                             .min = domain.min,
+                             .max = domain.max,
+                             .logarithmic = domain.logarithmic});
+    read_.push_back(std::move(read));
+    write_.push_back(std::move(write));
     return *this;
   }
 
@@ -136,15 +189,13 @@ class Schema {
       if (descriptions_[i].key == key) return i;
       keys.push_back(descriptions_[i].key);
     }
-    const std::string nearest = nearest_name(key, keys);
-    throw InvalidInput("there is no parameter '" + key + "'" +
-                       (nearest.empty() ? "" : "; did you mean '" + nearest + "'?"));
+    throw InvalidInput(no_such_name("parameter", key, keys));
   }
 
   std::vector<ParameterDescription> descriptions_;
-  std::vector<std::function<ParameterValue(const P&)>> read_;
-  std::vector<std::function<void(P&, const ParameterValue&)>> write_;
-  std::function<void(P&)> complete_;
+  std::vector<Read> read_;
+  std::vector<Write> write_;
+  std::vector<std::function<void(P&)>> completions_;  // those of parts before its own
 };
 
 }  // namespace episcope

@@ -242,6 +242,21 @@ class ParameterFormTest : public QObject {
     QVERIFY(control<QLabel>("weight.label")->toolTip().contains("&lt;of&gt;"));
   }
 
+  void choice_showsItsLabel_andStandsForItsName() {
+    ParameterDescription description;
+    description.key = "fusion";
+    description.default_value = std::string("best");
+    description.choices = {"weighted", "best"};
+    description.choice_labels = {"Weighted mean", "The better one"};
+    form_.setParameters({description});
+    auto* combo = control<QComboBox>("fusion.combo");
+    QCOMPARE(combo->currentText(), QString("The better one"));
+
+    combo->setCurrentText("Weighted mean");
+
+    QCOMPARE(get<std::string>(form_, "fusion"), std::string("weighted"));
+  }
+
   void textParameter_isEdited() {
     ParameterDescription description;
     description.key = "note";
