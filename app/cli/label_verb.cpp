@@ -9,7 +9,7 @@
 #include "app/cli/verbs.h"
 #include "app/session/run_labeler.h"
 #include "engine/core/error.h"
-#include "engine/disparity/common/estimator.h"
+#include "engine/core/parallel/stopwatch.h"
 #include "engine/evaluation/metrics/label_accuracy.h"
 #include "engine/io/labels/label_file.h"
 #include "engine/io/labels/labeling_file.h"
@@ -173,13 +173,13 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
   const Scribbles scribbles = load_scribbles(request, scene, progress);
-  const double start = steady_seconds();
+  const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
   Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
   const Labeling labeling = labeler.label(
       scribbles, request.parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95));
-  const double seconds = steady_seconds() - start;
+  const double seconds = watch.seconds();
   progress.step("writing " + request.output);
   write(request, labeling, scribbles, progress.part(0.95, 1));
   const Accuracy accuracy = judge(labeling, scene, *disparity.field, progress.part(1, 1));

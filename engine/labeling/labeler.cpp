@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/core/parallel/stopwatch.h"
 #include "engine/labeling/features/pixel_features.h"
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
@@ -11,7 +12,6 @@
 #include "engine/labeling/rays/ray_labeling.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <deque>
 #include <utility>
@@ -30,10 +30,6 @@ constexpr double kLiveGap = 5e-3;
 
 // A jump of one px in disparity beside one of Lab/100.
 constexpr float kDisparityWeight = 5;
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 ForestOptions forest_options(const LabelerParameters& parameters) {
   ForestOptions options;
@@ -330,7 +326,7 @@ Labeler& Labeler::operator=(Labeler&&) noexcept = default;
 Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& parameters,
                         ViewRectangle views, const Progress& progress,
                         const std::function<void(const Labeling&)>& on_draft) {
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch watch;
   const LightField& lf = *state_->light_field;
   require_views(views, lf.grid());
   const std::vector<std::int32_t> ids = painted_labels(scribbles, lf);
@@ -358,13 +354,13 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   if (coupling != LabelCoupling::None) {
     if (on_draft) {
       labeling.is_draft = true;
-      labeling.seconds = seconds_since(start);
+      labeling.seconds = watch.seconds();
       on_draft(labeling);
       labeling.is_draft = false;
     }
     state_->regularise(learned, labeling, progress.part(0.5, 1));
   }
-  labeling.seconds = seconds_since(start);
+  labeling.seconds = watch.seconds();
   return labeling;
 }
 

@@ -3,7 +3,7 @@
 // features and regulariser.
 #include "app/session/run_labeler.h"
 #include "engine/core/error.h"
-#include "engine/disparity/common/estimator.h"
+#include "engine/core/parallel/stopwatch.h"
 #include "engine/evaluation/metrics/label_accuracy.h"
 #include "engine/io/open/open.h"
 #include "engine/labeling/consistency.h"
@@ -22,11 +22,11 @@ using namespace episcope;
 void print_row(const std::string& name, const Scene& scene, const LabelerParameters& parameters,
                const LabelingDisparity& disparity) {
   const LightField& lf = *scene.light_field;
-  const double start = steady_seconds();
+  const Stopwatch watch;
   Labeler labeler(scene.light_field, disparity.field);
   const Labeling labeling =
       labeler.label(scene.scribbles, parameters, {{0, 0}, lf.grid()}, Progress());
-  const double seconds = steady_seconds() - start;
+  const double seconds = watch.seconds();
   const auto& truth = scene.truth->labels;
   const double all = judge_labels(labeling.labels, truth).share().value_or(0);
   const double center =

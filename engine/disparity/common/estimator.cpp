@@ -3,8 +3,6 @@
 
 #include "engine/core/version.h"
 
-#include <chrono>
-
 namespace episcope {
 
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
@@ -13,10 +11,6 @@ void complete_estimate(Estimate& estimate, const std::string& method, const Ligh
   estimate.seconds = seconds;
   estimate.version = kVersion;
   estimate.source = light_field.info().source;
-}
-
-double steady_seconds() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace episcope

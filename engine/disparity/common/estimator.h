@@ -4,6 +4,7 @@
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/core/parallel/stopwatch.h"
 #include "engine/core/parameter/schema.h"
 
 #include <functional>
@@ -52,9 +53,6 @@ Estimator make_estimator(
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds);
 
-/// Seconds of a steady clock, for differences.
-[[nodiscard]] double steady_seconds();
-
 template <class P>
 Estimator make_estimator(
     EstimatorInfo info, Schema<P> schema,
@@ -66,11 +64,11 @@ Estimator make_estimator(
                    estimate = std::move(estimate)](const LightField& light_field,
                                                    const ParameterSet& values, ViewSelection views,
                                                    const Progress& progress) {
-    const double start = steady_seconds();
+    const Stopwatch watch;
     const P parameters = schema.parse(values);
     Estimate result = estimate(light_field, parameters, views, progress);
     result.parameters = schema.values(parameters);
-    complete_estimate(result, info.id, light_field, steady_seconds() - start);
+    complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
   };
   return estimator;
