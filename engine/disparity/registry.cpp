@@ -7,12 +7,7 @@
 #include "engine/disparity/epi/epi_l.h"
 #include "engine/disparity/epi/epi_s.h"
 #include "engine/disparity/layers/epi_two_layer.h"
-#include "engine/disparity/stereo/st_av_g.h"
-#include "engine/disparity/stereo/st_av_l.h"
-#include "engine/disparity/stereo/st_av_s.h"
-#include "engine/disparity/stereo/st_ch_g.h"
-#include "engine/disparity/stereo/st_ch_l.h"
-#include "engine/disparity/stereo/st_ch_s.h"
+#include "engine/disparity/stereo/stereo_methods.h"
 
 namespace episcope {
 

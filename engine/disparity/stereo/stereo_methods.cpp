@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/stereo/stereo_methods.h"
+
+#include "engine/disparity/stereo/stereo_global.h"
+#include "engine/disparity/stereo/stereo_local.h"
+
+namespace episcope {
+namespace {
+
+constexpr const char* kReference = "Wanner, Meister and Goldluecke 2013 [WMG13]";
+
+// A method from its schema and its function of `views`.
+template <class P>
+Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
+                           Schema<P> (*schema)(MatchedViews),
+                           Estimate (*estimate)(const LightField&, MatchedViews, const P&,
+                                                const Progress&)) {
+  return make_estimator<P>(
+      std::move(info), schema(views),
+      [=](const LightField& light_field, const P& parameters, ViewSelection,
+          const Progress& progress) { return estimate(light_field, views, parameters, progress); });
+}
+
+}  // namespace
+
+Estimator st_av_l_estimator() {
+  return stereo_estimator({.id = "st_av_l",
+                           .name = "ST_AV_L",
+                           .summary = "Multi-view stereo over all views, local",
+                           .reference = kReference,
+                           .revision = 3},
+                          MatchedViews::All, stereo_local_schema, estimate_stereo_local);
+}
+
+Estimator st_ch_l_estimator() {
+  return stereo_estimator({.id = "st_ch_l",
+                           .name = "ST_CH_L",
+                           .summary = "Multi-view stereo over the views of the cross-hair, local",
+                           .reference = kReference,
+                           .revision = 3},
+                          MatchedViews::CrossHair, stereo_local_schema, estimate_stereo_local);
+}
+
+Estimator st_av_s_estimator() {
+  return stereo_estimator({.id = "st_av_s",
+                           .name = "ST_AV_S",
+                           .summary = "ST_AV_L, denoised with total variation (TV-L2)",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 3},
+                          MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth);
+}
+
+Estimator st_ch_s_estimator() {
+  return stereo_estimator({.id = "st_ch_s",
+                           .name = "ST_CH_S",
+                           .summary = "ST_CH_L, denoised with total variation (TV-L2)",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 3},
+                          MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth);
+}
+
+Estimator st_av_g_estimator() {
+  return stereo_estimator({.id = "st_av_g",
+                           .name = "ST_AV_G",
+                           .summary = "Globally optimal labeling on the matching costs of ST_AV_L",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 3},
+                          MatchedViews::All, stereo_global_schema, estimate_stereo_global);
+}
+
+Estimator st_ch_g_estimator() {
+  return stereo_estimator({.id = "st_ch_g",
+                           .name = "ST_CH_G",
+                           .summary = "Globally optimal labeling on the matching costs of ST_CH_L",
+                           .reference = kReference,
+                           .iterative = true,
+                           .revision = 3},
+                          MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
+}
+
+}  // namespace episcope
