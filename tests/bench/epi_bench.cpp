@@ -25,11 +25,9 @@ const Interval& found_range() {
   return range;
 }
 
-template <class Parameters>
-Parameters with_range(bool automatic) {
-  Parameters parameters;
-  if (!automatic) parameters.range = found_range();
-  return parameters;
+EpiLParameters with_range(bool automatic) {
+  if (automatic) return {};
+  return {.range = found_range()};
 }
 
 double result_bytes() {
@@ -64,7 +62,7 @@ double measure(benchmark::State& state, const Run& run) {
 
 void epi_l(benchmark::State& state) {
   const LightField& lf = bench::demo_768();
-  const auto parameters = with_range<EpiLParameters>(state.range(0) != 0);
+  const auto parameters = with_range(state.range(0) != 0);
   const double best = measure(
       state, [&] { return estimate_epi_l(lf, parameters, ViewSelection::All, Progress()); });
   // Samples are read for each direction; results are written, then read and written in the merge.
@@ -84,7 +82,7 @@ BENCHMARK(epi_l)
 // Both in the same run, one after the other.
 void epi_l_against_opencv(benchmark::State& state) {
   const LightField& lf = bench::demo_768();
-  const auto parameters = with_range<EpiLParameters>(false);
+  const auto parameters = with_range(false);
   double seconds = 1e9;
   bench::OpenCvRun other;
   for (auto _ : state) {
@@ -106,7 +104,7 @@ void epi_l_against_opencv(benchmark::State& state) {
 BENCHMARK(epi_l_against_opencv)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
 
 void epi_s(benchmark::State& state) {
-  const auto parameters = with_range<EpiSParameters>(state.range(0) != 0);
+  const EpiSParameters parameters{.tensor = with_range(state.range(0) != 0)};
   double denoising = 1e9;
   measure(state, [&] {
     double begin = now();

@@ -34,8 +34,7 @@ double seconds_of(const Run& run) {
 // it moves no more than `bytes`.
 template <class Run>
 void measure(benchmark::State& state, double bytes, const Run& run) {
-  EpiSParameters smoothing;
-  smoothing.range = kRange;
+  const EpiSParameters smoothing{.tensor = {.range = kRange}};
   double best = 1e9, baseline = 1e9;
   for (auto _ : state) {
     baseline = std::min(baseline, seconds_of([&] {
@@ -60,8 +59,7 @@ void measure(benchmark::State& state, double bytes, const Run& run) {
 // memory: in each sweep of a view its samples, f, confidence and u, that of four neighbours twice,
 // and u written.
 void epi_c(benchmark::State& state) {
-  EpiCParameters parameters;
-  parameters.range = kRange;
+  const EpiCParameters parameters{.tensor = {.range = kRange}};
   const double bytes = parameters.sweeps * rays() * (3 + 12 * sizeof(float));
   measure(state, bytes, [&] {
     return estimate_epi_c(bench::demo_768(), parameters, ViewSelection::All, Progress());
@@ -73,8 +71,7 @@ BENCHMARK(epi_c)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
 // are the samples for each direction of the single and of the double tensor, and both layers with
 // their confidences, written, denoised and merged.
 void epi_two_layer(benchmark::State& state) {
-  EpiTwoLayerParameters parameters;
-  parameters.range = kRange;
+  const EpiTwoLayerParameters parameters{.tensor = {.range = kRange}};
   const double bytes = rays() * (4 * 3 + 3 * 4 * sizeof(float));
   measure(state, bytes, [&] {
     return estimate_epi_two_layer(bench::demo_768(), parameters, ViewSelection::All, Progress());

@@ -47,7 +47,7 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
       const ImageView<float> map = disparity.view(view);
       gaps[i] = solver
                     ->solve({map, *weights, edges, parameters.lambda},
-                            {parameters.max_iterations, parameters.gap}, progress, map)
+                            {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
                     .relative_gap();
     };
   });
@@ -55,6 +55,35 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
 }
 
 }  // namespace
+
+Schema<StopParameters> stop_schema() {
+  return Schema<StopParameters>()
+      .integer("max_iterations", &StopParameters::max_iterations,
+               {"Iterations", "At most so many of the denoising, at full resolution"},
+               {1, 2000, true})
+      .real("gap", &StopParameters::gap,
+            {"Stop at gap",
+             "The denoising stops early once the duality gap is this share of the energy"},
+            {1e-6, 0.1, true});
+}
+
+Schema<DenoiseParameters> denoise_schema() {
+  using P = DenoiseParameters;
+  return Schema<P>()
+      .real("lambda", &P::lambda,
+            {"Smoothing λ", "Weight of the total variation: larger is smoother"}, {0.001, 10, true})
+      .real("weight_power", &P::weight_power,
+            {"Trust in confidence",
+             "Data is weighted by confidence^p; 0 trusts every pixel alike, as in the paper"},
+            {0, 16})
+      .real(
+          "edge_strength", &P::edge_strength,
+          {"Edge strength β",
+           "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
+           "in the paper"},
+          {0, 100})
+      .part(&P::stop, stop_schema());
+}
 
 void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
                        Image<float>& weights) {

@@ -10,15 +10,21 @@
 
 namespace episcope {
 
-/// Parameters of the denoising that EPI_S, EPI_C, EPI_TWO_LAYER and ST_*_S share; defaults are
-/// each method's.
+/// When TvL2Solver stops.
+struct StopParameters {
+  int max_iterations = 24;
+  double gap = 1e-4;
+};
+[[nodiscard]] Schema<StopParameters> stop_schema();
+
+/// Parameters of the denoising that EPI_S, EPI_C and ST_*_S share; defaults are each method's.
 struct DenoiseParameters {
   double lambda = 0.2;
   double weight_power = 6;
   double edge_strength = 20;
-  int max_iterations = 24;
-  double gap = 1e-4;
+  StopParameters stop = {};
 };
+[[nodiscard]] Schema<DenoiseParameters> denoise_schema();
 
 /// The weight of data w = max(r^power, least), from confidence r. No pixel is given up entirely:
 /// the solution stays unique.
@@ -41,36 +47,5 @@ void denoise(const LightField& light_field, const DenoiseParameters& parameters,
 
 /// A note of the largest relative duality gap of some solutions.
 [[nodiscard]] std::string gap_note(double largest);
-
-/// When TvL2Solver stops.
-template <class P>
-void add_stop_parameters(Schema<P>& schema) {
-  schema
-      .integer("max_iterations", &P::max_iterations,
-               {"Iterations", "At most so many of the denoising, at full resolution"},
-               {1, 2000, true})
-      .real("gap", &P::gap,
-            {"Stop at gap",
-             "The denoising stops early once the duality gap is this share of the energy"},
-            {1e-6, 0.1, true});
-}
-
-template <class P>
-void add_denoise_parameters(Schema<P>& schema) {
-  schema
-      .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation: larger is smoother"}, {0.001, 10, true})
-      .real("weight_power", &P::weight_power,
-            {"Trust in confidence",
-             "Data is weighted by confidence^p; 0 trusts every pixel alike, as in the paper"},
-            {0, 16})
-      .real(
-          "edge_strength", &P::edge_strength,
-          {"Edge strength β",
-           "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
-           "in the paper"},
-          {0, 100});
-  add_stop_parameters(schema);
-}
 
 }  // namespace episcope

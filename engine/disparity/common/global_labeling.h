@@ -20,6 +20,7 @@ struct GlobalLabelingParameters {
   int max_iterations = 500;
   double gap = 1e-3;
 };
+[[nodiscard]] Schema<GlobalLabelingParameters> global_labeling_schema();
 
 /// What a pixel with a given label says of its disparity between labels.
 struct Placement {
@@ -48,33 +49,5 @@ struct GlobalLabelingData {
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress);
-
-template <class P>
-void add_global_labeling_parameters(Schema<P>& schema) {
-  schema
-      .real("smoothness", &P::smoothness,
-            {"Smoothness λ",
-             "Weight of the total variation of the labeling, per px of disparity and in units of "
-             "the data: costs over their mean, estimates over their mean trust; it depends on "
-             "neither the number of labels nor the contrast"},
-            {0, 100})
-      .real("edge_strength", &P::edge_strength,
-            {"Edge strength β",
-             "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, "
-             "as in the paper"},
-            {0, 100})
-      .real("settling", &P::settling,
-            {"Settling",
-             "Smoothing (TV-L2) that places disparities between labels afterwards, in label "
-             "steps; 0 keeps the labels, as in the paper"},
-            {0, 20})
-      .integer("max_iterations", &P::max_iterations, {"Iterations", "At most so many"},
-               {1, 10000, true})
-      .real("gap", &P::gap,
-            {"Stop at gap",
-             "The labeling stops once its energy is proven to be within this share of the least "
-             "possible"},
-            {1e-6, 0.1, true});
-}
 
 }  // namespace episcope

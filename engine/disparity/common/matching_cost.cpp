@@ -100,6 +100,10 @@ std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, 
 
 }  // namespace
 
+Names<Interpolation> names_of(Interpolation) {
+  return {{Interpolation::Cubic, "cubic"}, {Interpolation::Bilinear, "bilinear"}};
+}
+
 void check_matching(const LightField& lf, ViewIndex reference) {
   if (!lf.grid().contains(reference)) {
     throw InvalidInput("there is no view " + view_text(reference) + ": the grid has " +

@@ -5,6 +5,7 @@
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/named.h"
 
 #include <limits>
 #include <memory>
@@ -19,6 +20,7 @@ enum class MatchedViews { All, CrossHair };
 /// How views are sampled between pixels. Cubic (Catmull-Rom) blurs less than bilinear, which makes
 /// labels that move a view by whole pixels look better than their neighbours.
 enum class Interpolation { Bilinear, Cubic };
+[[nodiscard]] Names<Interpolation> names_of(Interpolation);
 
 /// What a matching cost is made of.
 struct MatchingCost {

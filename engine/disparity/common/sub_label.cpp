@@ -5,9 +5,10 @@
 
 namespace episcope {
 
-Refinement refinement_of(const std::string& name) {
-  if (name == "parabola") return Refinement::Parabola;
-  return name == "equiangular" ? Refinement::Equiangular : Refinement::None;
+Names<Refinement> names_of(Refinement) {
+  return {{Refinement::Parabola, "parabola"},
+          {Refinement::Equiangular, "equiangular"},
+          {Refinement::None, "none"}};
 }
 
 float sub_label_offset(float before, float here, float after, Refinement refinement) {

@@ -179,6 +179,14 @@ void line_trust_row(const float* residual, int width, float variance, float nois
 
 }  // namespace
 
+Schema<LineCheck> line_check_schema() {
+  return Schema<LineCheck>().flag(
+      "check_lines", &LineCheck::is_on,
+      {"Check lines",
+       "Trust estimates less where the other views show another colour along the line, or "
+       "where the texture is a neighbour's"});
+}
+
 void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
   lower_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
 }

@@ -40,12 +40,9 @@ void lower_confidence(const ViewStack<std::uint32_t>& packed_views, Estimate& es
                       const Progress& progress);
 
 /// Whether a method lowers confidence so.
-template <class P>
-void add_check_lines(Schema<P>& schema) {
-  schema.flag("check_lines", &P::check_lines,
-              {"Check lines",
-               "Trust estimates less where the other views show another colour along the line, or "
-               "where the texture is a neighbour's"});
-}
+struct LineCheck {
+  bool is_on = true;
+};
+[[nodiscard]] Schema<LineCheck> line_check_schema();
 
 }  // namespace episcope

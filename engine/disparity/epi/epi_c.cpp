@@ -2,9 +2,7 @@
 #include "engine/disparity/epi/epi_c.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/edge_weights.h"
-#include "engine/disparity/epi/data_trust.h"
 #include "engine/disparity/epi/visibility.h"
 #include "engine/solvers/ordering/ordering_terms.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
@@ -61,12 +59,11 @@ class ViewStep {
   double improve(ViewIndex view, const Progress& progress) {
     pull_from_neighbours(view, progress);
     majorise(view);
-    const Image<float> edges =
-        edge_weights(work_.light_field, view, work_.parameters.edge_strength);
+    const DenoiseParameters& parameters = work_.parameters.denoising;
+    const Image<float> edges = edge_weights(work_.light_field, view, parameters.edge_strength);
     return solver_
-        .solve({observed_, weights_, edges, work_.parameters.lambda},
-               {work_.parameters.max_iterations, work_.parameters.gap}, progress,
-               work_.u.view(view))
+        .solve({observed_, weights_, edges, parameters.lambda},
+               {parameters.stop.max_iterations, parameters.stop.gap}, progress, work_.u.view(view))
         .relative_gap();
   }
 
@@ -88,8 +85,8 @@ class ViewStep {
 
   // ½ w (u − f)² and the majoriser as one weighted observation.
   void majorise(ViewIndex view) {
-    fill_data_weights(work_.confidence.view(view), {work_.parameters.weight_power, kLeastWeight},
-                      weights_);
+    fill_data_weights(work_.confidence.view(view),
+                      {work_.parameters.denoising.weight_power, kLeastWeight}, weights_);
     const float* const f = work_.f.view(view).data;
     const float* const u = work_.u.view(view).data;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
@@ -204,8 +201,7 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
 
 Schema<EpiCParameters> epi_c_schema() {
   using P = EpiCParameters;
-  Schema<P> schema;
-  schema
+  return Schema<P>()
       .real("fall", &P::fall,
             {"Ordering μ₋", "Cost of a line that ends at something farther, which cannot be"},
             {0.001, 1, true})
@@ -218,24 +214,24 @@ Schema<EpiCParameters> epi_c_schema() {
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
                {"Sweeps", "Times that every view is fitted to its neighbours; 0 = not at all"},
-               {0, 50});
-  add_check_lines(schema);
-  add_denoise_parameters(schema);
-  add_epi_l_parameters(schema);
-  schema.search("lambda", {0.03, 0.06, 0.12, 0.24}).search("fall", {0.03, 0.1, 0.3});
-  return schema;
+               {0, 50})
+      .part(&P::line_check, line_check_schema())
+      .part(&P::denoising, denoise_schema())
+      .part(&P::tensor, epi_l_schema())
+      .search("lambda", {0.03, 0.06, 0.12, 0.24})
+      .search("fall", {0.03, 0.1, 0.3});
 }
 
 Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, ViewSelection views,
                         const Progress& progress) {
   Estimate estimate =
-      estimate_orientations(lf, parameters, ViewSelection::All, progress.part(0, 0.08));
-  if (parameters.check_lines && !progress.finish_requested()) {
+      estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
+  if (parameters.line_check.is_on && !progress.finish_requested()) {
     progress.step("checking lines");
     lower_confidence(lf, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
-  denoise(lf, parameters, estimate, progress.part(0.13, 0.25), kLeastWeight);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kLeastWeight);
   ViewStack<float>& u = estimate.field.disparity;
   const double before = ordering_violations(u, progress.part(0.25, 0.26));
   if (parameters.sweeps > 0) {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/epi/epi_s.h"
+#include "engine/disparity/common/denoise.h"
+#include "engine/disparity/epi/data_trust.h"
+#include "engine/disparity/epi/epi_l.h"
 
 namespace episcope {
 
-/// Parameters of EPI_C: those of EPI_S, and of the ordering along lines.
-struct EpiCParameters : EpiSParameters {
-  // All views together need less smoothing than each by itself.
-  EpiCParameters() {
-    lambda = 0.06;
-    edge_strength = 30;
-  }
+/// Parameters of EPI_C: of the ordering along lines, and those of EPI_S.
+struct EpiCParameters {
   double fall = 0.1;
   double rise = 0.01;
   double softness = 0.05;
   int sweeps = 4;
-  bool check_lines = true;
+  LineCheck line_check = {};
+  /// All views together need less smoothing than each by itself.
+  DenoiseParameters denoising{.lambda = 0.06, .edge_strength = 30};
+  EpiLParameters tensor = {};
 };
 
 [[nodiscard]] Schema<EpiCParameters> epi_c_schema();

@@ -5,7 +5,6 @@
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/matching_cost.h"
 #include "engine/disparity/common/packed_views.h"
-#include "engine/disparity/epi/data_trust.h"
 
 #include <algorithm>
 #include <cmath>
@@ -85,26 +84,26 @@ class DirectionalData {
 
 Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
-  Schema<P> schema;
-  add_global_labeling_parameters(schema);
-  schema.integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+  return Schema<P>()
+      .part(&P::labeling, global_labeling_schema())
+      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
       .real("truncation", &P::truncation,
             {"Truncation κ", "An estimate that is further off is an outlier", "px"},
             {0.01, 5, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16});
-  add_check_lines(schema);
-  add_epi_l_parameters(schema);
-  schema.search("smoothness", {0.75, 1.5, 3, 6, 12})
+            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16})
+      .part(&P::line_check, line_check_schema())
+      .part(&P::tensor, epi_l_schema())
+      .search("smoothness", {0.75, 1.5, 3, 6, 12})
       .search("weight_power", {0, 2, 8})
       .search("truncation", {0.1, 0.3, 1});
-  return schema;
 }
 
 Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
                         const Progress& progress) {
-  DirectionalOrientations directions = estimate_directions(lf, parameters, progress.part(0, 0.06));
-  if (parameters.check_lines) {
+  DirectionalOrientations directions =
+      estimate_directions(lf, parameters.tensor, progress.part(0, 0.06));
+  if (parameters.line_check.is_on) {
     progress.step("checking lines");
     const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
     lower_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
@@ -122,8 +121,8 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
   const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
-  label_globally(lf, {view, labels, costs.view(), data.mean_weight(), place}, parameters, estimate,
-                 progress.part(0.12, 1));
+  label_globally(lf, {view, labels, costs.view(), data.mean_weight(), place}, parameters.labeling,
+                 estimate, progress.part(0.12, 1));
   return estimate;
 }
 

@@ -2,21 +2,19 @@
 #pragma once
 
 #include "engine/disparity/common/global_labeling.h"
+#include "engine/disparity/epi/data_trust.h"
 #include "engine/disparity/epi/epi_l.h"
 
 namespace episcope {
 
-/// Parameters of EPI_G: those of EPI_L, and of the labeling.
-struct EpiGParameters : EpiLParameters, GlobalLabelingParameters {
-  EpiGParameters() {
-    smoothness = 3;
-    edge_strength = 15;
-    settling = 3;
-  }
+/// Parameters of EPI_G: of the labeling, and those of EPI_L.
+struct EpiGParameters {
+  GlobalLabelingParameters labeling{.smoothness = 3, .edge_strength = 15, .settling = 3};
   int labels = 64;
   double truncation = 0.3;
   double weight_power = 2;
-  bool check_lines = true;
+  LineCheck line_check = {};
+  EpiLParameters tensor = {};
 };
 
 [[nodiscard]] Schema<EpiGParameters> epi_g_schema();

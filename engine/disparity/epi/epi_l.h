@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-/// Parameters of EPI_L.
+/// Parameters of EPI_L, and of every method that begins with it.
 struct EpiLParameters {
   double inner_scale = 0.5;
   double outer_scale = 1.0;
@@ -17,11 +17,6 @@ struct EpiLParameters {
   int fusion_power = 8;
   IntervalOrAuto range;
 };
-
-/// Adds the parameters of EPI_L to the schema of a method that begins with it: `P` derives from
-/// EpiLParameters.
-template <class P>
-void add_epi_l_parameters(Schema<P>& schema);
 
 [[nodiscard]] Schema<EpiLParameters> epi_l_schema();
 
@@ -55,45 +50,5 @@ struct DirectionalOrientations {
 void clamp_to_range(Estimate& estimate, const Progress& progress);
 
 [[nodiscard]] Estimator epi_l_estimator();
-
-template <class P>
-void add_epi_l_parameters(Schema<P>& schema) {
-  schema
-      .real("inner_scale", &P::inner_scale,
-            {"Inner scale", "Gaussian smoothing of the samples before derivatives are taken", "px"},
-            {0, 2})
-      .real("outer_scale", &P::outer_scale,
-            {"Outer scale", "Gaussian window over which orientation is averaged, along the EPI",
-             "px"},
-            {0, 2})
-      .real("view_scale", &P::view_scale,
-            {"View scale", "The same window along the views", "views"}, {0, 3})
-      .real("cross_scale", &P::cross_scale,
-            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2})
-      .real("shear_step", &P::shear_step,
-            {"Shear step",
-             "Distance of the shears that bring every disparity near to upright before its "
-             "orientation is measured; rounded to half pixels",
-             "px"},
-            {0.5, 1.5})
-      .real("contrast", &P::contrast,
-            {"Contrast limit",
-             "Gradients above it count less, so that silhouettes do not drown the texture beside "
-             "them; large values switch this off",
-             "1/255"},
-            {0.1, 255, true})
-      .real("noise", &P::noise,
-            {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
-      .integer("fusion_power", &P::fusion_power,
-               {"Fusion power",
-                "Horizontal and vertical estimates are averaged with weights coherence^p"},
-               {0, 32})
-      .interval("range", &P::range,
-                {"Disparity range",
-                 "Disparities searched; auto takes what the files promise or finds it from the "
-                 "light field",
-                 "px"},
-                {-20, 20});
-}
 
 }  // namespace episcope

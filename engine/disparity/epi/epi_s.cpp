@@ -4,19 +4,18 @@
 namespace episcope {
 
 Schema<EpiSParameters> epi_s_schema() {
-  Schema<EpiSParameters> schema;
-  add_denoise_parameters(schema);
-  add_epi_l_parameters(schema);
-  schema.search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
+  return Schema<EpiSParameters>()
+      .part(&EpiSParameters::denoising, denoise_schema())
+      .part(&EpiSParameters::tensor, epi_l_schema())
+      .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
       .search("weight_power", {0, 2, 6, 12})
       .search("edge_strength", {0, 10, 20});
-  return schema;
 }
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress) {
-  Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.4));
-  denoise(lf, parameters, estimate, progress.part(0.4, 0.98));
+  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.4, 0.98));
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }

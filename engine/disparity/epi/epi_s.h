@@ -6,8 +6,11 @@
 
 namespace episcope {
 
-/// Parameters of EPI_S: those of EPI_L, and of the denoising.
-struct EpiSParameters : EpiLParameters, DenoiseParameters {};
+/// Parameters of EPI_S.
+struct EpiSParameters {
+  DenoiseParameters denoising = {};
+  EpiLParameters tensor = {};
+};
 
 [[nodiscard]] Schema<EpiSParameters> epi_s_schema();
 

@@ -102,7 +102,7 @@ void ViewSolver::find_weights(const LayeredView& view) {
 double ViewSolver::solve_layer(double lambda, ImageView<float> result) {
   return space_.solver
       .solve({space_.data, space_.weight, space_.edge, lambda},
-             {parameters_.max_iterations, parameters_.gap}, progress_, result)
+             {parameters_.stop.max_iterations, parameters_.stop.gap}, progress_, result)
       .relative_gap();
 }
 
@@ -215,8 +215,7 @@ void clamp_layers(Estimate& estimate, const Progress& progress) {
 
 Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
   using P = EpiTwoLayerParameters;
-  Schema<P> schema;
-  schema
+  return Schema<P>()
       .real("decision", &P::decision,
             {"Decision",
              "Two layers where the misfit of one orientation is more than this share "
@@ -256,23 +255,25 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {0, 3})
       .real("double_contrast", &P::double_contrast,
             {"Contrast limit, two layers", "Second derivatives above it count less", "1/255"},
-            {0.1, 255, true});
-  add_stop_parameters(schema);
-  add_epi_l_parameters(schema);
-  schema.search("lambda", {0.05, 0.1, 0.2, 0.4})
+            {0.1, 255, true})
+      .part(&P::stop, stop_schema())
+      .part(&P::tensor, epi_l_schema())
+      .search("lambda", {0.05, 0.1, 0.2, 0.4})
       .search("weight_power", {2, 6})
       .search("decision", {0.1, 0.15, 0.25});
-  return schema;
 }
 
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                 ViewSelection views, const Progress& progress) {
-  const TensorScales scales{parameters.double_inner_scale, parameters.double_outer_scale,
-                            parameters.view_scale,         parameters.cross_scale,
-                            parameters.double_contrast,    parameters.noise};
-  EpiLParameters searched = parameters;
-  searched.range = search_layer_range(lf, parameters, scales, progress.part(0, 0.1));
-  Estimate estimate = estimate_orientations(lf, searched, views, progress.part(0.1, 0.2));
+  EpiLParameters tensor = parameters.tensor;
+  const TensorScales scales{parameters.double_inner_scale,
+                            parameters.double_outer_scale,
+                            tensor.view_scale,
+                            tensor.cross_scale,
+                            parameters.double_contrast,
+                            tensor.noise};
+  tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1));
+  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.2));
   const ViewStack<float>& single = estimate.field.disparity;
   // Cut off at the range itself, noise about its ends would no longer average out.
   constexpr double kOvershoot = 0.3;

@@ -6,18 +6,21 @@
 
 namespace episcope {
 
-/// Parameters of EPI_TWO_LAYER: those of EPI_L for single orientations, of the denoising, and of
-/// the two layers.
-struct EpiTwoLayerParameters : EpiLParameters, DenoiseParameters {
-  EpiTwoLayerParameters() { max_iterations = 30; }
-
+/// Parameters of EPI_TWO_LAYER: of the two layers and their denoising, and those of EPI_L for
+/// single orientations.
+struct EpiTwoLayerParameters {
+  double decision = 0.15;
+  double region_smoothness = 4;
+  double least_distance = 0.2;
+  double lambda = 0.2;
+  double layer_smoothness = 3;
+  double weight_power = 6;
+  double edge_strength = 20;
   double double_inner_scale = 0.8;
   double double_outer_scale = 2;
   double double_contrast = 10;
-  double least_distance = 0.2;
-  double decision = 0.15;
-  double region_smoothness = 4;
-  double layer_smoothness = 3;
+  StopParameters stop{.max_iterations = 30};
+  EpiLParameters tensor = {};
 };
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();

@@ -67,13 +67,49 @@ std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex vi
   return noise;
 }
 
+void apply_profile(MatchedViews views, StereoCostParameters& parameters) {
+  if (parameters.profile != Profile::Paper) return;
+  parameters.epsilon = views == MatchedViews::All ? 1 : kUncapped;
+  parameters.interpolation = Interpolation::Bilinear;
+  parameters.aggregation = 0;
+}
+
 }  // namespace
 
-void apply_cost_profile(StereoCostParameters& parameters, double cap) {
-  if (parameters.profile != "paper") return;
-  parameters.epsilon = cap;
-  parameters.interpolation = "bilinear";
-  parameters.aggregation = 0;
+Names<Profile> names_of(Profile) {
+  return {{Profile::Tuned, "tuned"}, {Profile::Paper, "paper"}};
+}
+
+Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
+  using P = StereoCostParameters;
+  return Schema<P>()
+      .choice("profile", &P::profile,
+              {"Profile",
+               "tuned: as set here; paper: as published, which overrides cap, interpolation, "
+               "aggregation and whatever else the paper does not have, and counts a fifth of the "
+               "smoothness of a global labeling"})
+      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+      .real("epsilon", &P::epsilon,
+            {"Cap ε",
+             "No view adds more than this to the cost, so that those that see something else do "
+             "not decide; 0 takes it from the noise of the light field, 2 is no cap"},
+            {0, kUncapped})
+      .choice("interpolation", &P::interpolation,
+              {"Interpolation", "How views are sampled between pixels"})
+      .integer("aggregation", &P::aggregation,
+               {"Aggregation",
+                "Radius of the window in which neighbours of like colour share their costs "
+                "(guided filter); 0 = none",
+                "px"},
+               {0, 8})
+      .interval("range", &P::range,
+                {"Disparity range",
+                 "Disparities searched; auto takes what the files promise or finds it from the "
+                 "light field",
+                 "px"},
+                {-20, 20})
+      .view("view", &P::view, {"View", "Row and column of the view to estimate; auto = centre"})
+      .completed_by([views](P& p) { apply_profile(views, p); });
 }
 
 StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
@@ -84,10 +120,9 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   costs.range = search_range(lf, parameters.range, progress.part(0, 0.5));
   costs.labels = equidistant_labels(costs.range, parameters.labels);
   costs.matching.views = views;
-  costs.matching.interpolation =
-      parameters.interpolation == "cubic" ? Interpolation::Cubic : Interpolation::Bilinear;
+  costs.matching.interpolation = parameters.interpolation;
   costs.matching.cap = parameters.epsilon;
-  if (parameters.profile != "paper") {
+  if (parameters.profile != Profile::Paper) {
     progress.step("noise");
     const Residuals residuals = find_residuals(lf, costs, progress.part(0.5, 0.8));
     costs.matching.noise =

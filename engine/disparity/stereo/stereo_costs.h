@@ -14,20 +14,25 @@ namespace episcope {
 /// A cap ε that no difference of samples in [0, 1] reaches, √3 being the largest: uncapped.
 inline constexpr double kUncapped = 2;
 
+/// Whether a method of multi-view stereo is run as we tuned it or as published.
+enum class Profile { Tuned, Paper };
+[[nodiscard]] Names<Profile> names_of(Profile);
+
 /// What every method of multi-view stereo has in common: which labels of which view are compared
 /// with the others, and how.
 struct StereoCostParameters {
-  std::string profile = "tuned";
+  Profile profile = Profile::Tuned;
   int labels = 64;
   double epsilon = 0;  ///< ε; 0 = from the noise of the light field, kUncapped = none.
-  std::string interpolation = "cubic";
+  Interpolation interpolation = Interpolation::Cubic;
   int aggregation = 2;
   IntervalOrAuto range;
   ViewOrAuto view;
 };
 
-/// Overwrites what the profile `paper` prescribes: `cap` for ε, bilinear samples, no aggregation.
-void apply_cost_profile(StereoCostParameters& parameters, double cap);
+/// Profile::Paper overwrites ε (no cap for the cross-hair, 1 for all views), interpolation
+/// (bilinear) and aggregation (none).
+[[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);
 
 /// The data term of a view, found out from parameters and light field, before the labels of single
 /// pixels are looked at. Immutable, shared by threads.
@@ -47,7 +52,7 @@ struct StereoCosts {
 /// under noise of 5/255 such a cap takes nearly all differences for occlusions, and the error grows
 /// thirty-fold. Measured on the built-in scenes with noise of 0 to 10/255, still_life and cotton.
 ///
-/// Unless the profile is `paper`, the matching also gets the noise of the view (matching_cost.h):
+/// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h):
 /// at each pixel that of its surroundings (local_noise.h), at most what the residual of the best
 /// quarter of the pixels allows. Error (MSE×100, BadPix(0.07) %) without and with it, ST_AV_S:
 /// still_life 0.51, 11.2; 0.43, 5.3; objects with noise of 5/255 0.26, 8.8; 0.20, 4.1; ST_AV_G:
@@ -84,37 +89,5 @@ class StereoCostRows {
 /// The costs of all rows: height · width · labels · 4 bytes. Throws Cancelled.
 [[nodiscard]] Volume<float> stereo_volume(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
-
-template <class P>
-void add_stereo_cost_parameters(Schema<P>& schema) {
-  schema
-      .choice("profile", &P::profile,
-              {"Profile",
-               "tuned: as set here; paper: as published, which overrides cap, interpolation, "
-               "aggregation and whatever else the paper does not have, and counts a fifth of the "
-               "smoothness of a global labeling"},
-              {"tuned", "paper"})
-      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
-      .real("epsilon", &P::epsilon,
-            {"Cap ε",
-             "No view adds more than this to the cost, so that those that see something else do "
-             "not decide; 0 takes it from the noise of the light field, 2 is no cap"},
-            {0, kUncapped})
-      .choice("interpolation", &P::interpolation,
-              {"Interpolation", "How views are sampled between pixels"}, {"cubic", "bilinear"})
-      .integer("aggregation", &P::aggregation,
-               {"Aggregation",
-                "Radius of the window in which neighbours of like colour share their costs "
-                "(guided filter); 0 = none",
-                "px"},
-               {0, 8})
-      .interval("range", &P::range,
-                {"Disparity range",
-                 "Disparities searched; auto takes what the files promise or finds it from the "
-                 "light field",
-                 "px"},
-                {-20, 20})
-      .view("view", &P::view, {"View", "Row and column of the view to estimate; auto = centre"});
-}
 
 }  // namespace episcope

@@ -57,25 +57,24 @@ double mean_of(const Image<float>& image) {
 }  // namespace
 
 Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
-  Schema<StereoGlobalParameters> schema;
-  add_global_labeling_parameters(schema);
-  add_stereo_cost_parameters(schema);
-  schema.search("smoothness", {0.25, 0.5, 1, 2, 4, 8})
+  using P = StereoGlobalParameters;
+  return Schema<P>()
+      .part(&P::labeling, global_labeling_schema())
+      .part(&P::matching, stereo_cost_schema(views))
+      .search("smoothness", {0.25, 0.5, 1, 2, 4, 8})
       .search("edge_strength", {0, 20})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
-      .completed_by([views](StereoGlobalParameters& p) {
-        if (p.profile != "paper") return;
-        apply_cost_profile(p, views == MatchedViews::All ? 1 : kUncapped);
-        p.edge_strength = 0;
-        p.settling = 0;
+      .completed_by([](P& p) {
+        if (p.matching.profile != Profile::Paper) return;
+        p.labeling.edge_strength = 0;
+        p.labeling.settling = 0;
       });
-  return schema;
 }
 
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
                                 const StereoGlobalParameters& parameters,
                                 const Progress& progress) {
-  const StereoCosts stereo = prepare_stereo(lf, views, parameters, progress.part(0, 0.05));
+  const StereoCosts stereo = prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05));
   progress.step("matching costs");
   const Volume<float> volume = stereo_volume(lf, stereo, progress.part(0.05, 0.3));
   const VolumeView<const float> costs = volume.view();
@@ -94,9 +93,9 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     }
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kLeastWeight)};
   };
-  const double unit = parameters.profile == "paper" ? kPaperSmoothness : 1;
-  label_globally(lf, {stereo.view, stereo.labels, costs, unit * mean_of(means), place}, parameters,
-                 estimate, progress.part(0.31, 0.99));
+  const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
+  label_globally(lf, {stereo.view, stereo.labels, costs, unit * mean_of(means), place},
+                 parameters.labeling, estimate, progress.part(0.31, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));
   return estimate;
 }

@@ -11,7 +11,10 @@ namespace episcope {
 inline constexpr double kPaperSmoothness = 0.2;
 
 /// Parameters of ST_AV_G and ST_CH_G.
-struct StereoGlobalParameters : StereoCostParameters, GlobalLabelingParameters {};
+struct StereoGlobalParameters {
+  GlobalLabelingParameters labeling = {};
+  StereoCostParameters matching = {};
+};
 
 /// The profile `paper` is that of the local methods (no cap or ε = 1, bilinear samples, no
 /// aggregation) without edge weights and settling, and its λ, which the paper does not give, counts

@@ -2,7 +2,6 @@
 #include "engine/disparity/stereo/stereo_local.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/sub_label.h"
 
 #include <algorithm>
 #include <functional>
@@ -63,52 +62,41 @@ class Winners {
   std::vector<float> least_, sum_;
 };
 
-template <class P>
-void add_stereo_local_parameters(Schema<P>& schema) {
-  add_stereo_cost_parameters(schema);
-  schema
-      .choice("refinement", &P::refinement,
-              {"Refinement", "How the disparity is placed between labels"},
-              {"parabola", "equiangular", "none"})
-      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
-      .search("aggregation", {0, 2});
-}
-
 }  // namespace
 
-void apply_local_profile(StereoLocalParameters& parameters, MatchedViews views) {
-  if (parameters.profile != "paper") return;
-  apply_cost_profile(parameters, views == MatchedViews::All ? 1 : kUncapped);
-  parameters.refinement = "none";
-}
-
 Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
-  Schema<StereoLocalParameters> schema;
-  add_stereo_local_parameters(schema);
-  schema.completed_by([views](StereoLocalParameters& p) { apply_local_profile(p, views); });
-  return schema;
+  using P = StereoLocalParameters;
+  return Schema<P>()
+      .part(&P::matching, stereo_cost_schema(views))
+      .choice("refinement", &P::refinement,
+              {"Refinement", "How the disparity is placed between labels"})
+      .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
+      .search("aggregation", {0, 2})
+      .completed_by([](P& p) {
+        if (p.matching.profile == Profile::Paper) p.refinement = Refinement::None;
+      });
 }
 
 Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
-  Schema<StereoSmoothParameters> schema;
-  add_denoise_parameters(schema);
-  add_stereo_local_parameters(schema);
+  using P = StereoSmoothParameters;
   // Fewer caps than the local methods: smoothing takes what noise they leave.
-  schema.search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
+  return Schema<P>()
+      .part(&P::denoising, denoise_schema())
+      .part(&P::local, stereo_local_schema(views))
+      .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
       .search("weight_power", {0, 2})
-      .search("epsilon", {0, 0.02, kUncapped});
-  schema.completed_by([views](StereoSmoothParameters& p) {
-    apply_local_profile(p, views);
-    if (p.profile != "paper") return;
-    p.weight_power = 0;
-    p.edge_strength = 0;
-  });
-  return schema;
+      .search("epsilon", {0, 0.02, kUncapped})
+      .search("aggregation", {0, 2})
+      .completed_by([](P& p) {
+        if (p.local.matching.profile != Profile::Paper) return;
+        p.denoising.weight_power = 0;
+        p.denoising.edge_strength = 0;
+      });
 }
 
 Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
                                const StereoLocalParameters& parameters, const Progress& progress) {
-  const StereoCosts costs = prepare_stereo(lf, views, parameters, progress.part(0, 0.1));
+  const StereoCosts costs = prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1));
   Estimate estimate;
   estimate.range = costs.range;
   estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
@@ -120,8 +108,7 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
   progress.step("matching costs");
   parallel_for_workers(bands, progress.part(0.1, 1), [&]() -> std::function<void(int)> {
     auto source = std::make_shared<StereoCostRows>(lf, costs);
-    auto winners =
-        std::make_shared<Winners>(costs, refinement_of(parameters.refinement), lf.width());
+    auto winners = std::make_shared<Winners>(costs, parameters.refinement, lf.width());
     return [&, source, winners](int i) {
       const int y = i * rows;
       const auto band = source->compute(y, std::min(rows, lf.height() - y), progress);
@@ -137,8 +124,8 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
 Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
                                 const StereoSmoothParameters& parameters,
                                 const Progress& progress) {
-  Estimate estimate = estimate_stereo_local(lf, views, parameters, progress.part(0, 0.85));
-  denoise(lf, parameters, estimate, progress.part(0.85, 1));
+  Estimate estimate = estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1));
   return estimate;
 }
 

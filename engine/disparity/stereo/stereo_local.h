@@ -3,27 +3,24 @@
 
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/estimator.h"
+#include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
 namespace episcope {
 
 /// Parameters of the local stereo methods ST_AV_L and ST_CH_L.
-struct StereoLocalParameters : StereoCostParameters {
-  std::string refinement = "parabola";
+struct StereoLocalParameters {
+  StereoCostParameters matching = {};
+  Refinement refinement = Refinement::Parabola;
 };
 
 /// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
-struct StereoSmoothParameters : StereoLocalParameters, DenoiseParameters {
-  StereoSmoothParameters() {
-    lambda = 0.1;
-    weight_power = 2;
-  }
+struct StereoSmoothParameters {
+  DenoiseParameters denoising{.lambda = 0.1, .weight_power = 2};
+  StereoLocalParameters local = {};
 };
 
-/// Overwrites what the profile `paper` prescribes: no cap for the cross-hair, ε = 1 for all views,
-/// bilinear samples, neither aggregation nor refinement.
-void apply_local_profile(StereoLocalParameters& parameters, MatchedViews views);
-
+/// Profile::Paper has no refinement, and weights neither data nor variation.
 [[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
 [[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
 

@@ -27,19 +27,12 @@ LightField noise(GridShape grid, int height, int width) {
   return {std::move(samples), {}};
 }
 
-template <class Parameters>
-Parameters with_range(Interval range) {
-  Parameters parameters;
-  parameters.range = range;
-  return parameters;
-}
-
 Estimate epi_l(const LightField& lf, ViewSelection views = ViewSelection::All, int threads = 0) {
-  return estimate_epi_l(lf, with_range<EpiLParameters>({-1.2, 1.2}), views, Progress(threads));
+  return estimate_epi_l(lf, {.range = Interval{-1.2, 1.2}}, views, Progress(threads));
 }
 
 Estimate epi_s(const LightField& lf, ViewSelection views = ViewSelection::All, int threads = 0) {
-  return estimate_epi_s(lf, with_range<EpiSParameters>({-1.2, 1.2}), views, Progress(threads));
+  return estimate_epi_s(lf, {.tensor = {.range = Interval{-1.2, 1.2}}}, views, Progress(threads));
 }
 
 }  // namespace
@@ -91,8 +84,8 @@ void ConfidenceTest::cleanTexture_hasConfidence() {
 void ConfidenceTest::disparityBeyondRange_hasNoConfidence() {
   const Scene scene = render("fronto", 64, 64);
   const Interval range{-1.5, -0.5};
-  const Estimate estimate = estimate_epi_l(*scene.light_field, with_range<EpiLParameters>(range),
-                                           ViewSelection::Center, Progress());
+  const Estimate estimate =
+      estimate_epi_l(*scene.light_field, {.range = range}, ViewSelection::Center, Progress());
   const ImageView<const float> map = estimate.field.disparity.view({4, 4});
   const ImageView<const float> r = estimate.confidence.view({4, 4});
   QVERIFY(mean(r, 10) < 0.2);
@@ -109,10 +102,10 @@ void ConfidenceTest::range_isNeverLeft() {
   const Interval range{-0.3, 0.4};
   for (const bool smooth : {false, true}) {
     const Estimate estimate =
-        smooth ? estimate_epi_s(*scene.light_field, with_range<EpiSParameters>(range),
-                                ViewSelection::All, Progress())
-               : estimate_epi_l(*scene.light_field, with_range<EpiLParameters>(range),
-                                ViewSelection::All, Progress());
+        smooth
+            ? estimate_epi_s(*scene.light_field, {.tensor = {.range = range}}, ViewSelection::All,
+                             Progress())
+            : estimate_epi_l(*scene.light_field, {.range = range}, ViewSelection::All, Progress());
     const ViewStack<float>& map = estimate.field.disparity;
     const auto [least, most] = std::minmax_element(map.data(), map.data() + map.size());
     QCOMPARE(*least, static_cast<float>(range.min));

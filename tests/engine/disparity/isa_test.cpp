@@ -30,22 +30,18 @@ constexpr int kWidth = 75;
 // the other; then those of ST_AV_S and ST_CH_G.
 QByteArray computed_maps() {
   const Scene scene = render("objects", kHeight, kWidth, {5, 7});
-  EpiSParameters parameters;
-  parameters.range = Interval{-2, 2};
-  const Estimate local =
-      estimate_epi_l(*scene.light_field, parameters, ViewSelection::All, Progress());
+  const EpiLParameters tensor{.range = Interval{-2, 2}};
+  const Estimate local = estimate_epi_l(*scene.light_field, tensor, ViewSelection::All, Progress());
   const Estimate smooth =
-      estimate_epi_s(*scene.light_field, parameters, ViewSelection::All, Progress());
-  EpiCParameters ordering;
-  ordering.range = parameters.range;
+      estimate_epi_s(*scene.light_field, {.tensor = tensor}, ViewSelection::All, Progress());
   const Estimate ordered =
-      estimate_epi_c(*scene.light_field, ordering, ViewSelection::All, Progress());
+      estimate_epi_c(*scene.light_field, {.tensor = tensor}, ViewSelection::All, Progress());
   StereoSmoothParameters stereo;
-  stereo.range = parameters.range;
+  stereo.local.matching.range = tensor.range;
   const Estimate matched =
       estimate_stereo_smooth(*scene.light_field, MatchedViews::All, stereo, Progress());
   StereoGlobalParameters global;
-  global.range = parameters.range;
+  global.matching.range = tensor.range;
   const Estimate labeled =
       estimate_stereo_global(*scene.light_field, MatchedViews::CrossHair, global, Progress());
   const Scene pane = render("transparent", kHeight, kWidth, {5, 7});

@@ -11,26 +11,25 @@ class SubLabelTest : public QObject {
 
  private slots:
   void offset_isExactForItsShape_data() {
-    QTest::addColumn<QString>("name");
+    QTest::addColumn<Refinement>("shape");
     QTest::addColumn<double>("place");
-    for (const char* name : {"parabola", "equiangular"}) {
+    for (const Refinement shape : {Refinement::Parabola, Refinement::Equiangular}) {
       for (const double place : {-0.5, -0.3, 0.0, 0.2, 0.5}) {
-        QTest::newRow(qPrintable(QString("%1 %2").arg(name).arg(place))) << name << place;
+        QTest::addRow("%s %g", name_of(shape).c_str(), place) << shape << place;
       }
     }
   }
 
   // Costs of the labels −1, 0 and 1 whose least lies at `place`: x² or |x|, any scale and height.
   void offset_isExactForItsShape() {
-    QFETCH(QString, name);
+    QFETCH(Refinement, shape);
     QFETCH(double, place);
     const auto cost = [&](double label) {
       const double x = label - place;
-      return static_cast<float>(0.3 + 0.7 * (name == "parabola" ? x * x : std::fabs(x)));
+      return static_cast<float>(0.3 + 0.7 * (shape == Refinement::Parabola ? x * x : std::fabs(x)));
     };
 
-    const float found =
-        sub_label_offset(cost(-1), cost(0), cost(1), refinement_of(name.toStdString()));
+    const float found = sub_label_offset(cost(-1), cost(0), cost(1), shape);
 
     QVERIFY2(std::fabs(found - place) < 1e-6, qPrintable(QString::number(found)));
   }
@@ -46,7 +45,6 @@ class SubLabelTest : public QObject {
       QCOMPARE(sub_label_offset(0.5F, 1, 0.7F, each), 0.0F);
     }
     QCOMPARE(sub_label_offset(3, 1, 2, Refinement::None), 0.0F);
-    QCOMPARE(refinement_of("none"), Refinement::None);
   }
 };
 

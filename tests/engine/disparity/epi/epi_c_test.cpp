@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_c.h"
 
+#include "engine/disparity/epi/epi_s.h"
 #include "engine/solvers/ordering/ordering_terms.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
@@ -18,7 +19,7 @@ namespace {
 
 EpiCParameters parameters() {
   EpiCParameters p;
-  p.range = Interval{-1.2, 1.2};
+  p.tensor.range = Interval{-1.2, 1.2};
   return p;
 }
 
@@ -28,9 +29,8 @@ Estimate epi_c(const Scene& scene, const EpiCParameters& p = parameters(),
 }
 
 Estimate epi_s(const Scene& scene) {
-  EpiSParameters p;
-  p.range = parameters().range;
-  return estimate_epi_s(*scene.light_field, p, ViewSelection::All, Progress());
+  return estimate_epi_s(*scene.light_field, {.tensor = parameters().tensor}, ViewSelection::All,
+                        Progress());
 }
 
 double mse(const Scene& scene, const Estimate& estimate, ViewIndex view) {
@@ -130,9 +130,9 @@ void EpiCTest::oneSweep_isThatOfTheDefinition() {
   constexpr int width = 40;
   const EpiCParameters p = [] {
     EpiCParameters made = parameters();
-    made.lambda = 1e-6;
+    made.denoising.lambda = 1e-6;
     made.sweeps = 1;
-    made.max_iterations = 200;
+    made.denoising.stop.max_iterations = 200;
     return made;
   }();
   const OrderingPenalty penalty{static_cast<float>(p.rise), static_cast<float>(p.fall),
@@ -177,8 +177,8 @@ void EpiCTest::oneSweep_isThatOfTheDefinition() {
       }
     }
     for (int x = 0; x < width; ++x) {
-      const double w =
-          std::max(1e-3, std::pow(estimate.confidence.view({0, view}).at(0, x), p.weight_power));
+      const double w = std::max(
+          1e-3, std::pow(estimate.confidence.view({0, view}).at(0, x), p.denoising.weight_power));
       u[view][x] =
           (w * f.view({0, view}).at(0, x) + bend[x] * u[view][x] + pull[x]) / (w + bend[x]);
     }
@@ -195,8 +195,8 @@ void EpiCTest::oneSweep_isThatOfTheDefinition() {
 void EpiCTest::gap_isTheLargestOfAllViews() {
   const Scene scene = render("objects", 48, 60, {3, 3}, 0.6, 8);
   EpiCParameters hasty = parameters(), patient = parameters();
-  hasty.max_iterations = 1;
-  patient.max_iterations = 200;
+  hasty.denoising.stop.max_iterations = 1;
+  patient.denoising.stop.max_iterations = 200;
   const auto gap = [&](const EpiCParameters& p) {
     Estimate estimate = epi_s(scene);
     const ViewStack<float> observed = estimate.field.disparity.clone();
@@ -358,7 +358,7 @@ void EpiCTest::singleRowOrColumn_runs() {
 
 void EpiCTest::range_clampsTheResult() {
   EpiCParameters p = parameters();
-  p.range = Interval{-0.2, 0.5};
+  p.tensor.range = Interval{-0.2, 0.5};
   const Estimate estimate = epi_c(render("edge", 40, 50, {3, 3}), p);
   const float* const d = estimate.field.disparity.data();
   for (std::size_t i = 0; i < estimate.field.disparity.size(); ++i) {

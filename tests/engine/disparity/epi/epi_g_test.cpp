@@ -20,7 +20,7 @@ namespace {
 
 EpiGParameters parameters() {
   EpiGParameters p;
-  p.range = Interval{-1.2, 1.2};
+  p.tensor.range = Interval{-1.2, 1.2};
   p.labels = 32;
   return p;
 }
@@ -35,9 +35,9 @@ double mse(const Scene& scene, const Estimate& estimate) {
 // Without smoothness, each pixel by itself.
 EpiGParameters parameters_of_single_pixels() {
   EpiGParameters p = parameters();
-  p.smoothness = 0;
-  p.settling = 0;
-  p.check_lines = false;
+  p.labeling.smoothness = 0;
+  p.labeling.settling = 0;
+  p.line_check.is_on = false;
   return p;
 }
 
@@ -77,9 +77,9 @@ void EpiGTest::directions_agreeWithTheirMerger() {
   const ViewIndex view = scene.light_field->center();
 
   const DirectionalOrientations both =
-      estimate_directions(*scene.light_field, parameters(), Progress());
-  const Estimate merged =
-      estimate_orientations(*scene.light_field, parameters(), ViewSelection::Center, Progress());
+      estimate_directions(*scene.light_field, parameters().tensor, Progress());
+  const Estimate merged = estimate_orientations(*scene.light_field, parameters().tensor,
+                                                ViewSelection::Center, Progress());
 
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 48; ++x) {
@@ -96,7 +96,7 @@ void EpiGTest::directions_areUnknownWithoutViews() {
   const Scene scene = render("slant", 24, 28, {1, 5});
 
   const DirectionalOrientations both =
-      estimate_directions(*scene.light_field, parameters(), Progress());
+      estimate_directions(*scene.light_field, parameters().tensor, Progress());
 
   QVERIFY(mean(both.horizontal.confidence.view({0, 2})) > 0.5);
   QCOMPARE(mean(both.vertical.confidence.view({0, 2})), 0.0);
@@ -105,7 +105,7 @@ void EpiGTest::directions_areUnknownWithoutViews() {
 void EpiGTest::edges_areBetterThanDenoised() {
   const Scene scene = render("edge", 96, 96, {9, 9});
   EpiSParameters denoised;
-  denoised.range = parameters().range;
+  denoised.tensor.range = parameters().tensor.range;
 
   const double global = mse(scene, estimate_epi_g(*scene.light_field, parameters(), Progress()));
   const double smooth =
@@ -154,7 +154,7 @@ void EpiGTest::weakTexture_isNotSmoothedAway() {
 void EpiGTest::smoothness_doesNotDependOnLabelCount() {
   const Scene scene = render("objects", 64, 72, {7, 7});
   EpiGParameters few = parameters(), many = parameters();
-  few.settling = many.settling = 0;
+  few.labeling.settling = many.labeling.settling = 0;
   few.labels = 25;
   many.labels = 97;
   const ViewIndex view = scene.light_field->center();
@@ -176,7 +176,7 @@ void EpiGTest::smoothness_doesNotDependOnLabelCount() {
 void EpiGTest::settlingZero_keepsLabels() {
   const Scene scene = render("slant", 40, 40, {5, 5});
   EpiGParameters p = parameters();
-  p.settling = 0;
+  p.labeling.settling = 0;
 
   const Estimate estimate = estimate_epi_g(*scene.light_field, p, Progress());
 
@@ -188,8 +188,8 @@ void EpiGTest::settlingZero_keepsLabels() {
 void EpiGTest::settling_movesByAStepAtMost() {
   const Scene scene = render("objects", 48, 56, {5, 5}, 1, 5);
   EpiGParameters labels = parameters(), settled = parameters();
-  labels.settling = 0;
-  settled.settling = 20;
+  labels.labeling.settling = 0;
+  settled.labeling.settling = 20;
 
   const Estimate rough = estimate_epi_g(*scene.light_field, labels, Progress());
   const Estimate smooth = estimate_epi_g(*scene.light_field, settled, Progress());
@@ -210,7 +210,8 @@ void EpiGTest::labels_areCheapestByTheDefinition() {
 
   const Estimate estimate = estimate_epi_g(*scene.light_field, p, Progress());
 
-  const DirectionalOrientations both = estimate_directions(*scene.light_field, p, Progress());
+  const DirectionalOrientations both =
+      estimate_directions(*scene.light_field, p.tensor, Progress());
   for (int y = 0; y < 40; ++y) {
     for (int x = 0; x < 48; ++x) {
       const auto directions = said(both, view, y, x);
@@ -237,11 +238,12 @@ void EpiGTest::placement_isTheMeanOfWhatAgrees() {
   const ViewIndex view = scene.light_field->center();
   EpiGParameters p = parameters_of_single_pixels();
   const Estimate labels = estimate_epi_g(*scene.light_field, p, Progress());
-  p.settling = 1e-3;  // hardly any smoothing
+  p.labeling.settling = 1e-3;  // hardly any smoothing
 
   const Estimate placed = estimate_epi_g(*scene.light_field, p, Progress());
 
-  const DirectionalOrientations both = estimate_directions(*scene.light_field, p, Progress());
+  const DirectionalOrientations both =
+      estimate_directions(*scene.light_field, p.tensor, Progress());
   const float step = 2.4F / 31;
   int judged = 0, outliers = 0;
   for (int y = 0; y < 40; ++y) {
@@ -275,7 +277,7 @@ void EpiGTest::note_tellsGapAndEnergy() {
   const auto match =
       QRegularExpression("energy ([0-9.e+]+), gap ([0-9.e+-]+) after ([0-9]+)").match(note);
   QVERIFY2(match.hasMatch(), qPrintable(note));
-  QVERIFY(match.captured(2).toDouble() <= parameters().gap);
+  QVERIFY(match.captured(2).toDouble() <= parameters().labeling.gap);
 }
 
 void EpiGTest::finishing_givesAnEstimate() {
@@ -283,7 +285,7 @@ void EpiGTest::finishing_givesAnEstimate() {
   std::stop_source finish;
   finish.request_stop();
   EpiGParameters p = parameters();
-  p.gap = 1e-6;
+  p.labeling.gap = 1e-6;
 
   const Estimate estimate =
       estimate_epi_g(*scene.light_field, p, Progress({}, finish.get_token(), {}));

@@ -16,12 +16,12 @@ namespace {
 
 EpiSParameters parameters() {
   EpiSParameters p;
-  p.range = Interval{-1.2, 1.2};
+  p.tensor.range = Interval{-1.2, 1.2};
   return p;
 }
 
 Estimate epi_l(const LightField& lf) {
-  return estimate_epi_l(lf, parameters(), ViewSelection::All, Progress());
+  return estimate_epi_l(lf, parameters().tensor, ViewSelection::All, Progress());
 }
 
 Estimate epi_s(const LightField& lf, const EpiSParameters& p = parameters()) {
@@ -123,9 +123,9 @@ void EpiSTest::gap_isTheLargestOfAllViews() {
     estimate.field.disparity.data()[i] = i < 24 * 30 ? static_cast<float>(i * i % 7) : 0.25F;
   }
   EpiSParameters hasty = parameters();
-  hasty.max_iterations = 1;
+  hasty.denoising.stop.max_iterations = 1;
 
-  denoise(lf, hasty, estimate, Progress());
+  denoise(lf, hasty.denoising, estimate, Progress());
 
   const QString note = QString::fromStdString(estimate.notes.back());
   QVERIFY2(note.section(' ', -1).toDouble() > 1e-3, qPrintable(note));
@@ -136,7 +136,7 @@ void EpiSTest::smoothing_growsWithLambda() {
   double before = variation(epi_l(*scene.light_field).field.disparity.view({2, 2}));
   for (const double lambda : {0.02, 0.1, 0.5}) {
     EpiSParameters p = parameters();
-    p.lambda = lambda;
+    p.denoising.lambda = lambda;
     const double now = variation(epi_s(*scene.light_field, p).field.disparity.view({2, 2}));
     QVERIFY2(now < before,
              qPrintable(QString("%1 at λ = %2, was %3").arg(now).arg(lambda).arg(before)));
@@ -148,9 +148,9 @@ void EpiSTest::smoothing_growsWithLambda() {
 void EpiSTest::least_lambda_leavesLocalResult() {
   const Scene scene = render("slant", 48, 64, {5, 5});
   EpiSParameters p = parameters();
-  p.lambda = 0.001;
-  p.weight_power = 0;
-  p.edge_strength = 0;
+  p.denoising.lambda = 0.001;
+  p.denoising.weight_power = 0;
+  p.denoising.edge_strength = 0;
   const Estimate local = epi_l(*scene.light_field);
   const Estimate smooth = epi_s(*scene.light_field, p);
   QVERIFY(largest_difference(local.field.disparity.view({2, 2}),
@@ -166,9 +166,9 @@ void EpiSTest::confidence_isThatOfLocalResult() {
 void EpiSTest::plainMethod_runs() {
   const Scene scene = render("slant", 80, 80, {7, 7}, 1, 5);
   EpiSParameters p = parameters();
-  p.weight_power = 0;
-  p.edge_strength = 0;
-  p.lambda = 0.05;
+  p.denoising.weight_power = 0;
+  p.denoising.edge_strength = 0;
+  p.denoising.lambda = 0.05;
   const double before = mse(scene, epi_l(*scene.light_field), {3, 3});
   const double after = mse(scene, epi_s(*scene.light_field, p), {3, 3});
   QVERIFY2(after < before, qPrintable(QString("%1 before, %2 after").arg(before).arg(after)));

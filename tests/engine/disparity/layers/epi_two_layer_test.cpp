@@ -123,7 +123,7 @@ void EpiTwoLayerTest::noisyWall_hasOneLayer() {
         return 0.7F + 3 / 255.0F * scenes::sensor_noise(1, ray * 3 + c);
       });
   EpiTwoLayerParameters parameters;
-  parameters.range = Interval{-1.5, 1.5};
+  parameters.tensor.range = Interval{-1.5, 1.5};
   const Estimate estimate =
       estimate_epi_two_layer(wall, parameters, ViewSelection::Center, Progress());
   const auto& layers = estimate.layered.layers;
@@ -192,15 +192,15 @@ void EpiTwoLayerTest::layers_stayWithinTheRange() {
   const DisparityView near = scene.truth->foreground.view({2, 2});
   const DisparityView far = scene.truth->background.view({2, 2});
   EpiTwoLayerParameters p;
-  p.range = Interval{far.disparity.at(32, 32) + 0.1, near.disparity.at(32, 32) - 0.1};
-  QVERIFY(near.is_valid(32, 32) && p.range->length() > 0.5);
+  p.tensor.range = Interval{far.disparity.at(32, 32) + 0.1, near.disparity.at(32, 32) - 0.1};
+  QVERIFY(near.is_valid(32, 32) && p.tensor.range->length() > 0.5);
   const Estimate estimate =
       estimate_epi_two_layer(*scene.light_field, p, ViewSelection::All, Progress());
   for (const ViewStack<float>* layer :
        {&estimate.layered.foreground.disparity, &estimate.layered.background.disparity}) {
     const auto [least, most] = std::minmax_element(layer->data(), layer->data() + layer->size());
-    QVERIFY(*least >= static_cast<float>(p.range->min) &&
-            *most <= static_cast<float>(p.range->max));
+    QVERIFY(*least >= static_cast<float>(p.tensor.range->min) &&
+            *most <= static_cast<float>(p.tensor.range->max));
   }
 }
 
@@ -208,11 +208,11 @@ void EpiTwoLayerTest::range_isWidenedToBothLayers() {
   for (const double scale : {1.0, 3.0}) {
     const Scene scene = render("transparent", kSize, kSize, {9, 9}, scale);
     const EpiTwoLayerParameters p;
-    const TensorScales scales{p.double_inner_scale, p.double_outer_scale, p.view_scale,
-                              p.cross_scale,        p.double_contrast,    p.noise};
+    const TensorScales scales{p.double_inner_scale, p.double_outer_scale, p.tensor.view_scale,
+                              p.tensor.cross_scale, p.double_contrast,    p.tensor.noise};
     const Interval single = search_range(*scene.light_field, {}, Progress());
 
-    const Interval both = search_layer_range(*scene.light_field, p, scales, Progress());
+    const Interval both = search_layer_range(*scene.light_field, p.tensor, scales, Progress());
 
     QVERIFY(both.min <= single.min && both.max >= single.max);
     QVERIFY(both.min <= scene.truth->background.view({4, 4}).disparity.at(64, 64));
@@ -224,7 +224,7 @@ void EpiTwoLayerTest::opaqueScene_comesOutAsByEpiS() {
   const Scene scene = render("objects", 96, 96, {5, 5});
   EpiSParameters parameters;
   EpiTwoLayerParameters layered;
-  parameters.range = layered.range = Interval{-2, 2};
+  parameters.tensor.range = layered.tensor.range = Interval{-2, 2};
   const Estimate smooth =
       estimate_epi_s(*scene.light_field, parameters, ViewSelection::Center, Progress());
   const Estimate found =

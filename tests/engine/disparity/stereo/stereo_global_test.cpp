@@ -16,7 +16,7 @@ namespace {
 
 StereoGlobalParameters parameters() {
   StereoGlobalParameters p;
-  p.range = Interval{-1.9, 1.9};
+  p.matching.range = Interval{-1.9, 1.9};
   return p;
 }
 
@@ -60,7 +60,7 @@ class StereoGlobalTest : public QObject {
 void StereoGlobalTest::noisyScene_isBetterThanLocal() {
   const Scene scene = render("objects", 160, 192, {5, 5}, 1, 5);
   StereoLocalParameters local;
-  local.range = parameters().range;
+  local.matching.range = parameters().matching.range;
 
   const double global =
       mse(scene, estimate_stereo_global(*scene.light_field, fetched(), parameters(), Progress()));
@@ -91,8 +91,8 @@ void StereoGlobalTest::flatPatch_isPlacedByItsSurroundings() {
     return static_cast<float>(0.5 + (is_patch ? 0 : texture));
   });
   StereoGlobalParameters p = parameters();
-  p.range = Interval{-1, 1};
-  p.labels = 8;
+  p.matching.range = Interval{-1, 1};
+  p.matching.labels = 8;
 
   const Estimate estimate = estimate_stereo_global(lf, MatchedViews::All, p, Progress());
 
@@ -108,7 +108,7 @@ void StereoGlobalTest::flatPatch_isPlacedByItsSurroundings() {
 void StereoGlobalTest::confidence_isThatOfTheLocalMethod() {
   const Scene scene = render("fronto", 64, 64, {5, 5}, 1, 2);
   StereoLocalParameters local;
-  local.range = parameters().range;
+  local.matching.range = parameters().matching.range;
 
   const ViewIndex view = scene.light_field->center();
   const Estimate global =
@@ -143,7 +143,7 @@ void StereoGlobalTest::paperProfile_keepsThinBars() {
   };
   const std::pair<std::string, ParameterValue> profile{"profile", std::string("paper")};
   const std::pair<std::string, ParameterValue> range{"range", Interval{-0.55, 0.85}};
-  const double of_default = StereoGlobalParameters{}.smoothness;
+  const double of_default = StereoGlobalParameters{}.labeling.smoothness;
 
   const double paper = error({profile, range});
   const double as_tuned = error({profile, range, {"smoothness", of_default / kPaperSmoothness}});
@@ -155,7 +155,7 @@ void StereoGlobalTest::anyView_isEstimated() {
   const Scene scene = render("edge", 48, 56, {5, 5});
   StereoGlobalParameters p = parameters();
   const ViewIndex corner{0, 4};
-  p.view = corner;
+  p.matching.view = corner;
 
   const Estimate estimate =
       estimate_stereo_global(*scene.light_field, MatchedViews::All, p, Progress());

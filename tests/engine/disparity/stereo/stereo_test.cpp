@@ -174,9 +174,10 @@ void StereoTest::everyView_canBeEstimated() {
 void StereoTest::bands_areThoseOfTheVolume() {
   const LightField& lf = *scene("objects").light_field;
   StereoLocalParameters parameters;
-  parameters.range = Interval{-2, 2};
-  parameters.refinement = "none";
-  const StereoCosts costs = prepare_stereo(lf, MatchedViews::CrossHair, parameters, Progress());
+  parameters.matching.range = Interval{-2, 2};
+  parameters.refinement = Refinement::None;
+  const StereoCosts costs =
+      prepare_stereo(lf, MatchedViews::CrossHair, parameters.matching, Progress());
   const Volume<float> volume = stereo_volume(lf, costs, Progress());
   const Estimate estimate =
       estimate_stereo_local(lf, MatchedViews::CrossHair, parameters, Progress());
@@ -196,9 +197,10 @@ void StereoTest::bands_areThoseOfTheVolume() {
 void StereoTest::seamsOfBands_doNotShow() {
   const LightField& lf = *scene("objects").light_field;
   StereoLocalParameters parameters;
-  parameters.range = Interval{-2, 2};
-  parameters.labels = 9;
-  const StereoCosts costs = prepare_stereo(lf, MatchedViews::CrossHair, parameters, Progress());
+  parameters.matching.range = Interval{-2, 2};
+  parameters.matching.labels = 9;
+  const StereoCosts costs =
+      prepare_stereo(lf, MatchedViews::CrossHair, parameters.matching, Progress());
   StereoCostRows whole(lf, costs), cut(lf, costs);
   const VolumeView<const float> all = whole.compute(0, lf.height(), Progress());
   for (const int y : {0, 16, 37, lf.height() - 16}) {
