@@ -209,8 +209,8 @@ class Runner {
     BenchmarkResult& result = record.result;
     Estimate estimate;
     try {
-      estimate = method.run(*open.scene.light_field, record.run.parameters, record.run.views,
-                            part.part(0, 0.95));
+      estimate = method.run(*open.scene.light_field, record.run.parameters,
+                            {.views = record.run.views}, part.part(0, 0.95));
     } catch (const Error& error) {
       result.problem = error.what();
     } catch (const std::bad_alloc&) {

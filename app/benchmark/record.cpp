@@ -2,6 +2,7 @@
 #include "app/benchmark/record.h"
 
 #include "app/benchmark/scene_fingerprint.h"
+#include "engine/core/error.h"
 #include "engine/core/version.h"
 #include "engine/io/maps/parameter_json.h"
 #include "engine/io/maps/result_file.h"
@@ -14,10 +15,6 @@ namespace episcope {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-const char* views_name(ViewSelection views) {
-  return views == ViewSelection::All ? "all" : "center";
-}
 
 Json metrics_json(const Metrics& metrics) {
   Json json = Json::object();
@@ -41,7 +38,7 @@ BenchmarkRecord read_record(const Json& json) {
   run.method = json.at("method");
   run.revision = json.at("revision");
   run.parameters = io::parameters_from_json(json.at("parameters").dump());
-  run.views = json.at("views") == "all" ? ViewSelection::All : ViewSelection::Center;
+  run.views = value_named<ViewSelection>(json.at("views"));
   BenchmarkResult& result = record.result;
   result.entry = run.method;
   result.scene = json.at("scene");
@@ -72,8 +69,8 @@ BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point, Vie
 std::string record_key(const BenchmarkRun& run, const std::string& fingerprint) {
   std::string text = run.is_search ? "search" : "run";
   for (const std::string& part :
-       {fingerprint, run.method, io::parameters_to_json(run.parameters),
-        std::string(views_name(run.views)), std::string(kVersion), std::to_string(run.revision)}) {
+       {fingerprint, run.method, io::parameters_to_json(run.parameters), name_of(run.views),
+        std::string(kVersion), std::to_string(run.revision)}) {
     text += "\n" + part;
   }
   return text_fingerprint(text);
@@ -88,7 +85,7 @@ std::string record_to_json(const BenchmarkRecord& record) {
   json["input"] = record.input;
   json["method"] = record.run.method;
   json["parameters"] = Json::parse(io::parameters_to_json(record.run.parameters));
-  json["views"] = views_name(record.run.views);
+  json["views"] = name_of(record.run.views);
   json["version"] = kVersion;
   json["revision"] = record.run.revision;
   json["seconds"] = result.seconds;
@@ -105,6 +102,8 @@ std::optional<BenchmarkRecord> record_from_json(const std::string& line) {
   try {
     return read_record(Json::parse(line));
   } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const InvalidInput&) {
     return std::nullopt;
   }
 }

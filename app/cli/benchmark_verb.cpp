@@ -21,7 +21,7 @@ struct Request {
   std::vector<std::string> submissions;
   std::string methods = "all";
   std::string output;
-  std::string views = "all";
+  std::string views = name_of(ViewSelection::All);
   bool has_search = false;
   bool is_json = false;
   JobOptions job;
@@ -43,7 +43,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
               "Also search parameters: the best of each scene, and equal ones for all scenes");
   parser.list_option("--submission", request.submissions, "DIR...",
                      "Folders with maps of other programs, named after the scenes");
-  parser.choice("--views", request.views, {"center", "all"},
+  parser.choice("--views", request.views, all_names<ViewSelection>(),
                 "Views to estimate for the tables; all where the method can");
   parser.flag("--json", request.is_json, "One JSON object instead of tables");
   return parse_reading(parser, arguments, request.job, request.read);
@@ -74,7 +74,7 @@ BenchmarkOptions benchmark_options(const Request& request) {
   options.methods = chosen_methods(request.methods);
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
   options.folder = request.output;
-  options.views = request.views == "all" ? ViewSelection::All : ViewSelection::Center;
+  options.views = value_named<ViewSelection>(request.views);
   options.has_search = request.has_search;
   for (const auto& input : request.inputs) check_input(input);
   return options;

@@ -22,7 +22,7 @@ struct Request {
   std::string input;
   std::string output;
   std::string views;
-  std::string device = "auto";
+  std::string device = name_of(Device::Auto);
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
@@ -67,9 +67,9 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
   parser.positional("METHOD", request.method, "Id of the estimator");
   parser.positional("INPUT", request.input, "The light field");
   parser.required_option("-o,--output", request.output, "OUT.h5", "Result file to write");
-  parser.choice("--views", request.views, {"center", "all"},
+  parser.choice("--views", request.views, all_names<ViewSelection>(),
                 "Views to estimate; by default all, if the method can");
-  parser.choice("--device", request.device, {"auto", "cpu", "cuda"}, "Where to compute");
+  parser.choice("--device", request.device, all_names<Device>(), "Where to compute");
   parser.flag("--json", request.is_json, "One JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
@@ -79,9 +79,10 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
 }
 
 ViewSelection selected_views(const Request& request, const Estimator& estimator) {
-  if (request.views == "center") return ViewSelection::Center;
-  if (estimator.info.all_views) return ViewSelection::All;
-  if (request.views.empty()) return ViewSelection::Center;
+  const bool can_all = estimator.info.all_views;
+  if (request.views.empty()) return can_all ? ViewSelection::All : ViewSelection::Center;
+  const ViewSelection wanted = value_named<ViewSelection>(request.views);
+  if (can_all || wanted == ViewSelection::Center) return wanted;
   const auto& parameters = estimator.parameters;
   const bool chooses = std::any_of(parameters.begin(), parameters.end(),
                                    [](const auto& one) { return one.key == "view"; });
@@ -98,30 +99,30 @@ LightFieldPtr load_light_field(const Request& request, Job& job) {
   return scene.light_field;
 }
 
-/// "all", "center" or row and column of the only view.
-std::string covered_views(const Estimate& estimate, ViewIndex center) {
+/// For JSON "all", "center" or row and column of the only view; in words for people.
+struct CoveredViews {
+  std::string name;
+  std::string text;
+};
+CoveredViews covered_views(const Estimate& estimate, ViewIndex center) {
   const ViewStack<float>& stack = estimate.field.disparity;
-  if (stack.grid().count() > 1) return "all";
-  return stack.first() == center ? "center" : view_text(stack.first());
-}
-
-std::string covered_views_text(const std::string& views) {
-  if (views == "all") return "all views";
-  return views == "center" ? "the centre view" : "view " + views;
+  if (stack.grid().count() > 1) return {name_of(ViewSelection::All), "all views"};
+  if (stack.first() == center) return {name_of(ViewSelection::Center), "the centre view"};
+  return {view_text(stack.first()), "view " + view_text(stack.first())};
 }
 
 void print_answer(const Request& request, const Estimate& estimate, ViewIndex center) {
-  const std::string views = covered_views(estimate, center);
+  const CoveredViews views = covered_views(estimate, center);
   if (!request.is_json) {
-    std::cout << request.output << ": " << estimate.method << " of " << covered_views_text(views)
-              << std::fixed << std::setprecision(2) << " in " << estimate.seconds
-              << " s, disparity " << estimate.range.min << " … " << estimate.range.max << " px, "
+    std::cout << request.output << ": " << estimate.method << " of " << views.text << std::fixed
+              << std::setprecision(2) << " in " << estimate.seconds << " s, disparity "
+              << estimate.range.min << " … " << estimate.range.max << " px, "
               << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
     return;
   }
   Json json;
   json["method"] = estimate.method;
-  json["views"] = views;
+  json["views"] = views.name;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
@@ -150,18 +151,19 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
     if (!parse(arguments, estimator, request, parameters)) return;
   }
   const ParameterSet values = parameters.values(estimator->parameters);
-  const ViewSelection views = selected_views(request, *estimator);
-  if (request.device == "cuda") {
-    throw Unavailable("this build computes on the CPU only; use --device cpu or auto");
-  }
+  RunOptions options{.views = selected_views(request, *estimator),
+                     .device = value_named<Device>(request.device)};
+  // The method asks as well, but not before the light field is loaded.
+  require_device(options.device, estimator->info);
   check_hdf5_output("estimate", request.output);
   check_result_output(request.output);
   protect_input(request.output, request.input);
 
   Job job(std::move(stop), request.job);
   const Progress& progress = job.progress();
+  options.threads = progress.threads();
   const LightFieldPtr light_field = load_light_field(request, job);
-  Estimate estimate = estimator->run(*light_field, values, views, progress.part(0.3, 0.9));
+  Estimate estimate = estimator->run(*light_field, values, options, progress.part(0.3, 0.9));
   estimate.source = source_text(request.input, request.output);
   estimate.source_hash = light_field->sample_hash();
   progress.check();

@@ -65,8 +65,7 @@ std::string command_line_for(const std::string& method, const ParameterSet& valu
                              ViewSelection views, const std::string& input,
                              const io::OpenOptions& conventions) {
   std::string line = "episcope-cli estimate " + shell_quoted(method) + " " + shell_quoted(input) +
-                     " -o " + shell_quoted(method + ".h5") + " --views " +
-                     (views == ViewSelection::All ? "all" : "center");
+                     " -o " + shell_quoted(method + ".h5") + " --views " + name_of(views);
   for (const auto& [key, value] : changed_parameters(method, values)) {
     // "=" keeps a value that begins with a minus from being read as an option.
     line += " --" + key + "=" + shell_quoted(to_text(value));

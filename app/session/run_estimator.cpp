@@ -10,7 +10,8 @@ namespace episcope {
 FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequest& request,
                                const Progress& progress) {
   const Estimator estimator = find_estimator(request.method);
-  Estimate estimate = estimator.run(light_field, request.parameters, request.views, progress);
+  Estimate estimate =
+      estimator.run(light_field, request.parameters, {.views = request.views}, progress);
   estimate.source_hash = light_field.sample_hash();
   if (progress.finish_requested() && estimator.info.iterative) {
     estimate.notes.push_back(kTakenEarly);

@@ -19,7 +19,7 @@ Measurement measure(const std::string& name, const Scene& scene, const Estimator
                     const Progress& progress) {
   const ViewIndex center = scene.light_field->center();
   const auto views = estimator.info.all_views ? ViewSelection::All : ViewSelection::Center;
-  const Estimate estimate = estimator.run(*scene.light_field, {}, views, progress);
+  const Estimate estimate = estimator.run(*scene.light_field, {}, {.views = views}, progress);
   const auto judge = [&](Protocol protocol) {
     return evaluate(estimate.field.view(center), scene.truth->field.view(center), {},
                     {.protocol = protocol});

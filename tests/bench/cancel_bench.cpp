@@ -27,7 +27,7 @@ ViewSelection views_of(const Estimator& estimator) {
 
 double whole_run(const Estimator& estimator) {
   const double start = now();
-  (void)estimator.run(bench::demo_768(), {}, views_of(estimator), Progress());
+  (void)estimator.run(bench::demo_768(), {}, {.views = views_of(estimator)}, Progress());
   return now() - start;
 }
 
@@ -55,7 +55,7 @@ Answer answer_to_stop(const Estimator& estimator, double after) {
     stop.request_stop();
   });
   try {
-    (void)estimator.run(bench::demo_768(), {}, views_of(estimator), progress);
+    (void)estimator.run(bench::demo_768(), {}, {.views = views_of(estimator)}, progress);
   } catch (const Cancelled&) {
     return {1e3 * (now() - asked), stage};
   }

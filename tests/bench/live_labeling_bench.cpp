@@ -44,8 +44,8 @@ struct Bench {
 
   Bench() {
     const double start = bench::now();
-    auto estimate = std::make_shared<Estimate>(
-        find_estimator("epi_s").run(*scene.light_field, {}, ViewSelection::All, Progress()));
+    auto estimate = std::make_shared<Estimate>(find_estimator("epi_s").run(
+        *scene.light_field, {}, {.views = ViewSelection::All}, Progress()));
     disparity = {estimate, &estimate->field};
     disparity_seconds = bench::now() - start;
   }

@@ -28,7 +28,7 @@ void method(benchmark::State& state, const char* id) {
   for (auto _ : state) {
     const double start = now();
     benchmark::DoNotOptimize(
-        estimator.run(bench::demo_768(), values, ViewSelection::Center, Progress()));
+        estimator.run(bench::demo_768(), values, {.views = ViewSelection::Center}, Progress()));
     best = std::min(best, now() - start);
   }
   if (has_peak) {

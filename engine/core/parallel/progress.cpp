@@ -13,7 +13,6 @@ struct Progress::Shared {
   std::stop_token stop;
   std::stop_token finish;
   Listener listener;
-  int threads = 1;
   std::mutex mutex;
   ProgressState state;
 };
@@ -24,12 +23,12 @@ Progress::Progress(std::stop_token stop, Listener listener, int threads)
     : Progress(std::move(stop), {}, std::move(listener), threads) {}
 
 Progress::Progress(std::stop_token stop, std::stop_token finish, Listener listener, int threads)
-    : shared_(std::make_shared<Shared>()) {
+    : shared_(std::make_shared<Shared>()),
+      threads_(threads > 0 ? threads
+                           : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
   shared_->stop = std::move(stop);
   shared_->finish = std::move(finish);
   shared_->listener = std::move(listener);
-  shared_->threads =
-      threads > 0 ? threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 void Progress::report(double fraction) const {
@@ -63,7 +62,7 @@ bool Progress::finish_requested() const {
 }
 
 int Progress::threads() const {
-  return is_alone_ ? 1 : shared_->threads;
+  return threads_;
 }
 
 Progress Progress::part(double begin, double end) const {
@@ -73,10 +72,10 @@ Progress Progress::part(double begin, double end) const {
   return inner;
 }
 
-Progress Progress::on_one_thread() const {
-  Progress alone = *this;
-  alone.is_alone_ = true;
-  return alone;
+Progress Progress::limited_to(int threads) const {
+  Progress limited = *this;
+  if (threads > 0) limited.threads_ = std::min(threads, threads_);
+  return limited;
 }
 
 Progress Progress::titled(const std::string& title) const {

@@ -42,9 +42,11 @@ class Progress {
 
   /// A progress for the part [begin, end] of this one.
   [[nodiscard]] Progress part(double begin, double end) const;
+  /// This one, for a computation that may use at most `threads` threads; 0 = no fewer than before.
+  [[nodiscard]] Progress limited_to(int threads) const;
   /// This one, for a computation that should stay on the thread that calls it, because many of them
   /// run side by side.
-  [[nodiscard]] Progress on_one_thread() const;
+  [[nodiscard]] Progress on_one_thread() const { return limited_to(1); }
   /// This one, with "<title>: " before the name of every stage.
   [[nodiscard]] Progress titled(const std::string& title) const;
 
@@ -53,7 +55,7 @@ class Progress {
   std::shared_ptr<Shared> shared_;
   double begin_ = 0;
   double end_ = 1;
-  bool is_alone_ = false;
+  int threads_ = 1;
   std::string title_;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/run_options.h"
 
 #include <functional>
 #include <string>
@@ -15,18 +16,18 @@ namespace episcope {
 
 /// What a list of methods shows.
 struct EstimatorInfo {
-  std::string id;         ///< As on the command line: "epi_l".
-  std::string name;       ///< As in the paper: "EPI_L".
-  std::string summary;    ///< One line.
-  std::string reference;  ///< Authors, year, key in resources/references.bib.
-  bool all_views =
-      false;  ///< Can estimate every view at once; else one view, the centre by default.
+  std::string id;          ///< As on the command line: "epi_l".
+  std::string name;        ///< As in the paper: "EPI_L".
+  std::string summary;     ///< One line.
+  std::string reference;   ///< Authors, year, key in resources/references.bib.
+  bool all_views = false;  ///< Estimates every view at once; else one, the centre by default.
   bool iterative = false;  ///< Ends early with what it has (Progress::finish_requested).
   int revision = 1;  ///< Grows whenever results change: kept benchmark results are then renewed.
+  std::vector<Device> devices = {Device::Cpu};  ///< Where it can compute.
 };
 
-/// Which views an estimate should cover.
-enum class ViewSelection { All, Center };
+/// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.
+void require_device(Device device, const EstimatorInfo& info);
 
 /// A disparity estimator: pure, no globals, no files. Values of this type come from
 /// `registered_estimators()`; `make_estimator` makes one from a parameter struct and a function.
@@ -35,9 +36,9 @@ struct Estimator {
   std::vector<ParameterDescription> parameters;
 
   /// Estimates with `values` over the defaults. Fills every field of Estimate but `source_hash`.
-  /// Throws InvalidInput for bad parameters or a light field that the method cannot use, Cancelled
-  /// on a stop request (within 200 ms).
-  std::function<Estimate(const LightField&, const ParameterSet& values, ViewSelection,
+  /// Throws Unavailable as `require_device`, InvalidInput for bad parameters or a light field that
+  /// the method cannot use, Cancelled on a stop request (within 200 ms).
+  std::function<Estimate(const LightField&, const ParameterSet& values, const RunOptions&,
                          const Progress&)>
       run;
 };
@@ -61,12 +62,14 @@ Estimator make_estimator(
   estimator.info = info;
   estimator.parameters = schema.descriptions();
   estimator.run = [info = std::move(info), schema = std::move(schema),
-                   estimate = std::move(estimate)](const LightField& light_field,
-                                                   const ParameterSet& values, ViewSelection views,
-                                                   const Progress& progress) {
+                   estimate = std::move(estimate)](
+                      const LightField& light_field, const ParameterSet& values,
+                      const RunOptions& options, const Progress& progress) {
+    require_device(options.device, info);
     const Stopwatch watch;
     const P parameters = schema.parse(values);
-    Estimate result = estimate(light_field, parameters, views, progress);
+    Estimate result =
+        estimate(light_field, parameters, options.views, progress.limited_to(options.threads));
     result.parameters = schema.values(parameters);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;

@@ -248,8 +248,13 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
 
 Estimator epi_c_estimator() {
   return make_estimator<EpiCParameters>(
-      {"epi_c", "EPI_C", "EPI_L, denoised over all views with occlusion ordering along the lines",
-       "Goldluecke and Wanner 2013 [GW13]", true, true, 2},
+      {.id = "epi_c",
+       .name = "EPI_C",
+       .summary = "EPI_L, denoised over all views with occlusion ordering along the lines",
+       .reference = "Goldluecke and Wanner 2013 [GW13]",
+       .all_views = true,
+       .iterative = true,
+       .revision = 2},
       epi_c_schema(), estimate_epi_c);
 }
 

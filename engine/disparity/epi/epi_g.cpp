@@ -128,8 +128,12 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
 
 Estimator epi_g_estimator() {
   return make_estimator<EpiGParameters>(
-      {"epi_g", "EPI_G", "Globally optimal labeling of what the epipolar plane images say",
-       "Wanner and Goldluecke 2012 [WG12]", false, true, 3},
+      {.id = "epi_g",
+       .name = "EPI_G",
+       .summary = "Globally optimal labeling of what the epipolar plane images say",
+       .reference = "Wanner and Goldluecke 2012 [WG12]",
+       .iterative = true,
+       .revision = 3},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

@@ -255,8 +255,12 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
 
 Estimator epi_l_estimator() {
   return make_estimator<EpiLParameters>(
-      {"epi_l", "EPI_L", "Orientation of lines on epipolar plane images (structure tensor), local",
-       "Wanner and Goldluecke 2012 [WG12]", true, false, 2},
+      {.id = "epi_l",
+       .name = "EPI_L",
+       .summary = "Orientation of lines on epipolar plane images (structure tensor), local",
+       .reference = "Wanner and Goldluecke 2012 [WG12]",
+       .all_views = true,
+       .revision = 2},
       epi_l_schema(), estimate_epi_l);
 }
 

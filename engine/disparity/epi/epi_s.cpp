@@ -22,8 +22,13 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
 
 Estimator epi_s_estimator() {
   return make_estimator<EpiSParameters>(
-      {"epi_s", "EPI_S", "EPI_L, denoised view by view with total variation (TV-L2)",
-       "Wanner and Goldluecke 2013 [WG13]", true, true, 2},
+      {.id = "epi_s",
+       .name = "EPI_S",
+       .summary = "EPI_L, denoised view by view with total variation (TV-L2)",
+       .reference = "Wanner and Goldluecke 2013 [WG13]",
+       .all_views = true,
+       .iterative = true,
+       .revision = 2},
       epi_s_schema(), estimate_epi_s);
 }
 

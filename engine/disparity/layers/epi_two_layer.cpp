@@ -291,10 +291,14 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
 
 Estimator epi_two_layer_estimator() {
   return make_estimator<EpiTwoLayerParameters>(
-      {"epi_two_layer", "EPI_TWO_LAYER",
-       "Two superimposed orientations on epipolar plane "
-       "images: transparent and reflecting surfaces",
-       "Wanner and Goldluecke 2013 [Ano13]", true, true, 2},
+      {.id = "epi_two_layer",
+       .name = "EPI_TWO_LAYER",
+       .summary = "Two superimposed orientations on epipolar plane images: transparent and "
+                  "reflecting surfaces",
+       .reference = "Wanner and Goldluecke 2013 [Ano13]",
+       .all_views = true,
+       .iterative = true,
+       .revision = 2},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

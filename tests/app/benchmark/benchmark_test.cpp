@@ -36,7 +36,13 @@ Estimator counting_method(const char* id, int& runs, int revision = 1) {
       .integer("fails_from", &ShiftParameters::fails_from, {"Fails", "From there."}, {0, 9})
       .search("shift", {-0.5, 0.3, 0.8});
   return make_estimator<ShiftParameters>(
-      {id, id, "", "", true, false, revision}, schema,
+      {.id = id,
+       .name = id,
+       .summary = "",
+       .reference = "",
+       .all_views = true,
+       .revision = revision},
+      schema,
       [&runs](const LightField& lf, const ShiftParameters& p, ViewSelection views,
               const Progress& progress) {
         progress.check();

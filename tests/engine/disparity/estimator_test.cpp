@@ -36,8 +36,10 @@ void add_methods() {
   }
 }
 
-ViewSelection widest(const Estimator& estimator) {
-  return estimator.info.all_views ? ViewSelection::All : ViewSelection::Center;
+const RunOptions kCenter{.views = ViewSelection::Center};
+
+RunOptions widest(const Estimator& estimator) {
+  return {.views = estimator.info.all_views ? ViewSelection::All : ViewSelection::Center};
 }
 
 Estimator fetched() {
@@ -66,6 +68,10 @@ class EstimatorTest : public QObject {
  private slots:
   void registry_listsDistinctMethods();
   void unknownMethod_namesTheNearest();
+  void parameters_haveDistinctKeys_data() { add_methods(); }
+  void parameters_haveDistinctKeys();
+  void foreignDevice_isUnavailable_data() { add_methods(); }
+  void foreignDevice_isUnavailable();
   void method_runsAndFillsProvenance_data() { add_methods(); }
   void method_runsAndFillsProvenance();
   void givenParameters_areUsedAndRecorded_data() { add_methods(); }
@@ -106,6 +112,26 @@ void EstimatorTest::unknownMethod_namesTheNearest() {
   QVERIFY2(!far.empty() && !mentions(far, "did you mean"), far.c_str());
 }
 
+// Parts of a schema might bring the same key.
+void EstimatorTest::parameters_haveDistinctKeys() {
+  std::set<std::string> keys;
+  for (const ParameterDescription& parameter : fetched().parameters) {
+    QVERIFY2(keys.insert(parameter.key).second, parameter.key.c_str());
+  }
+}
+
+void EstimatorTest::foreignDevice_isUnavailable() {
+  const Estimator estimator = fetched();
+
+  require_device(Device::Auto, estimator.info);
+  require_device(Device::Cpu, estimator.info);
+  QVERIFY_THROWS_EXCEPTION(Unavailable, require_device(Device::Cuda, estimator.info));
+
+  const std::string text =
+      message_of([&] { (void)estimator.run(tiny(), {}, {.device = Device::Cuda}, Progress()); });
+  QCOMPARE(text, "this build computes on the CPU only; use --device cpu or auto");
+}
+
 void EstimatorTest::method_runsAndFillsProvenance() {
   const Estimator estimator = fetched();
   const auto start = Clock::now();
@@ -135,7 +161,7 @@ void EstimatorTest::givenParameters_areUsedAndRecorded() {
   const Estimator estimator = fetched();
   const Interval wanted{-0.7, 1.1};
   const Estimate estimate =
-      estimator.run(tiny(), {{"range", IntervalOrAuto(wanted)}}, ViewSelection::Center, Progress());
+      estimator.run(tiny(), {{"range", IntervalOrAuto(wanted)}}, kCenter, Progress());
   QCOMPARE(estimate.range, wanted);
   const auto given = std::find_if(estimate.parameters.begin(), estimate.parameters.end(),
                                   [](const auto& entry) { return entry.first == "range"; });
@@ -155,11 +181,11 @@ void EstimatorTest::badParameters_areRefused() {
       {{"outer_scale", std::string("wide")}},
   };
   for (const ParameterSet& values : bad) {
-    QVERIFY_THROWS_EXCEPTION(
-        InvalidInput, (void)estimator.run(tiny(), values, ViewSelection::Center, Progress()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)estimator.run(tiny(), values, kCenter, Progress()));
   }
-  const std::string text = message_of(
-      [&] { (void)estimator.run(tiny(), bad.front(), ViewSelection::Center, Progress()); });
+  const std::string text =
+      message_of([&] { (void)estimator.run(tiny(), bad.front(), kCenter, Progress()); });
   QVERIFY2(mentions(text, "did you mean 'range'"), text.c_str());
 }
 
@@ -207,7 +233,7 @@ void EstimatorTest::everyParameterAtItsEnds_runs() {
     values.clear();
   }
   values.emplace_back(parameter->key, value);
-  const Estimate estimate = estimator.run(tiny(), values, ViewSelection::Center, Progress());
+  const Estimate estimate = estimator.run(tiny(), values, kCenter, Progress());
   QVERIFY(all_finite(estimate.field.disparity));
 }
 
@@ -216,8 +242,7 @@ void EstimatorTest::singleView_isRefused() {
   const LightField lf = make_light_field({1, 1}, 20, 20, 3, [](ViewIndex, int y, int x, int) {
     return 0.1F * static_cast<float>((x + y) % 10);
   });
-  const std::string text =
-      message_of([&] { (void)estimator.run(lf, {}, ViewSelection::Center, Progress()); });
+  const std::string text = message_of([&] { (void)estimator.run(lf, {}, kCenter, Progress()); });
   QVERIFY2(mentions(text, "view"), text.c_str());
 }
 
@@ -284,8 +309,7 @@ void EstimatorTest::stopBeforeStart_throwsCancelled() {
   source.request_stop();
   const Progress progress(source.get_token(), nullptr);
   const ParameterSet given{{"range", IntervalOrAuto(Interval{-1, 1})}};
-  QVERIFY_THROWS_EXCEPTION(Cancelled,
-                           (void)estimator.run(tiny(), given, ViewSelection::Center, progress));
+  QVERIFY_THROWS_EXCEPTION(Cancelled, (void)estimator.run(tiny(), given, kCenter, progress));
 }
 
 }  // namespace episcope::in_estimator_test

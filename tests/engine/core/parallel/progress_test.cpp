@@ -128,6 +128,14 @@ class ProgressTest : public QObject {
     QVERIFY(Progress().threads() >= 1);
     QCOMPARE(Progress(3).threads(), 3);
     QCOMPARE(Progress(3).part(0, 0.5).threads(), 3);
+    QCOMPARE(Progress(3).on_one_thread().threads(), 1);
+  }
+
+  void threads_canOnlyBeLimited() {
+    QCOMPARE(Progress(3).limited_to(2).threads(), 2);
+    QCOMPARE(Progress(3).limited_to(2).part(0, 0.5).threads(), 2);
+    QCOMPARE(Progress(3).limited_to(8).threads(), 3);
+    QCOMPARE(Progress(3).limited_to(0).threads(), 3);
   }
 
   void listener_isCalledOneAtATime() {

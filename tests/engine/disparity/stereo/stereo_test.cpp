@@ -25,7 +25,7 @@ const Scene& scene(const std::string& id, double noise = 0) {
 
 Estimate run(const std::string& method, const Scene& on, const ParameterSet& values = {},
              int threads = 0) {
-  return find_estimator(method).run(*on.light_field, values, ViewSelection::Center,
+  return find_estimator(method).run(*on.light_field, values, {.views = ViewSelection::Center},
                                     Progress(threads));
 }
 
@@ -227,7 +227,7 @@ void StereoTest::flatView_hasNoConfidence() {
   const LightField flat =
       make_light_field({3, 3}, 30, 40, 3, [](ViewIndex, int, int, int) { return 0.5F; });
   const Estimate estimate =
-      find_estimator("st_av_s").run(flat, {}, ViewSelection::Center, Progress());
+      find_estimator("st_av_s").run(flat, {}, {.views = ViewSelection::Center}, Progress());
   QVERIFY(all_finite(estimate.field.disparity));
   QVERIFY(mean(estimate.confidence.view({1, 1})) < 1e-3);
 }

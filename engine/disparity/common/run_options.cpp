@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/run_options.h"
+
+namespace episcope {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
+Names<ViewSelection> names_of(ViewSelection) {
+  return {{ViewSelection::Center, "center"}, {ViewSelection::All, "all"}};
+}
+
+Names<Device> names_of(Device) {
+  return {{Device::Auto, "auto"}, {Device::Cpu, "cpu"}, {Device::Cuda, "cuda"}};
+}
+
+Schema<RunOptions> run_schema() {
+  Schema<RunOptions> schema;
+  schema
+      .choice("views", &RunOptions::views,
+              {"Views", "Views to estimate; by default all, if the method can"})
+      .choice("device", &RunOptions::device, {"Device", "Where to compute"})
+      .integer("threads", &RunOptions::threads,
+               {"Threads", "Threads to use; 0 = as many as there are"}, {0, kMostThreads});
+  return schema;
+}
+
+}  // namespace episcope
