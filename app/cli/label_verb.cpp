@@ -53,7 +53,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   options.declare(parser, "Parameters", schema.descriptions());
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.parameters = schema.parse(options.values(schema.descriptions()));
-  if (!request.disparity.empty() && request.parameters.features == "image+truth") {
+  if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
     throw UsageError("label: --features image+truth takes the truth, so --disparity has no use");
   }
   return true;
@@ -129,7 +129,7 @@ void print_json_answer(const Request& request, const Labeling& labeling, const A
   if (const auto share = accuracy.all_views.share()) json["accuracy_all_views"] = *share;
   if (const auto share = accuracy.center.share()) json["accuracy_center"] = *share;
   json["consistency"] = accuracy.consistency;
-  if (request.parameters.regularizer != "none") json["gap"] = labeling.gap;
+  if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
   for (const auto& [key, value] : labeler_schema().values(request.parameters)) {

@@ -59,9 +59,9 @@ std::shared_ptr<const DisparityField> LabelingSource::automatic() const {
   return tried_ == session_.generation() ? own_ : nullptr;
 }
 
-std::shared_ptr<const DisparityField> LabelingSource::find(const std::string& features) const {
+std::shared_ptr<const DisparityField> LabelingSource::find(FeatureSet features) const {
   if (!session_.scene()) return nullptr;
-  if (features == "image+truth" || choice_ == Truth) return truth();
+  if (features == FeatureSet::ImageTruth || choice_ == Truth) return truth();
   if (choice_ == None) return nullptr;
   return choice_ == Automatic ? automatic() : fieldOf(session_.find_estimate(choice_));
 }

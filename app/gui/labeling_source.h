@@ -3,6 +3,7 @@
 
 #include "app/gui/jobs.h"
 #include "app/session/session.h"
+#include "engine/labeling/labeler.h"
 #include "widgets/annotate/segment_panel.h"
 
 #include <QObject>
@@ -28,7 +29,7 @@ class LabelingSource : public QObject {
   [[nodiscard]] int choice() const { return choice_; }
   [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
   /// What the features ask for; null if there is none (yet).
-  [[nodiscard]] std::shared_ptr<const DisparityField> find(const std::string& features) const;
+  [[nodiscard]] std::shared_ptr<const DisparityField> find(FeatureSet features) const;
   /// Begins to estimate what is missing, unless that was tried already, something is chosen, or a
   /// run is under way that may give it.
   void provide();

@@ -201,7 +201,7 @@ QString SegmentController::missing() const {
     return QString::fromStdString(live_.sentence());
   }
   if (!live_.has_input() || live_.input()->disparity) return {};
-  if (live_.input()->parameters.features == "image+truth") {
+  if (live_.input()->parameters.features == FeatureSet::ImageTruth) {
     return tr("There is no true disparity of all views: labels go by images alone.");
   }
   if (source_.isComing() && (is_live_ || live_.labeling(session_.view()))) {

@@ -48,8 +48,8 @@ bool is_same(const LabelingInput& a, const LabelingInput& b) {
 LabelerParameters possible_parameters(const LabelingInput& input) {
   LabelerParameters parameters = input.parameters;
   if (input.disparity) return parameters;
-  parameters.features = "image";
-  if (parameters.regularizer == "rayspace") parameters.regularizer = "view";
+  parameters.features = FeatureSet::Image;
+  if (info_of(parameters.regularizer).joins_views) parameters.regularizer = Regularizer::View;
   return parameters;
 }
 

@@ -43,7 +43,7 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
                                           const std::filesystem::path& result_file,
                                           const Progress& progress) {
   const LightField& lf = *scene.light_field;
-  if (parameters.features == "image+truth") return {true_field(scene), "truth"};
+  if (parameters.features == FeatureSet::ImageTruth) return {true_field(scene), "truth"};
   if (!result_file.empty()) {
     const std::string name = result_file.string();
     auto estimate = std::make_shared<const Estimate>(read_result_of(lf, result_file));

@@ -23,7 +23,7 @@ struct LabelingDisparity {
 /// 28 s of one core.
 inline constexpr const char* kLabelingEstimator = "epi_c";
 
-/// What the set of features asks for: the truth for "image+truth", else the result in
+/// What the set of features asks for: the truth for FeatureSet::ImageTruth, else the result in
 /// `result_file`, else an estimate of all views by kLabelingEstimator. Throws InvalidInput if the
 /// scene has no true disparity of all views or the result does not fit or covers fewer views;
 /// IoError, Cancelled.

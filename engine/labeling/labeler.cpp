@@ -9,7 +9,6 @@
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/forest.h"
 #include "engine/labeling/rays/boundary_weights.h"
-#include "engine/labeling/rays/ray_labeling.h"
 
 #include <algorithm>
 #include <cmath>
@@ -108,11 +107,6 @@ LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, Vie
 bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   const int last = views.grid.count() - 1;
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
-}
-
-LabelCoupling coupling_of(const LabelerParameters& parameters) {
-  if (parameters.regularizer == "none") return LabelCoupling::None;
-  return parameters.regularizer == "view" ? LabelCoupling::Views : LabelCoupling::Rays;
 }
 
 /// A forest and what it was grown from.
@@ -242,11 +236,11 @@ struct Labeler::State {
 
   /// Replaces the labels by regularised ones.
   void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
-    const LabelCoupling coupling = coupling_of(learned.parameters);
+    const Regularizer regularizer = learned.parameters.regularizer;
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
     // Where rays of other views agree, two of them tell nearly as much as all.
-    if (own.grid.count() == 1 && coupling == LabelCoupling::Rays) views = neighbours(own.first);
+    if (own.grid.count() == 1 && info_of(regularizer).joins_views) views = neighbours(own.first);
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
     RayLabelingParameters options;
@@ -254,7 +248,7 @@ struct Labeler::State {
     RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
     RayLabeling result;
     if (own.grid.count() > 1) {
-      result = label_rays(input, coupling, options, progress.part(0.05, 1));
+      result = label_rays(input, regularizer, options, progress.part(0.05, 1));
     } else {
       options.gap = kLiveGap;
       LabelProbabilities around = empty_probabilities(own.ids, views);
@@ -263,7 +257,7 @@ struct Labeler::State {
       predict(learned, around, progress.part(0.05, 0.3));
       input.probabilities = &around;
       progress.step("regularising");
-      result = label_view(input, own.first, coupling, options, progress.part(0.3, 1));
+      result = label_view(input, own.first, regularizer, options, progress.part(0.3, 1));
       own.views[0] = std::move(around.view(own.first));
     }
     labeling.labels = std::move(result.labels);
@@ -282,18 +276,21 @@ struct Labeler::State {
   }
 };
 
+Names<FeatureSet> names_of(FeatureSet) {
+  return {{FeatureSet::Image, "image"},
+          {FeatureSet::ImageEstimate, "image+estimate"},
+          {FeatureSet::ImageTruth, "image+truth"}};
+}
+
 Schema<LabelerParameters> labeler_schema() {
-  Schema<LabelerParameters> schema;
-  schema
+  return Schema<LabelerParameters>()
       .choice(
           "features", &LabelerParameters::features,
-          {"Features", "What the forest sees of a pixel: the image alone, or disparity as well"},
-          {"image", "image+estimate", "image+truth"})
+          {"Features", "What the forest sees of a pixel: the image alone, or disparity as well"})
       .choice("regularizer", &LabelerParameters::regularizer,
               {"Smoothing",
                "How labels are made consistent: not at all, view by view, or along "
-               "the rays of all views"},
-              {"none", "view", "rayspace"})
+               "the rays of all views"})
       .real("smoothness", &LabelerParameters::smoothness,
             {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
             {0, 200})
@@ -304,11 +301,10 @@ Schema<LabelerParameters> labeler_schema() {
       .integer("depth", &LabelerParameters::depth, {"Depth", "Depth of a tree at most"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
                {"Seed", "Of the random numbers that the forest is grown with"}, {0, 1000000});
-  return schema;
 }
 
 bool uses_disparity(const LabelerParameters& parameters) {
-  return parameters.features != "image";
+  return parameters.features != FeatureSet::Image;
 }
 
 Labeler::Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
@@ -330,12 +326,11 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   const LightField& lf = *state_->light_field;
   require_views(views, lf.grid());
   const std::vector<std::int32_t> ids = painted_labels(scribbles, lf);
-  const LabelCoupling coupling = coupling_of(parameters);
-  if (coupling == LabelCoupling::Rays && !state_->disparity) {
+  const Regularizer regularizer = parameters.regularizer;
+  if (info_of(regularizer).joins_views && !state_->disparity) {
     throw InvalidInput(
         "labels that agree along rays need the disparity of all views; estimate it first, or "
-        "smooth "
-        "each view alone");
+        "smooth each view alone");
   }
   state_->use({uses_disparity(parameters)});
 
@@ -347,11 +342,11 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
   // Nobody paints: what follows needs the memory.
   if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
-  if (coupling == LabelCoupling::None || on_draft) {
+  if (regularizer == Regularizer::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};
-    labeling.labels = label_rays(input, LabelCoupling::None, {}, progress.part(0.5, 0.5)).labels;
+    labeling.labels = label_rays(input, Regularizer::None, {}, progress.part(0.5, 0.5)).labels;
   }
-  if (coupling != LabelCoupling::None) {
+  if (regularizer != Regularizer::None) {
     if (on_draft) {
       labeling.is_draft = true;
       labeling.seconds = watch.seconds();

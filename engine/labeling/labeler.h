@@ -8,6 +8,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
 #include "engine/labeling/label_probabilities.h"
+#include "engine/labeling/rays/regularizer.h"
 
 #include <functional>
 #include <memory>
@@ -16,10 +17,15 @@
 
 namespace episcope {
 
+/// What the forest sees of a pixel: the three sets of the archive. Which disparity is meant is up
+/// to the caller; here all but Image take it as a feature.
+enum class FeatureSet { Image, ImageEstimate, ImageTruth };
+[[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
+
 /// Parameters of a segmentation.
 struct LabelerParameters {
-  std::string features = "image+estimate";
-  std::string regularizer = "rayspace";
+  FeatureSet features = FeatureSet::ImageEstimate;
+  Regularizer regularizer = Regularizer::Rayspace;
   double smoothness = 32;
   double nearness = 0.35;
   int trees = 96;
@@ -27,9 +33,6 @@ struct LabelerParameters {
   int seed = 1;
 };
 
-/// `features`: "image", "image+estimate" or "image+truth", the three sets of the archive. Which
-/// disparity is meant is up to the caller; here all but "image" take it as a feature.
-/// `regularizer`: "none", "view" or "rayspace".
 [[nodiscard]] Schema<LabelerParameters> labeler_schema();
 
 /// Whether a set of features has disparity among them.
@@ -54,7 +57,7 @@ struct Labeling {
 /// features (engine/labeling/features/pixel_features.h). Its votes are weighed by how near the
 /// strokes of each label are along surfaces, exp(−nearness·excess)
 /// (engine/labeling/features/stroke_distance.h), for a forest knows nothing of what lies between a
-/// pixel and a stroke. Labels are then made consistent (engine/labeling/rays/ray_labeling.h). A
+/// pixel and a stroke. Labels are then made consistent (engine/labeling/rays/regularizer.h). A
 /// single view asked for with `rayspace` goes by its rays in the views beside it, for somebody
 /// waits; all views by those of all. Centre view, percentage right by two | eight neighbours: still
 /// life 95.83 | 95.83, demo 93.1 | 93.6; processor time with features 3.5 | 6.6 s.

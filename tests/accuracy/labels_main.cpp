@@ -34,18 +34,18 @@ void print_row(const std::string& name, const Scene& scene, const LabelerParamet
   const double consistency =
       label_consistency(labeling.labels, scene.truth->field, Progress()).share();
   std::printf("| %s | %s | %s | %.2f | %.2f | %.2f | %.1f |\n", name.c_str(),
-              parameters.features.c_str(), parameters.regularizer.c_str(), 100 * all, 100 * center,
-              100 * consistency, seconds);
+              name_of(parameters.features).c_str(), name_of(parameters.regularizer).c_str(),
+              100 * all, 100 * center, 100 * consistency, seconds);
   std::fflush(stdout);
 }
 
 void print_scene(const std::string& name, const Scene& scene) {
-  for (const char* features : {"image", "image+estimate", "image+truth"}) {
+  for (const auto& features : names_of(FeatureSet{})) {
     LabelerParameters parameters;
-    parameters.features = features;
+    parameters.features = features.value;
     const LabelingDisparity disparity = find_labeling_disparity(scene, parameters, {}, Progress());
-    for (const char* regularizer : {"none", "view", "rayspace"}) {
-      parameters.regularizer = regularizer;
+    for (const auto& regularizer : names_of(Regularizer{})) {
+      parameters.regularizer = regularizer.value;
       print_row(name, scene, parameters, disparity);
     }
   }

@@ -3,7 +3,7 @@
 // the simplex projected to by sorting), and against what the memory can copy; and labels of a whole
 // light field. All use as many threads as the machine has.
 #include "engine/core/parallel/parallel.h"
-#include "engine/labeling/rays/ray_labeling.h"
+#include "engine/labeling/rays/regularizer.h"
 #include "engine/solvers/simplex/simplex_labeling.h"
 #include "tests/bench/bench_scene.h"
 
@@ -168,9 +168,9 @@ void label_light_field(benchmark::State& state) {
   bench::reset_peak_memory();
   const RayLabelingInput input{&p, &field, nullptr, nullptr};
   RayLabeling result;
-  const auto coupling = state.range(0) == 0 ? LabelCoupling::Views : LabelCoupling::Rays;
+  const auto regularizer = state.range(0) == 0 ? Regularizer::View : Regularizer::Rayspace;
   for (auto _ : state) {
-    result = label_rays(input, coupling, {.smoothness = kSmoothness}, Progress());
+    result = label_rays(input, regularizer, {.smoothness = kSmoothness}, Progress());
   }
   state.counters["iterations"] = result.iterations;
   state.counters["gap"] = result.relative_gap();

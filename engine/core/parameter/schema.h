@@ -60,12 +60,6 @@ class Schema {
     }
     return *this;
   }
-  Schema& choice(const char* key, std::string P::*member, Text text,
-                 std::vector<std::string> choices) {
-    add(key, member, text, {0, 0});
-    descriptions_.back().choices = std::move(choices);
-    return *this;
-  }
   Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
     return add(key, member, text, domain);
   }
@@ -95,7 +89,7 @@ class Schema {
   }
 
   /// What else must hold of parameters: `complete` is called on all that `parse` returns, and may
-  /// change some by others; parts are completed first.
+  /// change some by others. A part named before is completed before.
   Schema& completed_by(std::function<void(P&)> complete) {
     completions_.push_back(std::move(complete));
     return *this;
@@ -195,7 +189,7 @@ class Schema {
   std::vector<ParameterDescription> descriptions_;
   std::vector<Read> read_;
   std::vector<Write> write_;
-  std::vector<std::function<void(P&)>> completions_;  // those of parts before its own
+  std::vector<std::function<void(P&)>> completions_;
 };
 
 }  // namespace episcope

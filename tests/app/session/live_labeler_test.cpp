@@ -21,7 +21,7 @@ struct Fixture {
   LiveLabeler live{loop.post(), [this] { told.push_back(live.state()); }};
   ViewIndex center = scene->light_field->center();
 
-  [[nodiscard]] LabelingInput input(const std::string& regularizer = "rayspace") const {
+  [[nodiscard]] LabelingInput input(Regularizer regularizer = Regularizer::Rayspace) const {
     LabelingInput input;
     input.light_field = scene->light_field;
     input.disparity = {scene->truth, &scene->truth->field};
@@ -105,7 +105,7 @@ void LiveLabelerTest::label_givesADraftThenRefinedLabels() {
 
 void LiveLabelerTest::label_withoutRegularizer_needsNoRefining() {
   Fixture f;
-  f.live.set_input(f.input("none"));
+  f.live.set_input(f.input(Regularizer::None));
 
   f.live.label(f.center);
   QTRY_COMPARE_WITH_TIMEOUT(f.turn(), LiveState::Idle, kPatience);
@@ -147,7 +147,7 @@ void LiveLabelerTest::newInput_outdatesWhatIsKnown() {
   QTRY_COMPARE_WITH_TIMEOUT(f.turn(), LiveState::Idle, kPatience);
   const LabelingPtr former = f.live.labeling(f.center);
 
-  f.live.set_input(f.input("view"));
+  f.live.set_input(f.input(Regularizer::View));
   QCOMPARE(f.live.state(), LiveState::OutOfDate);
   QCOMPARE(f.live.labeling(f.center), former);
   QVERIFY(!f.live.is_up_to_date(f.center));

@@ -33,11 +33,8 @@ Labeler new_labeler() {
   return {scene().light_field, true_disparity()};
 }
 
-LabelerParameters parameters(const char* features, const char* regularizer) {
-  LabelerParameters chosen;
-  chosen.features = features;
-  chosen.regularizer = regularizer;
-  return chosen;
+LabelerParameters parameters(FeatureSet features, Regularizer regularizer) {
+  return {.features = features, .regularizer = regularizer};
 }
 
 const ViewRectangle kAll{{0, 0}, {3, 3}};
@@ -75,22 +72,22 @@ class LabelerTest : public QObject {
 };
 
 void LabelerTest::objects_areSegmentedInAllViews_data() {
-  QTest::addColumn<QByteArray>("features");
-  QTest::addColumn<QByteArray>("regularizer");
-  for (const char* features : {"image", "image+truth"}) {
-    for (const char* regularizer : {"none", "view", "rayspace"}) {
-      QTest::addRow("%s %s", features, regularizer)
-          << QByteArray(features) << QByteArray(regularizer);
+  QTest::addColumn<FeatureSet>("features");
+  QTest::addColumn<Regularizer>("regularizer");
+  for (const FeatureSet features : {FeatureSet::Image, FeatureSet::ImageTruth}) {
+    for (const auto& regularizer : names_of(Regularizer{})) {
+      QTest::addRow("%s %s", name_of(features).c_str(), regularizer.name)
+          << features << regularizer.value;
     }
   }
 }
 
 void LabelerTest::objects_areSegmentedInAllViews() {
-  QFETCH(QByteArray, features);
-  QFETCH(QByteArray, regularizer);
+  QFETCH(FeatureSet, features);
+  QFETCH(Regularizer, regularizer);
 
-  const Labeling labeling = new_labeler().label(
-      scene().scribbles, parameters(features.data(), regularizer.data()), kAll, Progress());
+  const Labeling labeling =
+      new_labeler().label(scene().scribbles, parameters(features, regularizer), kAll, Progress());
 
   QCOMPARE(labeling.labels.grid(), kAll.grid);
   QCOMPARE(labeling.probabilities.ids, (std::vector<std::int32_t>{1, 2, 3}));
@@ -102,13 +99,14 @@ void LabelerTest::oneView_comesAsADraftFirst() {
   Labeler labeler = new_labeler();
   int drafts = 0;
 
-  const Labeling refined = labeler.label(scene().scribbles, parameters("image+truth", "rayspace"),
-                                         {{1, 1}, {1, 1}}, Progress(), [&](const Labeling& draft) {
-                                           ++drafts;
-                                           QVERIFY(draft.is_draft);
-                                           QCOMPARE(draft.labels.first(), (ViewIndex{1, 1}));
-                                           QVERIFY(draft.probabilities.contains({1, 1}));
-                                         });
+  const Labeling refined =
+      labeler.label(scene().scribbles, parameters(FeatureSet::ImageTruth, Regularizer::Rayspace),
+                    {{1, 1}, {1, 1}}, Progress(), [&](const Labeling& draft) {
+                      ++drafts;
+                      QVERIFY(draft.is_draft);
+                      QCOMPARE(draft.labels.first(), (ViewIndex{1, 1}));
+                      QVERIFY(draft.probabilities.contains({1, 1}));
+                    });
 
   QCOMPARE(drafts, 1);
   QVERIFY(!refined.is_draft);
@@ -126,16 +124,17 @@ void LabelerTest::strokesOnAnotherView_count() {
     if (labels.data()[i] != truth.data[i]) labels.data()[i] = 0;
   }
 
-  const Labeling labeling =
-      new_labeler().label(moved, parameters("image+truth", "none"), kAll, Progress());
+  const Labeling labeling = new_labeler().label(
+      moved, parameters(FeatureSet::ImageTruth, Regularizer::None), kAll, Progress());
 
   QVERIFY(accuracy(labeling) > 0.95);
 }
 
 void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {
-  const LabelerParameters chosen = parameters("image+truth", "view");
+  const LabelerParameters chosen = parameters(FeatureSet::ImageTruth, Regularizer::View);
   Labeler used = new_labeler();
-  (void)used.label(scene().scribbles, parameters("image", "none"), kAll, Progress());
+  (void)used.label(scene().scribbles, parameters(FeatureSet::Image, Regularizer::None), kAll,
+                   Progress());
 
   const Labeling one = new_labeler().label(scene().scribbles, chosen, kAll, Progress(1));
   const Labeling three = used.label(scene().scribbles, chosen, kAll, Progress(3));
@@ -147,7 +146,7 @@ void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {
 void LabelerTest::forest_isGrownAgainOnlyForOtherStrokesOrOptions() {
   Labeler labeler = new_labeler();
   const auto grows_forest = [&](const Scribbles& scribbles, ViewIndex view, int seed) {
-    LabelerParameters chosen = parameters("image", "none");
+    LabelerParameters chosen = parameters(FeatureSet::Image, Regularizer::None);
     chosen.seed = seed;
     bool grows = false;
     const auto listen = [&](const ProgressState& state) {
@@ -171,7 +170,7 @@ void LabelerTest::badInput_isToldInASentence() {
   for (std::int32_t& label : one_label.views[0].labels) label = label == 2 ? 2 : 0;
   Scribbles foreign = scene().scribbles;
   foreign.views[0].view = {7, 7};
-  const LabelerParameters chosen = parameters("image", "none");
+  const LabelerParameters chosen = parameters(FeatureSet::Image, Regularizer::None);
   const auto message = [&](const Scribbles& scribbles, ViewRectangle views) {
     try {
       (void)new_labeler().label(scribbles, chosen, views, Progress());
@@ -188,7 +187,8 @@ void LabelerTest::badInput_isToldInASentence() {
   Labeler without(scene().light_field, nullptr);
   QVERIFY_THROWS_EXCEPTION(
       InvalidInput,
-      (void)without.label(scene().scribbles, parameters("image", "rayspace"), kAll, Progress()));
+      (void)without.label(scene().scribbles, parameters(FeatureSet::Image, Regularizer::Rayspace),
+                          kAll, Progress()));
 }
 
 void LabelerTest::stop_cancels() {
@@ -196,8 +196,9 @@ void LabelerTest::stop_cancels() {
   stop.request_stop();
 
   QVERIFY_THROWS_EXCEPTION(
-      Cancelled, (void)new_labeler().label(scene().scribbles, parameters("image", "none"), kAll,
-                                           Progress(stop.get_token(), nullptr)));
+      Cancelled,
+      (void)new_labeler().label(scene().scribbles, parameters(FeatureSet::Image, Regularizer::None),
+                                kAll, Progress(stop.get_token(), nullptr)));
 }
 
 }  // namespace episcope::in_labeler_test

@@ -20,13 +20,18 @@ namespace episcope::in_parameter_form_test {
 
 namespace {
 
+enum class Fusion { Weighted, Best };
+
+Names<Fusion> names_of(Fusion) {
+  return {{Fusion::Weighted, "weighted"}, {Fusion::Best, "best"}};
+}
+
 struct Parameters {
   double inner = 0.8;
   double weight = 0.2;
   int scales = 3;
   bool edges = true;
-  std::string fusion = "weighted";
-  std::string note = "none";
+  Fusion fusion = Fusion::Weighted;
   IntervalOrAuto range;
   ViewOrAuto view;
 };
@@ -37,7 +42,7 @@ Schema<Parameters> schema() {
       .real("weight", &Parameters::weight, {"Smoothing", "Weight <of> data."}, {0.001, 10, true})
       .integer("scales", &Parameters::scales, {"Scales", "How many."}, {1, 5})
       .flag("edges", &Parameters::edges, {"Edges", "Stop at edges."})
-      .choice("fusion", &Parameters::fusion, {"Fusion", "How."}, {"weighted", "best"});
+      .choice("fusion", &Parameters::fusion, {"Fusion", "How."});
   s.interval("range", &Parameters::range, {"Range", "Searched.", "px"}, {-8, 8});
   s.view("view", &Parameters::view, {"View", "Which."});
   return s;
@@ -86,7 +91,7 @@ class ParameterFormTest : public QObject {
     parameters.weight = 0.0042;
     parameters.scales = 5;
     parameters.edges = false;
-    parameters.fusion = "best";
+    parameters.fusion = Fusion::Best;
     parameters.range = Interval{-1.25, 3.5};
     parameters.view = ViewIndex{2, 7};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/ray_labeling.h"
+#include "engine/labeling/rays/regularizer.h"
 
 #include "engine/core/error.h"
 #include "engine/labeling/consistency.h"
@@ -38,9 +38,9 @@ struct Case {
   [[nodiscard]] RayLabelingInput input() const {
     return {&probabilities, &scene.truth->field, &edges, scene.light_field.get()};
   }
-  [[nodiscard]] RayLabeling label(LabelCoupling coupling, RayLabelingParameters parameters = {},
+  [[nodiscard]] RayLabeling label(Regularizer regularizer, RayLabelingParameters parameters = {},
                                   int threads = 0) const {
-    return label_rays(input(), coupling, parameters, Progress(threads));
+    return label_rays(input(), regularizer, parameters, Progress(threads));
   }
   [[nodiscard]] double right(const RayLabeling& labeling) const {
     return accuracy(labeling.labels, scene.truth->labels);
@@ -114,9 +114,9 @@ void RayLabelingTest::rays_beatViews_andViewsBeatNone() {
   RayLabelingParameters parameters;
   parameters.smoothness = 1;
 
-  const double none = noisy.right(noisy.label(LabelCoupling::None));
-  const double views = noisy.right(noisy.label(LabelCoupling::Views, parameters));
-  const double rays = noisy.right(noisy.label(LabelCoupling::Rays, parameters));
+  const double none = noisy.right(noisy.label(Regularizer::None));
+  const double views = noisy.right(noisy.label(Regularizer::View, parameters));
+  const double rays = noisy.right(noisy.label(Regularizer::Rayspace, parameters));
 
   const QByteArray told = QString("%1 %2 %3").arg(none).arg(views).arg(rays).toUtf8();
   QVERIFY2(std::fabs(none - 0.6) < 0.01, told);
@@ -129,7 +129,7 @@ void RayLabelingTest::rays_areConstantAlongLinesOfPlanes() {
   for (const char* const id : {"fronto", "slant", "edge"}) {
     const Case noisy(id);
 
-    const RayLabeling labeling = noisy.label(LabelCoupling::Rays);
+    const RayLabeling labeling = noisy.label(Regularizer::Rayspace);
 
     const auto agreed = label_consistency(labeling.labels, noisy.scene.truth->field, Progress());
     QVERIFY(agreed.checked() > 0.9);
@@ -140,7 +140,7 @@ void RayLabelingTest::rays_areConstantAlongLinesOfPlanes() {
 void RayLabelingTest::rays_agreeOnObjects() {
   const Case noisy("objects");
 
-  const RayLabeling labeling = noisy.label(LabelCoupling::Rays);
+  const RayLabeling labeling = noisy.label(Regularizer::Rayspace);
 
   const auto agreed = label_consistency(labeling.labels, noisy.scene.truth->field, Progress());
   // Rays that arrive between pixels: exact labels do not always agree.
@@ -155,7 +155,7 @@ void RayLabelingTest::rays_leaveCertainLabelsAlone() {
   RayLabelingParameters parameters;
   parameters.smoothness = 0.2;
 
-  const RayLabeling labeling = certain.label(LabelCoupling::Rays, parameters);
+  const RayLabeling labeling = certain.label(Regularizer::Rayspace, parameters);
 
   // Rays that arrive between pixels at a boundary take the nearest one's label.
   QVERIFY2(certain.right(labeling) > 0.995, qPrintable(QString::number(certain.right(labeling))));
@@ -164,10 +164,9 @@ void RayLabelingTest::rays_leaveCertainLabelsAlone() {
 void RayLabelingTest::label_isTheSameForAnyThreads() {
   const Case noisy("objects", 0.4, 48);
 
-  for (const LabelCoupling coupling :
-       {LabelCoupling::None, LabelCoupling::Views, LabelCoupling::Rays}) {
-    const RayLabeling one = noisy.label(coupling, {}, 1);
-    const RayLabeling three = noisy.label(coupling, {}, 3);
+  for (const auto& [regularizer, name, label] : names_of(Regularizer{})) {
+    const RayLabeling one = noisy.label(regularizer, {}, 1);
+    const RayLabeling three = noisy.label(regularizer, {}, 3);
     QVERIFY(same(one.labels, three.labels));
     QCOMPARE(three.energy, one.energy);
   }
@@ -190,8 +189,8 @@ void RayLabelingTest::rays_beatViews_whereDisparityIsWrongAtOutlines() {
   RayLabelingParameters parameters;
   parameters.smoothness = 1;
 
-  const auto views = label_rays(input, LabelCoupling::Views, parameters, Progress());
-  const auto rays = label_rays(input, LabelCoupling::Rays, parameters, Progress());
+  const auto views = label_rays(input, Regularizer::View, parameters, Progress());
+  const auto rays = label_rays(input, Regularizer::Rayspace, parameters, Progress());
 
   const DisparityField& truth = fair.scene.truth->field;
   const double alone = label_consistency(views.labels, truth, Progress()).share();
@@ -211,8 +210,8 @@ void RayLabelingTest::labelView_isNearlyThatOfAllViews() {
   const Case noisy("objects", 0.4, 48);
   const ViewIndex center = kGrid.center();
 
-  const RayLabeling all = noisy.label(LabelCoupling::Rays);
-  const RayLabeling one = label_view(noisy.input(), center, LabelCoupling::Rays, {}, Progress());
+  const RayLabeling all = noisy.label(Regularizer::Rayspace);
+  const RayLabeling one = label_view(noisy.input(), center, Regularizer::Rayspace, {}, Progress());
 
   // All rays have voted besides, and their problems were solved to a wider gap.
   const auto expected = all.labels.view(center), found = one.labels.view(center);
@@ -228,10 +227,9 @@ void RayLabelingTest::labelView_takesWhatItsNeighboursKnow() {
   parameters.smoothness = 1;
   const ViewIndex corner{0, 4};
 
-  const auto alone =
-      label_view(noisy.input(), corner, LabelCoupling::Views, parameters, Progress());
+  const auto alone = label_view(noisy.input(), corner, Regularizer::View, parameters, Progress());
   const auto together =
-      label_view(noisy.input(), corner, LabelCoupling::Rays, parameters, Progress());
+      label_view(noisy.input(), corner, Regularizer::Rayspace, parameters, Progress());
 
   QVERIFY(noisy.right(together) > noisy.right(alone));
   QVERIFY(together.labels.contains(corner));
@@ -241,9 +239,8 @@ void RayLabelingTest::label_keepsIds() {
   Case noisy("edge", 0.1, 48);
   for (std::int32_t& id : noisy.probabilities.ids) id = 10 * id + 7;
 
-  for (const LabelCoupling coupling :
-       {LabelCoupling::None, LabelCoupling::Views, LabelCoupling::Rays}) {
-    const auto ids = label_ids(noisy.label(coupling).labels);
+  for (const auto& [regularizer, name, label] : names_of(Regularizer{})) {
+    const auto ids = label_ids(noisy.label(regularizer).labels);
     QVERIFY(std::ranges::includes(noisy.probabilities.ids, ids));
   }
 }
@@ -251,8 +248,8 @@ void RayLabelingTest::label_keepsIds() {
 void RayLabelingTest::label_certifiesItself() {
   const Case noisy("objects", 0.4, 64);
 
-  for (const LabelCoupling coupling : {LabelCoupling::Views, LabelCoupling::Rays}) {
-    const RayLabeling labeling = noisy.label(coupling);
+  for (const Regularizer regularizer : {Regularizer::View, Regularizer::Rayspace}) {
+    const RayLabeling labeling = noisy.label(regularizer);
     QVERIFY(labeling.bound <= labeling.energy);
     QVERIFY2(labeling.relative_gap() < 1e-2, qPrintable(QString::number(labeling.relative_gap())));
     QVERIFY(labeling.iterations > 0);
@@ -307,7 +304,7 @@ void RayLabelingTest::colors_doNotDependOnTheStoredType() {
 
 void RayLabelingTest::label_stopsOnRequest() {
   const Case noisy("objects", 0.4, 128);
-  for (const LabelCoupling coupling : {LabelCoupling::Views, LabelCoupling::Rays}) {
+  for (const Regularizer regularizer : {Regularizer::View, Regularizer::Rayspace}) {
     std::stop_source stop;
     std::chrono::steady_clock::time_point asked;
     const Progress progress(stop.get_token(), [&](const ProgressState&) {
@@ -316,7 +313,7 @@ void RayLabelingTest::label_stopsOnRequest() {
       stop.request_stop();
     });
 
-    QVERIFY_EXCEPTION_THROWN((void)label_rays(noisy.input(), coupling, {}, progress), Cancelled);
+    QVERIFY_EXCEPTION_THROWN((void)label_rays(noisy.input(), regularizer, {}, progress), Cancelled);
 
     QVERIFY(std::chrono::steady_clock::now() - asked < std::chrono::milliseconds(200));
   }
@@ -328,7 +325,7 @@ void RayLabelingTest::label_endsEarlyWhenAsked() {
   finish.request_stop();
 
   const RayLabeling labeling =
-      label_rays(noisy.input(), LabelCoupling::Rays, {}, Progress({}, finish.get_token(), {}));
+      label_rays(noisy.input(), Regularizer::Rayspace, {}, Progress({}, finish.get_token(), {}));
 
   QCOMPARE(labeling.iterations, 1);
   QVERIFY(noisy.right(labeling) > 0.6);
@@ -337,35 +334,35 @@ void RayLabelingTest::label_endsEarlyWhenAsked() {
 void RayLabelingTest::label_refusesBadInput() {
   const Case noisy("edge", 0.1, 16);
   const LabelProbabilities nothing;
-  const auto refused = [](const RayLabelingInput& input, LabelCoupling coupling,
+  const auto refused = [](const RayLabelingInput& input, Regularizer regularizer,
                           RayLabelingParameters parameters = {}) {
-    QVERIFY_EXCEPTION_THROWN((void)label_rays(input, coupling, parameters, Progress()),
+    QVERIFY_EXCEPTION_THROWN((void)label_rays(input, regularizer, parameters, Progress()),
                              InvalidInput);
   };
   RayLabelingInput input = noisy.input();
   RayLabelingParameters parameters;
 
-  refused({}, LabelCoupling::None);
-  refused({&nothing, nullptr, nullptr, nullptr}, LabelCoupling::Views);
-  refused({&noisy.probabilities, nullptr, nullptr, nullptr}, LabelCoupling::Rays);
+  refused({}, Regularizer::None);
+  refused({&nothing, nullptr, nullptr, nullptr}, Regularizer::View);
+  refused({&noisy.probabilities, nullptr, nullptr, nullptr}, Regularizer::Rayspace);
   parameters.smoothness = -1;
-  refused(input, LabelCoupling::Views, parameters);
+  refused(input, Regularizer::View, parameters);
   parameters = {};
   parameters.floor = 0;
-  refused(input, LabelCoupling::Views, parameters);
+  refused(input, Regularizer::View, parameters);
   const DisparityField small{ViewStack<float>({1, 1}, 16, 16, 1, {2, 2}), {}};
   input.disparity = &small;
-  refused(input, LabelCoupling::Rays);
+  refused(input, Regularizer::Rayspace);
   const ViewStack<float> other({5, 5}, 8, 8);
   input = noisy.input();
   input.edges = &other;
-  refused(input, LabelCoupling::Views);
+  refused(input, Regularizer::View);
   const Case larger("edge", 0.1, 24);
   input = noisy.input();
   input.light_field = larger.scene.light_field.get();
-  refused(input, LabelCoupling::Rays);
+  refused(input, Regularizer::Rayspace);
   QVERIFY_EXCEPTION_THROWN(
-      (void)label_view(noisy.input(), {9, 9}, LabelCoupling::Views, {}, Progress()), InvalidInput);
+      (void)label_view(noisy.input(), {9, 9}, Regularizer::View, {}, Progress()), InvalidInput);
 }
 
 }  // namespace episcope::in_ray_labeling_test

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/rays/regularizer.h"
+
+#include "engine/core/error.h"
+#include "engine/labeling/rays/no_smoothing.h"
+#include "engine/labeling/rays/ray_smoothing.h"
+#include "engine/labeling/rays/view_smoothing.h"
+
+#include <algorithm>
+#include <cassert>
+#include <iterator>
+
+namespace episcope {
+namespace {
+
+// In the order of lists.
+constexpr RegularizerInfo kRegularizers[] = {
+    {.choice = {Regularizer::None, "none"},
+     .label_all = most_probable_labels_of_all,
+     .label_one = most_probable_labels_of_view},
+    {.choice = {Regularizer::View, "view"}, .label_all = smooth_views, .label_one = smooth_view},
+    {.choice = {Regularizer::Rayspace, "rayspace"},
+     .joins_views = true,
+     .label_all = smooth_rays,
+     .label_one = smooth_rays_of_view},
+};
+
+bool covers(const GridShape& grid, ViewIndex first, const LabelProbabilities& p) {
+  const ViewIndex begin{p.first.v - first.v, p.first.u - first.u};
+  return grid.contains(begin) && grid.contains({begin.v + p.grid.v - 1, begin.u + p.grid.u - 1});
+}
+
+template <class T>
+void check_maps(const ViewStack<T>& maps, const LabelProbabilities& p, const char* what) {
+  const ProbabilityMap& view = p.views[0];
+  if (maps.height() == view.height() && maps.width() == view.width() &&
+      covers(maps.grid(), maps.first(), p)) {
+    return;
+  }
+  throw InvalidInput("labels of " + std::to_string(p.grid.count()) + " views of " +
+                     std::to_string(view.width()) + "×" + std::to_string(view.height()) +
+                     " px need " + what + " of the same size in each of these views");
+}
+
+void check_samples(const RayLabelingInput& input) {
+  const LightField* const lf = input.light_field;
+  const LabelProbabilities& p = *input.probabilities;
+  if (lf == nullptr || (lf->height() == p.views[0].height() && lf->width() == p.views[0].width() &&
+                        covers(lf->grid(), {0, 0}, p))) {
+    return;
+  }
+  throw InvalidInput("labels that agree along rays need the light field that they are of");
+}
+
+void check_joint_input(const RayLabelingInput& input) {
+  if (input.disparity == nullptr || input.disparity->empty()) {
+    throw InvalidInput(
+        "labels that agree along rays need a disparity map of every view; estimate one first, "
+        "or regularise each view alone");
+  }
+  check_maps(input.disparity->disparity, *input.probabilities, "disparities");
+  check_samples(input);
+}
+
+void check_input(const RayLabelingInput& input, const RegularizerInfo& info,
+                 const RayLabelingParameters& parameters) {
+  if (input.probabilities == nullptr || input.probabilities->empty()) {
+    throw InvalidInput("labels need probabilities of at least one view; train a classifier first");
+  }
+  if (info.joins_views) check_joint_input(input);
+  if (input.edges != nullptr && !input.edges->empty()) {
+    check_maps(*input.edges, *input.probabilities, "edges");
+  }
+  if (!(parameters.smoothness >= 0)) {
+    throw InvalidInput("the smoothness of labels must not be negative");
+  }
+  if (!(parameters.floor > 0 && parameters.floor <= 1)) {
+    throw InvalidInput("the least probability of a label must be above 0 and at most 1");
+  }
+}
+
+}  // namespace
+
+Names<Regularizer> names_of(Regularizer) {
+  Names<Regularizer> names;
+  for (const RegularizerInfo& info : kRegularizers) names.push_back(info.choice);
+  return names;
+}
+
+const RegularizerInfo& info_of(Regularizer regularizer) {
+  const auto* const found = std::ranges::find_if(
+      kRegularizers, [=](const RegularizerInfo& info) { return info.choice.value == regularizer; });
+  assert(found != std::end(kRegularizers));
+  return *found;
+}
+
+RayLabeling label_rays(const RayLabelingInput& input, Regularizer regularizer,
+                       const RayLabelingParameters& parameters, const Progress& progress) {
+  const RegularizerInfo& info = info_of(regularizer);
+  check_input(input, info, parameters);
+  return info.label_all(input, parameters, progress);
+}
+
+RayLabeling label_view(const RayLabelingInput& input, ViewIndex view, Regularizer regularizer,
+                       const RayLabelingParameters& parameters, const Progress& progress) {
+  const RegularizerInfo& info = info_of(regularizer);
+  check_input(input, info, parameters);
+  if (!input.probabilities->contains(view)) {
+    throw InvalidInput("there are no label probabilities of view " + view_text(view));
+  }
+  return info.label_one(input, view, parameters, progress);
+}
+
+}  // namespace episcope

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/labeling/rays/view_problem.h"
+
+#include <functional>
+
+namespace episcope {
+
+/// The problems of views that are solved each by itself, and how the costs of a view get into its
+/// problem. Borrows the input and the parameters.
+struct ViewProblems {
+  const RayLabelingInput& input;
+  const RayLabelingParameters& parameters;
+  RayColors colors;
+  std::function<void(ViewProblem&, ViewIndex, const Progress&)> fill;
+};
+
+/// Solves the problems of all views that have probabilities, to a gap of
+/// `parameters.gap_of_many`, in chains along rows of the grid: each view begins where the one
+/// beside it ended, moved along the disparities, if there are any. Labels are layers of the
+/// probabilities, 0 … L − 1. Throws Cancelled.
+[[nodiscard]] RayLabeling solve_views(const ViewProblems& problems, const Progress& progress);
+
+/// Solves the problem of one view, to a gap of `parameters.gap`.
+[[nodiscard]] RayLabeling solve_view(const ViewProblems& problems, ViewIndex view,
+                                     const Progress& progress);
+
+/// Replaces layers by their ids.
+void name_labels(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
+
+}  // namespace episcope

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/rays/view_smoothing.h"
+
+#include "engine/labeling/rays/solve_views.h"
+
+namespace episcope {
+namespace {
+
+ViewProblems problems_of(const RayLabelingInput& input, const RayLabelingParameters& parameters) {
+  const auto fill = [](ViewProblem& problem, ViewIndex view, const Progress&) {
+    problem.fill_own(view);
+  };
+  return {input, parameters, {}, fill};
+}
+
+}  // namespace
+
+RayLabeling smooth_views(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                         const Progress& progress) {
+  RayLabeling result = solve_views(problems_of(input, parameters), progress);
+  name_labels(input.probabilities->ids, result);
+  return result;
+}
+
+RayLabeling smooth_view(const RayLabelingInput& input, ViewIndex view,
+                        const RayLabelingParameters& parameters, const Progress& progress) {
+  RayLabeling result = solve_view(problems_of(input, parameters), view, progress);
+  name_labels(input.probabilities->ids, result);
+  return result;
+}
+
+}  // namespace episcope
