@@ -12,11 +12,21 @@
 namespace episcope {
 
 std::vector<Estimator> registered_estimators() {
+  // clang-format off
   return {
-      epi_l_estimator(),   epi_s_estimator(),   epi_c_estimator(),         epi_g_estimator(),
-      st_av_l_estimator(), st_av_s_estimator(), st_av_g_estimator(),       st_ch_l_estimator(),
-      st_ch_s_estimator(), st_ch_g_estimator(), epi_two_layer_estimator(),
+      epi_l_estimator(),
+      epi_s_estimator(),
+      epi_c_estimator(),
+      epi_g_estimator(),
+      st_av_l_estimator(),
+      st_av_s_estimator(),
+      st_av_g_estimator(),
+      st_ch_l_estimator(),
+      st_ch_s_estimator(),
+      st_ch_g_estimator(),
+      epi_two_layer_estimator(),
   };
+  // clang-format on
 }
 
 Estimator find_estimator(const std::string& id) {

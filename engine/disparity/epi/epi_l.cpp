@@ -138,9 +138,7 @@ TensorSearch search_of(const EpiLParameters& p, Interval range) {
   return cover_range(range, std::max(1, static_cast<int>(std::lround(2 * p.shear_step))));
 }
 
-}  // namespace
-
-Schema<EpiLParameters> epi_l_schema() {
+Schema<EpiLParameters> scales_schema() {
   using P = EpiLParameters;
   return Schema<P>()
       .real("inner_scale", &P::inner_scale,
@@ -153,7 +151,14 @@ Schema<EpiLParameters> epi_l_schema() {
       .real("view_scale", &P::view_scale,
             {"View scale", "The same window along the views", "views"}, {0, 3})
       .real("cross_scale", &P::cross_scale,
-            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2})
+            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2});
+}
+
+}  // namespace
+
+Schema<EpiLParameters> epi_l_schema() {
+  using P = EpiLParameters;
+  return scales_schema()
       .real("shear_step", &P::shear_step,
             {"Shear step",
              "Distance of the shears that bring every disparity near to upright before its "

@@ -211,9 +211,8 @@ void clamp_layers(Estimate& estimate, const Progress& progress) {
   });
 }
 
-}  // namespace
-
-Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
+// Where there are two layers, and how they are smoothed.
+Schema<EpiTwoLayerParameters> layers_schema() {
   using P = EpiTwoLayerParameters;
   return Schema<P>()
       .real("decision", &P::decision,
@@ -244,7 +243,14 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {"Edge strength β",
              "Outside two layers the variation is weighted by exp(−β·|gradient of the view|); 0 "
              "ignores image edges"},
-            {0, 100})
+            {0, 100});
+}
+
+}  // namespace
+
+Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
+  using P = EpiTwoLayerParameters;
+  return layers_schema()
       .real("double_inner_scale", &P::double_inner_scale,
             {"Inner scale, two layers",
              "Gaussian smoothing of the samples before second derivatives are taken", "px"},
