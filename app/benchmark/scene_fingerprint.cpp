@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/scene_fingerprint.h"
 
-#include <cstdio>
+#include "engine/core/hash/fnv1a.h"
+
 #include <string_view>
 
 namespace episcope {
@@ -9,10 +10,7 @@ namespace {
 
 class Fingerprint {
  public:
-  void add(std::string_view bytes) {
-    constexpr std::uint64_t prime = 1099511628211ULL;
-    for (const char byte : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(byte)) * prime;
-  }
+  void add(std::string_view bytes) { hash_.add(bytes); }
   template <class T>
   void add_value(const T& value) {
     add({reinterpret_cast<const char*>(&value), sizeof value});
@@ -26,14 +24,10 @@ class Fingerprint {
       add({reinterpret_cast<const char*>(image.row(y)), count * sizeof(T)});
     }
   }
-  [[nodiscard]] std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(hash_));
-    return digits;
-  }
+  [[nodiscard]] std::string text() const { return hash_digits(hash_.value()); }
 
  private:
-  std::uint64_t hash_ = 14695981039346656037ULL;
+  Fnv1a hash_;
 };
 
 /// The view that is judged: the centre, else the only one that there is.

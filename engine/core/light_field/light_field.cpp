@@ -2,6 +2,7 @@
 #include "engine/core/light_field/light_field.h"
 
 #include "engine/core/error.h"
+#include "engine/core/hash/fnv1a.h"
 
 #include <cstring>
 #include <limits>
@@ -82,24 +83,22 @@ Image<float> LightField::view_as_float(ViewIndex index) const {
 }
 
 std::uint64_t LightField::sample_hash() const {
-  constexpr std::uint64_t prime = 1099511628211ULL;
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto mix = [&hash](std::uint64_t word) { hash = (hash ^ word) * prime; };
-  for (const int extent : {grid_.v, grid_.u, height_, width_, channels_}) mix(extent);
+  Fnv1a hash;
+  for (const int extent : {grid_.v, grid_.u, height_, width_, channels_}) hash.add_word(extent);
   std::visit(
       [&](const auto& stack) {
-        // Eight bytes a step: a byte at a time would take a second for a common light field.
-        const auto* bytes = reinterpret_cast<const unsigned char*>(stack.data());
+        // By words: a byte at a time would take a second for a common light field.
+        const auto* bytes = reinterpret_cast<const char*>(stack.data());
         const std::size_t size = byte_size();
         std::size_t i = 0;
         for (std::uint64_t word = 0; i + sizeof word <= size; i += sizeof word) {
           std::memcpy(&word, bytes + i, sizeof word);
-          mix(word);
+          hash.add_word(word);
         }
-        for (; i < size; ++i) mix(bytes[i]);
+        hash.add({bytes + i, size - i});
       },
       samples_);
-  return hash;
+  return hash.value();
 }
 
 }  // namespace episcope

@@ -2,13 +2,12 @@
 #include "engine/io/maps/result_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/hash/fnv1a.h"
 #include "engine/core/version.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/maps/foreign_result.h"
 #include "engine/io/maps/parameter_json.h"
-
-#include <charconv>
 
 namespace episcope::io {
 namespace {
@@ -30,18 +29,6 @@ std::uintmax_t result_bytes(const Estimate& estimate) {
   if (!estimate.confidence.empty()) bytes += estimate.confidence.size() * sizeof(float);
   if (!estimate.layered.layers.empty()) bytes += estimate.layered.layers.size();
   return bytes;
-}
-
-std::string hex(std::uint64_t value) {
-  char digits[17] = {};
-  std::to_chars(digits, digits + 16, value, 16);
-  return digits;
-}
-
-std::uint64_t from_hex(const std::string& text) {
-  std::uint64_t value = 0;
-  std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  return value;
 }
 
 std::string join_lines(const std::vector<std::string>& lines) {
@@ -67,7 +54,7 @@ void write_provenance(Hdf5Output& file, const Estimate& estimate) {
   file.set_text(kGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
   file.set_text(kGroup, "source", estimate.source);
   if (estimate.source_hash != 0) {
-    file.set_text(kGroup, "source_hash", hex(estimate.source_hash));
+    file.set_text(kGroup, "source_hash", hash_digits(estimate.source_hash));
   }
   if (!(estimate.range == Interval{})) {
     file.set_numbers(kGroup, "range", {estimate.range.min, estimate.range.max});
@@ -167,7 +154,7 @@ class ResultReader {
     estimate.seconds = file_.number(kGroup, "seconds").value_or(0);
     estimate.version = text("version");
     estimate.source = text("source");
-    estimate.source_hash = from_hex(text("source_hash"));
+    estimate.source_hash = hash_from_digits(text("source_hash"));
     estimate.notes = split_lines(text("notes"));
     const std::vector<double> range = file_.numbers(kGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
