@@ -19,7 +19,6 @@
 
 #include <algorithm>
 #include <ctime>
-#include <memory>
 
 namespace {
 
@@ -109,8 +108,7 @@ void guided_filter(benchmark::State& state) {
   const Work work{pixels() * layers * (8 + 48), pixels() * layers * (2 * 4 * (2 * 5) + 4 + 24 + 6)};
   measure(state, work, [&] {
     parallel_for_workers((lf.height() + band - 1) / band, Progress(), [&] {
-      return
-          [&, filter = std::make_shared<GuidedFilter>(guide)](int i) { filter_band(*filter, i); };
+      return [&, filter = GuidedFilter(guide)](int i) mutable { filter_band(filter, i); };
     });
   });
 }
@@ -133,17 +131,16 @@ void structure_tensor(benchmark::State& state) {
   };
   measure(state, work, [&] {
     parallel_for_workers((lf.height() + kBandRows - 1) / kBandRows, Progress(), [&] {
-      auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Horizontal,
-                                                      kScales, search);
-      return [&, tensor](int i) {
+      return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Horizontal, kScales,
+                                          search)](int i) mutable {
         const int y = i * kBandRows;
-        tensor->estimate({lf.center().v,
-                          {y, 0},
-                          std::min(kBandRows, lf.height() - y),
-                          lf.width(),
-                          0,
-                          lf.grid().u},
-                         drop);
+        tensor.estimate({lf.center().v,
+                         {y, 0},
+                         std::min(kBandRows, lf.height() - y),
+                         lf.width(),
+                         0,
+                         lf.grid().u},
+                        drop);
       };
     });
   });
@@ -167,12 +164,11 @@ void double_orientation(benchmark::State& state) {
   };
   measure(state, work, [&] {
     parallel_for_workers(rows * columns, Progress(), [&] {
-      auto orientation = std::make_shared<DoubleOrientation>(lf, direction, kScales, search);
-      return [&, orientation](int i) {
+      return [&, orientation = DoubleOrientation(lf, direction, kScales, search)](int i) mutable {
         const PixelIndex begin{i / columns * tile.y, i % columns * tile.x};
-        orientation->estimate({lf.center().v, begin, std::min(tile.y, lf.height() - begin.y),
-                               std::min(tile.x, lf.width() - begin.x), 0, lf.grid().u},
-                              drop);
+        orientation.estimate({lf.center().v, begin, std::min(tile.y, lf.height() - begin.y),
+                              std::min(tile.x, lf.width() - begin.x), 0, lf.grid().u},
+                             drop);
       };
     });
   });
@@ -229,12 +225,11 @@ void ordering_terms(benchmark::State& state) {
   const Work work{pixels() * pulls * (3 * 4 + 4 * 4), pixels() * pulls * 20};
   measure(state, work, [&] {
     parallel_for_workers(grid.v * (grid.u - 1), Progress(), [&] {
-      auto curvature = std::make_shared<Image<float>>(lf.height(), lf.width());
-      auto force = std::make_shared<Image<float>>(lf.height(), lf.width());
-      return [&, curvature, force](int i) {
+      return [&, curvature = Image<float>(lf.height(), lf.width()),
+              force = Image<float>(lf.height(), lf.width())](int i) mutable {
         const ViewIndex view{i / (grid.u - 1), i % (grid.u - 1)};
         const auto here = disparity.view(view), there = disparity.view({view.v, view.u + 1});
-        const OrderingPull pull{curvature->view(), force->view()};
+        const OrderingPull pull{curvature.view(), force.view()};
         add_pull_on_from(here, here, there, {false, -1}, {}, pull);
         add_pull_on_to(there, there, here, {false, 1}, {}, pull);
       };

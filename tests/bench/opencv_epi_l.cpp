@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -255,12 +254,11 @@ OpenCvRun run_opencv_epi_l(const LightField& lf, const EpiLParameters& parameter
   const int horizontal = rows * lf.grid().v;
   const int vertical = columns * lf.grid().u;
   const double start = now();
-  parallel_for_workers(horizontal + vertical, Progress(), [&]() -> std::function<void(int)> {
-    auto lines = std::make_shared<OpenCvLines>(lf, parameters, ours);
-    return [&, lines](int i) {
-      if (i < horizontal) return lines->horizontal(i / rows, i % rows * step, tally);
+  parallel_for_workers(horizontal + vertical, Progress(), [&] {
+    return [&, lines = OpenCvLines(lf, parameters, ours)](int i) mutable {
+      if (i < horizontal) return lines.horizontal(i / rows, i % rows * step, tally);
       i -= horizontal;
-      lines->vertical(i / columns, i % columns * step, tally);
+      lines.vertical(i / columns, i % columns * step, tally);
     };
   });
   OpenCvRun run;

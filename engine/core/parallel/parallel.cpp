@@ -13,53 +13,54 @@
 namespace episcope {
 namespace {
 
-struct Loop {
-  Loop(int items, const Progress& job, const std::function<std::function<void(int)>()>& maker)
-      : count(items), progress(job), make_worker(maker) {}
+class Loop final : public LoopItems {
+ public:
+  Loop(int count, const Progress& progress) : count_(count), progress_(progress) {}
 
-  const int count;
-  const Progress& progress;
-  const std::function<std::function<void(int)>()>& make_worker;
-  std::atomic<int> next{0};
-  std::atomic<int> finished{0};
-  std::atomic<bool> failed{false};
-  std::exception_ptr failure{};
-  std::mutex failure_mutex{};
+  [[nodiscard]] int take() override {
+    const int item = next_++;
+    return item < count_ && !failed_ && !progress_.stop_requested() ? item : -1;
+  }
+  void finish() override { progress_.report(static_cast<double>(++finished_) / count_); }
 
-  void run_items() {
+  template <class Work>
+  void run(const Work& work) {
     try {
-      const auto body = make_worker();
-      for (int i = next++; i < count && !failed && !progress.stop_requested(); i = next++) {
-        body(i);
-        progress.report(static_cast<double>(++finished) / count);
-      }
+      work();
     } catch (...) {
-      const std::scoped_lock lock(failure_mutex);
-      if (!failure) failure = std::current_exception();
-      failed = true;
+      const std::scoped_lock lock(failure_mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      failed_ = true;
     }
   }
+  void rethrow_failure() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  const int count_;
+  const Progress& progress_;
+  std::atomic<int> next_{0};
+  std::atomic<int> finished_{0};
+  std::atomic<bool> failed_{false};
+  std::exception_ptr failure_{};
+  std::mutex failure_mutex_{};
 };
 
 }  // namespace
 
-void parallel_for_workers(int count, const Progress& progress,
-                          const std::function<std::function<void(int)>()>& make_worker) {
+void run_loop(int count, const Progress& progress,
+              void (*work)(const void* context, LoopItems& items), const void* context) {
   progress.check();
-  Loop loop(count, progress, make_worker);
+  Loop loop(count, progress);
+  const auto run_thread = [&] { loop.run([&] { work(context, loop); }); };
   {
     std::vector<std::jthread> threads;
-    for (int i = 1; i < std::min(progress.threads(), count); ++i) {
-      threads.emplace_back([&loop] { loop.run_items(); });
-    }
-    loop.run_items();
+    for (int i = 1; i < std::min(progress.threads(), count); ++i) threads.emplace_back(run_thread);
+    run_thread();
   }
-  if (loop.failure) std::rethrow_exception(loop.failure);
+  loop.rethrow_failure();
   progress.check();
-}
-
-void parallel_for(int count, const Progress& progress, const std::function<void(int)>& body) {
-  parallel_for_workers(count, progress, [&body] { return body; });
 }
 
 }  // namespace episcope

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -36,18 +34,17 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
   const GridShape grid = disparity.grid();
   const ViewIndex first = disparity.first();
   std::vector<double> gaps(grid.count());
-  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
-    auto solver = std::make_shared<TvL2Solver>(lf.height(), lf.width());
-    auto weights = std::make_shared<Image<float>>(lf.height(), lf.width());
-    return [&, solver, weights](int i) {
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, solver = TvL2Solver(lf.height(), lf.width()),
+            weights = Image<float>(lf.height(), lf.width())](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
       fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
-                        *weights);
+                        weights);
       const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       gaps[i] = solver
-                    ->solve({map, *weights, edges, parameters.lambda},
-                            {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
+                    .solve({map, weights, edges, parameters.lambda},
+                           {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
                     .relative_gap();
     };
   });

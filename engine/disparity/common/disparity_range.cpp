@@ -6,8 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -98,9 +96,8 @@ std::vector<Findings> collect(const LightField& lf, StructureTensor::Direction d
   const int step = std::max(thickness, extent * thickness / (kLines * (horizontal ? 1 : 2)));
   const int count = (extent + step - 1) / step;
   std::vector<Findings> findings(count, Findings(limit));
-  parallel_for_workers(count, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(lf, direction, coarse_scales(), search);
-    return [&, tensor](int i) {
+  parallel_for_workers(count, progress, [&] {
+    return [&, tensor = StructureTensor(lf, direction, coarse_scales(), search)](int i) mutable {
       const auto add = [&](int, PixelIndex, int run, const float* disparity,
                            const float* coherence) {
         add_run(disparity, coherence, run, limit, findings[i]);
@@ -113,14 +110,14 @@ std::vector<Findings> collect(const LightField& lf, StructureTensor::Direction d
         task.begin = {i * step, 0};
         task.height = 1;
         task.width = lf.width();
-        tensor->estimate(task, add);
+        tensor.estimate(task, add);
         return;
       }
       task.width = std::min(thickness, lf.width() - i * step);
       for (int y = 0; y < lf.height(); y += largest.height) {
         task.begin = {y, i * step};
         task.height = std::min(largest.height, lf.height() - y);
-        tensor->estimate(task, add);
+        tensor.estimate(task, add);
       }
     };
   });

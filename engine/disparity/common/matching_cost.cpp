@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <string>
 
@@ -343,13 +342,12 @@ Volume<float> matching_costs(const LightField& lf, ViewIndex reference, const Ma
   Volume<float> volume(lf.height(), static_cast<int>(labels.size()), lf.width());
   const VolumeView<float> view = volume.view();
   const int bands = (lf.height() + kTileRows - 1) / kTileRows;
-  parallel_for_workers(bands, progress, [&]() -> std::function<void(int)> {
-    auto rows = std::make_shared<MatchingCostRows>(lf, reference, cost, labels);
-    return [&, rows](int i) {
+  parallel_for_workers(bands, progress, [&] {
+    return [&, rows = MatchingCostRows(lf, reference, cost, labels)](int i) mutable {
       const int y = i * kTileRows;
-      rows->compute(y,
-                    {view.row(y, 0), std::min(kTileRows, view.height - y), view.layers, view.width},
-                    progress);
+      rows.compute(y,
+                   {view.row(y, 0), std::min(kTileRows, view.height - y), view.layers, view.width},
+                   progress);
     };
   });
   return volume;

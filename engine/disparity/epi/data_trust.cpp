@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -197,21 +196,19 @@ void lower_confidence(const PackedViews& views, Estimate& estimate, const Progre
   const float variance = noise_variance(views, disparity);
   const float noise = kLeastDifference * kLeastDifference + variance;
   const GridShape grid = disparity.grid();
-  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
-    auto residuals = std::make_shared<Residuals>(views, disparity);
-    auto texture = std::make_shared<TextureTrust>(height, width);
-    auto trust = std::make_shared<std::vector<float>>(width);
-    return [&, residuals, texture, trust](int i) {
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, residuals = Residuals(views, disparity), texture = TextureTrust(height, width),
+            trust = std::vector<float>(width)](int i) mutable {
       const ViewIndex view = grid.view_at(i, disparity.first());
-      residuals->begin(view);
-      texture->begin(views.view(view));
+      residuals.begin(view);
+      texture.begin(views.view(view));
       const ImageView<float> confidence = estimate.confidence.view(view);
       for (int y = 0; y < height; ++y) {
         if (y % 16 == 0) progress.check();
-        line_trust_row(residuals->row(y), width, variance, noise, trust->data());
-        texture->multiply_row(y, noise, trust->data());
+        line_trust_row(residuals.row(y), width, variance, noise, trust.data());
+        texture.multiply_row(y, noise, trust.data());
         float* const row = confidence.row(y);
-        for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt((*trust)[x]));
+        for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt(trust[x]));
       }
     };
   });

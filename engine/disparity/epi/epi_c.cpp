@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -115,10 +114,9 @@ std::vector<ViewIndex> views_of_colour(GridShape grid, int colour) {
 // Improves all views of one colour; returns the largest relative gap.
 double improve(const Work& work, const std::vector<ViewIndex>& views, const Progress& progress) {
   std::vector<double> gaps(views.size());
-  parallel_for_workers(static_cast<int>(views.size()), progress, [&]() -> std::function<void(int)> {
-    auto step = std::make_shared<ViewStep>(work);
-    return [&, step](int i) {
-      if (!progress.finish_requested()) gaps[i] = step->improve(views[i], progress);
+  parallel_for_workers(static_cast<int>(views.size()), progress, [&] {
+    return [&, step = ViewStep(work)](int i) mutable {
+      if (!progress.finish_requested()) gaps[i] = step.improve(views[i], progress);
     };
   });
   return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());

@@ -60,15 +60,14 @@ void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSe
   const int rows = band_rows(lf.height());
   const int bands = (lf.height() + rows - 1) / rows;
   const ViewIndex first = maps.first();
-  parallel_for_workers(maps.grid().v * bands, progress, [&]() -> std::function<void(int)> {
-    auto tensor = std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Horizontal,
-                                                    scales, search);
-    return [&, tensor](int i) {
+  parallel_for_workers(maps.grid().v * bands, progress, [&] {
+    return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Horizontal, scales,
+                                        search)](int i) mutable {
       const int v = first.v + i / bands;
       const int y = i % bands * rows;
       const TensorTask task{v,          {y, 0},  std::min(rows, lf.height() - y),
                             lf.width(), first.u, first.u + maps.grid().u};
-      tensor->estimate(task, store_into(maps, v));
+      tensor.estimate(task, store_into(maps, v));
     };
   });
 }
@@ -91,10 +90,9 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
   const int across = (lf.width() + width - 1) / width;
   const int blocks = across * ((lf.height() + height - 1) / height);
   const ViewIndex first = maps.first();
-  parallel_for_workers(maps.grid().u * blocks, progress, [&]() -> std::function<void(int)> {
-    auto tensor =
-        std::make_shared<StructureTensor>(lf, StructureTensor::Direction::Vertical, scales, search);
-    return [&, tensor](int i) {
+  parallel_for_workers(maps.grid().u * blocks, progress, [&] {
+    return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Vertical, scales, search)](
+               int i) mutable {
       const int u = first.u + i / blocks;
       const PixelIndex begin{i % blocks / across * height, i % blocks % across * width};
       const TensorTask task{u,
@@ -103,7 +101,7 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
                             std::min(width, lf.width() - begin.x),
                             first.v,
                             first.v + maps.grid().v};
-      tensor->estimate(task, sink_of(u));
+      tensor.estimate(task, sink_of(u));
     };
   });
 }

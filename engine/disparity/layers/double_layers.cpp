@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 namespace episcope {
 namespace {
@@ -64,10 +63,9 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   const int columns = (lf.width() + tile.x - 1) / tile.x;
   const int tiles = columns * ((lf.height() + tile.y - 1) / tile.y);
   const int lines = horizontal ? grid.v : grid.u;
-  parallel_for_workers(lines * tiles, progress, [&]() -> std::function<void(int)> {
-    auto orientation =
-        std::make_shared<DoubleOrientation>(lf, direction, measurement.scales, measurement.search);
-    return [&, orientation](int i) {
+  parallel_for_workers(lines * tiles, progress, [&] {
+    return [&, orientation = DoubleOrientation(lf, direction, measurement.scales,
+                                               measurement.search)](int i) mutable {
       if (i % measurement.search.every_tile != 0) return;
       const int line = (horizontal ? first.v : first.u) + i / tiles;
       const PixelIndex begin{i % tiles / columns * tile.y, i % tiles % columns * tile.x};
@@ -78,8 +76,8 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
                                          std::min(tile.x, lf.width() - begin.x),
                                          first_view,
                                          first_view + (horizontal ? grid.u : grid.v)};
-      orientation->estimate(task, [&](int view, PixelIndex at, int count, const float* near,
-                                      const float* far, const float* confidence) {
+      orientation.estimate(task, [&](int view, PixelIndex at, int count, const float* near,
+                                     const float* far, const float* confidence) {
         const ViewIndex index = horizontal ? ViewIndex{line, view} : ViewIndex{view, line};
         merge({count, near, far, confidence}, layers.near.view(index).row(at.y) + at.x,
               layers.far.view(index).row(at.y) + at.x,

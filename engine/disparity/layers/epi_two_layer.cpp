@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -181,14 +180,13 @@ void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, 
   const ViewIndex first = layered.layers.first();
   std::vector<double> gaps(grid.count());
   progress.step("layers");
-  parallel_for_workers(grid.count(), progress, [&]() -> std::function<void(int)> {
-    auto solver = std::make_shared<ViewSolver>(lf, parameters, progress);
-    return [&, solver](int i) {
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, solver = ViewSolver(lf, parameters, progress)](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
       gaps[i] =
-          solver->solve(view, {estimate.field.disparity.view(view), estimate.confidence.view(view),
-                               layered.foreground.disparity.view(view),
-                               layered.background.disparity.view(view), layered.layers.view(view)});
+          solver.solve(view, {estimate.field.disparity.view(view), estimate.confidence.view(view),
+                              layered.foreground.disparity.view(view),
+                              layered.background.disparity.view(view), layered.layers.view(view)});
     };
   });
   estimate.notes = notes_of(gaps, layered.layers);

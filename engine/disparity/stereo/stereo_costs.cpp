@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <memory>
 
 namespace episcope {
@@ -39,15 +38,14 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
       costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
   const int rows = std::min(kProbedRows, lf.height());
   std::vector<float> least(static_cast<std::size_t>(rows) * lf.width());
-  parallel_for_workers(rows, progress, [&]() -> std::function<void(int)> {
-    auto matching = std::make_shared<MatchingCostRows>(lf, costs.view, probe, labels);
-    auto row = std::make_shared<Volume<float>>(1, static_cast<int>(labels.size()), lf.width());
-    return [&, matching, row](int i) {
-      matching->compute((2 * i + 1) * lf.height() / (2 * rows), row->view(), progress);
+  parallel_for_workers(rows, progress, [&] {
+    return [&, matching = MatchingCostRows(lf, costs.view, probe, labels),
+            row = Volume<float>(1, static_cast<int>(labels.size()), lf.width())](int i) mutable {
+      matching.compute((2 * i + 1) * lf.height() / (2 * rows), row.view(), progress);
       float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
       std::fill_n(out, lf.width(), static_cast<float>(kUncapped));
-      for (int label = 0; label < row->layers(); ++label) {
-        const float* cost = row->view().row(0, label);
+      for (int label = 0; label < row.layers(); ++label) {
+        const float* cost = row.view().row(0, label);
         for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
       }
     };
@@ -170,15 +168,13 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
   Volume<float> volume(lf.height(), static_cast<int>(costs.labels.size()), lf.width());
   const VolumeView<float> all = volume.view();
   const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers(
-      (lf.height() + rows - 1) / rows, progress, [&]() -> std::function<void(int)> {
-        auto source = std::make_shared<StereoCostRows>(lf, costs);
-        return [&, source](int i) {
-          const int y = i * rows;
-          const auto band = source->compute(y, std::min(rows, lf.height() - y), progress);
-          std::copy_n(band.data, band.size(), all.row(y, 0));
-        };
-      });
+  parallel_for_workers((lf.height() + rows - 1) / rows, progress, [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int y = i * rows;
+      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
+      std::copy_n(band.data, band.size(), all.row(y, 0));
+    };
+  });
   return volume;
 }
 

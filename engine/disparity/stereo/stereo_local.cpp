@@ -4,7 +4,6 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
-#include <functional>
 #include <limits>
 
 namespace episcope {
@@ -106,14 +105,13 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
   const int rows = stereo_band_rows(lf.height());
   const int bands = (lf.height() + rows - 1) / rows;
   progress.step("matching costs");
-  parallel_for_workers(bands, progress.part(0.1, 1), [&]() -> std::function<void(int)> {
-    auto source = std::make_shared<StereoCostRows>(lf, costs);
-    auto winners = std::make_shared<Winners>(costs, parameters.refinement, lf.width());
-    return [&, source, winners](int i) {
+  parallel_for_workers(bands, progress.part(0.1, 1), [&] {
+    return [&, source = StereoCostRows(lf, costs),
+            winners = Winners(costs, parameters.refinement, lf.width())](int i) mutable {
       const int y = i * rows;
-      const auto band = source->compute(y, std::min(rows, lf.height() - y), progress);
+      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
       for (int row = 0; row < band.height; ++row) {
-        winners->choose(band, row, disparity.row(y + row), confidence.row(y + row));
+        winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
       }
     };
   });

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -109,11 +108,9 @@ void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& t
 
 void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
                       VolumeView<float> costs) {
-  const auto make_worker = [&]() -> std::function<void(int)> {
-    auto row = std::make_shared<Row>(costs.width);
-    return [&, row](int y) { fill_row(sources, table, costs, y, *row); };
-  };
-  parallel_for_workers(costs.height, progress, make_worker);
+  parallel_for_workers(costs.height, progress, [&] {
+    return [&, row = Row(costs.width)](int y) mutable { fill_row(sources, table, costs, y, row); };
+  });
 }
 
 }  // namespace episcope

@@ -5,7 +5,6 @@
 #include "engine/labeling/rays/ray_targets.h"
 
 #include <algorithm>
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -82,10 +81,9 @@ ViewStack<std::int32_t> vote_along_rays(const ViewStack<std::int32_t>& labels, i
   ViewStack<std::int32_t> decided(labels.grid(), labels.height(), labels.width(), 1,
                                   labels.first());
   parallel_for_workers(labels.grid().count(), progress, [&] {
-    auto row = std::make_shared<Vote::Row>(labels.width(), label_count);
-    return [&, row](int i) {
+    return [&, row = Vote::Row(labels.width(), label_count)](int i) mutable {
       const ViewIndex view = labels.view_at(i);
-      vote.decide_view(view, progress, *row, decided.view(view));
+      vote.decide_view(view, progress, row, decided.view(view));
     };
   });
   return decided;

@@ -4,7 +4,6 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
-#include <memory>
 
 namespace episcope {
 namespace {
@@ -45,15 +44,14 @@ RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) 
   progress.step("views");
   // Whole views side by side: threads that share a view wait for each other at every iteration.
   const Progress alone = progress.part(0, 0).on_one_thread();
-  parallel_for_workers(static_cast<int>(chains.size()), progress, [&]() {
-    auto problem =
-        std::make_shared<ViewProblem>(problems.input, problems.parameters, problems.colors);
-    return [&, problem](int k) {
+  parallel_for_workers(static_cast<int>(chains.size()), progress, [&] {
+    return [&, problem = ViewProblem(problems.input, problems.parameters, problems.colors)](
+               int k) mutable {
       ViewProblem::Task task{{}, problems.parameters.gap_of_many, {}};
       for (int i = chains[k].begin; i < chains[k].end; ++i) {
         task.view = p.view_at(i);
-        problems.fill(*problem, task.view, alone);
-        parts[i] = problem->solve(task, alone, result.labels.view(task.view));
+        problems.fill(problem, task.view, alone);
+        parts[i] = problem.solve(task, alone, result.labels.view(task.view));
         task.last = task.view;
       }
     };

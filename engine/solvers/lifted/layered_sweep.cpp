@@ -5,7 +5,6 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
-#include <memory>
 
 namespace episcope {
 
@@ -75,15 +74,15 @@ float* LayeredSweep::ahead(int y, float* scratch) {
 // own and of the row below: in this order all is updated in place, and memory is walked once.
 void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limits,
                            const LayeredMoves& moves, const Progress& progress) {
-  parallel_for_workers(bands(), progress, [&]() -> std::function<void(int)> {
-    auto scratch = std::make_shared<std::vector<float>>(2 * row_size() + 2 * kLayerRowUnit);
-    return [&, scratch](int i) {
+  parallel_for_workers(bands(), progress, [&] {
+    const std::size_t size = 2 * row_size() + 2 * kLayerRowUnit;
+    return [&, scratch = std::vector<float>(size)](int i) mutable {
       const FlushDenormals flush;
       for (int y = band(i).begin; y < band(i).end; ++y) {
         moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
-                     ahead(y, scratch->data()));
+                     ahead(y, scratch.data()));
         if (y == band(i).begin) continue;
-        moves.dual(shape_, ahead(y - 1, scratch->data()), ahead(y, scratch->data()),
+        moves.dual(shape_, ahead(y - 1, scratch.data()), ahead(y, scratch.data()),
                    duals(y - 1, limits));
       }
     };

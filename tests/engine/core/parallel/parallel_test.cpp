@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <thread>
@@ -70,6 +71,26 @@ class ParallelTest : public QObject {
 
     QVERIFY(made >= 1 && made <= 3);
     QCOMPARE(sum.load(), 499 * 500 / 2);
+  }
+
+  void worker_mayBeOfAnyMovableType() {
+    std::atomic<int> sum{0};
+
+    parallel_for_workers(100, Progress(2), [&] {
+      return [&sum, scratch = std::make_unique<int>()](int i) mutable {
+        *scratch = i;
+        sum += *scratch;
+      };
+    });
+
+    QCOMPARE(sum.load(), 99 * 100 / 2);
+  }
+
+  void exception_ofAMakerReachesTheCaller() {
+    const auto make_worker = []() -> void (*)(int) { throw std::runtime_error("no memory"); };
+
+    QVERIFY_EXCEPTION_THROWN(parallel_for_workers(10, Progress(2), make_worker),
+                             std::runtime_error);
   }
 
   void exception_ofABodyReachesTheCaller() {
