@@ -12,9 +12,10 @@ std::string place_name(const std::string& key, const std::string& scene) {
 
 }  // namespace
 
-RunLog::RunLog(const std::filesystem::path& folder) : folder_(folder), log_(folder / kFileName) {
-  for (const std::string& line : log_.lines()) {
-    if (auto record = record_from_json(line)) keep(std::move(*record));
+RunLog::RunLog(const std::filesystem::path& folder)
+    : folder_(folder), log_(folder / kFileName, io::LogFraming::Lines, io::LogFlush::AtOnce) {
+  for (const io::LogRecord& line : log_.records()) {
+    if (auto record = record_from_json({line.begin(), line.end()})) keep(std::move(*record));
   }
 }
 

@@ -59,13 +59,14 @@ void AnnotationJournal::record(const DocumentEvent& event) {
 }
 
 void AnnotationJournal::rewrite() {
-  log_.emplace(path_, journal_records(owner_, *document_));
+  log_.emplace(path_, io::LogFraming::Checked, io::LogFlush::InBackground,
+               journal_records(owner_, *document_));
   first_bytes_ = log_->byte_size();
 }
 
 RecoveredAnnotation read_journal(const fs::path& path) {
   try {
-    return replay(io::read_records(path));
+    return replay(io::read_log(path, io::LogFraming::Checked));
   } catch (const InvalidInput& error) {
     throw IoError(path, std::string(error.what()) + "; nothing can be recovered");
   }

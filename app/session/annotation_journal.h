@@ -2,7 +2,7 @@
 #pragma once
 
 #include "annotation/document/document.h"
-#include "engine/io/durable/record_log.h"
+#include "engine/io/durable/append_log.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -51,7 +51,7 @@ class AnnotationJournal {
   std::filesystem::path path_;
   JournalOwner owner_;
   AnnotationDocument* document_;
-  std::optional<io::RecordLog> log_;
+  std::optional<io::AppendLog> log_;
   std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
 };
 

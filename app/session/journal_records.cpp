@@ -41,7 +41,7 @@ Edit base_of(const AnnotationDocument& document) {
   return base_edit(labels, layer);
 }
 
-io::RecordLog::Record head_record(const JournalOwner& owner, const AnnotationDocument& document) {
+io::LogRecord head_record(const JournalOwner& owner, const AnnotationDocument& document) {
   const ScribbleLayer& layer = document.scribbles();
   ByteWriter out;
   out.number(kVersion);
@@ -56,7 +56,7 @@ io::RecordLog::Record head_record(const JournalOwner& owner, const AnnotationDoc
   return out.bytes();
 }
 
-io::RecordLog::Record base_record(const AnnotationDocument& document) {
+io::LogRecord base_record(const AnnotationDocument& document) {
   ByteWriter out;
   const bool is_saved = document.saved_state() == document.history().state_after(0);
   out.byte(is_saved ? 1 : 0);
@@ -72,7 +72,7 @@ struct Head {
   std::size_t history_bytes = 0;
 };
 
-Head read_head(const io::RecordLog::Record& record) {
+Head read_head(const io::LogRecord& record) {
   ByteReader in(record);
   if (in.number() != kVersion) throw InvalidInput("the journal is of another version");
   Head head;
@@ -88,7 +88,7 @@ Head read_head(const io::RecordLog::Record& record) {
   return head;
 }
 
-AnnotationDocument read_base(const Head& head, const io::RecordLog::Record& record) {
+AnnotationDocument read_base(const Head& head, const io::LogRecord& record) {
   ByteReader in(record);
   const bool is_saved = in.byte() != 0;
   // Applied to a document of its own first, which checks that it fits.
@@ -99,7 +99,7 @@ AnnotationDocument read_base(const Head& head, const io::RecordLog::Record& reco
   return document;
 }
 
-void replay_step(const io::RecordLog::Record& record, AnnotationDocument& document) {
+void replay_step(const io::LogRecord& record, AnnotationDocument& document) {
   ByteReader in(record);
   const std::uint8_t step = in.byte();
   switch (static_cast<DocumentStep>(step)) {
@@ -121,10 +121,10 @@ void replay_step(const io::RecordLog::Record& record, AnnotationDocument& docume
 
 }  // namespace
 
-std::vector<io::RecordLog::Record> journal_records(const JournalOwner& owner,
-                                                   const AnnotationDocument& document) {
+std::vector<io::LogRecord> journal_records(const JournalOwner& owner,
+                                           const AnnotationDocument& document) {
   const History& history = document.history();
-  std::vector<io::RecordLog::Record> records{head_record(owner, document), base_record(document)};
+  std::vector<io::LogRecord> records{head_record(owner, document), base_record(document)};
   for (std::size_t i = 0; i < history.count(); ++i) {
     records.push_back(step_record({DocumentStep::Edited, &history.edit(i)}));
     if (history.state_after(i + 1) == document.saved_state()) {
@@ -137,14 +137,14 @@ std::vector<io::RecordLog::Record> journal_records(const JournalOwner& owner,
   return records;
 }
 
-io::RecordLog::Record step_record(const DocumentEvent& event) {
+io::LogRecord step_record(const DocumentEvent& event) {
   ByteWriter out;
   out.byte(static_cast<std::uint8_t>(event.step));
   if (event.step == DocumentStep::Edited) write_edit(*event.edit, out);
   return out.bytes();
 }
 
-RecoveredAnnotation replay(const std::vector<io::RecordLog::Record>& records) {
+RecoveredAnnotation replay(const std::vector<io::LogRecord>& records) {
   if (records.size() < 2) throw InvalidInput("the journal ends before the document begins");
   const Head head = read_head(records[0]);
   RecoveredAnnotation found{head.owner, read_base(head, records[1])};

@@ -1,35 +1,70 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/io/durable/background_flush.h"
 #include "engine/io/durable/file_descriptor.h"
+#include "engine/io/durable/log_framing.h"
 
+#include <cstdint>
 #include <filesystem>
-#include <string>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace episcope::io {
 
-/// A text file that only grows, by whole lines: what was added stays, whenever the program ends. A
-/// last line without its end, which a crash in the middle of writing leaves, is dropped. One
-/// program at a time may hold a log.
+/// When a log flushes what was appended to the disk.
+enum class LogFlush {
+  AtOnce,        ///< Before `append` returns.
+  InBackground,  ///< Soon after, so that the caller never waits for a disk.
+};
+
+/// A file that only grows, by whole records. A record is in the file when `append` returns, so that
+/// it outlives the program whatever ends that. While the log is open no other process can hold it,
+/// and the system lets go of it when the program dies.
 class AppendLog {
  public:
-  /// Opens or creates the log and reads its lines. Throws IoError, also if another program
-  /// holds it.
-  explicit AppendLog(const std::filesystem::path& path);
+  /// Opens the log, or makes an empty one. What follows the last whole record (parse_log) is
+  /// dropped for good. Throws IoError, also if another process holds it or it is no such log.
+  AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush);
+  /// Makes a log of these records, which appears under its name when it is whole; in the place of
+  /// one that may be there only when it is on the disk as well. Throws IoError.
+  AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
+            std::span<const LogRecord> records);
 
-  /// The lines that were there when it was opened, without their ends.
-  [[nodiscard]] const std::vector<std::string>& lines() const { return lines_; }
-  /// Adds a line, which must not hold a line break, and flushes it to the disk. Throws IoError; the
-  /// log then is as it was.
-  void append(const std::string& line);
+  /// The records that were there when it was opened.
+  [[nodiscard]] const std::vector<LogRecord>& records() const { return records_; }
+  /// Throws IoError, also if a flush in the background failed before. The log then is as it was,
+  /// and takes no more records if not even that could be had.
+  void append(std::span<const std::uint8_t> record);
+  void append(std::string_view record);
+  /// Waits until all records are on the disk. Throws IoError.
+  void flush();
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] std::uintmax_t byte_size() const { return bytes_; }
 
  private:
-  void read_lines();
+  void read_records();
+  void start_flush(LogFlush flush, BackgroundFlush::Start start);
+  void require_sound();
 
   std::filesystem::path path_;
+  LogFraming framing_;
   FileDescriptor file_;
-  std::vector<std::string> lines_;
+  std::vector<LogRecord> records_;
+  std::uintmax_t bytes_ = 0;
+  bool is_broken_ = false;
+  std::optional<BackgroundFlush> flush_;  ///< None: at once.
 };
+
+/// The records of a log that another process may hold; the file stays as it is. Throws IoError if
+/// it cannot be read or is no such log.
+[[nodiscard]] std::vector<LogRecord> read_log(const std::filesystem::path& path,
+                                              LogFraming framing);
+
+/// Whether a living process has the log open. False if there is no such file.
+[[nodiscard]] bool is_held(const std::filesystem::path& path);
 
 }  // namespace episcope::io
