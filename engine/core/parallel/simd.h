@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-/// Vectors of floats as wide as the instruction set that a kernel source is compiled for
-/// (engine/core/parallel/isa.h), by the compiler's vector extensions. For kernel sources only:
-/// everything here has internal linkage, in the namespace of that instruction set.
+/// Registers of numbers, as wide as the instruction set that a kernel source is compiled for
+/// (engine/core/parallel/isa.h), by the compiler's vector extensions: the operators of numbers work
+/// lane by lane, also with a single number on one side, and [] is one lane. A comparison gives a
+/// mask: integers of the same size, −1 in the lanes where it holds, else 0. simd_pack.h has the
+/// same operations on a number of lanes that does not depend on the instruction set.
+/// For kernel sources only: everything here has internal linkage, in the namespace of the
+/// instruction set.
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -17,9 +21,16 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
+template <class T>
+struct RegisterOf {
+  typedef T Type __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
+};
+template <class T>
+using Register = typename RegisterOf<T>::Type;
+
+using Vec = Register<float>;
+using IntVec = Register<int>;
 constexpr int kLanes = EPISCOPE_VECTOR_BYTES / sizeof(float);
-typedef float Vec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
-typedef int IntVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES)));
 typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligned(4), may_alias));
 
 [[maybe_unused]] inline Vec load(const float* from) {
@@ -34,19 +45,34 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
 [[maybe_unused]] inline Vec choose(IntVec mask, Vec yes, Vec no) {
   return mask ? yes : no;
 }
-[[maybe_unused]] inline Vec least(Vec a, Vec b) {
+
+template <class V>
+inline V least(V a, V b) {
   return a < b ? a : b;
 }
-[[maybe_unused]] inline Vec greatest(Vec a, Vec b) {
+template <class V>
+inline V greatest(V a, V b) {
   return a > b ? a : b;
 }
-[[maybe_unused]] inline Vec absolute(Vec value) {
-  return choose(value < 0.0F, -value, value);
+template <class V>
+inline V absolute(V value) {
+  return value < V{} ? -value : value;
 }
 [[maybe_unused]] inline Vec square_root(Vec value) {
   Vec root;
   for (int i = 0; i < kLanes; ++i) root[i] = __builtin_sqrtf(value[i]);
   return root;
+}
+[[maybe_unused]] inline Register<double> square_root(Register<double> value) {
+  Register<double> root;
+  for (int i = 0; i < kLanes / 2; ++i) root[i] = __builtin_sqrt(value[i]);
+  return root;
+}
+
+/// Each lane as another type of number of the same size; fractions are cut off.
+template <class To, class V>
+inline Register<To> convert(V value) {
+  return __builtin_convertvector(value, Register<To>);
 }
 
 /// Whether any lane of a comparison holds.
@@ -79,6 +105,21 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   const Vec guess = 1.0F / value;
 #endif
   return guess * (2.0F - value * guess);  // one Newton step
+}
+
+/// 1/√value to about 23 bits, value > 0.
+[[maybe_unused]] inline Vec reciprocal_root(Vec value) {
+#if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  const Vec guess =
+      reinterpret_cast<Vec>(_mm512_maskz_rsqrt14_ps(0xFFFF, reinterpret_cast<__m512>(value)));
+#elif defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  const Vec guess = reinterpret_cast<Vec>(_mm256_rsqrt_ps(reinterpret_cast<__m256>(value)));
+#elif defined(__SSE2__) && EPISCOPE_VECTOR_BYTES == 16
+  const Vec guess = reinterpret_cast<Vec>(_mm_rsqrt_ps(reinterpret_cast<__m128>(value)));
+#else
+  const Vec guess = 1.0F / square_root(value);
+#endif
+  return guess * (1.5F - (0.5F * value) * (guess * guess));  // one Newton step
 }
 
 }  // namespace

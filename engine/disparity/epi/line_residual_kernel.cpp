@@ -18,7 +18,7 @@ struct Colour {
 inline Colour unpack(IntVec packed) {
   Colour colour;
   for (int c = 0; c < 3; ++c) {
-    colour.channel[c] = __builtin_convertvector((packed >> (kBits * c)) & kMask, Vec);
+    colour.channel[c] = convert<float>((packed >> (kBits * c)) & kMask);
   }
   return colour;
 }
@@ -27,10 +27,6 @@ inline IntVec gather(const std::uint32_t* from, IntVec index) {
   IntVec values;
   for (int i = 0; i < kLanes; ++i) values[i] = static_cast<int>(from[index[i]]);
   return values;
-}
-
-inline IntVec least_int(IntVec a, IntVec b) {
-  return a < b ? a : b;
 }
 
 // Where the lines of some pixels meet a view.
@@ -42,17 +38,15 @@ struct Meeting {
 
 inline Meeting meet(const ResidualRow& row, const LineArm& arm, Vec shift, IntVec column) {
   const int last = (arm.vertical ? row.height : row.width) - 1;
-  const Vec start =
-      arm.vertical ? splat(static_cast<float>(row.y)) : __builtin_convertvector(column, Vec);
+  const Vec start = arm.vertical ? splat(static_cast<float>(row.y)) : convert<float>(column);
   const Vec at = start + shift;
   const Vec end = splat(static_cast<float>(last));
   const Vec clamped = least(greatest(at, splat(0)), end);
-  const IntVec tap =
-      least_int(__builtin_convertvector(clamped, IntVec), IntVec{} + (last > 0 ? last - 1 : 0));
+  const IntVec tap = least(convert<int>(clamped), IntVec{} + (last > 0 ? last - 1 : 0));
   const int stride = arm.vertical ? row.width : 1;
   const IntVec begin = arm.vertical ? column : IntVec{} + row.y * row.width;
   const IntVec first = begin + tap * stride;
-  return {first, first + (last > 0 ? stride : 0), clamped - __builtin_convertvector(tap, Vec),
+  return {first, first + (last > 0 ? stride : 0), clamped - convert<float>(tap),
           (at >= 0.0F) & (at <= end)};
 }
 
@@ -73,7 +67,7 @@ void residual_row(const ResidualRow& row) {
   IntVec lane;
   for (int i = 0; i < kLanes; ++i) lane[i] = i;
   for (int x = 0; x < row.width; x += kLanes) {
-    const IntVec column = least_int(lane + x, IntVec{} + (row.width - 1));
+    const IntVec column = least(lane + x, IntVec{} + (row.width - 1));
     const Vec disparity = load(row.disparity + x);
     const Colour own = unpack(gather(row.own + x, lane));
     Vec best = splat(infinity);

@@ -4,10 +4,13 @@
 // For kernel sources only: closed-form intersections of rays with primitives, in float for colour
 // samples and in double for the truth.
 
-#include "engine/scenes/cast/lanes.h"
+#include "engine/core/parallel/simd_pack.h"
 #include "engine/scenes/cast/model.h"
 
 namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+using namespace episcope::EPISCOPE_KERNEL_NAMESPACE;
 
 /// Depth of a ray that hits nothing.
 constexpr float kMiss = 1e30F;
@@ -74,15 +77,10 @@ inline Pack<R> along(const LocalRays<R>& rays, int axis, const Pack<R>& t) {
   return rays.start[axis] + t * rays.direction[axis];
 }
 
-template <class R>
-inline Pack<R> absolute(const Pack<R>& a) {
-  return maximum(a, Pack<R>(R(0)) - a);
-}
-
 /// Each returns t from the start of the local rays, or kMiss.
 template <class R>
 inline Pack<R> hit_plane(const Primitive& primitive, const LocalRays<R>& rays) {
-  const Pack<R> t = Pack<R>(R(0)) - rays.start[2] / rays.direction[2];
+  const Pack<R> t = -rays.start[2] / rays.direction[2];
   const Pack<R> x = along(rays, 0, t);
   const Pack<R> y = along(rays, 1, t);
   const auto extent_x = static_cast<R>(primitive.extent[0]);
@@ -90,7 +88,7 @@ inline Pack<R> hit_plane(const Primitive& primitive, const LocalRays<R>& rays) {
   const Mask<R> inside = primitive.shape == Shape::Disc
                              ? (x * x + y * y <= extent_x * extent_x)
                              : ((absolute(x) <= extent_x) & (absolute(y) <= extent_y));
-  return select(inside, t, Pack<R>(R(kMiss)));
+  return choose(inside, t, Pack<R>(R(kMiss)));
 }
 
 template <class R>
@@ -102,10 +100,10 @@ inline Pack<R> hit_box(const Primitive& primitive, const LocalRays<R>& rays) {
     const Pack<R> inverse = R(1) / rays.direction[i];
     const Pack<R> a = (Pack<R>(-extent) - rays.start[i]) * inverse;
     const Pack<R> b = (Pack<R>(extent) - rays.start[i]) * inverse;
-    near_t = maximum(near_t, minimum(a, b));
-    far_t = minimum(far_t, maximum(a, b));
+    near_t = greatest(near_t, least(a, b));
+    far_t = least(far_t, greatest(a, b));
   }
-  return select(near_t <= far_t, near_t, Pack<R>(R(kMiss)));
+  return choose(near_t <= far_t, near_t, Pack<R>(R(kMiss)));
 }
 
 template <class R>
@@ -122,16 +120,16 @@ inline Pack<R> hit_revolution(const Primitive& primitive, const LocalRays<R>& ra
   const Pack<R> discriminant = b * b - a * c;
   const Mask<R> is_real = discriminant >= R(0);
   if (!any(is_real)) return Pack<R>(R(kMiss));
-  const Pack<R> r = root(maximum(discriminant, Pack<R>(R(0))));
-  const Pack<R> one = (Pack<R>(R(0)) - b - r) / a;
+  const Pack<R> r = square_root(greatest(discriminant, Pack<R>(R(0))));
+  const Pack<R> one = (-b - r) / a;
   const Pack<R> two = (r - b) / a;
   const auto low = static_cast<R>(primitive.extent[0]);
   const auto high = static_cast<R>(primitive.extent[1]);
   const auto within = [&](const Pack<R>& t) {
     const Pack<R> y = along(rays, 1, t);
-    return select((y >= low) & (y <= high) & is_real, t, Pack<R>(R(kMiss)));
+    return choose((y >= low) & (y <= high) & is_real, t, Pack<R>(R(kMiss)));
   };
-  return minimum(within(one), within(two));
+  return least(within(one), within(two));
 }
 
 /// Depth of the nearest hit in front of the camera, or kMiss.
@@ -151,7 +149,8 @@ inline Pack<R> hit_depth(const Primitive& primitive, const LocalRays<R>& rays) {
       break;
   }
   const Pack<R> depth = t + rays.start_depth;
-  return select(depth > R(0), depth, Pack<R>(R(kMiss)));
+  return choose(depth > R(0), depth, Pack<R>(R(kMiss)));
 }
 
+}  // namespace
 }  // namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE

@@ -7,6 +7,7 @@
 #include "engine/scenes/cast/surface.h"
 
 namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
 
 /// Points in the camera frame with their mean colour, waiting to be lit.
 struct Fragments {
@@ -40,17 +41,17 @@ inline Shade shade(const Fragments& f, const ModelView& model) {
     Floats from[3];
     for (int k = 0; k < 3; ++k) from[k] = f.position[k] - occluder.center[k];
     const Floats squared = dot(from, from);
-    const Floats facing = Floats(0.0F) - dot(f.normal, from);
-    const Floats cover =
-        clamp_unit(facing * (radius * radius) / maximum(squared * root(squared), Floats(1e-9F)));
+    const Floats facing = -dot(f.normal, from);
+    const Floats cover = clamp_unit(facing * (radius * radius) /
+                                    greatest(squared * square_root(squared), Floats(1e-9F)));
 
-    const Floats ahead = Floats(0.0F) - dot(from, model.lighting.key_direction);
-    const Floats gap = root(maximum(squared - ahead * ahead, Floats(0.0F))) - radius;
+    const Floats ahead = -dot(from, model.lighting.key_direction);
+    const Floats gap = square_root(greatest(squared - ahead * ahead, Floats(0.0F))) - radius;
     const Floats open =
-        smooth(clamp_unit(gap / maximum(ahead * light_width, Floats(1e-6F)) + 0.5F));
-    const Ints is_own = equals(f.label, occluder.label);
-    seen.sky = seen.sky * select(is_own, one, one - cover);
-    seen.key = seen.key * select(is_own | (ahead <= 0.0F), one, open);
+        smooth(clamp_unit(gap / greatest(ahead * light_width, Floats(1e-6F)) + 0.5F));
+    const Ints is_own = f.label == occluder.label;
+    seen.sky = seen.sky * choose(is_own, one, one - cover);
+    seen.key = seen.key * choose(is_own | (ahead <= 0.0F), one, open);
   }
   return seen;
 }
@@ -58,9 +59,9 @@ inline Shade shade(const Fragments& f, const ModelView& model) {
 /// A soft highlight, as seen from the centre view.
 inline Floats highlight(const Fragments& f, const Lighting& lighting) {
   Floats half[3];
-  const Floats to_view = -1.0F / root(dot(f.position, f.position));
+  const Floats to_view = -1.0F / square_root(dot(f.position, f.position));
   for (int k = 0; k < 3; ++k) half[k] = f.position[k] * to_view + lighting.key_direction[k];
-  Floats power = maximum(dot(f.normal, half), Floats(0.0F)) / root(dot(half, half));
+  Floats power = greatest(dot(f.normal, half), Floats(0.0F)) / square_root(dot(half, half));
   for (int i = 0; i < 5; ++i) power = power * power;
   return power;
 }
@@ -68,13 +69,13 @@ inline Floats highlight(const Fragments& f, const Lighting& lighting) {
 /// Lights all fragments and adds them to the row.
 inline void flush(Fragments& f, const ModelView& model, float* row) {
   if (f.count == 0) return;
-  for (int lane = f.count; lane < Floats::kLanes; ++lane) f.weight.set(lane, 0.0F);
+  for (int lane = f.count; lane < Floats::kLanes; ++lane) f.weight[lane] = 0.0F;
   Floats light[3] = {1.0F, 1.0F, 1.0F};
   Floats glint(0.0F);
   const Lighting& lighting = model.lighting;
   if (lighting.is_on) {
     const Shade seen = shade(f, model);
-    const Floats key = maximum(dot(f.normal, lighting.key_direction), Floats(0.0F)) * seen.key;
+    const Floats key = greatest(dot(f.normal, lighting.key_direction), Floats(0.0F)) * seen.key;
     const Floats up = dot(f.normal, lighting.up) * 0.5F + 0.5F;
     for (int c = 0; c < 3; ++c) {
       const Floats sky = Floats(lighting.ground[c]) + up * (lighting.sky[c] - lighting.ground[c]);
@@ -89,4 +90,5 @@ inline void flush(Fragments& f, const ModelView& model, float* row) {
   f.count = 0;
 }
 
+}  // namespace
 }  // namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE

@@ -7,6 +7,7 @@
 #include "engine/scenes/cast/value_noise.h"
 
 namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
 
 /// Points of one primitive, in its own frame.
 struct SurfacePoints {
@@ -15,6 +16,10 @@ struct SurfacePoints {
   Floats from_center_view[3];
   Floats depth;
 };
+
+inline Floats clamp_unit(const Floats& a) {
+  return least(greatest(a, Floats(0.0F)), Floats(1.0F));
+}
 
 inline Floats smooth(const Floats& t) {
   return t * t * (Floats(3.0F) - t * 2.0F);
@@ -41,8 +46,8 @@ inline void box_normal(const Primitive& primitive, const Floats* p, Floats* n) {
   Floats share[3];
   for (int i = 0; i < 3; ++i)
     share[i] = absolute(p[i]) * static_cast<float>(1 / primitive.extent[i]);
-  const Floats most = maximum(share[0], maximum(share[1], share[2]));
-  for (int i = 0; i < 3; ++i) n[i] = select(share[i] >= most, p[i], Floats(0.0F));
+  const Floats most = greatest(share[0], greatest(share[1], share[2]));
+  for (int i = 0; i < 3; ++i) n[i] = choose(share[i] >= most, p[i], Floats(0.0F));
 }
 
 inline SurfacePoints surface_points(const Frame<float>& frame, const LocalRays<float>& rays,
@@ -61,8 +66,8 @@ inline SurfacePoints surface_points(const Frame<float>& frame, const LocalRays<f
   } else if (primitive.shape == Shape::Box) {
     box_normal(primitive, points.position, points.normal);
   }
-  Floats scale = 1.0F / root(maximum(dot(points.normal, points.normal), Floats(1e-20F)));
-  scale = select(dot(points.normal, points.from_center_view) > 0.0F, Floats(0.0F) - scale, scale);
+  Floats scale = 1.0F / square_root(greatest(dot(points.normal, points.normal), Floats(1e-20F)));
+  scale = choose(dot(points.normal, points.from_center_view) > 0.0F, -scale, scale);
   for (Floats& n : points.normal) n = n * scale;
   return points;
 }
@@ -73,8 +78,9 @@ inline Floats projected_unit(const SurfacePoints& points, double focal_px) {
   const Floats& x = points.from_center_view[0];
   const Floats& y = points.from_center_view[1];
   const Floats& z = points.from_center_view[2];
-  const Floats facing = Floats(0.0F) - dot(points.normal, points.from_center_view);
-  return facing * static_cast<float>(focal_px) / (root(x * x + y * y + z * z) * points.depth);
+  const Floats facing = -dot(points.normal, points.from_center_view);
+  return facing * static_cast<float>(focal_px) /
+         (square_root(x * x + y * y + z * z) * points.depth);
 }
 
 inline Floats octave(const Texture& texture, const Floats* p, int index) {
@@ -108,14 +114,14 @@ inline Floats step_length_px(const Texture& texture, int axis, const SurfacePoin
   const double* a = texture.pattern_axis[axis];
   const auto size = static_cast<float>(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   const Floats ratio = dot(a, points.from_center_view) /
-                       minimum(dot(points.normal, points.from_center_view), Floats(-1e-6F));
+                       least(dot(points.normal, points.from_center_view), Floats(-1e-6F));
   Floats gradient[3];
   for (int i = 0; i < 3; ++i) {
     gradient[i] = Floats(static_cast<float>(a[i])) - points.normal[i] * ratio;
   }
-  const Floats share = root(dot(gradient, gradient) / size);
+  const Floats share = square_root(dot(gradient, gradient) / size);
   return Floats(static_cast<float>(texture.pattern_step * focal_px)) /
-         maximum(share * points.depth, Floats(1e-6F));
+         greatest(share * points.depth, Floats(1e-6F));
 }
 
 /// The wave along one axis, fading to its mean where it would not be resolved.
@@ -147,7 +153,7 @@ inline Floats pattern_value(const Texture& texture, const SurfacePoints& points,
   }
   const Floats a = dot(texture.pattern_axis[0], points.position);
   const Floats b = dot(texture.pattern_axis[1], points.position);
-  return wave(root(a * a + b * b) + warp, texture.pattern_sharpness);
+  return wave(square_root(a * a + b * b) + warp, texture.pattern_sharpness);
 }
 
 /// Colour of every point, without light.
@@ -180,4 +186,5 @@ inline void albedo(const Texture& texture, const SurfacePoints& points, double f
   }
 }
 
+}  // namespace
 }  // namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE

@@ -15,7 +15,7 @@ bool covers(const Candidate& candidate, int begin, int end) {
 // The sum of all lanes, in the same order on every instruction set.
 float sum(const Floats& a) {
   float lanes[Floats::kLanes];
-  __builtin_memcpy(lanes, a.part, sizeof lanes);
+  store(lanes, a);
   for (int half = Floats::kLanes / 2; half > 0; half /= 2) {
     for (int i = 0; i < half; ++i) lanes[i] += lanes[i + half];
   }
@@ -29,8 +29,8 @@ struct Nearest {
 
   void offer(const Pack<R>& other, int index) {
     const auto nearer = other < depth;
-    depth = select(nearer, other, depth);
-    primitive = select(nearer, Pack<R>(static_cast<R>(index)), primitive);
+    depth = choose(nearer, other, depth);
+    primitive = choose(nearer, Pack<R>(static_cast<R>(index)), primitive);
   }
 };
 
@@ -64,7 +64,7 @@ struct Row {
 void Row::trace_centers(int x0) const {
   const ViewCamera& camera = job.camera;
   Rays<double> rays;
-  for (int i = 0; i < kCenters; ++i) rays.dx.set(i, x0 + i - camera.principal[0]);
+  for (int i = 0; i < kCenters; ++i) rays.dx[i] = x0 + i - camera.principal[0];
   rays.dx = rays.dx / camera.focal_px;
   rays.dy = Doubles((job.y - camera.principal[1]) / camera.focal_px);
   Nearest<double> solid;
@@ -97,11 +97,11 @@ void Row::add_fragment(const Frame<float>& frame, const Rays<float>& rays, int x
   const float total = sum(weight);
   const float scale = 1 / total;
   fragments.pixel[slot] = x;
-  fragments.weight.set(slot, total / kSamples);
-  for (int c = 0; c < 3; ++c) fragments.color[c].set(slot, sum(rgb[c] * weight) * scale);
+  fragments.weight[slot] = total / kSamples;
+  for (int c = 0; c < 3; ++c) fragments.color[c][slot] = sum(rgb[c] * weight) * scale;
   if (!job.model.lighting.is_on) return;
-  fragments.label.set(slot, primitive.label);
-  fragments.gloss.set(slot, texture.gloss);
+  fragments.label[slot] = primitive.label;
+  fragments.gloss[slot] = texture.gloss;
   const bool is_flat = primitive.shape == Shape::Rectangle || primitive.shape == Shape::Disc;
   float normal[3];
   for (int i = 0; i < 3; ++i) {
@@ -113,18 +113,18 @@ void Row::add_fragment(const Frame<float>& frame, const Rays<float>& rays, int x
                           is_whole ? center_slope(job.y, 1) : sum(rays.dy * weight) * scale, 1};
   for (int k = 0; k < 3; ++k) {
     const auto origin = static_cast<float>(job.camera.origin[k]);
-    fragments.position[k].set(slot, origin + mean_depth * slope[k]);
+    fragments.position[k][slot] = origin + mean_depth * slope[k];
     float world = 0;
     for (int i = 0; i < 3; ++i) world += frame.axes[i][k] * normal[i];
-    fragments.normal[k].set(slot, world);
+    fragments.normal[k][slot] = world;
   }
 }
 
 Rays<float> Row::sample_rays(int x) const {
   Rays<float> rays;
   for (int i = 0; i < kSamples; ++i) {
-    rays.dx.set(i, static_cast<float>(i % 4) * 0.25F - 0.375F);
-    rays.dy.set(i, static_cast<float>(i / 4) * 0.25F - 0.375F);
+    rays.dx[i] = static_cast<float>(i % 4) * 0.25F - 0.375F;
+    rays.dy[i] = static_cast<float>(i / 4) * 0.25F - 0.375F;
   }
   const auto pixel = static_cast<float>(1 / job.camera.focal_px);
   rays.dx = rays.dx * pixel + center_slope(x, 0);
@@ -144,19 +144,19 @@ void Row::trace_samples(int x) {
   }
   const Ints behind_pane = pane.depth < solid.depth;
   const Floats zero(0.0F);
-  const Floats solid_weight = select(behind_pane, Floats(0.5F), Floats(1.0F));
-  const Floats pane_weight = select(behind_pane, Floats(0.5F), zero);
+  const Floats solid_weight = choose(behind_pane, Floats(0.5F), Floats(1.0F));
+  const Floats pane_weight = choose(behind_pane, Floats(0.5F), zero);
   int label = 0;
   for (int i = 0; i < job.candidate_count; ++i) {
     if (!covers(job.candidates[i], x, x + 1)) continue;
     const Primitive& primitive = *samples[i].primitive;
     const Nearest<float>& hits = primitive.is_pane ? pane : solid;
-    Ints hit = equals(convert<int>(hits.primitive), i);
+    Ints hit = convert<int>(hits.primitive) == i;
     if (primitive.is_pane) hit = hit & behind_pane;
     if (!any(hit)) continue;
     if (fragments.count == Floats::kLanes) flush(fragments, job.model, out.color);
-    add_fragment(samples[i], rays, x, select(hit, hits.depth, Floats(1.0F)),
-                 select(hit, primitive.is_pane ? pane_weight : solid_weight, zero));
+    add_fragment(samples[i], rays, x, choose(hit, hits.depth, Floats(1.0F)),
+                 choose(hit, primitive.is_pane ? pane_weight : solid_weight, zero));
     if (label != 0 && label != primitive.label && !primitive.is_pane) out.is_edge[x] = 1;
     if (!primitive.is_pane) label = primitive.label;
   }

@@ -3,9 +3,12 @@
 
 // For kernel sources only: value noise on an integer lattice.
 
-#include "engine/scenes/cast/lanes.h"
+#include "engine/core/parallel/simd_pack.h"
 
 namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+using namespace episcope::EPISCOPE_KERNEL_NAMESPACE;
 
 constexpr unsigned kPrimeX = 0x9E3779B1U;
 constexpr unsigned kPrimeY = 0x85EBCA77U;
@@ -13,16 +16,15 @@ constexpr unsigned kPrimeZ = 0xC2B2AE3DU;
 
 /// A lattice value in [−1, 1) for each key.
 inline Floats lattice_value(const Uints& key) {
-  Uints h = key;
-  for (int i = 0; i < kParts; ++i) {
-    auto& p = h.part[i];
-    p ^= p >> 15;
-    p *= 0x2C1B3C6DU;
-    p ^= p >> 12;
-    p *= 0x297A2D39U;
-    p >>= 8;
-  }
-  return convert<float>(convert<int>(h)) * 0x1p-23F - 1.0F;
+  Uints h = (key ^ (key >> 15)) * 0x2C1B3C6DU;
+  h = (h ^ (h >> 12)) * 0x297A2D39U;
+  return convert<float>(convert<int>(h >> 8)) * 0x1p-23F - 1.0F;
+}
+
+/// The largest integers not above `a`, of magnitude below 2^31.
+inline Ints floor_to_int(const Floats& a) {
+  const Ints cut = convert<int>(a);
+  return cut + (convert<float>(cut) > a);  // a comparison that holds is −1
 }
 
 /// Lattice cell of one coordinate: keys of its two ends and the C2 weight of the second.
@@ -70,4 +72,5 @@ inline Floats noise(const Floats& x, const Floats& y, const Floats& z, unsigned 
   return blend(slice(cz.low ^ seed), slice(cz.high ^ seed), cz.weight);
 }
 
+}  // namespace
 }  // namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE

@@ -4,29 +4,8 @@
 
 #include "engine/core/parallel/simd.h"
 
-#if defined(__x86_64__)
-#include <immintrin.h>
-#endif
-
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
-
-// 1/√value to about 23 bits, value > 0.
-inline Vec reciprocal_root(Vec value) {
-#if defined(__AVX512F__)
-  const Vec guess =
-      reinterpret_cast<Vec>(_mm512_maskz_rsqrt14_ps(0xFFFF, reinterpret_cast<__m512>(value)));
-#elif defined(__AVX2__)
-  const Vec guess = reinterpret_cast<Vec>(_mm256_rsqrt_ps(reinterpret_cast<__m256>(value)));
-#elif defined(__SSE2__)
-  const Vec guess = reinterpret_cast<Vec>(_mm_rsqrt_ps(reinterpret_cast<__m128>(value)));
-#else
-  return 1.0F / square_root(value);
-#endif
-#if defined(__SSE2__)
-  return guess * (1.5F - (0.5F * value) * (guess * guess));  // one Newton step
-#endif
-}
 
 inline int padded(const TvL2Level& level) {
   return (level.width + kLanes - 1) / kLanes * kLanes;
