@@ -18,6 +18,19 @@ enum class Isa { Baseline, Avx2, Avx512 };
 
 }  // namespace episcope
 
+/// Declares the kernel table, or function, of each namespace:
+/// EPISCOPE_DECLARE_KERNEL(extern const ForestKernel kForestKernel);
+#define EPISCOPE_DECLARE_KERNEL(...) \
+  namespace baseline {               \
+  __VA_ARGS__;                       \
+  }                                  \
+  namespace avx2 {                   \
+  __VA_ARGS__;                       \
+  }                                  \
+  namespace avx512 {                 \
+  __VA_ARGS__;                       \
+  }
+
 /// The kernel table `name` of the namespace for `isa`; where only the baseline is built, that one.
 #ifdef EPISCOPE_BASELINE_ONLY
 #define EPISCOPE_CHOOSE_KERNEL(isa, name) (baseline::name)

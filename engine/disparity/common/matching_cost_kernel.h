@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 namespace episcope {
 
 /// Lanes that the matching kernel may read or write beyond the columns it is asked for.
@@ -40,14 +42,6 @@ struct MatchingKernel {
   void (*add)(const MatchingTile&);
 };
 
-namespace baseline {
-extern const MatchingKernel kMatchingKernel;
-}
-namespace avx2 {
-extern const MatchingKernel kMatchingKernel;
-}
-namespace avx512 {
-extern const MatchingKernel kMatchingKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const MatchingKernel kMatchingKernel);
 
 }  // namespace episcope

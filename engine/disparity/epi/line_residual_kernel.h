@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 #include <cstdint>
 
 namespace episcope {
@@ -36,14 +38,6 @@ struct ResidualKernel {
   void (*row)(const ResidualRow&);
 };
 
-namespace baseline {
-extern const ResidualKernel kResidualKernel;
-}
-namespace avx2 {
-extern const ResidualKernel kResidualKernel;
-}
-namespace avx512 {
-extern const ResidualKernel kResidualKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const ResidualKernel kResidualKernel);
 
 }  // namespace episcope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
 #include "engine/disparity/tensor/structure_tensor_kernel.h"
 
 namespace episcope {
@@ -68,14 +69,6 @@ struct DoubleOrientationKernel {
                  const DoubleRun&);
 };
 
-namespace baseline {
-extern const DoubleOrientationKernel kDoubleOrientationKernel;
-}  // namespace baseline
-namespace avx2 {
-extern const DoubleOrientationKernel kDoubleOrientationKernel;
-}  // namespace avx2
-namespace avx512 {
-extern const DoubleOrientationKernel kDoubleOrientationKernel;
-}  // namespace avx512
+EPISCOPE_DECLARE_KERNEL(extern const DoubleOrientationKernel kDoubleOrientationKernel);
 
 }  // namespace episcope

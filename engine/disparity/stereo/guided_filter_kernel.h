@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 namespace episcope {
 
 /// Lanes that the guided filter's kernel may read or write beyond the columns of a row.
@@ -39,14 +41,6 @@ struct GuidedKernel {
   void (*apply)(const GuideRow&, const GuidedSums&, float* out);
 };
 
-namespace baseline {
-extern const GuidedKernel kGuidedKernel;
-}
-namespace avx2 {
-extern const GuidedKernel kGuidedKernel;
-}
-namespace avx512 {
-extern const GuidedKernel kGuidedKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const GuidedKernel kGuidedKernel);
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 #include <cstdint>
 
 namespace episcope {
@@ -105,20 +107,8 @@ struct OrientationKernel {
                 float* to_disparity, float* to_coherence);
 };
 
-namespace baseline {
-extern const SampleKernel kSampleKernel;
-extern const TensorKernel kTensorKernel;
-extern const OrientationKernel kOrientationKernel;
-}  // namespace baseline
-namespace avx2 {
-extern const SampleKernel kSampleKernel;
-extern const TensorKernel kTensorKernel;
-extern const OrientationKernel kOrientationKernel;
-}  // namespace avx2
-namespace avx512 {
-extern const SampleKernel kSampleKernel;
-extern const TensorKernel kTensorKernel;
-extern const OrientationKernel kOrientationKernel;
-}  // namespace avx512
+EPISCOPE_DECLARE_KERNEL(extern const SampleKernel kSampleKernel);
+EPISCOPE_DECLARE_KERNEL(extern const TensorKernel kTensorKernel);
+EPISCOPE_DECLARE_KERNEL(extern const OrientationKernel kOrientationKernel);
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 namespace episcope {
 
 /// A grid of pixels that each hold one distance for every label.
@@ -23,14 +25,6 @@ struct StrokeDistanceKernel {
   void (*sweep_up)(const DistanceGrid&, int y);
 };
 
-namespace baseline {
-extern const StrokeDistanceKernel kStrokeDistanceKernel;
-}
-namespace avx2 {
-extern const StrokeDistanceKernel kStrokeDistanceKernel;
-}
-namespace avx512 {
-extern const StrokeDistanceKernel kStrokeDistanceKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const StrokeDistanceKernel kStrokeDistanceKernel);
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 namespace episcope {
 
 /// A node of a flattened tree. A pixel goes on to node `next + (value > threshold)` of the tree; a
@@ -31,14 +33,6 @@ struct ForestKernel {
   void (*vote)(const FlatForest&, const float* features, long stride, int count, float* sums);
 };
 
-namespace baseline {
-extern const ForestKernel kForestKernel;
-}
-namespace avx2 {
-extern const ForestKernel kForestKernel;
-}
-namespace avx512 {
-extern const ForestKernel kForestKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const ForestKernel kForestKernel);
 
 }  // namespace episcope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
 #include "engine/solvers/simplex/pair_duals.h"
 
 namespace episcope {
@@ -26,14 +27,6 @@ struct LiftedKernel {
   void (*cut)(const LayeredShape&, const float* phi, int* const labels[kLiftedCuts]);
 };
 
-namespace baseline {
-extern const LiftedKernel kLiftedKernel;
-}
-namespace avx2 {
-extern const LiftedKernel kLiftedKernel;
-}
-namespace avx512 {
-extern const LiftedKernel kLiftedKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const LiftedKernel kLiftedKernel);
 
 }  // namespace episcope

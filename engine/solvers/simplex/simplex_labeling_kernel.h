@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
 #include "engine/solvers/simplex/pair_duals.h"
 
 namespace episcope {
@@ -29,14 +30,6 @@ struct SimplexKernel {
   void (*cut)(const LayeredShape&, const float* u, int* labels);
 };
 
-namespace baseline {
-extern const SimplexKernel kSimplexKernel;
-}
-namespace avx2 {
-extern const SimplexKernel kSimplexKernel;
-}
-namespace avx512 {
-extern const SimplexKernel kSimplexKernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const SimplexKernel kSimplexKernel);
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/isa.h"
+
 namespace episcope {
 
 /// Floats before and after each row that a kernel may touch; a row is padded to whole pairs of the
@@ -61,14 +63,6 @@ struct TvL2Kernel {
   TvL2Sums (*measure)(const TvL2Level&, float* rows);
 };
 
-namespace baseline {
-extern const TvL2Kernel kTvL2Kernel;
-}
-namespace avx2 {
-extern const TvL2Kernel kTvL2Kernel;
-}
-namespace avx512 {
-extern const TvL2Kernel kTvL2Kernel;
-}
+EPISCOPE_DECLARE_KERNEL(extern const TvL2Kernel kTvL2Kernel);
 
 }  // namespace episcope
