@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/array/large_memory.h"
 
+#include "engine/core/array/round_up.h"
+
 #include <cstdlib>
 #include <new>
 
@@ -19,7 +21,7 @@ constexpr std::size_t kCacheLine = 64;
 void* allocate_large(std::size_t bytes) {
   const bool huge = bytes >= 2 * kHugePage;
   const std::size_t alignment = huge ? kHugePage : kCacheLine;
-  const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
+  const std::size_t rounded = round_up(bytes, alignment);
   void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)

@@ -31,6 +31,11 @@ using Register = typename RegisterOf<T>::Type;
 using Vec = Register<float>;
 using IntVec = Register<int>;
 constexpr int kLanes = EPISCOPE_VECTOR_BYTES / sizeof(float);
+/// The lanes of as many whole registers as hold `count` numbers.
+[[maybe_unused]] constexpr int whole_registers(int count) {
+  return (count + kLanes - 1) / kLanes * kLanes;
+}
+
 typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligned(4), may_alias));
 
 [[maybe_unused]] inline Vec load(const float* from) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/features/stroke_distance.h"
 
+#include "engine/core/array/round_up.h"
 #include "engine/labeling/features/stroke_distance_kernel.h"
 #include "engine/labeling/rays/ray_targets.h"
 
@@ -59,7 +60,7 @@ StrokeDistances::StrokeDistances(ImageView<const std::int32_t> strokes, int labe
     : height_(strokes.height),
       width_(strokes.width),
       label_count_(label_count),
-      pitch_((label_count + kVectorLanes - 1) / kVectorLanes * kVectorLanes),
+      pitch_(round_up(label_count, kVectorLanes)),
       distances_(make_large<float>(strokes.size() * static_cast<std::size_t>(pitch_))) {
   std::fill_n(distances_.get(), strokes.size() * static_cast<std::size_t>(pitch_), kFar);
   std::vector<char> is_stroked(static_cast<std::size_t>(label_count));

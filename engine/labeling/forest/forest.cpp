@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/forest/forest.h"
 
+#include "engine/core/array/round_up.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/labeling/forest/flat_tree.h"
@@ -139,7 +140,7 @@ Forest Forest::train(const ForestSamples& samples, const ForestOptions& options,
   Forest forest;
   forest.feature_count_ = samples.feature_count;
   forest.label_count_ = samples.label_count;
-  forest.pitch_ = (samples.label_count + kVectorLanes - 1) / kVectorLanes * kVectorLanes;
+  forest.pitch_ = round_up(samples.label_count, kVectorLanes);
   Trainer trainer(samples, options);
   parallel_for(trainer.blocks(), progress.part(0, 0.9),
                [&](int block) { trainer.grow_block(block); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/scenes/cast/caster.h"
 
+#include "engine/core/array/round_up.h"
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/scenes/cast/trace_kernel.h"
@@ -89,7 +90,7 @@ class ViewsCast {
   }
 
   Cast run(const Progress& progress) {
-    const int width = (stage_.width + kTraceGroup - 1) / kTraceGroup * kTraceGroup;
+    const int width = round_up(stage_.width, kTraceGroup);
     parallel_for_workers(options_.grid.count() * stage_.height, progress, [this, width] {
       return [this, buffers = RowBuffers(width)](int item) mutable {
         cast_row(options_.grid.view_at(item / stage_.height), item % stage_.height, buffers);

@@ -27,7 +27,7 @@ constexpr int kColumns = 128;
 }
 
 [[maybe_unused]] inline int end_of(const LayeredShape& shape, int begin) {
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
+  const int end = whole_registers(shape.width);
   return end < begin + kColumns ? end : begin + kColumns;
 }
 
@@ -60,7 +60,7 @@ constexpr int kColumns = 128;
     const Vec next = clamp(old + step * difference, load(here.limit[pair] + x));
     store(at, old + relaxation * (next - old));
   };
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
+  const int end = whole_registers(shape.width);
   for (int l = 0; l < shape.steps; ++l) {
     for (int x = 0; x < end; x += kLanes) {
       const long i = l * shape.pitch + x;

@@ -58,7 +58,7 @@ void move_primal(const LayeredShape& shape, const float* cost, const PairDuals& 
 }
 
 void project(const LayeredShape& shape, const float* from, float* to) {
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
+  const int end = whole_registers(shape.width);
   for (int x = 0; x < end; x += kLanes) {
     Vec top = load(from + x);
     for (int l = 1; l < shape.steps; ++l) top = greatest(top, load(from + l * shape.pitch + x));
@@ -95,7 +95,7 @@ double bound(const LayeredShape& shape, const float* cost, const PairDuals& here
 double energy(const LayeredShape& shape, const float* cost, const PairDuals& here, const float* u,
               const float* u_below) {
   double total = 0;
-  const int end = (shape.width + kLanes - 1) / kLanes * kLanes;
+  const int end = whole_registers(shape.width);
   for (int l = 0; l < shape.steps; ++l) {
     Vec sum{};
     for (int x = 0; x < end; x += kLanes) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/solvers/tv_l2/tv_l2_grid.h"
 
+#include "engine/core/array/round_up.h"
+
 #include <algorithm>
 #include <cstdint>
 
@@ -55,7 +57,7 @@ void stretch_faces(const float* cells, int width, float* out) {
 TvL2Grid::TvL2Grid(int height, int width) {
   level.height = height;
   level.width = width;
-  level.pitch = (width + kTvL2RowUnit - 1) / kTvL2RowUnit * kTvL2RowUnit + 2L * kTvL2Margin;
+  level.pitch = round_up(width, kTvL2RowUnit) + 2L * kTvL2Margin;
   const std::size_t plane = static_cast<std::size_t>(height + 3) * level.pitch + kTvL2Margin;
   memory_.assign(kPlanes * plane + 16, 0.0F);
   const auto misaligned = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(float) % 16;

@@ -7,9 +7,6 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-inline int padded(const TvL2Level& level) {
-  return (level.width + kLanes - 1) / kLanes * kLanes;
-}
 inline int padded_pairs(const TvL2Level& level) {
   return (level.width + 2 * kLanes - 1) / (2 * kLanes) * (2 * kLanes);
 }
@@ -32,7 +29,7 @@ void relax_row(const TvL2Level& level, int y, int colour) {
   const float* const b = level.b + at;
   const float* const inverse = level.inverse + at;
   const IntVec mask = colour_mask(y, colour);
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   Vec left = load(u - 1);
   for (int x = 0; x < end; x += kLanes) {
     const Vec here = load(u + x);
@@ -48,7 +45,7 @@ void relax_row_from_zero(const TvL2Level& level, int y, int colour) {
   if (y < 0 || y >= level.height) return;
   const long at = y * level.pitch;
   const IntVec mask = colour_mask(y, colour);
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   for (int x = 0; x < end; x += kLanes) {
     store(level.u + at + x,
           choose(mask, load(level.b + at + x) * load(level.inverse + at + x), splat(0)));
@@ -119,7 +116,7 @@ void dual_row(const TvL2Level& level, int y, const TvL2Step& step) {
   const float* const above = qx + level.pitch * (2 - (y & 1));
   const Vec ahead = splat(step.relaxation);
   const Vec back = splat(1 - step.relaxation);
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   for (int x = 0; x < end; x += kLanes) {
     const long i = at + x;
     const Vec g = load(level.g + i);
@@ -190,7 +187,7 @@ void solve(const TvL2Level& level) {
 
 void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
   const Vec low = splat(1 / penalty.spread), high = splat(penalty.spread);
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   for (int y = 0; y < level.height; ++y) {
     for (int x = 0; x < end; x += kLanes) {
       const long i = y * level.pitch + x;
@@ -220,7 +217,7 @@ void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
 }
 
 void project(const TvL2Level& level) {
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   for (int y = 0; y < level.height; ++y) {
     for (int x = 0; x < end; x += kLanes) {
       const long i = y * level.pitch + x;
@@ -241,7 +238,7 @@ inline double total(Vec lanes) {
 TvL2Sums measure(const TvL2Level& level, float* rows) {
   clear_rows(rows, 3 * level.pitch);
   TvL2Sums sums;
-  const int end = padded(level);
+  const int end = whole_registers(level.width);
   for (int y = 0; y < level.height; ++y) {
     float* const px = rows + kTvL2Margin;
     float* const py = px + level.pitch * (1 + (y & 1));
