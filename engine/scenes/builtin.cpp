@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parameter/parameter.h"
+#include "engine/core/text/join.h"
 #include "engine/scenes/cast/caster.h"
 #include "engine/scenes/recipes/recipes.h"
 #include "engine/scenes/recipes/scribble.h"
@@ -19,9 +20,8 @@ const Recipe& find_recipe(const std::string& id) {
     if (recipe.id == id) return recipe;
     ids.emplace_back(recipe.id);
   }
-  std::string known;
-  for (const auto& name : ids) known += (known.empty() ? "" : ", ") + name;
-  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + known + ")");
+  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + joined(ids, ", ") +
+                    ")");
 }
 
 void require_range(const char* name, double value, double min, double max) {

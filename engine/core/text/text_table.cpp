@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/text/text_table.h"
 
+#include "engine/core/text/join.h"
+
 #include <algorithm>
 #include <cstdio>
 
@@ -37,13 +39,6 @@ std::string latex_cell(const std::string& text) {
     }
   }
   return escaped;
-}
-
-template <class Cell>
-std::string joined(const std::vector<std::string>& cells, const char* separator, Cell cell) {
-  std::string line;
-  for (std::size_t i = 0; i < cells.size(); ++i) line += (i > 0 ? separator : "") + cell(cells[i]);
-  return line;
 }
 
 }  // namespace

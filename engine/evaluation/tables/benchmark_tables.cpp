@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/tables/benchmark_tables.h"
 
+#include "engine/core/text/join.h"
+#include "engine/evaluation/tables/place_of.h"
+
 #include <algorithm>
 #include <map>
 
@@ -9,29 +12,12 @@ namespace {
 
 constexpr const char* kGap = "–";
 
-std::size_t place_of(std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  names.push_back(name);
-  return names.size() - 1;
-}
-
 const Metrics& metrics_of(const BenchmarkResult& result, Protocol protocol) {
   return protocol == Protocol::Vmv2013 ? result.vmv2013 : result.benchmark2016;
 }
 
-std::string score_text(const std::optional<double>& score) {
-  return score ? fixed_text(*score, kScoreDigits) : kGap;
-}
-
 std::string rank_text(int rank) {
   return rank > 0 ? std::to_string(rank) : kGap;
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
 }
 
 /// "Averages and ranks are over 2 of 3 scenes, …. Left out for a gap: cotton (epi_c)."
@@ -44,10 +30,10 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
       const auto& scores = matrix.scores[entry];
       if (has_score(scores) && !scores[scene]) lacking.push_back(matrix.entries[entry]);
     }
-    gaps.push_back(matrix.scenes[scene] + " (" + listed(lacking) + ")");
+    gaps.push_back(matrix.scenes[scene] + " (" + joined(lacking, ", ") + ")");
   }
   const std::size_t total = ranking.scenes.size() + ranking.missing.size();
-  const std::string left_out = "Left out for a gap: " + listed(gaps) + ".";
+  const std::string left_out = "Left out for a gap: " + joined(gaps, ", ") + ".";
   if (ranking.scenes.empty()) {
     return "No scene has a score of every entry, so nobody is ranked. " + left_out;
   }
@@ -134,6 +120,10 @@ void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results, 
 }
 
 }  // namespace
+
+std::string score_text(const std::optional<double>& score) {
+  return score ? fixed_text(*score, kScoreDigits) : kGap;
+}
 
 ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol protocol,
                          const std::string& key) {

@@ -6,6 +6,7 @@
 #include "engine/evaluation/tables/ranking.h"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,9 @@ namespace episcope {
 
 /// Digits after the point that tables show and ties are told by.
 inline constexpr int kScoreDigits = 3;
+
+/// A score as tables show it; "–" if there is none.
+[[nodiscard]] std::string score_text(const std::optional<double>& score);
 
 /// A table with what a reader must know of it.
 struct TitledTable {

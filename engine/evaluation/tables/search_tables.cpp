@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/tables/search_tables.h"
 
+#include "engine/core/text/join.h"
+#include "engine/evaluation/tables/place_of.h"
+
 #include <algorithm>
 #include <array>
 
@@ -28,10 +31,6 @@ std::optional<std::size_t> point_of(const MethodSearch& search, Rule rule, std::
 std::optional<double> score_of(const MethodSearch& search, Rule rule, std::size_t scene) {
   const auto point = point_of(search, rule, scene);
   return point ? search.scores[*point][scene] : std::nullopt;
-}
-
-std::string score_text(const std::optional<double>& score) {
-  return score ? fixed_text(*score, kScoreDigits) : "–";
 }
 
 ScoreMatrix matrix_of(const std::vector<MethodSearch>& searches, Rule rule) {
@@ -88,14 +87,6 @@ TitledTable method_table(const MethodSearch& search) {
   return titled;
 }
 
-template <class T>
-std::size_t place_of(std::vector<T>& list, const T& value) {
-  const auto found = std::find(list.begin(), list.end(), value);
-  if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
-  list.push_back(value);
-  return list.size() - 1;
-}
-
 }  // namespace
 
 std::vector<MethodSearch> gather_searches(const std::vector<SearchResult>& results) {
@@ -118,11 +109,9 @@ std::vector<MethodSearch> gather_searches(const std::vector<SearchResult>& resul
 }
 
 std::string point_text(const ParameterSet& point) {
-  std::string text;
-  for (const auto& [key, value] : point) {
-    text += (text.empty() ? "" : ", ") + key + " " + to_text(value);
-  }
-  return text.empty() ? "default" : text;
+  if (point.empty()) return "default";
+  return joined(point, ", ",
+                [](const auto& entry) { return entry.first + " " + to_text(entry.second); });
 }
 
 std::vector<TitledTable> search_tables(const std::vector<SearchResult>& results) {

@@ -2,6 +2,7 @@
 #include "engine/io/hdf5/hdf5_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/join.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/hdf5/hdf5_block.h"
 #include "engine/io/hdf5/hdf5_handle.h"
@@ -114,9 +115,8 @@ bool path_exists(hid_t file, const std::string& name) {
 }  // namespace
 
 std::string shape_text(const Hdf5Shape& shape) {
-  std::string text;
-  for (const std::size_t length : shape) text += (text.empty() ? "" : "×") + std::to_string(length);
-  return text.empty() ? "a single value" : text;
+  if (shape.empty()) return "a single value";
+  return joined(shape, "×", [](std::size_t length) { return std::to_string(length); });
 }
 
 bool has_hdf5_signature(const std::filesystem::path& path) {
@@ -178,8 +178,7 @@ std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
 
 Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
   if (!has(name)) {
-    std::string held;
-    for (const Hdf5Dataset& one : datasets()) held += (held.empty() ? "" : ", ") + one.name;
+    const std::string held = joined(datasets(), ", ", &Hdf5Dataset::name);
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all" : held) + "; choose another file");
   }

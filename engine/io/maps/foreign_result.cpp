@@ -2,6 +2,7 @@
 #include "engine/io/maps/foreign_result.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/join.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -48,23 +49,21 @@ Image<float> read_float_tiff(const fs::path& path) {
 /// The one dataset of an HDF5 file that can be a disparity map.
 Hdf5Dataset find_map(const Hdf5Input& file) {
   std::vector<Hdf5Dataset> maps;
-  std::string names;
   for (const Hdf5Dataset& dataset : file.datasets()) {
     const bool is_map = dataset.shape.size() == 2 || dataset.shape.size() == 4;
     if (!is_map || dataset.type != Hdf5Type::Float) continue;
     maps.push_back(dataset);
-    names += (names.empty() ? "" : ", ") + dataset.name;
   }
   if (maps.size() == 1) return maps.front();
   // Several float datasets are no riddle where one bears the name of what is wanted.
   for (const Hdf5Dataset& map : maps) {
     if (map.name == "disparity" || map.name == "DISPARITY") return map;
   }
-  throw IoError(file.path(),
-                "one dataset of float samples with 2 or 4 axes is expected, but " +
-                    (maps.empty() ? "none is there"
-                                  : std::to_string(maps.size()) + " are there (" + names + ")") +
-                    "; store the disparity alone");
+  throw IoError(file.path(), "one dataset of float samples with 2 or 4 axes is expected, but " +
+                                 (maps.empty() ? "none is there"
+                                               : std::to_string(maps.size()) + " are there (" +
+                                                     joined(maps, ", ", &Hdf5Dataset::name) + ")") +
+                                 "; store the disparity alone");
 }
 
 DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
