@@ -204,7 +204,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)}, options,
            scene, progress);
   scene.scribbles = std::move(labels.scribbles);
-  put_in_order(scene.scribbles, grid, {report.reversed_u, report.reversed_v});
+  put_in_order(scene.scribbles, grid, flip_of(report));
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
   return scene;
 }

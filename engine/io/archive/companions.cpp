@@ -64,10 +64,6 @@ void require_fit(const std::filesystem::path& path, const std::string& dataset,
                                         "store it so"));
 }
 
-ViewFlip flip_of(const Scene& scene) {
-  return {scene.convention.reversed_u, scene.convention.reversed_v};
-}
-
 }  // namespace
 
 std::vector<Companion> find_companions(const std::filesystem::path& folder, const LightField& field,
@@ -107,7 +103,8 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
     block.start[0] = static_cast<std::size_t>(stored.v);
     block.start[1] = static_cast<std::size_t>(stored.u);
     block.count[0] = block.count[1] = 1;
-    file.read(kEdgeWeights, block, weights.view(flipped(stored, grid, flip_of(scene))).data);
+    file.read(kEdgeWeights, block,
+              weights.view(flipped(stored, grid, flip_of(scene.convention))).data);
     progress.report((i + 1.0) / grid.count());
   }
   return weights;
@@ -127,10 +124,10 @@ void write_edge_weights(const std::filesystem::path& path, const ViewStack<float
   }
   AtomicFile target(path, weights.size() * sizeof(float) + (1 << 16));
   Hdf5Output file(target);
-  write_maps<float>(file, kEdgeWeights, geometry_of(weights), "probability", progress,
-                    [&](ViewIndex stored) {
-                      return weights.view(flipped(stored, field.grid(), flip_of(scene))).data;
-                    });
+  write_maps<float>(
+      file, kEdgeWeights, geometry_of(weights), "probability", progress, [&](ViewIndex stored) {
+        return weights.view(flipped(stored, field.grid(), flip_of(scene.convention))).data;
+      });
   file.close();
   progress.check();
   target.commit();
@@ -151,7 +148,7 @@ ProbabilityFile::ProbabilityFile(const std::filesystem::path& path, const Scene&
   State& state = *state_;
   const LightField& field = *scene.light_field;
   state.grid = field.grid();
-  state.flip = flip_of(scene);
+  state.flip = flip_of(scene.convention);
   state.shape = state.file.dataset(kProbabilities).shape;
   require_fit(path, kProbabilities, state.shape, field);
   state.label_axis = *label_axis(state.shape, field);

@@ -2,6 +2,7 @@
 #include "engine/io/benchmark/benchmark_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/benchmark/config_file.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/load_views.h"
@@ -22,15 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kConfig = "parameters.cfg";
-constexpr const char* kViewPrefix = "input_Cam";
-
-std::string numbered(const char* prefix, int index, const char* suffix) {
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%03d", index);
-  return prefix + std::string(digits) + suffix;
-}
-
 int count_views(const fs::path& folder) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -43,7 +35,7 @@ int count_views(const fs::path& folder) {
 GridShape square_grid(const fs::path& folder, int count) {
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   if (count > 0 && side * side == count) return {side, side};
-  throw IoError(folder, "there is no " + std::string(kConfig) + " and the " +
+  throw IoError(folder, "there is no " + std::string(kBenchmarkConfig) + " and the " +
                             std::to_string(count) +
                             " files input_Cam*.png form no square grid; add the missing files");
 }
@@ -57,16 +49,16 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
   if (columns && rows) {
     grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
-      throw IoError(folder / kConfig, "num_cams_x and num_cams_y are " + std::to_string(grid.u) +
-                                          " and " + std::to_string(grid.v) +
-                                          ", which cannot be; correct this file");
+      throw IoError(folder / kBenchmarkConfig,
+                    "num_cams_x and num_cams_y are " + std::to_string(grid.u) + " and " +
+                        std::to_string(grid.v) + ", which cannot be; correct this file");
     }
   } else {
     grid = square_grid(folder, count);
   }
   ViewFiles views{grid, {}};
   for (int i = 0; i < grid.count(); ++i) {
-    views.files.push_back(folder / numbered(kViewPrefix, i, ".png"));
+    views.files.push_back(folder / view_file_name(i));
     if (!fs::exists(views.files.back())) {
       throw IoError(views.files.back(), "this view is missing: " + std::to_string(count) + " of " +
                                             std::to_string(grid.count()) +
@@ -94,8 +86,8 @@ void compare_size(const ConfigFile& config, Size size, ConventionReport& report)
     const auto stated = config.number(key);
     if (!stated || *stated == length) return;
     std::ostringstream text;
-    text << key << " of " << kConfig << " is " << *stated << ", but the views have " << length
-         << " px; the size of the views is taken.";
+    text << key << " of " << kBenchmarkConfig << " is " << *stated << ", but the views have "
+         << length << " px; the size of the views is taken.";
     report.warnings.push_back(text.str());
   };
   compare("image_resolution_x_px", size.width);
@@ -120,7 +112,8 @@ CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size si
     found += number ? 1 : 0;
   }
   if (found == 0) return {};
-  const std::string left_out = "The camera of " + (folder / kConfig).string() + " is left out: ";
+  const std::string left_out =
+      "The camera of " + (folder / kBenchmarkConfig).string() + " is left out: ";
   if (!missing.empty()) {
     report.warnings.push_back(left_out + missing + " is missing; add it.");
     return {};
@@ -186,7 +179,7 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
 DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
                           const CameraGrid& camera, MapViews views, ConventionReport& report,
                           const Progress& progress) {
-  const auto per_view = [&](int i) { return folder / numbered("gt_disp_lowres_Cam", i, ".pfm"); };
+  const auto per_view = [&](int i) { return folder / disparity_file_name(i); };
   bool has_all = true;
   for (int i = 0; i < grid.count() && has_all; ++i) has_all = fs::exists(per_view(i));
   const auto make = [&](GridShape part, ViewIndex first) {
@@ -259,13 +252,13 @@ void read_object_ids(const fs::path& folder, GridShape grid, Size size, GroundTr
 }  // namespace
 
 bool is_benchmark_folder(const fs::path& folder) {
-  return fs::exists(folder / kConfig) || fs::exists(folder / numbered(kViewPrefix, 0, ".png")) ||
+  return fs::exists(folder / kBenchmarkConfig) || fs::exists(folder / view_file_name(0)) ||
          count_views(folder) > 0;
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
   std::optional<ConfigFile> config;
-  if (fs::exists(folder / kConfig)) config.emplace(folder / kConfig);
+  if (fs::exists(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const ViewFiles views = view_files(folder, config);
   Scene scene;
   ConventionReport& report = scene.convention;

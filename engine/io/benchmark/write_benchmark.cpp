@@ -2,6 +2,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/io/archive/write_scene.h"
+#include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/image_file.h"
@@ -62,12 +63,6 @@ class AtomicFolder {
   fs::path target_;
   fs::path temporary_;
 };
-
-std::string numbered(const char* prefix, int index, const char* suffix) {
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%03d", index);
-  return prefix + std::string(digits) + suffix;
-}
 
 /// PNG has no float samples: those become 16 bit, clamped to [0, 1].
 Image<std::uint16_t> to_16_bit(ImageView<const float> view) {
@@ -139,8 +134,7 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   }
   const bool has_all = truth.has_disparity() && truth.field.disparity.grid() == field.grid();
   for (int i = 0; has_all && i < field.grid().count(); ++i) {
-    write_disparity_map(folder / numbered("gt_disp_lowres_Cam", i, ".pfm"),
-                        truth.field.view(field.grid().view_at(i)));
+    write_disparity_map(folder / disparity_file_name(i), truth.field.view(field.grid().view_at(i)));
   }
   if (truth.labels.contains(center) && !truth.labels.empty()) {
     const auto labels = truth.labels.view(center);
@@ -167,10 +161,10 @@ void write_benchmark_folder(const fs::path& folder, const Scene& scene, const Pr
   AtomicFolder target(folder, field.byte_size());
   parallel_for(field.grid().count(), progress.part(0, 0.9), [&](int i) {
     const ViewIndex view = field.grid().view_at(i);
-    write_view(target.temporary() / numbered("input_Cam", i, ".png"), field, view);
+    write_view(target.temporary() / view_file_name(i), field, view);
   });
   const std::string config = config_text(field);
-  write_atomically(target.temporary() / "parameters.cfg",
+  write_atomically(target.temporary() / kBenchmarkConfig,
                    {reinterpret_cast<const std::uint8_t*>(config.data()), config.size()});
   write_truth(target.temporary(), scene);
   progress.check();

@@ -22,10 +22,6 @@ FieldShape shape_of(const Scene& scene) {
   return {field.grid(), field.height(), field.width()};
 }
 
-ViewFlip flip_of(const Scene& scene) {
-  return {scene.convention.reversed_u, scene.convention.reversed_v};
-}
-
 /// Name of the light-field file, if it is one that labels may lie beside.
 std::string owner_name(const Scene& scene) {
   const fs::path source = scene.light_field->info().source;
@@ -81,7 +77,7 @@ std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
 Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
   StoredScribbles stored =
       read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);
-  put_in_order(stored.scribbles, scene.light_field->grid(), flip_of(scene));
+  put_in_order(stored.scribbles, scene.light_field->grid(), flip_of(scene.convention));
   return std::move(stored.scribbles);
 }
 
@@ -109,7 +105,7 @@ ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scen
     std::for_each(labels.data(), labels.data() + labels.size(),
                   [](std::int32_t& label) { ++label; });
   }
-  reverse_views(labels, scene.light_field->grid(), flip_of(scene));
+  reverse_views(labels, scene.light_field->grid(), flip_of(scene.convention));
   const double focus_px = scene.convention.focus_px;
   return focus_px == 0 ? std::move(labels)
                        : sheared(labels, scene.light_field->center(), focus_px, progress);
@@ -134,7 +130,7 @@ void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Sce
     file.set_text("/", kOwner, owner);
   }
   const bool raises_labels = former && former->has(kTrueLabels) && scene.convention.raised_labels;
-  add_scribbles(file, stored, {shape, flip_of(scene), raises_labels}, progress);
+  add_scribbles(file, stored, {shape, flip_of(scene.convention), raises_labels}, progress);
   file.close();
   progress.check();
   target.commit();

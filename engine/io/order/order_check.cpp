@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/order_check.h"
 
+#include "engine/core/text/text_table.h"
 #include "engine/io/order/epi_slopes.h"
 #include "engine/io/order/warp_check.h"
 
@@ -9,12 +10,6 @@
 
 namespace episcope::io {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  return text;
-}
 
 /// Mean of the evidence of several maps (the two layers of a transparent scene).
 WarpErrors mean_errors(const LightField::Samples& samples,
@@ -40,7 +35,8 @@ std::string axis_text(const char* name, const AxisErrors& errors, bool is_flippe
   if (errors.pixels == 0) return std::string(name) + " not compared";
   const double taken = is_flipped ? errors.reversed : errors.forward;
   const double other = is_flipped ? errors.forward : errors.reversed;
-  return std::string(name) + " " + number(taken) + " (other way " + number(other) + ")";
+  return std::string(name) + " " + fixed_text(taken, 2) + " (other way " + fixed_text(other, 2) +
+         ")";
 }
 
 struct Checked {
@@ -55,10 +51,10 @@ std::string poor_truth(const WarpErrors& errors) {
   if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
   return "The truth hardly explains the views: warped by it they differ by " +
-         number(std::min(worse.forward, worse.reversed)) + " grey levels along " +
+         fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
          (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
-         number(std::max(worse.forward, worse.reversed)) + " and unwarped by " +
-         number(worse.unwarped) +
+         fixed_text(std::max(worse.forward, worse.reversed), 2) + " and unwarped by " +
+         fixed_text(worse.unwarped, 2) +
          "; check the truth, and dH, focalLength and shift if it was stored as depth.";
 }
 
@@ -85,7 +81,7 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
   const bool must_differ = slopes.value < 0;
   if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
   checked.text = "checked by the slopes of horizontal and vertical EPIs: correlation " +
-                 number(slopes.value) + " as stored at " + std::to_string(slopes.points) +
+                 fixed_text(slopes.value, 2) + " as stored at " + std::to_string(slopes.points) +
                  " points, " +
                  (must_differ ? "so exactly one axis is reversed" : "so both axes agree");
   return checked;

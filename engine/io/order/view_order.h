@@ -3,6 +3,7 @@
 
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/scene.h"
 
 #include <algorithm>
 #include <string>
@@ -15,6 +16,11 @@ struct ViewFlip {
   bool v = false;
   friend bool operator==(const ViewFlip&, const ViewFlip&) = default;
 };
+
+/// The one that reading took away.
+[[nodiscard]] inline ViewFlip flip_of(const ConventionReport& report) {
+  return {report.reversed_u, report.reversed_v};
+}
 
 /// "as stored", "u reversed", "v reversed", "u and v reversed".
 [[nodiscard]] inline std::string flip_text(ViewFlip flip) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+namespace episcope::io {
+
+/// Names of files in a scene folder of the 2016 benchmark; views have three digits.
+inline constexpr const char* kBenchmarkConfig = "parameters.cfg";
+inline constexpr const char* kViewPrefix = "input_Cam";
+
+/// "input_Cam007.png".
+[[nodiscard]] std::string view_file_name(int index);
+/// "gt_disp_lowres_Cam007.pfm".
+[[nodiscard]] std::string disparity_file_name(int index);
+
+}  // namespace episcope::io
