@@ -7,19 +7,6 @@
 namespace episcope::scenes {
 namespace {
 
-double dot(const Vector3& a, const Vector3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 normalized(const Vector3& a) {
-  const double scale = 1 / std::sqrt(dot(a, a));
-  return {a[0] * scale, a[1] * scale, a[2] * scale};
-}
-
 // Half sizes of the box around a primitive, and the middle of its y range.
 struct Hull {
   Vector3 half{};

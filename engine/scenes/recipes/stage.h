@@ -2,13 +2,12 @@
 #pragma once
 
 #include "engine/scenes/cast/model.h"
+#include "engine/scenes/recipes/vector3.h"
 
 #include <array>
 #include <vector>
 
 namespace episcope::scenes {
-
-using Vector3 = std::array<double, 3>;
 
 /// The cameras for which a scene is laid out. Layouts speak of disparities and pixels of the centre
 /// view, so that a scene looks alike at every image size.

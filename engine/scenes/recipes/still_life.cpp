@@ -15,18 +15,6 @@ void set_axes(Primitive& primitive, const Vector3& x, const Vector3& y, const Ve
   std::copy(z.begin(), z.end(), primitive.axes[2]);
 }
 
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vector3 scaled(const Vector3& a, double factor) {
-  return {a[0] * factor, a[1] * factor, a[2] * factor};
-}
-
-double length(const Vector3& a) {
-  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
-}
-
 }  // namespace
 
 StillLife::StillLife(const Stage& stage, std::array<double, 2> pitch, double front_disparity)
@@ -109,8 +97,7 @@ void StillLife::rod(const Place& from, const Place& to, double radius, int textu
   const Vector3 along{to.x - from.x, to.y - from.y, to.z - from.z};
   const double size = length(along);
   const Vector3 y = scaled(along, 1 / size);
-  Vector3 x = cross(y, {0, 0, 1});
-  x = scaled(x, 1 / length(x));
+  const Vector3 x = normalized(cross(y, {0, 0, 1}));
   Primitive& rod = add(Shape::Revolution, from, texture, label);
   set_axes(rod, direction(x), direction(y), direction(cross(x, y)));
   rod.extent[0] = 0;
