@@ -7,8 +7,9 @@
 #include "app/benchmark/scene_fingerprint.h"
 #include "app/benchmark/submission.h"
 #include "app/benchmark/workload.h"
-#include "app/session/judgement.h"
-#include "app/session/scene_range.h"
+#include "app/session/judge/judge.h"
+#include "app/session/run/run_estimator.h"
+#include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
 #include "engine/evaluation/tables/parameter_search.h"
 #include "engine/io/maps/result_file.h"
@@ -32,20 +33,19 @@ struct OpenScene {
 };
 
 /// Judges by one protocol. What there is not to judge, or to judge against, is the scene's problem.
-std::optional<Evaluation> judge_by(Protocol protocol, const Estimate& estimate, const Scene& scene,
-                                   BenchmarkResult& result) {
+EvaluationPtr judge_by(Protocol protocol, const Estimate& estimate, const Scene& scene,
+                       BenchmarkResult& result) {
   try {
-    return judge(estimate, scene, {.protocol = protocol}).evaluation;
+    return std::make_shared<const Evaluation>(judge(estimate, scene, {.protocol = protocol}));
   } catch (const InvalidInput& error) {
     result.problem = error.what();
-    return std::nullopt;
+    return nullptr;
   }
 }
 
 /// Judges by both protocols; keeps the errors of the first for a picture.
-std::optional<Evaluation> judge_by_both(const Estimate& estimate, const Scene& scene,
-                                        BenchmarkResult& result) {
-  auto evaluation = judge_by(Protocol::Vmv2013, estimate, scene, result);
+EvaluationPtr judge_by_both(const Estimate& estimate, const Scene& scene, BenchmarkResult& result) {
+  const auto evaluation = judge_by(Protocol::Vmv2013, estimate, scene, result);
   if (!evaluation) return evaluation;
   result.vmv2013 = evaluation->metrics;
   const LightField& light_field = *scene.light_field;
@@ -207,40 +207,41 @@ class Runner {
   void run_and_judge(const OpenScene& open, const Estimator& method, BenchmarkRecord& record,
                      const Progress& part) {
     BenchmarkResult& result = record.result;
-    Estimate estimate;
+    EstimatePtr estimate;
     try {
-      estimate = method.run(*open.scene.light_field, record.run.parameters,
-                            {.views = record.run.views}, part.part(0, 0.95));
+      estimate = run_estimator(
+                     *open.scene.light_field, method,
+                     {record.run.method, record.run.parameters, {.views = record.run.views}},
+                     part.part(0, 0.95))
+                     .estimate;
     } catch (const Error& error) {
       result.problem = error.what();
     } catch (const std::bad_alloc&) {
-      result.problem = "the memory does not suffice";
+      result.problem = "not enough memory";
     }
     result.has_failed = !result.problem.empty();
     if (result.has_failed) return;
-    result.seconds = estimate.seconds;
-    result.notes = estimate.notes;
+    result.seconds = estimate->seconds;
+    result.notes = estimate->notes;
     part.step("judging");
     if (record.run.is_search) {
-      const auto evaluation = judge_by(Protocol::Vmv2013, estimate, open.scene, result);
+      const auto evaluation = judge_by(Protocol::Vmv2013, *estimate, open.scene, result);
       if (evaluation) result.vmv2013 = evaluation->metrics;
     } else {
-      estimate.source_hash = open.scene.light_field->sample_hash();
-      const Estimate center = center_of(estimate, open.scene.light_field->center());
-      estimate = {};
+      const auto center =
+          std::make_shared<const Estimate>(center_of(*estimate, open.scene.light_field->center()));
+      estimate = nullptr;
       record.files = judge_and_write(open, center, result);
       record.files.push_back(map_file(open.name, result.entry));
-      io::write_result(options_.folder / record.files.back(), center, part.part(0.95, 1));
+      io::write_result(options_.folder / record.files.back(), *center, part.part(0.95, 1));
     }
     part.check();
   }
 
-  std::vector<std::string> judge_and_write(const OpenScene& open, const Estimate& center,
+  std::vector<std::string> judge_and_write(const OpenScene& open, const EstimatePtr& center,
                                            BenchmarkResult& result) {
-    const auto evaluation = judge_by_both(center, open.scene, result);
-    return write_pictures(options_.folder, open.name, result.entry,
-                          center.field.view(open.scene.light_field->center()),
-                          evaluation ? &*evaluation : nullptr, open.range);
+    const auto evaluation = judge_by_both(*center, open.scene, result);
+    return write_pictures(options_.folder, open.name, center, result.entry, evaluation, open.range);
   }
 
   void judge_submission(const OpenScene& open, const fs::path& folder, const std::string& name) {
@@ -261,7 +262,9 @@ class Runner {
       result.seconds = estimate->seconds;
       result.has_all_views = estimate->field.disparity.grid() == light_field.grid();
       result.notes = estimate->notes;
-      judge_and_write(open, center_of(*estimate, light_field.center()), result);
+      const auto center =
+          std::make_shared<const Estimate>(center_of(*estimate, light_field.center()));
+      judge_and_write(open, center, result);
     }
     report_.results.push_back(std::move(result));
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/scene_files.h"
 
-#include "engine/evaluation/metrics/error_maps.h"
+#include "app/session/picture/picture.h"
+#include "app/session/scene/scene_range.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/render/shade.h"
 
@@ -16,12 +17,8 @@ std::string in_scene(const std::string& scene, const std::string& file) {
   return "scenes/" + scene + "/" + file;
 }
 
-void write_map(const std::filesystem::path& path, const DisparityView& view, Quantity quantity,
-               Interval range) {
-  if (!(range.length() > 0)) range = render::robust_range(view.disparity, view.valid);
-  const Image<std::uint8_t> picture =
-      render::shade(view.disparity, view.valid, render::default_shading(quantity, range));
-  io::write_png(path, picture.view());
+void write_map(const std::filesystem::path& path, const MapSource& source, Interval range) {
+  io::write_png(path, map_picture(*make_map(source), shading_of(source.quantity, range)).view());
 }
 
 template <class T>
@@ -57,25 +54,29 @@ bool write_scene_pictures(const std::filesystem::path& folder, const std::string
   const ViewIndex center = scene.light_field->center();
   io::write_png(folder / scene_file(name, "view"),
                 render::shade_view(*scene.light_field, center).view());
-  const GroundTruth& truth = *scene.truth;
-  const DisparityField& field = truth.has_disparity() ? truth.field : truth.foreground;
-  if (!field.contains(center)) return false;
-  write_map(folder / scene_file(name, "truth"), field.view(center), Quantity::Truth, range);
+  const MapSource truth{.quantity = Quantity::Truth,
+                        .view = center,
+                        .light_field = scene.light_field,
+                        .truth = scene.truth};
+  if (!reason_against(truth).empty()) return false;
+  write_map(folder / scene_file(name, "truth"), truth, shown_range(range, {}));
   return true;
 }
 
 std::vector<std::string> write_pictures(const std::filesystem::path& folder,
-                                        const std::string& scene, const std::string& entry,
-                                        const DisparityView& view, const Evaluation* evaluation,
+                                        const std::string& scene, const EstimatePtr& center,
+                                        const std::string& entry, const EvaluationPtr& evaluation,
                                         Interval range) {
+  MapSource source{.quantity = Quantity::Disparity,
+                   .view = center->field.disparity.first(),
+                   .estimate = center,
+                   .evaluation = evaluation};
   std::vector<std::string> files{picture_file(scene, entry, "disparity")};
-  write_map(folder / files.front(), view, Quantity::Disparity, range);
+  write_map(folder / files.front(), source, shown_range(range, display_range(*center)));
   if (!evaluation) return files;
+  source.quantity = Quantity::SignedError;
   files.push_back(picture_file(scene, entry, "error"));
-  const Image<std::uint8_t> picture =
-      render::shade(evaluation->signed_error.view(), shown_mask(*evaluation).view(),
-                    render::default_shading(Quantity::SignedError, {}));
-  io::write_png(folder / files.back(), picture.view());
+  write_map(folder / files.back(), source, range);
   return files;
 }
 
@@ -86,14 +87,7 @@ Estimate center_of(const Estimate& estimate, ViewIndex center) {
   one.layered.foreground = one_view(estimate.layered.foreground, center);
   one.layered.background = one_view(estimate.layered.background, center);
   one.layered.layers = one_view(estimate.layered.layers, center);
-  one.method = estimate.method;
-  one.parameters = estimate.parameters;
-  one.range = estimate.range;
-  one.seconds = estimate.seconds;
-  one.version = estimate.version;
-  one.source = estimate.source;
-  one.source_hash = estimate.source_hash;
-  one.notes = estimate.notes;
+  one.set_provenance(estimate.provenance());
   if (estimate.field.disparity.grid().count() > 1) {
     one.notes.emplace_back("the seconds are those of all views");
   }

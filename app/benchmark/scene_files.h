@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/judge/judge.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
-#include "engine/evaluation/metrics/metrics.h"
 
 #include <filesystem>
 #include <string>
@@ -28,11 +28,11 @@ namespace episcope {
 bool write_scene_pictures(const std::filesystem::path& folder, const std::string& name,
                           const Scene& scene, Interval range);
 
-/// Pictures of the centre view of an estimate and, unless `evaluation` is null, of its error.
-/// Returns what was written.
+/// Pictures of an estimate of the centre view alone (`center_of`) and, unless `evaluation` is null,
+/// of its error. Returns what was written.
 std::vector<std::string> write_pictures(const std::filesystem::path& folder,
-                                        const std::string& scene, const std::string& entry,
-                                        const DisparityView& view, const Evaluation* evaluation,
+                                        const std::string& scene, const EstimatePtr& center,
+                                        const std::string& entry, const EvaluationPtr& evaluation,
                                         Interval range);
 
 /// The centre view alone of an estimate, with a note if its seconds are those of all views.

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/submission.h"
 
-#include "app/session/read_result.h"
-#include "app/session/run_estimator.h"
+#include "app/session/run/read_result.h"
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/core/text/text_table.h"
 #include "engine/io/maps/parse_number.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <vector>
@@ -20,14 +19,8 @@ namespace fs = std::filesystem;
 
 constexpr double kFarthest = 20;  // px per view step, either way
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
 bool is_map(const fs::path& path) {
-  const std::string suffix = lower(path.extension().string());
+  const std::string suffix = suffix_of(path);
   return suffix == ".pfm" || suffix == ".h5" || suffix == ".hdf5" || suffix == ".tif" ||
          suffix == ".tiff";
 }
@@ -45,20 +38,20 @@ std::vector<fs::path> files_below(const fs::path& folder, Accepts accepts) {
 }
 
 std::vector<fs::path> maps_of(const fs::path& folder, const std::string& scene) {
-  const std::string name = lower(scene);
+  const std::string name = lower_case(scene);
   auto maps = files_below(folder, [&](const fs::path& path) {
-    return is_map(path) && lower(path.stem().string()) == name;
+    return is_map(path) && lower_case(path.stem().string()) == name;
   });
   if (!maps.empty()) return maps;
   return files_below(folder, [&](const fs::path& path) {
-    return is_map(path) && lower(path.parent_path().filename().string()) == name;
+    return is_map(path) && lower_case(path.parent_path().filename().string()) == name;
   });
 }
 
 double seconds_of(const fs::path& folder, const std::string& scene) {
   const auto texts = files_below(folder, [&](const fs::path& path) {
-    return lower(path.extension().string()) == ".txt" &&
-           lower(path.stem().string()) == lower(scene);
+    return lower_case(path.extension().string()) == ".txt" &&
+           lower_case(path.stem().string()) == lower_case(scene);
   });
   if (texts.empty()) return 0;
   std::ifstream in(texts.front());
@@ -122,7 +115,7 @@ std::optional<Estimate> read_submission(const fs::path& folder, const LightField
   Estimate estimate = read_result_of(light_field, maps.front());
   check_fits(estimate, light_field, maps.front().string());
   check_values(maps.front(), light_field.center(), estimate);
-  if (estimate.source_hash != 0 && estimate.source_hash != light_field.sample_hash()) {
+  if (is_of_other_samples(estimate, light_field)) {
     estimate.notes.push_back(maps.front().filename().string() +
                              ": it was estimated from other samples than those of this scene");
   }

@@ -5,15 +5,13 @@
 #include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
-#include "app/session/read_result.h"
+#include "app/session/run/read_result.h"
+#include "app/session/run/result_source.h"
+#include "app/session/save/save_result.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/ply.h"
-#include "engine/render/shade.h"
 
 #include <iostream>
-#include <limits>
 
 namespace episcope::cli {
 namespace {
@@ -78,11 +76,13 @@ Subject load_subject(const Request& request, Format format, const Progress& prog
       format == Format::Archive || format == Format::Folder || format == Format::Ply;
   if (request.truth.empty()) {
     subject.estimate = read_result_alone(request.input);
-    const std::string source = source_of(*subject.estimate, request.input);
+    const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
-    if (needs_scene && !source.empty()) subject.scene = load_input(source, request.read, progress);
+    if (needs_scene && !source.empty()) {
+      subject.scene = load_input_of(request.input, source, request.read, progress);
+    }
   } else {
-    subject.scene = load_input(request.truth, request.read, progress);
+    subject.scene = load_input_of(request.input, request.truth, request.read, progress);
     subject.estimate = read_result_of(*subject.scene->light_field, request.input);
   }
   if (needs_scene && !subject.scene) {
@@ -100,32 +100,6 @@ DisparityView map_of(const Subject& subject, const std::string& name) {
   const auto& stack = field.disparity;
   const ViewIndex middle = stack.grid().center();
   return field.view({stack.first().v + middle.v, stack.first().u + middle.u});
-}
-
-/// Files keep invalid pixels as NaN.
-Image<float> with_nan(const DisparityView& view) {
-  Image<float> map(view.disparity.height, view.disparity.width);
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      map.at(y, x) =
-          view.is_valid(y, x) ? view.disparity.at(y, x) : std::numeric_limits<float>::quiet_NaN();
-    }
-  }
-  return map;
-}
-
-void write_point_cloud(const Subject& subject, const DisparityView& map,
-                       const std::filesystem::path& path) {
-  const LightField& light_field = *subject.scene->light_field;
-  const auto rgba = render::shade_view(light_field, light_field.center());
-  Image<std::uint8_t> rgb(rgba.height(), rgba.width(), 3);
-  for (int y = 0; y < rgb.height(); ++y) {
-    for (int x = 0; x < rgb.width(); ++x) {
-      for (int c = 0; c < 3; ++c) rgb.at(y, x, c) = rgba.at(y, x, c);
-    }
-  }
-  io::PointCloud cloud{map, rgb.view(), light_field.info().camera};
-  io::write_ply(path, cloud);
 }
 
 /// The scene to write; the disparity of a result takes the place of the truth.
@@ -147,11 +121,13 @@ void write(Subject& subject, const Request& request, Format format, const Progre
     case Format::Folder:
       return io::write_benchmark_folder(request.output, scene_to_write(subject), progress);
     case Format::Pfm:
-      return io::write_pfm(request.output, with_nan(map_of(subject, request.input)).view());
     case Format::Tiff:
-      return io::write_tiff(request.output, with_nan(map_of(subject, request.input)).view());
-    case Format::Ply:
-      return write_point_cloud(subject, map_of(subject, request.input), request.output);
+      return save_map(request.output, map_of(subject, request.input));
+    case Format::Ply: {
+      const LightField& light_field = *subject.scene->light_field;
+      return save_point_cloud(request.output, light_field, light_field.center(),
+                              map_of(subject, request.input));
+    }
   }
 }
 

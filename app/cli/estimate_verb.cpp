@@ -4,11 +4,11 @@
 #include "app/cli/json.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
-#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
+#include "app/session/run/run_estimator.h"
+#include "app/session/save/save_result.h"
 #include "engine/disparity/registry.h"
-#include "engine/io/maps/result_file.h"
 
 #include <algorithm>
 #include <iomanip>
@@ -150,7 +150,7 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
     request = {};
     if (!parse(arguments, estimator, request, parameters)) return;
   }
-  const ParameterSet values = parameters.values(estimator->parameters);
+  const ParameterSet values = parameters.values();
   RunOptions options{.views = selected_views(request, *estimator),
                      .device = value_named<Device>(request.device)};
   // The method asks as well, but not before the light field is loaded.
@@ -163,15 +163,15 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const Progress& progress = job.progress();
   options.threads = progress.threads();
   const LightFieldPtr light_field = load_light_field(request, job);
-  Estimate estimate = estimator->run(*light_field, values, options, progress.part(0.3, 0.9));
-  estimate.source = source_text(request.input, request.output);
-  estimate.source_hash = light_field->sample_hash();
-  progress.check();
+  const EstimatePtr estimate =
+      run_estimator(*light_field, *estimator, {estimator->info.id, values, options},
+                    progress.part(0.3, 0.9))
+          .estimate;
   progress.step("writing " + request.output);
-  io::write_result(request.output, estimate, progress.part(0.9, 1));
-  for (const auto& note : estimate.notes) job.note(note);
+  save_result(request.output, *estimate, request.input, progress.part(0.9, 1));
+  for (const auto& note : estimate->notes) job.note(note);
   job.finish();
-  print_answer(request, estimate, light_field->center());
+  print_answer(request, *estimate, light_field->center());
 }
 
 }  // namespace episcope::cli

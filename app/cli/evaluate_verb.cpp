@@ -3,14 +3,16 @@
 #include "app/cli/input.h"
 #include "app/cli/json.h"
 #include "app/cli/output.h"
-#include "app/cli/pictures.h"
 #include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
-#include "app/session/judgement.h"
-#include "app/session/read_result.h"
+#include "app/session/picture/picture.h"
+#include "app/session/run/read_result.h"
+#include "app/session/run/result_reading.h"
+#include "engine/core/text/suffix.h"
 #include "engine/core/text/text_table.h"
 #include "engine/io/grid/image_file.h"
+#include "engine/io/maps/result_file.h"
 
 #include <algorithm>
 #include <iostream>
@@ -38,6 +40,7 @@ struct Row {
   std::string method;
   double seconds = 0;
   bool has_all_views = false;
+  ViewIndex view;
   Metrics metrics;
 };
 
@@ -89,11 +92,11 @@ std::vector<std::filesystem::path> error_map_paths(const Request& request) {
   return paths;
 }
 
-Json results_json(const Request& request, const std::vector<Row>& rows, ViewIndex view) {
+Json results_json(const Request& request, const std::vector<Row>& rows) {
   Json json;
   json["protocol"] = request.protocol;
   json["truth"] = request.truth;
-  json["view"] = {view.v, view.u};
+  json["view"] = {rows.front().view.v, rows.front().view.u};
   json["results"] = Json::array();
   for (const Row& row : rows) {
     Json result;
@@ -146,39 +149,75 @@ TextTable results_table(const Request& request, const std::vector<Row>& rows) {
   return table;
 }
 
-void print_answer(const Request& request, const std::vector<Row>& rows, ViewIndex view) {
-  if (request.is_json) return print_json(results_json(request, rows, view));
+void print_answer(const Request& request, const std::vector<Row>& rows) {
+  if (request.is_json) return print_json(results_json(request, rows));
   const TextTable table = results_table(request, rows);
   if (request.is_csv) {
     std::cout << table_to_csv(table);
   } else if (request.is_latex) {
     std::cout << table_to_latex(table);
   } else {
-    std::cout << request.protocol << " against " << request.truth << ", view " << view_text(view)
-              << "\n\n"
+    std::cout << request.protocol << " against " << request.truth << ", view "
+              << view_text(rows.front().view) << "\n\n"
               << table_to_narrow_text(table);
   }
 }
 
+/// The scene that results are judged against: read again where a result was estimated from other
+/// views of it, at another focus plane.
+class TruthScene {
+ public:
+  TruthScene(const Request& request, const Progress& progress)
+      : request_(request), progress_(progress) {}
+
+  /// The scene as this result needs it. Throws as `options_for_result` and `load_input`.
+  [[nodiscard]] const Scene& for_result(const std::string& file) {
+    const io::OpenOptions options = options_for_result(file, io::read_reading(file), request_.truth,
+                                                       request_.read.options.values());
+    const ParameterSet given = io::given_options(options);
+    if (!scene_ || given != given_) {
+      scene_.reset();
+      scene_ = load_input(request_.truth, options, true, progress_);
+      given_ = given;
+    }
+    return *scene_;
+  }
+
+ private:
+  const Request& request_;
+  Progress progress_;
+  std::optional<Scene> scene_;
+  ParameterSet given_;
+};
+
 /// Judges one result and writes its error map, if a path is given for it.
 Row judge_file(const std::string& file, const Scene& scene, const EvaluationOptions& options,
-               const std::filesystem::path& error_map, ViewIndex& view, Job& job) {
+               const std::filesystem::path& error_map, Job& job) {
   job.progress().check();
   job.progress().step("judging " + file);
   const LightField& light_field = *scene.light_field;
-  const Estimate estimate = read_result_of(light_field, file);
-  Judgement judgement;
+  auto estimate = std::make_shared<const Estimate>(read_result_of(light_field, file));
+  EvaluationPtr evaluation;
   try {
-    judgement = judge(estimate, scene, options);
+    evaluation = std::make_shared<const Evaluation>(judge(*estimate, scene, options));
   } catch (const InvalidInput& error) {
     throw IoError(file, error.what());
   }
-  note_other_source(estimate, light_field, job);
-  if (!error_map.empty()) io::write_png(error_map, error_picture(judgement.evaluation, {}).view());
-  view = judgement.view;
-  return {file, estimate.method, estimate.seconds,
-          estimate.field.disparity.grid() == light_field.grid(),
-          std::move(judgement.evaluation.metrics)};
+  note_other_source(*estimate, light_field, job);
+  if (!error_map.empty()) {
+    const MapSource source{.quantity = render::Quantity::SignedError,
+                           .view = judged_view(scene),
+                           .estimate = estimate,
+                           .evaluation = evaluation};
+    io::write_png(error_map,
+                  map_picture(*make_map(source), shading_of(source.quantity, {})).view());
+  }
+  return {file,
+          estimate->method,
+          estimate->seconds,
+          estimate->field.disparity.grid() == light_field.grid(),
+          judged_view(scene),
+          evaluation->metrics};
 }
 
 }  // namespace
@@ -190,6 +229,7 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
       parse_protocol(request.protocol),
       request.invalid == "bad" ? InvalidEstimates::Bad : InvalidEstimates::Compatible,
       {}};
+  check_input(request.truth);
   const auto maps = error_map_paths(request);
   for (const auto& map : maps) {
     check_output_file(map);
@@ -197,16 +237,16 @@ void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   }
 
   std::vector<Row> rows;
-  ViewIndex view;
   Job job(std::move(stop), request.job);
-  const Scene scene = load_input(request.truth, request.read, job.progress().part(0, 0.8));
+  TruthScene truth(request, job.progress().part(0, 0.8));
   for (std::size_t i = 0; i < request.files.size(); ++i) {
     const std::filesystem::path map = maps.empty() ? std::filesystem::path() : maps[i];
-    rows.push_back(judge_file(request.files[i], scene, options, map, view, job));
+    const Scene& scene = truth.for_result(request.files[i]);
+    rows.push_back(judge_file(request.files[i], scene, options, map, job));
     job.progress().report(0.8 + 0.2 * static_cast<double>(i + 1) / request.files.size());
   }
   job.finish();
-  print_answer(request, rows, view);
+  print_answer(request, rows);
 }
 
 }  // namespace episcope::cli

@@ -2,8 +2,8 @@
 #include "app/cli/arguments.h"
 #include "app/cli/input.h"
 #include "app/cli/json.h"
-#include "app/cli/scene_summary.h"
 #include "app/cli/verbs.h"
+#include "app/session/scene/scene_summary.h"
 #include "engine/core/parameter/parameter.h"
 
 #include <iostream>
@@ -69,8 +69,9 @@ Json scene_json(const Scene& scene, const std::string& input) {
   add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {
-    json["companions"].push_back(
-        {{"kind", companion.kind}, {"path", companion.path.string()}, {"shape", companion.shape}});
+    json["companions"].push_back({{"kind", companion_name(companion.kind)},
+                                  {"path", companion.path.string()},
+                                  {"shape", companion.shape}});
   }
   json["focus"] = scene.convention.focus_px;
   json["order"] = scene.convention.order;
@@ -164,8 +165,8 @@ void print_scene(const Scene& scene) {
   print_camera(scene.light_field->info());
   print_truth(scene, summary);
   for (const auto& companion : scene.companions) {
-    print_line("beside it",
-               companion.kind + ", " + companion.shape + ", " + companion.path.filename().string());
+    print_line("beside it", std::string(companion_name(companion.kind)) + ", " + companion.shape +
+                                ", " + companion.path.filename().string());
   }
   if (const double focus_px = scene.convention.focus_px; focus_px != 0) {
     print_line("focus", "a plane of " + to_text(focus_px) + " px was baked in: it has 0 now");

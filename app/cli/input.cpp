@@ -3,44 +3,14 @@
 
 #include "app/cli/arguments.h"
 #include "app/cli/usage_error.h"
-#include "app/session/load_scene.h"
+#include "app/session/scene/load_scene.h"
+#include "engine/io/open/reader.h"
 #include "engine/scenes/builtin.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 namespace episcope::cli {
 namespace {
-
-using Flip = io::OpenOptions::Flip;
-using Units = io::OpenOptions::Units;
-
-constexpr std::array<std::pair<const char*, Flip>, 5> kFlips{{{"auto", Flip::Auto},
-                                                              {"none", Flip::None},
-                                                              {"u", Flip::U},
-                                                              {"v", Flip::V},
-                                                              {"both", Flip::Both}}};
-constexpr std::array<std::pair<const char*, Units>, 3> kUnits{
-    {{"auto", Units::Auto},
-     {"with-width", Units::WithWidth},
-     {"without-width", Units::WithoutWidth}}};
-
-constexpr double kMostFocus = 1000;  // px
-
-template <class Choices>
-std::vector<std::string> names_of(const Choices& choices) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : choices) names.emplace_back(name);
-  return names;
-}
-
-template <class Choices>
-auto value_of(const Choices& choices, const std::string& name) {
-  const auto found = std::find_if(choices.begin(), choices.end(),
-                                  [&](const auto& choice) { return name == choice.first; });
-  return found->second;  // the parser let nothing else through
-}
 
 void check_builtin_scene(const std::string& id) {
   std::vector<std::string> ids;
@@ -51,31 +21,20 @@ void check_builtin_scene(const std::string& id) {
 }
 
 /// Options that nothing came of.
-void warn_of_ignored(const ReadOptions& options, bool is_builtin, ConventionReport& report) {
-  const bool is_overridden = options.flip != "auto" || options.units != "auto";
-  const bool names_images = !options.pattern.empty() || options.is_snake;
-  if (is_builtin && (is_overridden || names_images)) {
-    report.warnings.emplace_back("options of reading are ignored, for a built-in scene has none.");
-  } else if (names_images && report.format.starts_with("archive (")) {
-    report.warnings.emplace_back("--pattern and --snake are ignored, for this is " + report.format +
-                                 " and no grid of images.");
+void warn_of_ignored(const ParameterSet& given, Scene& scene) {
+  const std::string& id = scene.light_field->info().reading.reader;
+  const io::Reader* reader = io::reader_named(id);
+  const std::string name = reader ? reader->name : "a built-in scene";
+  for (const auto& [key, value] : given) {
+    if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
+    scene.convention.warnings.push_back("--" + key + " is ignored, for this is " + name + ".");
   }
 }
 
 }  // namespace
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
-  arguments.heading("Reading");
-  arguments.choice("--flip", options.flip, names_of(kFlips),
-                   "View axes to reverse against the file; auto = found out and checked");
-  arguments.choice("--units", options.units, names_of(kUnits),
-                   "Whether dH of an archive file holds the factor xRes");
-  arguments.option("--pattern", options.pattern, "NAME",
-                   "Names of an image grid with {row} and {col}, or {index}");
-  arguments.flag("--snake", options.is_snake,
-                 "Every second row of an image grid runs from right to left");
-  arguments.option("--focus", options.focus, "PX",
-                   "Focus plane to bake in: what has this disparity gets 0");
+  options.options.declare(arguments, "Reading", io::open_schema().descriptions());
 }
 
 bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
@@ -94,19 +53,20 @@ void check_input(const std::string& input) {
 }
 
 Scene load_input(const std::string& input, const ReadOptions& options, const Progress& progress) {
+  return load_input(input, io::open_schema().parse(options.options.values()), options.needs_truth,
+                    progress);
+}
+
+Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
+                 const Progress& progress) {
   const std::string builtin = builtin_scene_id(input);
   if (!builtin.empty()) check_builtin_scene(builtin);
-  LoadOptions load;
-  load.open.flip = value_of(kFlips, options.flip);
-  load.open.units = value_of(kUnits, options.units);
-  load.open.pattern = options.pattern;
-  load.open.snake = options.is_snake;
-  load.open.focus_px = parse_real("--focus", options.focus, -kMostFocus, kMostFocus);
-  load.needs_truth = options.needs_truth;
-  load.cache_folder = default_cache_folder();
+  const ParameterSet given = io::given_options(open);
+  const LoadOptions load{
+      .open = std::move(open), .cache_folder = default_cache_folder(), .needs_truth = needs_truth};
   progress.step("reading " + std::filesystem::path(input).filename().string());
   Scene scene = load_scene(input, load, progress.part(0, builtin.empty() ? 1 : 0.9));
-  warn_of_ignored(options, !builtin.empty(), scene.convention);
+  warn_of_ignored(given, scene);
   if (!builtin.empty()) store_in_cache(input, scene, load.cache_folder, progress.part(0.9, 1));
   return scene;
 }

@@ -2,20 +2,18 @@
 #pragma once
 
 #include "app/cli/job.h"
+#include "app/cli/parameter_options.h"
 #include "engine/core/light_field/scene.h"
+#include "engine/io/open/open_options.h"
 
 #include <string>
 #include <vector>
 
 namespace episcope::cli {
 
-/// How to read an INPUT: overrides of what the reader finds out by itself.
+/// The options by which every verb reads an INPUT (io::open_schema).
 struct ReadOptions {
-  std::string flip = "auto";
-  std::string units = "auto";
-  std::string pattern;
-  bool is_snake = false;
-  std::string focus = "0";
+  ParameterOptions options;
   bool needs_truth = true;  ///< Whether truth and labels are wanted.
 };
 
@@ -31,8 +29,11 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 void check_input(const std::string& input);
 
 /// Opens an INPUT of the command line. Built-in scenes are kept in the user's cache folder.
-/// Throws UsageError for an unknown built-in scene, IoError, Cancelled.
+/// Throws UsageError for an unknown built-in scene or a bad option, IoError, Cancelled.
 [[nodiscard]] Scene load_input(const std::string& input, const ReadOptions& options,
+                               const Progress& progress);
+/// The same with options of another origin.
+[[nodiscard]] Scene load_input(const std::string& input, io::OpenOptions open, bool needs_truth,
                                const Progress& progress);
 
 }  // namespace episcope::cli

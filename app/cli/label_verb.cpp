@@ -4,16 +4,14 @@
 #include "app/cli/json.h"
 #include "app/cli/output.h"
 #include "app/cli/parameter_options.h"
-#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
 #include "app/cli/verbs.h"
-#include "app/session/run_labeler.h"
+#include "app/session/labels/judge_labeling.h"
+#include "app/session/labels/labeling_inputs.h"
+#include "app/session/labels/segmentation_file.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
-#include "engine/evaluation/metrics/label_accuracy.h"
 #include "engine/io/labels/label_file.h"
-#include "engine/io/labels/labeling_file.h"
-#include "engine/labeling/consistency.h"
 
 #include <iomanip>
 #include <iostream>
@@ -27,7 +25,7 @@ struct Request {
   std::string scribbles;
   std::string disparity;
   bool is_json = false;
-  bool is_without_probabilities = false;
+  StoredProbabilities probabilities = StoredProbabilities::All;
   LabelerParameters parameters;
   JobOptions job;
   ReadOptions read;
@@ -45,14 +43,16 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option(
       "--disparity", request.disparity, "RESULT.h5",
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
-  parser.flag("--no-probabilities", request.is_without_probabilities,
+  bool is_without_probabilities = false;
+  parser.flag("--no-probabilities", is_without_probabilities,
               "Write labels alone: probabilities take four bytes for each ray and label");
   parser.flag("--json", request.is_json, "One JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
   ParameterOptions options;
   options.declare(parser, "Parameters", schema.descriptions());
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  request.parameters = schema.parse(options.values(schema.descriptions()));
+  if (is_without_probabilities) request.probabilities = StoredProbabilities::None;
+  request.parameters = schema.parse(options.values());
   if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
     throw UsageError("label: --features image+truth takes the truth, so --disparity has no use");
   }
@@ -79,56 +79,14 @@ Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& p
   return std::move(scene.scribbles);
 }
 
-void write(const Request& request, const Labeling& labeling, const Scribbles& scribbles,
-           const Progress& progress) {
-  io::StoredLabeling stored;
-  stored.labels = labeling.labels.clone();
-  stored.infos = label_infos(scribbles, labeling.probabilities.ids);
-  stored.parameters = labeler_schema().values(request.parameters);
-  stored.source = source_text(request.input, request.output);
-  stored.seconds = labeling.seconds;
-  io::ViewProbabilities probabilities;
-  if (!request.is_without_probabilities) {
-    probabilities = [&](ViewIndex view) { return labeling.probabilities.view(view).view(); };
-  }
-  io::write_labeling(request.output, stored, probabilities, progress);
-}
-
-struct Accuracy {
-  LabelAccuracy all_views;
-  LabelAccuracy center;
-  double consistency = 0;
-};
-
-Accuracy judge(const Labeling& labeling, const Scene& scene, const DisparityField& disparity,
-               const Progress& progress) {
-  const ViewStack<std::int32_t>& truth = scene.truth->labels;
-  const ViewIndex center = scene.light_field->center();
-  Accuracy accuracy;
-  // Where the rays truly go, as far as that is known.
-  const bool knows_rays =
-      scene.truth->has_disparity() && scene.truth->field.disparity.grid() == labeling.labels.grid();
-  accuracy.consistency =
-      label_consistency(labeling.labels, knows_rays ? scene.truth->field : disparity, progress)
-          .share();
-  if (truth.empty()) return accuracy;
-  if (truth.grid() == labeling.labels.grid()) {
-    accuracy.all_views = judge_labels(labeling.labels, truth);
-  }
-  if (truth.contains(center)) {
-    accuracy.center = judge_labels(labeling.labels.view(center), truth.view(center));
-  }
-  return accuracy;
-}
-
-void print_json_answer(const Request& request, const Labeling& labeling, const Accuracy& accuracy,
-                       double seconds) {
+void print_json_answer(const Request& request, const Labeling& labeling,
+                       const LabelingScores& scores, double seconds) {
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
   json["seconds"] = seconds;
-  if (const auto share = accuracy.all_views.share()) json["accuracy_all_views"] = *share;
-  if (const auto share = accuracy.center.share()) json["accuracy_center"] = *share;
-  json["consistency"] = accuracy.consistency;
+  if (const auto share = scores.all_views.share()) json["accuracy_all_views"] = *share;
+  if (const auto share = scores.view.share()) json["accuracy_center"] = *share;
+  if (scores.consistency) json["consistency"] = *scores.consistency;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = Json::object();
@@ -139,21 +97,23 @@ void print_json_answer(const Request& request, const Labeling& labeling, const A
   print_json(json);
 }
 
-void print_text_answer(const Request& request, const Labeling& labeling, const Accuracy& accuracy,
-                       double seconds) {
+void print_text_answer(const Request& request, const Labeling& labeling,
+                       const LabelingScores& scores, double seconds) {
   std::cout << request.output << ": " << labeling.probabilities.ids.size() << " labels in "
             << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
             << seconds << " s, " << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
   std::cout << std::setprecision(2);
-  std::cout << "consistency along rays    " << 100 * accuracy.consistency << " %\n";
-  if (const auto share = accuracy.all_views.share()) {
+  if (scores.consistency) {
+    std::cout << "consistency along rays    " << 100 * *scores.consistency << " %\n";
+  }
+  if (const auto share = scores.all_views.share()) {
     std::cout << "accuracy of all views     " << 100 * *share << " %\n";
   }
-  const auto share = accuracy.center.share();
+  const auto share = scores.view.share();
   if (!share) return;
   std::cout << "accuracy of the centre    " << 100 * *share << " %\n";
   for (const std::int32_t id : labeling.probabilities.ids) {
-    if (const auto of_label = accuracy.center.share(id)) {
+    if (const auto of_label = scores.view.share(id)) {
       std::cout << "  of label " << std::setw(3) << id << "            " << 100 * *of_label
                 << " %\n";
     }
@@ -177,17 +137,25 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
   Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
-  const Labeling labeling = labeler.label(
-      scribbles, request.parameters, {{0, 0}, scene.light_field->grid()}, progress.part(0.2, 0.95));
+  const auto labeling = std::make_shared<const Labeling>(
+      labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
+                    progress.part(0.2, 0.95)));
   const double seconds = watch.seconds();
   progress.step("writing " + request.output);
-  write(request, labeling, scribbles, progress.part(0.95, 1));
-  const Accuracy accuracy = judge(labeling, scene, *disparity.field, progress.part(1, 1));
+  Segmentation segmentation;
+  segmentation.labeling = labeling;
+  segmentation.labels = scribbles.labels;
+  segmentation.parameters = labeler_schema().values(request.parameters);
+  write_segmentation(request.output, segmentation, request.input, request.probabilities,
+                     progress.part(0.95, 1));
+  const LabelingScores scores =
+      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
+                     *scene.truth, disparity.field.get(), progress.part(1, 1));
   job.finish();
   if (request.is_json) {
-    print_json_answer(request, labeling, accuracy, seconds);
+    print_json_answer(request, *labeling, scores, seconds);
   } else {
-    print_text_answer(request, labeling, accuracy, seconds);
+    print_text_answer(request, *labeling, scores, seconds);
   }
 }
 

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/output.h"
 
-#include "app/cli/result_input.h"
 #include "app/cli/usage_error.h"
-#include "app/session/load_scene.h"
+#include "app/session/run/read_result.h"
+#include "app/session/scene/load_scene.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/labels/labeling_file.h"
 #include "engine/io/maps/result_file.h"
 
 #include <unistd.h>
-#include <algorithm>
-#include <cctype>
 
 namespace episcope::cli {
 namespace {
@@ -133,13 +132,6 @@ void protect_input(const fs::path& output, const std::string& input) {
   if (!holds_something(output) || !fs::equivalent(folder_of(output), folder, ignored)) return;
   if (!may_be_part(output, input)) return;
   throw IoError(output, "exists and may be part of the input; choose another name for the output");
-}
-
-std::string suffix_of(const fs::path& path) {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
 }
 
 }  // namespace episcope::cli

@@ -29,7 +29,4 @@ void check_light_field_output(const std::filesystem::path& path, Overwrite overw
 /// archive file, the images of a folder. Throws IoError.
 void protect_input(const std::filesystem::path& output, const std::string& input);
 
-/// Extension in lower case with its dot.
-[[nodiscard]] std::string suffix_of(const std::filesystem::path& path);
-
 }  // namespace episcope::cli

@@ -10,18 +10,28 @@ void ParameterOptions::declare(Arguments& arguments, const std::string& heading,
                                const std::vector<ParameterDescription>& parameters) {
   arguments.heading(heading);
   for (const auto& parameter : parameters) {
+    parameters_.push_back(parameter);
+    if (parameter.is_toggle) {
+      arguments.flag("--" + parameter.key, toggles_[parameter.key], parameter.help);
+      continue;
+    }
+    const std::string preset = to_text(parameter.default_value);
     arguments.option("--" + parameter.key, texts_[parameter.key], domain_text(parameter),
-                     parameter.help + " (default " + to_text(parameter.default_value) + ")");
+                     parameter.help + (preset.empty() ? "" : " (default " + preset + ")"));
   }
 }
 
-ParameterSet ParameterOptions::values(const std::vector<ParameterDescription>& parameters) const {
+ParameterSet ParameterOptions::values() const {
   ParameterSet set;
-  for (const auto& parameter : parameters) {
-    const auto found = texts_.find(parameter.key);
-    if (found == texts_.end() || found->second.empty()) continue;
+  for (const auto& parameter : parameters_) {
+    if (parameter.is_toggle) {
+      if (toggles_.at(parameter.key)) set.emplace_back(parameter.key, true);
+      continue;
+    }
+    const std::string& text = texts_.at(parameter.key);
+    if (text.empty()) continue;
     try {
-      set.emplace_back(parameter.key, parse_parameter(parameter, found->second));
+      set.emplace_back(parameter.key, parse_parameter(parameter, text));
     } catch (const InvalidInput& error) {
       throw UsageError(error.what());
     }

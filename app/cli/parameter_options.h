@@ -11,16 +11,19 @@ namespace episcope::cli {
 
 class Arguments;
 
-/// Options generated from a schema: `--<key> VALUE`.
+/// Options generated from a schema: `--<key> VALUE`, and `--<key>` alone for toggles.
 class ParameterOptions {
  public:
+  /// To be called once for each heading; the object must outlive the parsing.
   void declare(Arguments& arguments, const std::string& heading,
                const std::vector<ParameterDescription>& parameters);
   /// Values of the options that were given. Throws UsageError for one outside its domain.
-  [[nodiscard]] ParameterSet values(const std::vector<ParameterDescription>& parameters) const;
+  [[nodiscard]] ParameterSet values() const;
 
  private:
+  std::vector<ParameterDescription> parameters_;
   std::map<std::string, std::string> texts_;  // by key; empty = not given
+  std::map<std::string, bool> toggles_;       // by key
 };
 
 /// Whether `min` and `max` of a parameter say something.

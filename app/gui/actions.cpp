@@ -76,6 +76,13 @@ void add_file_actions(ActionTable& table, MainWindow& window) {
              .icon = "save",
              .keys = {tr("Ctrl+Shift+E")},
              .run = [&window] { window.exporter().savePictureDialog(); }});
+  table.add({.id = "file.save_map",
+             .menu = menu,
+             .text = tr("Save map…"),
+             .tip = tr("Writes the map that is drawn over the view as PNG, by itself"),
+             .icon = "",
+             .keys = {},
+             .run = [&window] { window.exporter().saveMapDialog(); }});
   table.add({.id = "file.close",
              .menu = menu,
              .text = tr("Close"),

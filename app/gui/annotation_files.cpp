@@ -2,7 +2,7 @@
 #include "app/gui/annotation_files.h"
 
 #include "annotation/document/exchange.h"
-#include "app/session/label_place.h"
+#include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/label_file.h"
 #include "engine/io/labels/scribble_pictures.h"

@@ -79,14 +79,15 @@ void CloudController::update() {
   const ViewIndex view = session_.view();
   const EstimateEntry& shown = *session_.shown();
   const CloudColoring coloring = panel_->coloring();
-  std::shared_ptr<const OverlayMap> colors;
+  QuantityMapPtr colors;
   render::Shading shading;
   if (coloring != CloudColoring::Image) {
     const auto quantity = coloring == CloudColoring::Error ? render::Quantity::SignedError
                                                            : render::Quantity::Disparity;
     shading = overlay_.shadingOf(quantity);
-    colors = overlay_map(session_, {quantity, shown.id, 0}, view);
-    if (!colors) return;  // its evaluation tells when it is there
+    const auto source = map_source(session_, {quantity, shown.id, 0}, view);
+    if (!source) return;  // its evaluation tells when it is there
+    colors = make_map(*source);
   }
   job_.start<CloudPtr>(
       [light_field = session_.light_field(), estimate = shown.estimate, view, colors,

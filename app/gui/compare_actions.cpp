@@ -7,6 +7,7 @@
 #include "app/gui/overlay_controller.h"
 #include "app/gui/statistics_controller.h"
 #include "app/session/session.h"
+#include "widgets/style/quantity_text.h"
 
 #include <QAction>
 
@@ -19,40 +20,18 @@ QString tr(const char* source) {
   return MainWindow::tr(source);
 }
 
-void add_overlay(ActionTable& table, OverlayController& overlay, const QString& id,
-                 const QString& text, const QString& tip, Quantity quantity) {
-  table.add({.id = id,
-             .menu = tr("Compare"),
-             .text = text,
-             .tip = tip,
-             .icon = "",
-             .keys = {},
-             .run = [&overlay, quantity] { overlay.setQuantity(quantity); },
-             .is_checkable = true});
-}
-
 void add_overlay_actions(ActionTable& table, MainWindow& window) {
   OverlayController& overlay = window.overlay();
-  const auto add = [&](const char* id, const QString& text, const QString& tip, Quantity quantity) {
-    add_overlay(table, overlay, id, text, tip, quantity);
-  };
-  add("overlay.none", tr("None"), tr("Shows the view alone"), Quantity::View);
-  add("overlay.disparity", tr("Disparity"), tr("Shows the disparity of the result over the view"),
-      Quantity::Disparity);
-  add("overlay.background", tr("Background"),
-      tr("Shows the disparity of what is seen through a surface"), Quantity::Background);
-  add("overlay.layers", tr("Layers"), tr("Shows where one surface is seen and where two"),
-      Quantity::Layers);
-  add("overlay.confidence", tr("Confidence"), tr("Shows how sure the method is, from 0 to 1"),
-      Quantity::Confidence);
-  add("overlay.truth", tr("Truth"), tr("Shows the true disparity"), Quantity::Truth);
-  add("overlay.signed_error", tr("Error"),
-      tr("Shows truth − estimate: blue is too near, red too far"), Quantity::SignedError);
-  add("overlay.absolute_error", tr("|Error|"), tr("Shows the size of the error"),
-      Quantity::AbsoluteError);
-  add("overlay.bad_pixels", tr("Bad"), tr("Shows the pixels that are off by more than 0.07 px"),
-      Quantity::BadPixels);
-  add("overlay.labels", tr("Labels"), tr("Shows the true object labels"), Quantity::Labels);
+  for (const auto& [id, quantity] : overlay_actions()) {
+    table.add({.id = id,
+               .menu = tr("Compare"),
+               .text = quantity_button(quantity),
+               .tip = quantity_tip(quantity),
+               .icon = "",
+               .keys = {},
+               .run = [&overlay, quantity = quantity] { overlay.setQuantity(quantity); },
+               .is_checkable = true});
+  }
 }
 
 void add_mode(ActionTable& table, CompareController& compare, const Command& command,
@@ -160,17 +139,16 @@ void add_compare_actions(ActionTable& table, MainWindow& window) {
 }
 
 const std::vector<std::pair<QString, Quantity>>& overlay_actions() {
-  static const std::vector<std::pair<QString, Quantity>> actions = {
-      {"overlay.none", Quantity::View},
-      {"overlay.disparity", Quantity::Disparity},
-      {"overlay.background", Quantity::Background},
-      {"overlay.layers", Quantity::Layers},
-      {"overlay.confidence", Quantity::Confidence},
-      {"overlay.truth", Quantity::Truth},
-      {"overlay.signed_error", Quantity::SignedError},
-      {"overlay.absolute_error", Quantity::AbsoluteError},
-      {"overlay.bad_pixels", Quantity::BadPixels},
-      {"overlay.labels", Quantity::Labels}};
+  static const auto actions = [] {
+    std::vector<std::pair<QString, Quantity>> made;
+    for (const render::QuantityInfo& info : render::quantities()) {
+      const bool is_of_labels = info.subject == render::Subject::Segmentation;
+      if (is_of_labels || info.quantity == Quantity::Difference) continue;  // elsewhere
+      const QString id = info.quantity == Quantity::View ? QString("none") : QString(info.id);
+      made.emplace_back("overlay." + id, info.quantity);
+    }
+    return made;
+  }();
   return actions;
 }
 

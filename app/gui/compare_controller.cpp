@@ -24,11 +24,11 @@ constexpr quint64 kViewTile = 0;
 constexpr quint64 kTruthTile = std::numeric_limits<quint64>::max();
 
 bool is_of_a_result(Quantity quantity) {
-  return quantity != Quantity::View && quantity != Quantity::Truth &&
-         quantity != Quantity::Labels && !is_of_segmentation(quantity);
+  const render::Subject subject = render::info_of(quantity).subject;
+  return subject == render::Subject::Result || subject == render::Subject::Error;
 }
 
-QStringList value_text(const OverlayMap& map, int y, int x) {
+QStringList value_text(const QuantityMap& map, int y, int x) {
   const auto value = map.value_at({y, x});
   return value ? QStringList(number_text(*value)) : QStringList();
 }
@@ -159,15 +159,15 @@ void CompareController::showMode() {
 }
 
 void CompareController::showWipe() {
-  const OverlayChoice other = overlay_.choiceB();
+  const MapChoice other = overlay_.choiceB();
   if (auto picture = overlay_.pictureOf(other)) wipe_picture_ = *std::move(picture);
   panels_.canvas->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
 }
 
-TileRequest CompareController::request(const std::optional<OverlayChoice>& choice) const {
+TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
   TileRequest made{session_.light_field(), session_.view(), {}, {}, 1};
   if (!choice) return made;
-  made.source = overlay_source(session_, *choice, session_.view());
+  made.source = map_source(session_, *choice, session_.view());
   made.shading = overlay_.shadingOf(*choice);
   made.opacity = panels_.overlay_bar->opacity();
   return made;
@@ -176,7 +176,7 @@ TileRequest CompareController::request(const std::optional<OverlayChoice>& choic
 std::vector<CompareController::Entry> CompareController::sides() const {
   std::vector<Entry> entries;
   for (const Side side : {Side::A, Side::B}) {
-    const OverlayChoice choice = side == Side::A ? overlay_.choiceA() : overlay_.choiceB();
+    const MapChoice choice = side == Side::A ? overlay_.choiceA() : overlay_.choiceB();
     entries.push_back(
         {static_cast<quint64>(side), overlay_.describe(choice), side, request(choice), {}});
   }
@@ -185,7 +185,8 @@ std::vector<CompareController::Entry> CompareController::sides() const {
 
 QString CompareController::captionOf(const EstimateEntry& entry) const {
   const QString name = QString::fromStdString(entry.name);
-  const auto evaluation = session_.evaluation({entry.id, judged_view(session_), Protocol::Vmv2013});
+  const auto evaluation =
+      session_.evaluation({entry.id, judged_view(*session_.scene()), Protocol::Vmv2013});
   const auto mse = evaluation ? find_metric(evaluation->metrics, "mse_100") : std::nullopt;
   return mse ? tr("%1 · MSE×100 %2").arg(name, number_text(*mse, 2)) : name;
 }
@@ -194,7 +195,7 @@ std::vector<CompareController::Entry> CompareController::everything() const {
   std::vector<Entry> entries = {{kViewTile, tr("view"), Side::None, request(std::nullopt), {}}};
   if (session_.has_truth(session_.view())) {
     entries.push_back(
-        {kTruthTile, tr("truth"), Side::None, request(OverlayChoice{Quantity::Truth, 0, 0}), {}});
+        {kTruthTile, tr("truth"), Side::None, request(MapChoice{Quantity::Truth, 0, 0}), {}});
   }
   const EstimateEntry* shown = session_.shown();
   const EstimateEntry* compared = session_.compared();
@@ -202,9 +203,9 @@ std::vector<CompareController::Entry> CompareController::everything() const {
       is_of_a_result(overlay_.quantity()) ? overlay_.quantity() : Quantity::Disparity;
   for (const EstimateEntry& entry : session_.estimates()) {
     const bool is_compared = compared && compared->id == entry.id;
-    OverlayChoice choice{quantity, entry.id, 0};
+    MapChoice choice{quantity, entry.id, 0};
     if (overlay_.showsDifference() && compared && !is_compared) {
-      choice = {Quantity::Disparity, entry.id, compared->id};
+      choice = {Quantity::Difference, entry.id, compared->id};
     }
     const Side side = is_compared                         ? Side::B
                       : compared && shown->id == entry.id ? Side::A

@@ -62,7 +62,7 @@ class CompareController : public QObject {
   void showWipe();
   void showTiles();
   void fillWall();
-  [[nodiscard]] TileRequest request(const std::optional<OverlayChoice>& choice) const;
+  [[nodiscard]] TileRequest request(const std::optional<MapChoice>& choice) const;
   [[nodiscard]] std::vector<Entry> sides() const;
   [[nodiscard]] std::vector<Entry> everything() const;
   [[nodiscard]] QString captionOf(const EstimateEntry& entry) const;

@@ -1,44 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/open/open.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <QDialog>
 
-class QCheckBox;
-class QComboBox;
-class QFormLayout;
-class QLineEdit;
-
 namespace episcope {
 
-/// Asks how a file is to be read where the automatic answer is wrong: the order of views, the
-/// units of depth, the names of an image grid.
+class ParameterForm;
+
+/// Asks how a file is to be read where the automatic answer is wrong, with a row for each reading
+/// option that means something to its reader.
 class ConventionsDialog : public QDialog {
   Q_OBJECT
 
  public:
-  /// Which questions make sense for the input.
-  struct Scope {
-    bool has_units = true;
-    bool has_names = true;
-  };
+  /// `given` are the options set by now.
+  ConventionsDialog(const QString& path, const std::vector<ParameterDescription>& options,
+                    const ParameterSet& given, QWidget* parent);
 
-  ConventionsDialog(const QString& path, const io::OpenOptions& current, Scope scope,
-                    QWidget* parent);
-
-  [[nodiscard]] io::OpenOptions conventions() const;
+  /// The options that are not automatic.
+  [[nodiscard]] ParameterSet given() const;
 
  private:
-  void addOrder(QFormLayout& form);
-  void addUnits(QFormLayout& form);
-  void addNames(QFormLayout& form);
-  void display(const io::OpenOptions& conventions);
-
-  QComboBox* order_;
-  QComboBox* units_;
-  QLineEdit* pattern_;
-  QCheckBox* snake_;
+  ParameterForm* form_;
 };
 
 }  // namespace episcope

@@ -2,7 +2,7 @@
 #include "app/gui/document_controller.h"
 
 #include "annotation/document/exchange.h"
-#include "app/session/user_folders.h"
+#include "app/session/scene/user_folders.h"
 #include "engine/core/error.h"
 
 #include <utility>

@@ -3,7 +3,7 @@
 
 #include "annotation/paint/stroke.h"
 #include "app/gui/jobs.h"
-#include "app/session/annotation.h"
+#include "app/session/document/annotation.h"
 #include "app/session/session.h"
 
 #include <QObject>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/edge_source.h"
 
-#include "app/session/run_labeler.h"
+#include "app/session/labels/labeling_inputs.h"
 #include "engine/core/error.h"
 
 namespace episcope {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate_controller.h"
 
-#include "app/session/command_line.h"
+#include "app/session/run/command_line.h"
 #include "engine/disparity/registry.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/estimate/method_panel.h"
@@ -31,7 +31,7 @@ ViewSelection views_of(bool all_views) {
 }
 
 EstimateRequest request_of(const RunRequest& request) {
-  return {request.method, request.values, views_of(request.all_views)};
+  return {request.method, request.values, {.views = views_of(request.all_views)}};
 }
 
 // What sets this run apart from others: whether it was cut short, and parameters that are not at
@@ -66,11 +66,6 @@ QString detail_text(const Estimate& estimate) {
 }
 
 }  // namespace
-
-ViewIndex judged_view(const Session& session) {
-  const ViewIndex center = session.light_field()->center();
-  return session.has_truth(center) ? center : session.view();
-}
 
 EstimateController::EstimateController(Session& session, Jobs& jobs, const Panels& panels,
                                        QObject* parent)
@@ -176,7 +171,7 @@ void EstimateController::listResults() {
     row.parameters = parameter_text(estimate);
     row.seconds = estimate.seconds;
     row.detail = detail_text(estimate);
-    const EvaluationKey key{entry.id, judged_view(session_), Protocol::Vmv2013};
+    const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};
     if (const auto evaluation = session_.evaluation(key)) {
       row.mse_100 = find_metric(evaluation->metrics, "mse_100");
     }
@@ -189,11 +184,11 @@ void EstimateController::copyCommand() {
   const RunRequest request = panels_.method->request();
   if (request.method.empty() || !session_.scene()) return;
   copy(command_line_for(request.method, request.values, views_of(request.all_views),
-                        session_.input(), session_.conventions()));
+                        session_.input(), session_.reading_options()));
 }
 
 void EstimateController::copyCommandOf(const EstimateEntry& entry) {
-  copy(command_line_for(*entry.estimate, session_.input(), session_.conventions()));
+  copy(command_line_for(*entry.estimate, session_.input(), session_.reading_options()));
 }
 
 void EstimateController::copy(const std::string& command) {

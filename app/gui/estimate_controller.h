@@ -3,7 +3,7 @@
 
 #include "app/gui/jobs.h"
 #include "app/gui/panels.h"
-#include "app/session/run_estimator.h"
+#include "app/session/run/run_estimator.h"
 #include "app/session/session.h"
 
 #include <QObject>
@@ -47,8 +47,5 @@ class EstimateController : public QObject {
   Jobs& jobs_;
   Panels panels_;
 };
-
-/// Where the MSE of lists is measured: the centre view if it has truth, else the current one.
-[[nodiscard]] ViewIndex judged_view(const Session& session);
 
 }  // namespace episcope

@@ -1,51 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/export_controller.h"
 
-#include "app/session/write_segmentation.h"
+#include "app/session/labels/segmentation_file.h"
+#include "app/session/picture/picture.h"
+#include "app/session/save/save_result.h"
 #include "engine/io/grid/image_file.h"
-#include "engine/io/maps/pfm.h"
-#include "engine/io/maps/ply.h"
-#include "engine/io/maps/result_file.h"
-#include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/style/picture.h"
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QPainter>
-
-#include <limits>
 
 namespace episcope {
 namespace {
 
-void write_map(const std::filesystem::path& path, const DisparityView& view) {
-  Image<float> map(view.disparity.height, view.disparity.width, 1,
-                   std::numeric_limits<float>::quiet_NaN());
-  for (int y = 0; y < map.height(); ++y) {
-    for (int x = 0; x < map.width(); ++x) {
-      if (view.is_valid(y, x)) map.at(y, x) = view.disparity.at(y, x);
-    }
-  }
-  QString::fromStdString(path.extension()).toLower() == ".pfm" ? io::write_pfm(path, map)
-                                                               : io::write_tiff(path, map);
-}
-
-void write_cloud(const std::filesystem::path& path, const LightField& light_field, ViewIndex view,
-                 const DisparityView& map) {
-  const Image<std::uint8_t> rgba = render::shade_view(light_field, view);
-  Image<std::uint8_t> rgb(rgba.height(), rgba.width(), 3);
-  for (int y = 0; y < rgb.height(); ++y) {
-    for (int x = 0; x < rgb.width(); ++x) {
-      for (int c = 0; c < 3; ++c) rgb.at(y, x, c) = rgba.at(y, x, c);
-    }
-  }
-  io::write_ply(path, {map, rgb, light_field.info().camera, true});
-}
-
-void write_image(const std::filesystem::path& path, const QImage& picture) {
-  const QImage rgb = picture.convertToFormat(QImage::Format_RGB888);
-  io::write_png(path, {rgb.constBits(), rgb.height(), rgb.width(), 3, rgb.bytesPerLine()});
+void write_picture(const std::filesystem::path& path, const RgbaImage& picture) {
+  io::write_png(path, picture.view());
 }
 
 }  // namespace
@@ -99,6 +69,17 @@ void ExportController::savePictureDialog() {
       tr("PNG (*.png)"), [this](const QString& path) { savePicture(path); });
 }
 
+void ExportController::saveMapDialog() {
+  const MapChoice choice = overlay_.choice();
+  if (!drawnMap()) {
+    emit hint(tr("No map is shown: choose one in the tool bar, then save it."));
+    return;
+  }
+  const QString name = QString::fromStdString(session_.light_field()->info().name) + '_' +
+                       render::info_of(choice.quantity).id + ".png";
+  ask(tr("Save the map"), name, tr("PNG (*.png)"), [this](const QString& path) { saveMap(path); });
+}
+
 bool ExportController::hasForm(const QString& path, const QStringList& suffixes) {
   if (suffixes.contains(QFileInfo(path).suffix(), Qt::CaseInsensitive)) return true;
   emit refused(tr("%1 was not written: this is written as .%2; name it so.")
@@ -109,12 +90,12 @@ bool ExportController::hasForm(const QString& path, const QStringList& suffixes)
 void ExportController::exportResult(int estimate, const QString& path) {
   const EstimateEntry* entry = session_.find_estimate(estimate);
   if (!entry || !hasForm(path, {"h5", "pfm", "tiff", "ply"})) return;
-  const QString suffix = QFileInfo(path).suffix().toLower();
   const std::filesystem::path file = path.toStdString();
   const EstimatePtr result = entry->estimate;
-  if (suffix == "h5") {
-    startWriting(path, [file, result](const Progress& progress) {
-      io::write_result(file, *result, progress);
+  const auto form = map_form_of(file);
+  if (form == MapForm::Result) {
+    startWriting(path, [file, result, input = session_.input()](const Progress& progress) {
+      save_result(file, *result, input, progress);
     });
     return;
   }
@@ -125,9 +106,9 @@ void ExportController::exportResult(int estimate, const QString& path) {
     return;
   }
   startWriting(path, [file, result, view, light_field = session_.light_field(),
-                      is_cloud = suffix == "ply"](const Progress&) {
-    is_cloud ? write_cloud(file, *light_field, view, result->field.view(view))
-             : write_map(file, result->field.view(view));
+                      is_cloud = form == MapForm::PointCloud](const Progress&) {
+    is_cloud ? save_point_cloud(file, *light_field, view, result->field.view(view))
+             : save_map(file, result->field.view(view));
   });
 }
 
@@ -152,27 +133,43 @@ void ExportController::exportSegmentation(const QString& path) {
   const std::filesystem::path file = path.toStdString();
   if (QFileInfo(path).suffix().toLower() != "png") {
     startWriting(path, [file, segmentation, source = session_.input()](const Progress& progress) {
-      write_segmentation(file, *segmentation, source, progress);
+      write_segmentation(file, *segmentation, source, StoredProbabilities::All, progress);
     });
-  } else if (segmentation->covers(session_.view())) {
-    startWriting(path, [file, segmentation, view = session_.view()](const Progress&) {
-      const auto labels = segmentation->labeling->labels.view(view);
-      write_image(file, to_qimage(render::shade_labels(labels, segmentation->labels)));
+    return;
+  }
+  if (const auto source = map_source(session_, {render::Quantity::Segmentation}, session_.view())) {
+    startWriting(path, [file, source = *source](const Progress&) {
+      write_picture(file, map_picture(*make_map(source), {}));
     });
   }
 }
 
 void ExportController::savePicture(const QString& path) {
-  QImage picture = panels_.canvas->picture().convertToFormat(QImage::Format_ARGB32_Premultiplied);
-  if (picture.isNull() || !hasForm(path, {"png"})) return;
-  if (!overlay_.picture().isNull()) {
-    QPainter painter(&picture);
-    painter.setOpacity(panels_.canvas->overlayOpacity());
-    painter.drawImage(picture.rect(), overlay_.picture());
-  }
-  startWriting(path, [file = std::filesystem::path(path.toStdString()), picture](const Progress&) {
-    write_image(file, picture);
+  RgbaImage picture = to_picture(panels_.canvas->picture());
+  if (picture.empty() || !hasForm(path, {"png"})) return;
+  startWriting(path, [file = std::filesystem::path(path.toStdString()),
+                      picture = std::make_shared<RgbaImage>(std::move(picture)), drawn = drawnMap(),
+                      opacity = panels_.canvas->overlayOpacity()](const Progress&) {
+    write_picture(
+        file, drawn ? blended(*picture, overlay_picture(*make_map(drawn->source), drawn->shading),
+                              opacity)
+                    : *picture);
   });
+}
+
+void ExportController::saveMap(const QString& path) {
+  const auto drawn = drawnMap();
+  if (!drawn || !hasForm(path, {"png"})) return;
+  startWriting(path, [file = std::filesystem::path(path.toStdString()), drawn](const Progress&) {
+    write_picture(file, map_picture(*make_map(drawn->source), drawn->shading));
+  });
+}
+
+std::optional<ExportController::DrawnMap> ExportController::drawnMap() const {
+  const MapChoice choice = overlay_.choice();
+  auto source = map_source(session_, choice, session_.view());
+  if (!source) return std::nullopt;
+  return DrawnMap{std::move(*source), overlay_.shadingOf(choice)};
 }
 
 void ExportController::startWriting(const QString& path,

@@ -25,6 +25,7 @@ class ExportController : public QObject {
   /// The shown result.
   void exportShownDialog();
   void savePictureDialog();
+  void saveMapDialog();
 
   /// Asks where to write the segmentation: .h5, or .png of this view.
   void exportSegmentationDialog();
@@ -35,6 +36,8 @@ class ExportController : public QObject {
   void exportSegmentation(const QString& path);
   /// The view with its overlay as shown, one image pixel a pixel.
   void savePicture(const QString& path);
+  /// The map that is drawn over the view, by itself: as `episcope-cli show` writes it.
+  void saveMap(const QString& path);
 
  signals:
   void hint(const QString& sentence);
@@ -48,6 +51,12 @@ class ExportController : public QObject {
   /// Whether the name ends as one of the forms does; else it is refused.
   [[nodiscard]] bool hasForm(const QString& path, const QStringList& suffixes);
   void startWriting(const QString& path, std::function<void(const Progress&)> write);
+  struct DrawnMap {
+    MapSource source;
+    render::Shading shading;
+  };
+  /// What is drawn over the view; none if that is bare.
+  [[nodiscard]] std::optional<DrawnMap> drawnMap() const;
 
   Session& session_;
   Jobs& jobs_;

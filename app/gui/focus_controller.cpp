@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/focus_controller.h"
 
-#include "app/session/run_estimator.h"
+#include "app/session/run/run_estimator.h"
+#include "app/session/scene/scene_range.h"
 #include "engine/core/light_field/shear.h"
 
 namespace episcope {

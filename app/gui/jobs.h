@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/thread_priority.h"
+#include "app/session/run/thread_priority.h"
 #include "engine/core/parallel/job_runner.h"
 
 #include <QObject>

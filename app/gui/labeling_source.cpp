@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/labeling_source.h"
 
-#include "app/session/run_estimator.h"
+#include "app/session/run/run_estimator.h"
 
 #include <algorithm>
 
@@ -93,7 +93,7 @@ void LabelingSource::provide() {
   jobs_.start<FinishedEstimate>(
       Lane::Estimate, tr("Disparity for labels"),
       [light_field](const Progress& progress) {
-        return run_estimator(*light_field, {kQuickEstimator, {}, ViewSelection::All}, progress);
+        return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
       },
       [this, generation](const FinishedEstimate& finished) {
         if (generation != session_.generation()) return;

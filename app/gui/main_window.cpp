@@ -28,7 +28,7 @@
 #include "app/gui/shortcut_window.h"
 #include "app/gui/statistics_controller.h"
 #include "app/gui/value_controller.h"
-#include "app/session/load_scene.h"
+#include "app/session/scene/load_scene.h"
 #include "app/session/session.h"
 #include "engine/core/version.h"
 #include "widgets/browse/info_panel.h"
@@ -138,7 +138,7 @@ MainWindow::~MainWindow() {
 void MainWindow::open(const QString& input) {
   const bool is_builtin = !builtin_scene_id(input.toStdString()).empty();
   opener_->open(input, [this, is_builtin] {
-    if (is_builtin) estimate_->run({kFirstMethod, {}, ViewSelection::All});
+    if (is_builtin) estimate_->run({kFirstMethod, {}, {}});
   });
 }
 
@@ -159,7 +159,7 @@ void MainWindow::buildBars() {
   auto* overlays = new QActionGroup(this);
   for (const auto& [id, quantity] : overlay_actions()) {
     overlays->addAction(actions_->find(id));
-    bar->addAction(actions_->find(id));
+    if (render::info_of(quantity).has_button) bar->addAction(actions_->find(id));
   }
   for (const auto& [id, quantity] : segment_overlay_actions()) {
     overlays->addAction(actions_->find(id));
@@ -245,7 +245,7 @@ void MainWindow::connectAnnotation() {
   connect(scribbles_, &ScribbleController::hint, this, hint);
   connect(segment_, &SegmentController::hint, this, hint);
   connect(segment_, &SegmentController::labelsArrived, overlay_, [this] {
-    if (!is_of_segmentation(overlay_->quantity())) {
+    if (render::info_of(overlay_->quantity()).subject != render::Subject::Segmentation) {
       overlay_->setQuantity(render::Quantity::Segmentation);
     }
   });
@@ -327,8 +327,8 @@ void MainWindow::updateActions() {
   actions_->find("file.conventions")->setEnabled(!opener_->reopenable().isEmpty());
   for (const char* id :
        {"file.save_scribbles", "file.save_scribbles_as", "file.export_scribbles",
-        "file.import_scribbles", "file.compare_labels", "file.save_picture", "file.close",
-        "file.open_result", "estimate.run", "estimate.copy_command"}) {
+        "file.import_scribbles", "file.compare_labels", "file.save_picture", "file.save_map",
+        "file.close", "file.open_result", "estimate.run", "estimate.copy_command"}) {
     actions_->find(id)->setEnabled(has_scene);
   }
 }
@@ -338,7 +338,7 @@ void MainWindow::showInfo() {
     panels_.info->setInfo(tr("Nothing is open"), {}, {});
     return;
   }
-  const SceneInfo info = describe(*session_->scene(), session_->conventions());
+  const SceneInfo info = describe(*session_->scene());
   panels_.info->setInfo(info.title, info.rows, info.warnings);
 }
 

@@ -108,7 +108,8 @@ std::vector<Judged> MetricController::judgeAll() {
   for (const EstimateEntry& entry : session_.estimates()) {
     Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
     for (const Protocol protocol : kProtocols) {
-      const auto evaluation = session_.evaluation({entry.id, judged_view(session_), protocol});
+      const auto evaluation =
+          session_.evaluation({entry.id, judged_view(*session_.scene()), protocol});
       if (evaluation) each.metrics[protocol] = evaluation->metrics;
     }
     judged.push_back(std::move(each));

@@ -4,11 +4,13 @@
 #include "app/gui/conventions_dialog.h"
 #include "app/gui/queued_post.h"
 #include "app/gui/remembered_conventions.h"
-#include "app/session/load_scene.h"
-#include "app/session/read_result.h"
-#include "app/session/run_estimator.h"
+#include "app/session/run/read_result.h"
+#include "app/session/run/result_reading.h"
+#include "app/session/run/run_estimator.h"
+#include "app/session/scene/load_scene.h"
+#include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/open/reader.h"
 #include "engine/render/shade.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/style/picture.h"
@@ -44,11 +46,8 @@ QString absolute(const QString& input) {
 }
 
 bool is_result(const QString& path) {
-  const QString suffix = QFileInfo(path).suffix().toLower();
-  if (suffix == "pfm" || suffix == "tif" || suffix == "tiff") return QFileInfo(path).isFile();
-  if (suffix != "h5" && suffix != "hdf5") return false;
   try {
-    return io::is_result_file(path.toStdString());
+    return names_result(path.toStdString());
   } catch (const std::exception&) {
     return false;  // opening it will tell what is wrong
   }
@@ -69,29 +68,33 @@ Image<std::uint8_t> rgba_of(const Image<std::uint8_t>& center) {
 
 struct ReadEstimate : FinishedEstimate {
   bool is_of_others = false;
+  std::string differing_options;
 };
 
 ReadEstimate read_estimate(const LightField& light_field, const std::string& path,
                            const Progress& progress) {
-  Estimate estimate = read_result_of(light_field, path);
+  auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path));
   progress.check();
-  check_fits(estimate, light_field, path);
-  const bool is_of_others = is_of_other_samples(estimate, light_field);
-  const Interval range = display_range(estimate);
-  return {{std::make_shared<const Estimate>(std::move(estimate)), range}, is_of_others};
+  check_fits(*estimate, light_field, path);
+  const bool is_of_others = is_of_other_samples(*estimate, light_field);
+  const bool is_moved = estimate->reading.focus_px() != light_field.info().reading.focus_px();
+  bring_to_focus(*estimate, light_field, progress);
+  const Interval range = display_range(*estimate);
+  std::string options = differing_options(*estimate, light_field);
+  return {{std::move(estimate), range}, is_of_others && !is_moved, std::move(options)};
 }
 
-ReadScene read_as_told(const std::string& input, const LoadOptions& options,
-                       const Progress& progress) {
-  io::OpenOptions conventions = options.open;
-  conventions.on_center_view = nullptr;
-  return {std::make_shared<const Scene>(load_scene(input, options, progress)), conventions};
+using ScenePtr = std::shared_ptr<const Scene>;
+
+ScenePtr read_as_told(const std::string& input, const LoadOptions& options,
+                      const Progress& progress) {
+  return std::make_shared<const Scene>(load_scene(input, options, progress));
 }
 
 // Conventions that no longer fit the file are told and not used.
-ReadScene read_as_remembered(const std::string& input, const LoadOptions& options,
-                             const Progress& progress) {
-  if (!overrules(options.open)) return read_as_told(input, options, progress);
+ScenePtr read_as_remembered(const std::string& input, const LoadOptions& options,
+                            const Progress& progress) {
+  if (io::given_options(options.open).empty()) return read_as_told(input, options, progress);
   try {
     return read_as_told(input, options, progress);
   } catch (const IoError& error) {
@@ -101,8 +104,23 @@ ReadScene read_as_remembered(const std::string& input, const LoadOptions& option
     Scene scene = load_scene(input, automatic, progress);
     scene.convention.warnings.push_back(
         std::string("The conventions that you set for this file were not used: ") + error.what());
-    return {std::make_shared<const Scene>(std::move(scene)), {}};
+    return std::make_shared<const Scene>(std::move(scene));
   }
+}
+
+// The options that a reader of the input knows; of one that nobody reads, all but the focus plane.
+std::vector<ParameterDescription> options_of(const QString& input, const std::string& reader_id) {
+  const io::Reader* reader = io::reader_named(reader_id);
+  try {
+    if (!reader) reader = io::find_reader(input.toStdString(), {}).reader;
+  } catch (const std::exception&) {
+    reader = nullptr;  // it could not be opened either
+  }
+  std::vector<ParameterDescription> options = io::open_schema().descriptions();
+  std::erase_if(options, [reader](const ParameterDescription& option) {
+    return option.key == Reading::kFocus || (reader && !reader->has_option(option.key));
+  });
+  return options;
 }
 
 }  // namespace
@@ -124,23 +142,21 @@ OpenController::OpenController(Session& session, Jobs& jobs, BrowseController& b
 
 void OpenController::open(const QString& input_as_given, std::function<void()> opened) {
   const QString input = absolute(input_as_given);
-  const io::OpenOptions conventions =
-      is_builtin(input) ? io::OpenOptions() : remembered_conventions(input);
-  load(input, conventions, true, std::move(opened));
+  const ParameterSet given = is_builtin(input) ? ParameterSet() : remembered_conventions(input);
+  load(input, given, true, std::move(opened));
 }
 
-void OpenController::reopenWith(const io::OpenOptions& conventions) {
+void OpenController::reopenWith(const ParameterSet& given) {
   const QString input = reopenable();
   if (input.isEmpty()) return;
-  load(input, conventions, false,
-       [input, conventions] { remember_conventions(input, conventions); });
+  load(input, given, false, [input, given] { remember_conventions(input, given); });
 }
 
 void OpenController::reopenAt(double focus_px, std::function<void()> opened) {
   if (!session_.scene()) return;
-  io::OpenOptions conventions = session_.conventions();
-  conventions.focus_px = focus_px;
-  load(QString::fromStdString(session_.input()), conventions, false, std::move(opened));
+  Reading reading = session_.light_field()->info().reading;
+  reading.set_focus(focus_px);
+  load(QString::fromStdString(session_.input()), reading.options, false, std::move(opened));
 }
 
 QString OpenController::reopenable() const {
@@ -149,10 +165,10 @@ QString OpenController::reopenable() const {
   return is_builtin(input) ? QString() : input;
 }
 
-LoadOptions OpenController::loadOptions(quint64 load, const io::OpenOptions& conventions) {
+LoadOptions OpenController::loadOptions(quint64 load, const ParameterSet& given) {
   LoadOptions options;
   options.cache_folder = cache_folder_;
-  options.open = conventions;
+  options.open = io::open_schema().parse(given);
   // The reading thread ends with the jobs, after this object: posts go by way of the jobs.
   options.open.on_center_view = [this, load, post = queued_post(&jobs_)](
                                     const Image<std::uint8_t>& center, const LightFieldInfo& info,
@@ -167,26 +183,26 @@ LoadOptions OpenController::loadOptions(quint64 load, const io::OpenOptions& con
   return options;
 }
 
-void OpenController::load(const QString& input, const io::OpenOptions& conventions,
-                          bool is_remembered, std::function<void()> opened) {
-  guard_([this, input, conventions, is_remembered, opened = std::move(opened)] {
-    startLoading(input, conventions, is_remembered, opened);
+void OpenController::load(const QString& input, const ParameterSet& given, bool is_remembered,
+                          std::function<void()> opened) {
+  guard_([this, input, given, is_remembered, opened = std::move(opened)] {
+    startLoading(input, given, is_remembered, opened);
   });
 }
 
-void OpenController::startLoading(const QString& input, const io::OpenOptions& conventions,
+void OpenController::startLoading(const QString& input, const ParameterSet& given,
                                   bool is_remembered, std::function<void()> opened) {
   jobs_.cancelLane(Lane::Load);
   const quint64 load = ++load_;
   beginLoading(short_name(input));
-  loading_job_ = jobs_.start<ReadScene>(
+  loading_job_ = jobs_.start<ScenePtr>(
       Lane::Load, tr("Opening %1").arg(loading_name_),
-      [path = input.toStdString(), options = loadOptions(load, conventions),
+      [path = input.toStdString(), options = loadOptions(load, given),
        is_remembered](const Progress& progress) {
         return is_remembered ? read_as_remembered(path, options, progress)
                              : read_as_told(path, options, progress);
       },
-      [this, input, load, opened = std::move(opened)](const ReadScene& read) {
+      [this, input, load, opened = std::move(opened)](const ScenePtr& read) {
         // Painting may have gone on while this was read.
         guard_([this, input, load, opened, read] {
           if (load != load_) return;
@@ -208,9 +224,9 @@ void OpenController::showLoading(quint64 job, double fraction) {
   panels_.canvas->showLoading(loading_name_, fraction);
 }
 
-void OpenController::finishOpening(const QString& input, const ReadScene& read) {
+void OpenController::finishOpening(const QString& input, const ScenePtr& scene) {
   jobs_.cancelLane(Lane::Estimate);  // they belong to the former light field
-  session_.open(read.scene, input.toStdString(), read.conventions);
+  session_.open(scene, input.toStdString());
   emit titleChanged(QString::fromStdString(session_.light_field()->info().name));
   if (is_builtin(input)) {
     keepBuiltin(input);
@@ -260,26 +276,29 @@ void OpenController::openResult(const QString& path) {
       },
       [this, generation, name = short_name(path)](const ReadEstimate& read) {
         session_.add_estimate(read.estimate, read.display_range, generation);
-        if (!read.is_of_others) return;
-        emit warned(tr("%1 was estimated from other samples than those of this light field: its "
-                       "errors may say nothing.")
-                        .arg(name));
+        if (!read.differing_options.empty()) {
+          emit warned(tr("%1 was estimated with%2: its errors may be meaningless. Choose the same "
+                         "in Conventions…")
+                          .arg(name, QString::fromStdString(read.differing_options)));
+        } else if (read.is_of_others) {
+          emit warned(tr("%1 was estimated from other samples than those of this light field: its "
+                         "errors may be meaningless.")
+                          .arg(name));
+        }
       });
 }
 
 void OpenController::conventionsDialog() {
   const QString input = reopenable();
   if (input.isEmpty()) return;
-  const bool is_open = failed_input_.isEmpty();
-  const std::string format = is_open ? session_.scene()->convention.format : std::string();
-  const bool is_archive = format.starts_with("archive") || QFileInfo(input).isFile();
-  auto* dialog = new ConventionsDialog(
-      input, remembered_conventions(input),
-      {.has_units = is_archive || !is_open, .has_names = !is_archive}, panels_.viewer->window());
+  const std::string reader =
+      failed_input_.isEmpty() ? session_.light_field()->info().reading.reader : std::string();
+  auto* dialog = new ConventionsDialog(input, options_of(input, reader),
+                                       remembered_conventions(input), panels_.viewer->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, dialog, input] {
     // Something else may have been opened meanwhile, by a drop.
-    if (reopenable() == input) reopenWith(dialog->conventions());
+    if (reopenable() == input) reopenWith(dialog->given());
   });
   dialog->open();
 }

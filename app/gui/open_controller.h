@@ -4,7 +4,7 @@
 #include "app/gui/browse_controller.h"
 #include "app/gui/jobs.h"
 #include "app/gui/panels.h"
-#include "app/session/load_scene.h"
+#include "app/session/scene/load_scene.h"
 #include "app/session/session.h"
 
 #include <QObject>
@@ -15,12 +15,6 @@
 #include <memory>
 
 namespace episcope {
-
-/// A scene and the choices of the user that it was read by.
-struct ReadScene {
-  std::shared_ptr<const Scene> scene;
-  io::OpenOptions conventions;
-};
 
 /// Opens light fields and results in the background: dialogs, dropped files, recent files.
 class OpenController : public QObject {
@@ -37,7 +31,7 @@ class OpenController : public QObject {
   void openResult(const QString& path);
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
   /// for that file if it could be read.
-  void reopenWith(const io::OpenOptions& conventions);
+  void reopenWith(const ParameterSet& given);
   /// Reads what is open again with another focus plane baked in (0: none). `opened` is called after
   /// success.
   void reopenAt(double focus_px, std::function<void()> opened);
@@ -73,14 +67,14 @@ class OpenController : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  void load(const QString& input, const io::OpenOptions& conventions, bool is_remembered,
+  void load(const QString& input, const ParameterSet& given, bool is_remembered,
             std::function<void()> opened);
-  void startLoading(const QString& input, const io::OpenOptions& conventions, bool is_remembered,
+  void startLoading(const QString& input, const ParameterSet& given, bool is_remembered,
                     std::function<void()> opened);
-  [[nodiscard]] LoadOptions loadOptions(quint64 load, const io::OpenOptions& conventions);
+  [[nodiscard]] LoadOptions loadOptions(quint64 load, const ParameterSet& given);
   void beginLoading(const QString& name);
   void showLoading(quint64 job, double fraction);
-  void finishOpening(const QString& input, const ReadScene& read);
+  void finishOpening(const QString& input, const std::shared_ptr<const Scene>& scene);
   void endLoading(quint64 load, const QString& input);
   void keepBuiltin(const QString& input);
   void remember(const QString& input);

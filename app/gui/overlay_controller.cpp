@@ -2,11 +2,12 @@
 #include "app/gui/overlay_controller.h"
 
 #include "app/gui/queued_post.h"
-#include "app/session/thread_priority.h"
+#include "app/session/run/thread_priority.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/color_bar.h"
 #include "widgets/compare/overlay_bar.h"
 #include "widgets/style/picture.h"
+#include "widgets/style/quantity_text.h"
 
 #include <algorithm>
 #include <limits>
@@ -17,20 +18,17 @@ namespace {
 
 using render::Quantity;
 
-constexpr Quantity kQuantities[] = {
-    Quantity::Disparity, Quantity::Background,   Quantity::Layers,        Quantity::Confidence,
-    Quantity::Truth,     Quantity::SignedError,  Quantity::AbsoluteError, Quantity::BadPixels,
-    Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,   Quantity::Uncertainty,
-    Quantity::Edges,     Quantity::WrongLabels};
-
 constexpr std::size_t kKeptPictures = 4;
 
-// The range belongs to the quantity: disparity and truth share one, a difference has its own.
-int range_key(const OverlayChoice& choice) {
-  if (choice.subtracted != 0) return -1;
-  const bool is_disparity =
-      choice.quantity == Quantity::Truth || choice.quantity == Quantity::Background;
-  return static_cast<int>(is_disparity ? Quantity::Disparity : choice.quantity);
+// The range belongs to the quantity; all disparities share one.
+Quantity range_key(Quantity quantity) {
+  const bool is_disparity = render::info_of(quantity).rule == render::RangeRule::Disparity;
+  return is_disparity ? Quantity::Disparity : quantity;
+}
+
+bool is_of_results(Quantity quantity) {
+  const render::Subject subject = render::info_of(quantity).subject;
+  return subject == render::Subject::Result || subject == render::Subject::Error;
 }
 
 }  // namespace
@@ -81,42 +79,13 @@ void OverlayController::update(Parts parts) {
 }
 
 bool OverlayController::isAvailable(Quantity quantity) const {
-  const auto& scene = session_.scene();
-  if (!scene) return quantity == Quantity::View;
-  const EstimateEntry* shown = session_.shown();
-  const bool is_segmented = session_.segmentation() && session_.segmentation()->labeling;
-  switch (quantity) {
-    case Quantity::View:
-      return true;
-    case Quantity::Disparity:
-      return shown != nullptr;
-    case Quantity::Confidence:
-      return shown && !shown->estimate->confidence.empty();
-    case Quantity::Truth:
-      return scene->truth->has_disparity();
-    case Quantity::Labels:
-      return session_.true_labels() != nullptr;
-    case Quantity::Edges:
-      return true;
-    case Quantity::Segmentation:
-    case Quantity::Probability:
-    case Quantity::Uncertainty:
-      return is_segmented;
-    case Quantity::WrongLabels:
-      return is_segmented && session_.true_labels() != nullptr;
-    case Quantity::Background:
-      return shown && !shown->estimate->layered.background.empty();
-    case Quantity::Layers:
-      return shown && !shown->estimate->layered.layers.empty();
-    default:
-      return shown && scene->truth->has_disparity();
-  }
+  return is_available(session_, quantity);
 }
 
 void OverlayController::showAvailable() {
   std::vector<Quantity> available;
-  for (const Quantity quantity : kQuantities) {
-    if (isAvailable(quantity)) available.push_back(quantity);
+  for (const render::QuantityInfo& info : render::quantities()) {
+    if (isAvailable(info.quantity)) available.push_back(info.quantity);
   }
   panels_.overlay_bar->setAvailable(available);
   panels_.overlay_bar->setQuantity(quantity_);
@@ -151,66 +120,59 @@ void OverlayController::setSuspended(bool is_suspended) {
   if (!is_suspended) draw();
 }
 
-OverlayChoice OverlayController::choice() const {
+MapChoice OverlayController::choice() const {
   if (is_flipped_) return choiceB();
   const EstimateEntry* compared = session_.compared();
   if (!shows_difference_ || !compared) return choiceA();
-  return {Quantity::Disparity, session_.shown()->id, compared->id};
+  return {Quantity::Difference, session_.shown()->id, compared->id};
 }
 
-OverlayChoice OverlayController::choiceA() const {
+MapChoice OverlayController::choiceA() const {
   const EstimateEntry* shown = session_.shown();
-  return {quantity_, shown && !is_of_segmentation(quantity_) ? shown->id : 0, 0};
+  return {quantity_, shown && is_of_results(quantity_) ? shown->id : 0, 0};
 }
 
-OverlayChoice OverlayController::choiceB() const {
-  if (is_of_segmentation(quantity_)) {
-    const bool shows_truth = quantity_ == Quantity::Segmentation && isAvailable(Quantity::Labels);
-    return {shows_truth ? Quantity::Labels : Quantity::View, 0, 0};
-  }
-  if (const EstimateEntry* compared = session_.compared()) return {quantity_, compared->id, 0};
-  const bool shows_truth = quantity_ == Quantity::Disparity && isAvailable(Quantity::Truth);
-  return {shows_truth ? Quantity::Truth : Quantity::View, choiceA().estimate, 0};
+MapChoice OverlayController::choiceB() const {
+  const EstimateEntry* compared = session_.compared();
+  if (is_of_results(quantity_) && compared) return {quantity_, compared->id, 0};
+  const Quantity other = quantity_ == Quantity::Disparity      ? Quantity::Truth
+                         : quantity_ == Quantity::Segmentation ? Quantity::Labels
+                                                               : Quantity::View;
+  return {isAvailable(other) ? other : Quantity::View, 0, 0};
 }
 
-render::Shading OverlayController::shadingOf(const OverlayChoice& choice) const {
-  const bool is_difference = choice.subtracted != 0;
-  render::Shading shading = render::default_shading(
-      is_difference ? Quantity::SignedError : choice.quantity, session_.disparity_range());
-  if (const auto edited = edited_ranges_.find(range_key(choice)); edited != edited_ranges_.end()) {
-    shading.range = edited->second;
-  }
-  return shading;
+render::Shading OverlayController::shadingOf(const MapChoice& choice) const {
+  const auto edited = edited_ranges_.find(range_key(choice.quantity));
+  return shading_of(
+      choice.quantity, session_.disparity_range(),
+      {.range = edited == edited_ranges_.end() ? std::nullopt : std::optional(edited->second)});
 }
 
 render::Shading OverlayController::shadingOf(Quantity quantity) const {
-  return shadingOf(OverlayChoice{quantity, 0, 0});
+  return shadingOf(MapChoice{quantity, 0, 0});
 }
 
 void OverlayController::draw() {
   if (is_suspended_) return;
-  const OverlayChoice drawn_choice = choice();
+  const MapChoice drawn_choice = choice();
   drawMap(drawn_choice);
   panels_.canvas->setOverlay(picture_);
-  const bool has_scale = session_.scene() && drawn_choice.quantity != Quantity::View &&
-                         drawn_choice.quantity != Quantity::Labels &&
-                         drawn_choice.quantity != Quantity::Segmentation;
+  const bool has_scale = session_.scene() && render::info_of(drawn_choice.quantity).has_scale();
   panels_.color_bar->setVisible(has_scale);
   if (has_scale) {
-    panels_.color_bar->setShading(
-        drawn_choice.subtracted != 0 ? tr("difference") : quantity_label(drawn_choice.quantity),
-        quantity_unit(drawn_choice.quantity), shadingOf(drawn_choice));
+    panels_.color_bar->setShading(quantity_label(drawn_choice.quantity),
+                                  quantity_unit(drawn_choice.quantity), shadingOf(drawn_choice));
   }
   if (session_.scene()) showCaption(drawn_choice);
   emit drawn();
 }
 
-void OverlayController::drawMap(const OverlayChoice& choice) {
-  const auto source = overlay_source(session_, choice, session_.view());
+void OverlayController::drawMap(const MapChoice& choice) {
+  const auto source = map_source(session_, choice, session_.view());
   if (!source) {
     // While the errors of a view are computed, what was drawn stays: a few milliseconds.
-    is_up_to_date_ = !session_.scene() || choice.quantity == Quantity::View ||
-                     choice.quantity == Quantity::Labels || !session_.is_evaluating();
+    is_up_to_date_ =
+        !session_.scene() || !is_of_results(choice.quantity) || !session_.is_evaluating();
     if (!is_up_to_date_) return;
     map_ = nullptr;
     picture_ = {};
@@ -230,7 +192,7 @@ void OverlayController::drawMap(const OverlayChoice& choice) {
   beginShading(*source, shading);
 }
 
-const OverlayController::Shaded* OverlayController::find(const OverlaySource& source,
+const OverlayController::Shaded* OverlayController::find(const MapSource& source,
                                                          const render::Shading& shading) {
   const auto found = std::find_if(shaded_.begin(), shaded_.end(), [&](const Shaded& each) {
     return each.source == source && render::is_same(each.shading, shading);
@@ -240,7 +202,7 @@ const OverlayController::Shaded* OverlayController::find(const OverlaySource& so
   return &shaded_.front();
 }
 
-std::shared_ptr<const OverlayMap> OverlayController::knownMap(const OverlaySource& source) const {
+QuantityMapPtr OverlayController::knownMap(const MapSource& source) const {
   const auto found = std::find_if(shaded_.begin(), shaded_.end(),
                                   [&](const Shaded& each) { return each.source == source; });
   return found == shaded_.end() ? nullptr : found->map;
@@ -248,13 +210,13 @@ std::shared_ptr<const OverlayMap> OverlayController::knownMap(const OverlaySourc
 
 // One picture at a time: when it is there, drawing again asks for what is wanted by then. However
 // fast a range is dragged, pictures keep coming.
-void OverlayController::beginShading(const OverlaySource& source, const render::Shading& shading) {
+void OverlayController::beginShading(const MapSource& source, const render::Shading& shading) {
   if (std::exchange(is_shading_, true)) return;
   runner_.start<Shaded>(
       [source, shading, map = knownMap(source)](const Progress&) mutable {
         lower_thread_priority();
-        if (!map) map = make_overlay_map(source);
-        return Shaded{source, shading, map, to_qimage(shade_overlay(*map, shading))};
+        if (!map) map = make_map(source);
+        return Shaded{source, shading, map, to_qimage(overlay_picture(*map, shading))};
       },
       [this, generation = session_.generation()](Outcome<Shaded> outcome) {
         is_shading_ = false;
@@ -270,8 +232,8 @@ void OverlayController::finishShading(Shaded shaded) {
   if (shaded_.size() > kKeptPictures) shaded_.pop_back();
 }
 
-std::optional<QImage> OverlayController::pictureOf(const OverlayChoice& choice) {
-  const auto source = overlay_source(session_, choice, session_.view());
+std::optional<QImage> OverlayController::pictureOf(const MapChoice& choice) {
+  const auto source = map_source(session_, choice, session_.view());
   if (!source) return session_.is_evaluating() ? std::nullopt : std::optional(QImage());
   const render::Shading shading = shadingOf(choice);
   if (const Shaded* found = find(*source, shading)) return found->picture;
@@ -279,31 +241,30 @@ std::optional<QImage> OverlayController::pictureOf(const OverlayChoice& choice) 
   return std::nullopt;
 }
 
-QString OverlayController::describe(const OverlayChoice& choice) const {
+QString OverlayController::describe(const MapChoice& choice) const {
   const EstimateEntry* entry = session_.find_estimate(choice.estimate);
-  const EstimateEntry* other = session_.find_estimate(choice.subtracted);
+  const EstimateEntry* other = session_.find_estimate(choice.other);
   const auto name = [](const EstimateEntry* each) { return QString::fromStdString(each->name); };
   if (entry && other) return tr("%1 − %2").arg(name(entry), name(other));
   if (choice.quantity == Quantity::View) return tr("view");
-  if (!entry || choice.quantity == Quantity::Truth || choice.quantity == Quantity::Labels) {
-    return quantity_label(choice.quantity);
-  }
+  if (!entry) return quantity_label(choice.quantity);
   return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
 }
 
-void OverlayController::showCaption(const OverlayChoice& choice) const {
+void OverlayController::showCaption(const MapChoice& choice) const {
   const ViewIndex view = session_.view();
   QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
   if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
   if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
     caption += tr(" · no such map of this view");
   }
-  const bool has_sides = choice.subtracted == 0 && (is_flipped_ || session_.compared());
+  const bool has_sides =
+      choice.quantity != Quantity::Difference && (is_flipped_ || session_.compared());
   panels_.canvas->setCaption(caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
 }
 
 void OverlayController::setRange(std::optional<Interval> range) {
-  const int key = range_key(choice());
+  const Quantity key = range_key(choice().quantity);
   if (range) {
     edited_ranges_[key] = *range;
   } else {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/overlay_map.h"
 #include "app/gui/panels.h"
+#include "app/session/picture/map_choice.h"
+#include "app/session/picture/picture.h"
 #include "app/session/session.h"
 #include "engine/core/parallel/job_runner.h"
 
@@ -38,17 +39,17 @@ class OverlayController : public QObject {
   [[nodiscard]] bool isFlipped() const { return is_flipped_; }
 
   /// What is drawn: A, the difference, or B while flipped.
-  [[nodiscard]] OverlayChoice choice() const;
+  [[nodiscard]] MapChoice choice() const;
   /// The quantity of the shown result.
-  [[nodiscard]] OverlayChoice choiceA() const;
+  [[nodiscard]] MapChoice choiceA() const;
   /// The same of what it is compared with: the other result, else the truth, else the view alone.
-  [[nodiscard]] OverlayChoice choiceB() const;
+  [[nodiscard]] MapChoice choiceB() const;
   /// "error of EPI_L", "truth"; "view" without an overlay.
-  [[nodiscard]] QString describe(const OverlayChoice& choice) const;
-  [[nodiscard]] render::Shading shadingOf(const OverlayChoice& choice) const;
+  [[nodiscard]] QString describe(const MapChoice& choice) const;
+  [[nodiscard]] render::Shading shadingOf(const MapChoice& choice) const;
   /// Picture of a choice in the current view, null if there is none; nothing while it is being
   /// made: `drawn` tells when to ask again.
-  [[nodiscard]] std::optional<QImage> pictureOf(const OverlayChoice& choice);
+  [[nodiscard]] std::optional<QImage> pictureOf(const MapChoice& choice);
 
   /// Range of what is drawn; none = the quantity's own one.
   void setRange(std::optional<Interval> range);
@@ -56,7 +57,7 @@ class OverlayController : public QObject {
   /// Whether `map` is what was chosen last, and not what stays until that is there.
   [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
   /// What is drawn; null without a map.
-  [[nodiscard]] const std::shared_ptr<const OverlayMap>& map() const { return map_; }
+  [[nodiscard]] const QuantityMapPtr& map() const { return map_; }
 
   /// While suspended, something else than the session is on the canvas.
   void setSuspended(bool is_suspended);
@@ -77,19 +78,19 @@ class OverlayController : public QObject {
  private:
   void update(Parts parts);
   struct Shaded {
-    OverlaySource source;
+    MapSource source;
     render::Shading shading;
-    std::shared_ptr<const OverlayMap> map;
+    QuantityMapPtr map;
     QImage picture;
   };
-  [[nodiscard]] const Shaded* find(const OverlaySource& source, const render::Shading& shading);
-  [[nodiscard]] std::shared_ptr<const OverlayMap> knownMap(const OverlaySource& source) const;
-  void beginShading(const OverlaySource& source, const render::Shading& shading);
+  [[nodiscard]] const Shaded* find(const MapSource& source, const render::Shading& shading);
+  [[nodiscard]] QuantityMapPtr knownMap(const MapSource& source) const;
+  void beginShading(const MapSource& source, const render::Shading& shading);
   void finishShading(Shaded shaded);
   void showAvailable();
   void draw();
-  void drawMap(const OverlayChoice& choice);
-  void showCaption(const OverlayChoice& choice) const;
+  void drawMap(const MapChoice& choice);
+  void showCaption(const MapChoice& choice) const;
 
   Session& session_;
   Panels panels_;
@@ -99,10 +100,10 @@ class OverlayController : public QObject {
   bool is_suspended_ = false;
   bool is_up_to_date_ = true;
   std::size_t known_estimates_ = 0;
-  std::map<int, Interval> edited_ranges_;  // by range_key
+  std::map<render::Quantity, Interval> edited_ranges_;  // all disparities under one
   std::list<Shaded> shaded_;  // the newest used comes first: flips and wipes go to and fro
   bool is_shading_ = false;
-  std::shared_ptr<const OverlayMap> map_;
+  QuantityMapPtr map_;
   QImage picture_;
   JobRunner runner_;
 };

@@ -3,7 +3,7 @@
 
 #include "app/gui/document_controller.h"
 #include "app/gui/jobs.h"
-#include "app/session/annotation_journal.h"
+#include "app/session/document/annotation_journal.h"
 
 #include <QObject>
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/remembered_conventions.h"
 
+#include "engine/core/error.h"
+#include "engine/io/open/open_options.h"
+
 #include <QSettings>
 #include <QUrl>
 #include <QVariantMap>
@@ -8,49 +11,38 @@
 namespace episcope {
 namespace {
 
-using Flip = io::OpenOptions::Flip;
-using Units = io::OpenOptions::Units;
-
 // Slashes would make groups of the path's folders.
 QString key_of(const QString& path) {
   return "conventions/" + QString::fromLatin1(QUrl::toPercentEncoding(path));
 }
 
-// Settings are a file that anybody may edit: what is no choice counts as automatic.
-template <class Choice>
-Choice choice_of(const QVariant& value, Choice last) {
-  const int number = value.toInt();
-  return number >= 0 && number <= static_cast<int>(last) ? static_cast<Choice>(number)
-                                                         : Choice::Auto;
-}
-
 }  // namespace
 
-bool overrules(const io::OpenOptions& conventions) {
-  return conventions.flip != Flip::Auto || conventions.units != Units::Auto ||
-         !conventions.pattern.empty() || conventions.snake;
+ParameterSet remembered_conventions(const QString& path) {
+  const QVariantMap texts = QSettings().value(key_of(path)).toMap();
+  ParameterSet given;
+  for (const ParameterDescription& option : io::open_schema().descriptions()) {
+    const QVariant text = texts.value(QString::fromStdString(option.key));
+    if (!text.isValid()) continue;
+    try {
+      given.emplace_back(option.key, parse_parameter(option, text.toString().toStdString()));
+    } catch (const InvalidInput&) {
+      // Settings are a file that anybody may edit: what is no choice counts as automatic.
+    }
+  }
+  return given;
 }
 
-io::OpenOptions remembered_conventions(const QString& path) {
-  const QVariantMap values = QSettings().value(key_of(path)).toMap();
-  io::OpenOptions conventions;
-  conventions.flip = choice_of(values["flip"], Flip::Both);
-  conventions.units = choice_of(values["units"], Units::WithoutWidth);
-  conventions.pattern = values["pattern"].toString().toStdString();
-  conventions.snake = values["snake"].toBool();
-  return conventions;
-}
-
-void remember_conventions(const QString& path, const io::OpenOptions& conventions) {
-  if (!overrules(conventions)) {
+void remember_conventions(const QString& path, const ParameterSet& given) {
+  if (given.empty()) {
     QSettings().remove(key_of(path));
     return;
   }
-  QSettings().setValue(key_of(path),
-                       QVariantMap{{"flip", static_cast<int>(conventions.flip)},
-                                   {"units", static_cast<int>(conventions.units)},
-                                   {"pattern", QString::fromStdString(conventions.pattern)},
-                                   {"snake", conventions.snake}});
+  QVariantMap texts;
+  for (const auto& [key, value] : given) {
+    texts[QString::fromStdString(key)] = QString::fromStdString(to_text(value));
+  }
+  QSettings().setValue(key_of(path), texts);
 }
 
 }  // namespace episcope

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/open/open.h"
+#include "engine/core/parameter/parameter.h"
 
 #include <QString>
 
 namespace episcope {
 
-/// Whether the user overrules anything that a reader would find out by itself.
-[[nodiscard]] bool overrules(const io::OpenOptions& conventions);
+/// The reading options (io::open_schema) that the user set for this file or folder; none if all are
+/// automatic. `path` is absolute.
+[[nodiscard]] ParameterSet remembered_conventions(const QString& path);
 
-/// What the user chose for this file or folder; all automatic if nothing was. `path` is absolute.
-[[nodiscard]] io::OpenOptions remembered_conventions(const QString& path);
-
-/// Keeps the choice for later opens; one that overrules nothing is forgotten.
-void remember_conventions(const QString& path, const io::OpenOptions& conventions);
+/// Keeps the options for later opens; without any, the file is forgotten.
+void remember_conventions(const QString& path, const ParameterSet& given);
 
 }  // namespace episcope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/scene_info.h"
 
-#include "app/session/scene_range.h"
+#include "app/session/scene/scene_range.h"
 #include "widgets/style/number_text.h"
 
 #include <QCoreApplication>
@@ -71,16 +71,19 @@ QString by_whom(QString finding) {
   return with_minus(finding.replace(", as chosen by hand", text(" (set by you)")));
 }
 
-QString names_text(const io::OpenOptions& conventions) {
-  QString names =
-      conventions.pattern.empty() ? text("automatic") : QString::fromStdString(conventions.pattern);
-  if (conventions.snake) names += text(", snake");
+// Names of an image grid that were given; empty if they were found.
+QString names_text(const Reading& reading) {
+  const ParameterValue* pattern = reading.find("pattern");
+  const bool is_snake = reading.find("snake") != nullptr;
+  if (!pattern && !is_snake) return {};
+  QString names = pattern ? QString::fromStdString(to_text(*pattern)) : text("automatic");
+  if (is_snake) names += text(", snake");
   return names + text(" (set by you)");
 }
 
 }  // namespace
 
-SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
+SceneInfo describe(const Scene& scene) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
@@ -112,11 +115,11 @@ SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions) {
   info.rows.push_back(
       {text("Camera"), camera_text(light_field.info().camera), by_whom(utf8(convention.units))});
   info.rows.push_back({text("Format"), utf8(convention.format), {}});
-  if (!conventions.pattern.empty() || conventions.snake) {
-    info.rows.push_back({text("Names"), names_text(conventions), {}});
+  if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
+    info.rows.push_back({text("Names"), names, {}});
   }
   for (const Companion& companion : scene.companions) {
-    info.rows.push_back({utf8(companion.kind), utf8(companion.shape), {}});
+    info.rows.push_back({utf8(companion_name(companion.kind)), utf8(companion.shape), {}});
   }
   info.rows.push_back({text("Source"), utf8(light_field.info().source), {}});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);

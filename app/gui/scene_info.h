@@ -2,7 +2,6 @@
 #pragma once
 
 #include "engine/core/light_field/scene.h"
-#include "engine/io/open/open.h"
 #include "widgets/browse/info_panel.h"
 
 #include <QString>
@@ -19,7 +18,6 @@ struct SceneInfo {
   QStringList warnings;
 };
 
-/// `conventions` are those that the user chose.
-[[nodiscard]] SceneInfo describe(const Scene& scene, const io::OpenOptions& conventions);
+[[nodiscard]] SceneInfo describe(const Scene& scene);
 
 }  // namespace episcope

@@ -8,6 +8,7 @@
 #include "app/gui/segment_controller.h"
 #include "app/session/session.h"
 #include "widgets/annotate/segment_panel.h"
+#include "widgets/style/quantity_text.h"
 
 #include <QAction>
 
@@ -60,34 +61,28 @@ void add_runs(ActionTable& table, MainWindow& window) {
        .run = [&window] { window.exporter().exportSegmentationDialog(); }});
 }
 
+QList<QKeySequence> overlay_keys(Quantity quantity) {
+  if (quantity == Quantity::Segmentation) return {Qt::Key_S};
+  return quantity == Quantity::Probability ? QList<QKeySequence>{Qt::Key_P} : QList<QKeySequence>();
+}
+
 void add_overlays(ActionTable& table, MainWindow& window) {
   OverlayController& overlay = window.overlay();
-  const auto add = [&](const char* id, const QString& text, const QString& tip, Quantity quantity,
-                       QKeySequence key = {}) {
+  for (const auto& [id, quantity] : segment_overlay_actions()) {
     table.add({.id = id,
                .menu = segment_menu(),
-               .text = text,
-               .tip = tip,
+               .text = quantity_button(quantity),
+               .tip = quantity_tip(quantity),
                .icon = "",
-               .keys = key.isEmpty() ? QList<QKeySequence>() : QList<QKeySequence>{key},
+               .keys = overlay_keys(quantity),
                .run =
-                   [&overlay, quantity] {
+                   [&overlay, quantity = quantity] {
                      const bool is_shown = overlay.quantity() == quantity;
                      overlay.setQuantity(is_shown ? Quantity::View : quantity);
                    },
                .is_checkable = true,
                .begins_group = quantity == Quantity::Segmentation});
-  };
-  add("segment.show", tr("Segments"), tr("Shows the segmentation over the view, or hides it"),
-      Quantity::Segmentation, Qt::Key_S);
-  add("segment.probability", tr("Probability"), tr("Shows how probable the current label is"),
-      Quantity::Probability, Qt::Key_P);
-  add("segment.uncertainty", tr("Uncertainty"), tr("Shows how undecided the labels are"),
-      Quantity::Uncertainty);
-  add("segment.edges", tr("Edges"), tr("Shows where boundaries between labels cost little"),
-      Quantity::Edges);
-  add("segment.wrong", tr("Wrong"), tr("Shows the pixels whose label is not the true one"),
-      Quantity::WrongLabels);
+  }
 }
 
 void show_state(ActionTable& table, MainWindow& window) {

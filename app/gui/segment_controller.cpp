@@ -2,8 +2,6 @@
 #include "app/gui/segment_controller.h"
 
 #include "app/gui/queued_post.h"
-#include "engine/evaluation/metrics/label_accuracy.h"
-#include "engine/labeling/consistency.h"
 #include "widgets/annotate/brush_panel.h"
 
 #include <utility>
@@ -265,28 +263,22 @@ void SegmentController::score() {
   scores_.clear();
   score_job_.drop();
   if (!scored_) return;
-  score_job_.start<Scores>(
-      [truth, segmentation, view = scored_view_](const Progress& progress) {
-        Scores scores;
-        const ViewStack<std::int32_t>& labels = segmentation->labeling->labels;
-        if (truth && truth->contains(view)) {
-          scores.view = judge_labels(labels.view(view), truth->view(view)).share();
-        }
-        if (labels.grid().count() == 1) return scores;
-        if (truth) scores.all = judge_labels(labels, *truth).share();
-        if (segmentation->disparity) {
-          scores.consistency =
-              label_consistency(labels, *segmentation->disparity, progress).share();
-        }
-        return scores;
+  score_job_.start<LabelingScores>(
+      [truth, segmentation, view = scored_view_,
+       scene = session_.scene()](const Progress& progress) {
+        static const ViewStack<std::int32_t> kNone;
+        return judge_labeling(segmentation->labeling->labels, view, truth ? *truth : kNone,
+                              *scene->truth, segmentation->disparity.get(), progress);
       },
-      [this](const Scores& scores) { showScores(scores); });
+      [this](const LabelingScores& scores) { showScores(scores); });
 }
 
-void SegmentController::showScores(const Scores& scores) {
+void SegmentController::showScores(const LabelingScores& scores) {
   QStringList parts;
-  if (scores.view) parts << tr("right: %1 of this view").arg(percent(*scores.view));
-  if (scores.all) parts << tr("%1 of all").arg(percent(*scores.all));
+  const auto of_view = scores.view.share();
+  const auto of_all = scores.all_views.share();
+  if (of_view) parts << tr("right: %1 of this view").arg(percent(*of_view));
+  if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
   if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
   scores_ = parts.join(", ");
   showState();

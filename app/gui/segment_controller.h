@@ -7,7 +7,8 @@
 #include "app/gui/jobs.h"
 #include "app/gui/labeling_source.h"
 #include "app/gui/panels.h"
-#include "app/session/live_labeler.h"
+#include "app/session/labels/judge_labeling.h"
+#include "app/session/labels/live_labeler.h"
 #include "app/session/session.h"
 
 #include <QElapsedTimer>
@@ -46,12 +47,6 @@ class SegmentController : public QObject {
   void hint(const QString& sentence);
 
  private:
-  /// How good labels are, as far as that can be told.
-  struct Scores {
-    std::optional<double> view;  ///< Share of right pixels,
-    std::optional<double> all;   ///< the same over all views,
-    std::optional<double> consistency;
-  };
   void update(Parts parts);
   void noteInput();
   void begin();
@@ -61,7 +56,7 @@ class SegmentController : public QObject {
   void publish();
   void showState();
   void score();
-  void showScores(const Scores& scores);
+  void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
   [[nodiscard]] QString missing() const;
 

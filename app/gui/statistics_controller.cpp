@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/statistics_controller.h"
 
+#include "engine/evaluation/metrics/error_maps.h"
 #include "engine/evaluation/metrics/region_metrics.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/overlay_bar.h"
 #include "widgets/compare/statistics_panel.h"
+#include "widgets/style/quantity_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +18,6 @@ namespace {
 using render::PixelRegion;
 
 constexpr int kBars = 96;
-constexpr float kBadThreshold = 0.07F;  // px, as the map of bad pixels
 
 std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRegion& region) {
   if (!evaluation) return std::nullopt;
@@ -25,8 +26,9 @@ std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRe
   for (int y = region.y0; y < std::min(region.y1, mask.height()); ++y) {
     for (int x = region.x0; x < std::min(region.x1, mask.width()); ++x) mask.at(y, x) = 1;
   }
-  return bad_percentage(*evaluation, &mask, InvalidEstimates::Bad,
-                        [](float error) { return std::abs(error) > kBadThreshold; });
+  return bad_percentage(*evaluation, &mask, InvalidEstimates::Bad, [](float error) {
+    return std::abs(error) > static_cast<float>(kBadPixelThreshold_px);
+  });
 }
 
 // Zero stays in the middle of colours that tell signs apart.
@@ -69,7 +71,8 @@ void StatisticsController::begin() {
     return;
   }
   if (!is_same) statistics_.reset();
-  const bool is_result = session_.find_estimate(choice_.estimate) && choice_.subtracted == 0 &&
+  const bool is_result = session_.find_estimate(choice_.estimate) &&
+                         choice_.quantity != render::Quantity::Difference &&
                          choice_.quantity != render::Quantity::Truth;
   const EvaluationPtr evaluation =
       is_result ? session_.evaluation({choice_.estimate, session_.view(), Protocol::Vmv2013})
@@ -102,8 +105,7 @@ void StatisticsController::useAutomaticRange() {
 
 void StatisticsController::applyAutomaticRange() {
   wants_range_ = false;
-  const bool is_signed =
-      choice_.subtracted != 0 || choice_.quantity == render::Quantity::SignedError;
+  const bool is_signed = render::info_of(choice_.quantity).is_signed();
   const Interval range = is_signed ? balanced(statistics_->robust) : statistics_->robust;
   if (statistics_->count > 0 && range.length() > 0) overlay_.setRange(range);
 }

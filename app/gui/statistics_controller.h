@@ -44,9 +44,9 @@ class StatisticsController : public QObject {
   OverlayController& overlay_;
   Panels panels_;
   LatestJob job_;
-  std::shared_ptr<const OverlayMap> map_;  // what the statistics are of
+  QuantityMapPtr map_;  // what the statistics are of
   render::PixelRegion region_;
-  OverlayChoice choice_;
+  MapChoice choice_;
   std::optional<render::RegionStatistics> statistics_;
   bool wants_range_ = false;
 };

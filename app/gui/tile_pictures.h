@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/overlay_map.h"
+#include "app/session/picture/map_choice.h"
+#include "app/session/picture/picture.h"
 #include "engine/core/parallel/progress.h"
 
 #include <QImage>
@@ -14,7 +15,7 @@ namespace episcope {
 struct TileRequest {
   LightFieldPtr light_field;
   ViewIndex view;
-  std::optional<OverlaySource> source;
+  std::optional<MapSource> source;
   render::Shading shading;
   double opacity = 1;  ///< Of the map.
 };
@@ -22,8 +23,8 @@ struct TileRequest {
 [[nodiscard]] bool is_same(const TileRequest& a, const TileRequest& b);
 
 struct TilePicture {
-  QImage picture;                         ///< View and map in one, RGB32: quickly drawn.
-  std::shared_ptr<const OverlayMap> map;  ///< Null without a map.
+  QImage picture;      ///< View and map in one, RGB32: quickly drawn.
+  QuantityMapPtr map;  ///< Null without a map.
 };
 
 /// For a worker. Throws Cancelled.

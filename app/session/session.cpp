@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/session.h"
 
-#include "app/session/scene_range.h"
+#include "app/session/scene/scene_range.h"
 #include "engine/disparity/registry.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace episcope {
 Session::Session(JobRunner::Post post)
     : post_(std::move(post)),
       alive_(std::make_shared<Session*>(this)),
-      judge_(post_, [this] { changed(Part::Evaluations); }) {}
+      evaluations_(post_, [this] { changed(Part::Evaluations); }) {}
 
 void Session::changed(Parts parts) {
   const bool is_posted = !gathered_.empty();
@@ -28,28 +28,24 @@ void Session::deliver() {
   for (const Listener& listener : listeners_) listener(parts);
 }
 
-void Session::open(std::shared_ptr<const Scene> scene, std::string input,
-                   io::OpenOptions conventions) {
+void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
   close();
   scene_ = std::move(scene);
   input_ = std::move(input);
-  conventions_ = std::move(conventions);
   if (!scene_) return;
   known_range_ = known_disparity_range(*scene_);
-  const GroundTruthPtr& truth = scene_->truth;
-  if (!truth->labels.empty()) true_labels_ = TrueLabelsPtr(truth, &truth->labels);
+  true_labels_ = true_labels_of(scene_->truth);
   view_ = scene_->light_field->center();
   cross_hair_ = {scene_->light_field->height() / 2, scene_->light_field->width() / 2};
 }
 
 void Session::close() {
-  for (const EstimateEntry& entry : estimates_) judge_.forget(entry.id);
+  for (const EstimateEntry& entry : estimates_) evaluations_.forget(entry.id);
   estimates_.clear();
   scene_.reset();
   segmentation_.reset();
   true_labels_.reset();
   input_.clear();
-  conventions_ = {};
   shown_ = compared_ = 0;
   is_compared_chosen_ = false;
   known_range_ = {};
@@ -57,6 +53,10 @@ void Session::close() {
   ++generation_;
   changed(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
           Part::CrossHair | Part::Focus | Part::Segmentation | Part::TrueLabels);
+}
+
+ParameterSet Session::reading_options() const {
+  return scene_ ? scene_->light_field->info().reading.options : ParameterSet();
 }
 
 LightFieldPtr Session::light_field() const {
@@ -93,7 +93,7 @@ void Session::remove_estimate(int id) {
                                   [&](const EstimateEntry& entry) { return entry.id == id; });
   if (found == estimates_.end()) return;
   const auto next = estimates_.erase(found);
-  judge_.forget(id);
+  evaluations_.forget(id);
   changed(Part::Estimates);
   if (shown_ == id) {
     shown_ = estimates_.empty() ? 0 : (next == estimates_.end() ? std::prev(next) : next)->id;
@@ -144,7 +144,7 @@ const EstimateEntry* Session::compared() const {
 
 EvaluationPtr Session::evaluation(const EvaluationKey& key) {
   const EstimateEntry* entry = find_estimate(key.estimate);
-  return entry ? judge_.find_or_begin(key, entry->estimate, scene_) : nullptr;
+  return entry ? evaluations_.find_or_begin(key, entry->estimate, scene_) : nullptr;
 }
 
 bool Session::has_truth(ViewIndex view) const {
@@ -152,11 +152,9 @@ bool Session::has_truth(ViewIndex view) const {
 }
 
 Interval Session::disparity_range() const {
-  if (known_range_.length() > 0) return known_range_;
-  for (const EstimateEntry& entry : estimates_) {
-    if (entry.display_range.length() > 0) return entry.display_range;
-  }
-  return {-1, 1};
+  const auto found = std::ranges::find_if(
+      estimates_, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
+  return shown_range(known_range_, found == estimates_.end() ? Interval{} : found->display_range);
 }
 
 void Session::set_segmentation(SegmentationPtr segmentation) {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/session/judge.h"
+#include "app/session/judge/evaluation_cache.h"
+#include "app/session/labels/segmentation.h"
 #include "app/session/parts.h"
-#include "app/session/segmentation.h"
-#include "engine/io/open/open.h"
+#include "app/session/picture/map_source.h"
 
 #include <cstdint>
 #include <functional>
@@ -13,9 +13,6 @@
 #include <vector>
 
 namespace episcope {
-
-/// True labels of the centre view or of all.
-using TrueLabelsPtr = std::shared_ptr<const ViewStack<std::int32_t>>;
 
 /// An estimate of the session. Ids are never given twice.
 struct EstimateEntry {
@@ -38,16 +35,15 @@ class Session {
   /// Listeners live as long as the session.
   void on_changed(Listener listener) { listeners_.push_back(std::move(listener)); }
 
-  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again,
-  /// `conventions` what the user overruled in it.
-  void open(std::shared_ptr<const Scene> scene, std::string input,
-            io::OpenOptions conventions = {});
+  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again.
+  void open(std::shared_ptr<const Scene> scene, std::string input);
   void close();
   /// Null if nothing is open.
   [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
   [[nodiscard]] LightFieldPtr light_field() const;
   [[nodiscard]] const std::string& input() const { return input_; }
-  [[nodiscard]] const io::OpenOptions& conventions() const { return conventions_; }
+  /// The reading options that the scene was read with, the focus plane among them.
+  [[nodiscard]] ParameterSet reading_options() const;
   /// Grows with every scene: results begun under another number belong to a former light field.
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
@@ -74,7 +70,7 @@ class Session {
   /// for that view: Part::Evaluations tells when it is there.
   [[nodiscard]] EvaluationPtr evaluation(const EvaluationKey& key);
   /// Whether evaluations are under way.
-  [[nodiscard]] bool is_evaluating() const { return judge_.pending() > 0; }
+  [[nodiscard]] bool is_evaluating() const { return evaluations_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
   /// What is shown of the segmentation; null = nothing.
@@ -108,7 +104,6 @@ class Session {
   Parts gathered_;
   std::shared_ptr<const Scene> scene_;
   std::string input_;
-  io::OpenOptions conventions_;
   std::uint64_t generation_ = 0;
   Interval known_range_{};  // of truth or files; empty if neither says
   std::vector<EstimateEntry> estimates_;
@@ -122,7 +117,7 @@ class Session {
   PixelIndex cross_hair_;
   double focus_px_ = 0;
   std::shared_ptr<Session*> alive_;  // posted closures outlive the session harmlessly
-  Judge judge_;
+  EvaluationCache evaluations_;
 };
 
 }  // namespace episcope

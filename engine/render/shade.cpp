@@ -60,31 +60,11 @@ std::vector<float> valid_values(ImageView<const float> map, ImageView<const std:
 }  // namespace
 
 Shading default_shading(Quantity quantity, Interval disparity_range) {
-  switch (quantity) {
-    case Quantity::Disparity:
-    case Quantity::Truth:
-    case Quantity::Background:
-      return {color_map("viridis"), disparity_range};
-    case Quantity::Confidence:
-    case Quantity::Probability:
-    case Quantity::Uncertainty:
-    case Quantity::Edges:
-      return {color_map("magma"), {0, 1}};
-    case Quantity::SignedError:
-      return {color_map("seismic"), {-0.2, 0.2}};
-    case Quantity::AbsoluteError:
-      return {color_map("ylorrd"), {0, 0.1}};
-    case Quantity::BadPixels:
-    case Quantity::WrongLabels:
-      return {color_map("rdylgn_r"), {0, 1}};
-    case Quantity::Layers:
-      return {color_map("magma"), {0, 3}};
-    case Quantity::View:
-    case Quantity::Labels:
-    case Quantity::Segmentation:
-      break;
-  }
-  return {color_map("grey"), {0, 1}};
+  const QuantityInfo& info = info_of(quantity);
+  const bool is_disparity = info.rule == RangeRule::Disparity;
+  return {color_map(info.color_map), is_disparity       ? disparity_range
+                                     : info.has_scale() ? info.range
+                                                        : Interval{0, 1}};
 }
 
 Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8_t> valid,

@@ -6,31 +6,12 @@
 #include "engine/core/light_field/label_info.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/render/color_map.h"
+#include "engine/render/quantity.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace episcope::render {
-
-/// What an overlay or an exported picture shows. Each quantity has its own colour map and range,
-/// which belong to the quantity and not to the image.
-enum class Quantity {
-  View,
-  Disparity,
-  Truth,
-  Confidence,
-  SignedError,
-  AbsoluteError,
-  BadPixels,
-  Labels,
-  Background,    ///< Disparity of what is seen through a surface.
-  Layers,        ///< Number of surfaces, 1 or 2.
-  Segmentation,  ///< Labels learnt from scribbles.
-  Probability,   ///< Of one label, 0 … 1.
-  Uncertainty,   ///< How undecided labels are, 0 … 1.
-  Edges,         ///< How probable an edge is, 0 … 1.
-  WrongLabels    ///< As BadPixels: where the segmentation is not the truth.
-};
 
 struct Shading {
   ColorMap map;
@@ -42,8 +23,8 @@ struct Shading {
   return a.map.name == b.map.name && a.range == b.range;
 }
 
-/// Colour map and range of a quantity; disparities span `disparity_range`. The map of bad pixels is
-/// for values of 0.2 (good) and 1 (bad), as `bad_pixel_map` gives them.
+/// Colour map and range of a quantity, which belong to the quantity and not to the image;
+/// disparities span `disparity_range`.
 [[nodiscard]] Shading default_shading(Quantity quantity, Interval disparity_range);
 
 /// RGBA8 picture of a map; invalid pixels (mask 0 or NaN) get the map's own colour. `valid` may be

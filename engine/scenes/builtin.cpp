@@ -82,6 +82,7 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   LightFieldInfo info;
   info.name = id;
   info.source = id == "demo" ? "demo" : "demo:" + id;
+  info.reading.reader = kBuiltinReader;
   info.camera = camera_grid_of(stage, options.disparity_scale);
   Scene scene;
   scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));

@@ -25,6 +25,9 @@ struct RenderOptions {
   double disparity_scale = 1;
 };
 
+/// What LightFieldInfo::reading names as the reader of built-in scenes.
+inline constexpr const char* kBuiltinReader = "builtin";
+
 /// All built-in scenes, simple ones that each test one thing first, the demo last.
 [[nodiscard]] std::vector<BuiltinSceneInfo> builtin_scenes();
 

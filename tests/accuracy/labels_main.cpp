@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints a Markdown table: how much of a light field is labeled rightly from its scribbles, by
 // features and regulariser.
-#include "app/session/run_labeler.h"
+#include "app/session/labels/labeling_inputs.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/evaluation/metrics/label_accuracy.h"

@@ -3,6 +3,7 @@
 
 #include "widgets/controls/number_spin.h"
 #include "widgets/controls/tool_button.h"
+#include "widgets/style/quantity_text.h"
 #include "widgets/style/theme.h"
 
 #include <QAction>
@@ -22,11 +23,6 @@ namespace {
 
 using render::Quantity;
 
-constexpr Quantity kQuantities[] = {
-    Quantity::View,        Quantity::Disparity, Quantity::Background,   Quantity::Layers,
-    Quantity::Confidence,  Quantity::Truth,     Quantity::SignedError,  Quantity::AbsoluteError,
-    Quantity::BadPixels,   Quantity::Labels,    Quantity::Segmentation, Quantity::Probability,
-    Quantity::Uncertainty, Quantity::Edges,     Quantity::WrongLabels};
 constexpr double kFocusStep = 0.01;  // px a slider step.
 
 int slider_value(double focus_px) {
@@ -34,49 +30,6 @@ int slider_value(double focus_px) {
 }
 
 }  // namespace
-
-QString quantity_label(Quantity quantity) {
-  switch (quantity) {
-    case Quantity::View:
-      return OverlayBar::tr("none");
-    case Quantity::Disparity:
-      return OverlayBar::tr("disparity");
-    case Quantity::Truth:
-      return OverlayBar::tr("truth");
-    case Quantity::Confidence:
-      return OverlayBar::tr("confidence");
-    case Quantity::SignedError:
-      return OverlayBar::tr("signed error");
-    case Quantity::AbsoluteError:
-      return OverlayBar::tr("absolute error");
-    case Quantity::BadPixels:
-      return OverlayBar::tr("bad pixels");
-    case Quantity::Labels:
-      return OverlayBar::tr("labels");
-    case Quantity::Background:
-      return OverlayBar::tr("background");
-    case Quantity::Layers:
-      return OverlayBar::tr("layers");
-    case Quantity::Segmentation:
-      return OverlayBar::tr("segmentation");
-    case Quantity::Probability:
-      return OverlayBar::tr("probability");
-    case Quantity::Uncertainty:
-      return OverlayBar::tr("uncertainty");
-    case Quantity::Edges:
-      return OverlayBar::tr("edge probability");
-    case Quantity::WrongLabels:
-      return OverlayBar::tr("wrong labels");
-  }
-  return {};
-}
-
-QString quantity_unit(Quantity quantity) {
-  const bool is_in_px = quantity == Quantity::Disparity || quantity == Quantity::Background ||
-                        quantity == Quantity::Truth || quantity == Quantity::SignedError ||
-                        quantity == Quantity::AbsoluteError;
-  return is_in_px ? OverlayBar::tr("px") : QString();
-}
 
 OverlayBar::OverlayBar(QWidget* parent)
     : QWidget(parent),
@@ -89,8 +42,9 @@ OverlayBar::OverlayBar(QWidget* parent)
   setObjectName("overlayBar");
   quantity_->setObjectName("overlay.quantity");
   quantity_->setToolTip(tr("What is drawn over the view (M: next)"));
-  for (const auto quantity : kQuantities) {
-    quantity_->addItem(quantity_label(quantity), static_cast<int>(quantity));
+  for (const render::QuantityInfo& info : render::quantities()) {
+    if (info.quantity == Quantity::Difference) continue;  // chosen by a command of its own
+    quantity_->addItem(quantity_label(info.quantity), static_cast<int>(info.quantity));
   }
   opacity_->setObjectName("overlay.opacity");
   opacity_->setRange(0, 100);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/array/indices.h"
-#include "engine/render/shade.h"
+#include "engine/render/quantity.h"
 
 #include <QWidget>
 
@@ -17,11 +17,6 @@ class QSlider;
 namespace episcope {
 
 class NumberSpin;
-
-/// Name of a quantity for users; "none" for Quantity::View.
-[[nodiscard]] QString quantity_label(render::Quantity quantity);
-/// "px", or nothing where numbers have no unit.
-[[nodiscard]] QString quantity_unit(render::Quantity quantity);
 
 /// One row of controls above the canvas: which overlay, how opaque, and the focus plane (shear).
 /// Setters never emit.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/style/picture.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstring>
 #include <utility>
@@ -34,6 +35,16 @@ QImage to_qimage(Image<std::uint8_t>&& rgba) {
           QImage::Format_ARGB32_Premultiplied,
           release,
           owner};
+}
+
+Image<std::uint8_t> to_picture(const QImage& picture) {
+  if (picture.isNull()) return {};
+  const QImage rgba = picture.convertToFormat(QImage::Format_RGBA8888);
+  Image<std::uint8_t> copy(rgba.height(), rgba.width(), 4);
+  for (int y = 0; y < copy.height(); ++y) {
+    std::copy_n(rgba.constScanLine(y), static_cast<std::size_t>(4) * copy.width(), copy.row(y));
+  }
+  return copy;
 }
 
 }  // namespace episcope

@@ -14,4 +14,7 @@ namespace episcope {
 /// channels.
 [[nodiscard]] QImage to_qimage(Image<std::uint8_t>&& rgba);
 
+/// A copy of the samples as RGBA8 `[y][x][4]`; empty for a null picture.
+[[nodiscard]] Image<std::uint8_t> to_picture(const QImage& picture);
+
 }  // namespace episcope

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/reading.h"
 #include "engine/core/parameter/parameter.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -17,12 +20,8 @@ struct LayeredDisparity {
   ViewStack<std::uint8_t> layers;  ///< 1 or 2 surfaces per pixel; 0 = unknown.
 };
 
-/// A disparity estimate with all it takes to repeat it. Covers all views or one.
-struct Estimate {
-  DisparityField field;
-  ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
-  LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
-
+/// Where an estimate comes from: all it takes to repeat it.
+struct Provenance {
   std::string method;             ///< Id as in `episcope-cli methods`; of foreign results any name.
   ParameterSet parameters;        ///< Every parameter of the method with the value used.
   Interval range{};               ///< Disparity range searched, px per view step; {0, 0} = unknown.
@@ -30,8 +29,20 @@ struct Estimate {
   std::string version;            ///< Of Episcope.
   std::string source;             ///< Path or name of the light field.
   std::uint64_t source_hash = 0;  ///< LightField::sample_hash, 0 = unknown.
+  Reading reading{};              ///< How that light field was read.
   std::vector<std::string> notes;  ///< What a user should know of this run: gap, unsolved views.
+};
 
+/// A disparity estimate. Covers all views or one.
+struct Estimate : Provenance {
+  DisparityField field;
+  ViewStack<float> confidence;  ///< In [0, 1], shape of `field.disparity`; empty = unknown.
+  LayeredDisparity layered;     ///< Empty unless the method estimates two layers.
+
+  [[nodiscard]] const Provenance& provenance() const { return *this; }
+  void set_provenance(Provenance provenance) {
+    static_cast<Provenance&>(*this) = std::move(provenance);
+  }
   [[nodiscard]] bool contains(ViewIndex view) const { return field.contains(view); }
 };
 

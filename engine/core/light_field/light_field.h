@@ -5,6 +5,7 @@
 #include "engine/core/array/indices.h"
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/camera_grid.h"
+#include "engine/core/light_field/reading.h"
 
 #include <cstdint>
 #include <memory>
@@ -23,6 +24,7 @@ struct LightFieldInfo {
   CameraGrid camera;
   /// Disparity range that the files promise (`disp_min`/`disp_max` of a cfg); never from truth.
   std::optional<Interval> disparity_range;
+  Reading reading{};  ///< How it was read from `source`.
 };
 
 /// A 4D light field: equally sized views on a regular camera grid, `[v][u][y][x][c]`, immutable.

@@ -5,6 +5,7 @@
 #include "engine/core/light_field/label_info.h"
 #include "engine/core/light_field/light_field.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -39,9 +40,19 @@ struct Scribbles {
   [[nodiscard]] bool empty() const { return views.empty(); }
 };
 
+/// What large files beside a light field of the archive hold.
+enum class CompanionKind {
+  EdgeWeights,
+  ImageProbabilities,     ///< Of labels, from features of the image,
+  DepthProbabilities,     ///< from these and the estimated depth,
+  TrueDepthProbabilities  ///< from these and the true depth.
+};
+/// "edge weights", "probabilities (image)", …
+[[nodiscard]] const char* companion_name(CompanionKind kind);
+
 /// A large companion file found beside the light field, read when it is needed.
 struct Companion {
-  std::string kind;  ///< "edge weights", "probabilities (image)", …
+  CompanionKind kind = CompanionKind::EdgeWeights;
   std::filesystem::path path;
   std::string shape;  ///< As stored, e.g. "9×9×512×512".
 };
@@ -53,6 +64,12 @@ struct Scene {
   Scribbles scribbles;
   std::vector<Companion> companions;
   ConventionReport convention;
+
+  /// The first companion of this kind; null if there is none.
+  [[nodiscard]] const Companion* find_companion(CompanionKind kind) const {
+    const auto found = std::ranges::find(companions, kind, &Companion::kind);
+    return found == companions.end() ? nullptr : &*found;
+  }
 };
 
 }  // namespace episcope

@@ -184,6 +184,7 @@ LightFieldInfo moved(LightFieldInfo info, double focus_px) {
     info.camera.cam_distance = std::isfinite(depth) ? std::optional<double>(depth) : std::nullopt;
   }
   if (info.disparity_range) info.disparity_range = moved(*info.disparity_range, focus_px);
+  info.reading.set_focus(info.reading.focus_px() + focus_px);
   return info;
 }
 
@@ -339,18 +340,14 @@ Estimate sheared(const Estimate& estimate, const ShearedInto& into, double focus
   result.layered.foreground = field(estimate.layered.foreground);
   result.layered.background = field(estimate.layered.background);
   result.layered.layers = nearest(estimate.layered.layers, shear);
-  result.method = estimate.method;
-  result.parameters = estimate.parameters;
+  result.set_provenance(estimate.provenance());
   for (auto& [key, value] : result.parameters) {
     auto* range = std::get_if<IntervalOrAuto>(&value);
     if (key == "range" && range && *range) *range = moved(**range, focus_px);
   }
   if (estimate.range.length() > 0) result.range = moved(estimate.range, focus_px);
-  result.seconds = estimate.seconds;
-  result.version = estimate.version;
-  result.source = estimate.source;
   result.source_hash = into.sample_hash;
-  result.notes = estimate.notes;
+  result.reading.set_focus(estimate.reading.focus_px() + focus_px);
   result.notes.push_back(note_of(focus_px));
   return result;
 }

@@ -60,6 +60,10 @@ class Schema {
     }
     return *this;
   }
+  /// Any text.
+  Schema& text(const char* key, std::string P::*member, Text text) {
+    return add(key, member, text, {0, 0});
+  }
   Schema& interval(const char* key, IntervalOrAuto P::*member, Text text, Domain domain) {
     return add(key, member, text, domain);
   }
@@ -109,8 +113,16 @@ class Schema {
     return search_values(key, std::vector<ParameterValue>(strings.begin(), strings.end()));
   }
 
-  [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const {
+  [[nodiscard]] const std::vector<ParameterDescription>& descriptions() const& {
     return descriptions_;
+  }
+  [[nodiscard]] std::vector<ParameterDescription> descriptions() && {
+    return std::move(descriptions_);
+  }
+
+  /// Throws InvalidInput for an unknown key, naming the nearest.
+  [[nodiscard]] const ParameterDescription& description(const std::string& key) const {
+    return descriptions_[index_of(key)];
   }
 
   /// Defaults, overridden by `values`. Throws InvalidInput for an unknown key (naming the nearest),

@@ -19,6 +19,7 @@ void complete_estimate(Estimate& estimate, const std::string& method, const Ligh
   estimate.seconds = seconds;
   estimate.version = kVersion;
   estimate.source = light_field.info().source;
+  estimate.reading = light_field.info().reading;
 }
 
 }  // namespace episcope

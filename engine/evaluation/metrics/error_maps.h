@@ -5,17 +5,24 @@
 
 namespace episcope {
 
-/// Pictures of an evaluation, from the very errors that its numbers were computed from. Maps
-/// of errors are shown with `shown_mask`, that of bad pixels with `evaluation.judged`.
+/// Maps of an evaluation, from the very errors that its numbers were computed from. What
+/// `evaluation.judged` leaves out belongs to no map.
 
-/// 1 where a picture of the error has something to show: judged and not missing.
-[[nodiscard]] Image<std::uint8_t> shown_mask(const Evaluation& evaluation);
+/// 1 where the estimate has a value, judged or not: elsewhere it has no error to show.
+[[nodiscard]] Image<std::uint8_t> present_mask(const Evaluation& evaluation);
 
 /// |truth − estimate| in px.
 [[nodiscard]] Image<float> absolute_error_map(const Evaluation& evaluation);
 
-/// 1.0 where |error| is strictly above `threshold_px` or the estimate is missing, else 0.2: the
-/// places of bad and good in the colour map of bad pixels.
+/// Threshold of the map of bad pixels, px; strictly above is bad [HJKG16].
+inline constexpr double kBadPixelThreshold_px = 0.07;
+
+/// The places of good and bad pixels in a colour map from 0 (green) to 1 (red).
+inline constexpr float kGoodPixel = 0.2F;
+inline constexpr float kBadPixel = 1.0F;
+
+/// kBadPixel where |error| is strictly above `threshold_px` or the estimate is missing, else
+/// kGoodPixel.
 [[nodiscard]] Image<float> bad_pixel_map(const Evaluation& evaluation, double threshold_px);
 
 }  // namespace episcope

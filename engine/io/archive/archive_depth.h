@@ -5,7 +5,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/io/archive/archive_maps.h"
-#include "engine/io/open/open.h"
+#include "engine/io/open/open_options.h"
 
 namespace episcope::io {
 

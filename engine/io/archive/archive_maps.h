@@ -4,7 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/open/open.h"
+#include "engine/io/open/open_options.h"
 
 #include <string>
 

@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/archive/archive_depth.h"
 #include "engine/io/archive/archive_labels.h"
 #include "engine/io/archive/companions.h"
@@ -9,6 +10,7 @@
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/center_preview.h"
+#include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
 #include <algorithm>
@@ -16,6 +18,8 @@
 
 namespace episcope::io {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kLightField = "LF";
 
@@ -172,8 +176,6 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   return own;
 }
 
-}  // namespace
-
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
                    const Progress& progress) {
   const Hdf5Input file(path);
@@ -183,7 +185,11 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ConventionReport& report = scene.convention;
   report.format = "archive (" + path.filename().string() + ")";
   compare_sizes(file, report);
-  LightFieldInfo info{scene_name(path), path.string(), read_camera(file), stated_range(file)};
+  LightFieldInfo info{scene_name(path),
+                      path.string(),
+                      read_camera(file),
+                      stated_range(file),
+                      {.reader = kArchiveReader, .options = {}}};
 
   progress.step("reading views");
   LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
@@ -207,6 +213,53 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   put_in_order(scene.scribbles, grid, flip_of(report));
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
   return scene;
+}
+
+bool is_hdf5_name(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".h5" || suffix == ".hdf5";
+}
+
+/// The HDF5 file of a folder that holds a light field; empty if there is none.
+fs::path file_in(const fs::path& folder) {
+  if (fs::exists(folder / "lf.h5")) return folder / "lf.h5";
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_hdf5_name(entry.path()) && has_hdf5_signature(entry.path())) {
+      files.push_back(entry.path());
+    }
+  }
+  std::sort(files.begin(), files.end());
+  const auto found = std::find_if(files.begin(), files.end(),
+                                  [](const fs::path& path) { return Hdf5Input(path).has("LF"); });
+  return found == files.end() ? fs::path() : *found;
+}
+
+fs::path find_archive(const fs::path& path, const OpenOptions&) {
+  if (const fs::path folder = scene_folder(path); !folder.empty()) return file_in(folder);
+  if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
+  const Hdf5Input file(path);
+  if (file.has("LF")) return path;
+  if (file.has("estimate")) {
+    throw IoError(path,
+                  "this file holds a disparity result and no light field; open the light field "
+                  "that it belongs to");
+  }
+  // Labels, depth or a companion: the light field lies beside it.
+  const fs::path beside = path.parent_path() / "lf.h5";
+  return fs::exists(beside) ? beside : path;
+}
+
+constexpr const char* kOptions[] = {"flip", "units"};
+
+}  // namespace
+
+Reader archive_reader() {
+  return {.id = kArchiveReader,
+          .name = "a light field of the 2013 archive",
+          .options = kOptions,
+          .find = find_archive,
+          .read = read_archive};
 }
 
 }  // namespace episcope::io

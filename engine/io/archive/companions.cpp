@@ -14,7 +14,7 @@ namespace {
 
 struct KnownFile {
   const char* file;
-  const char* kind;
+  CompanionKind kind;
   const char* dataset;
 };
 
@@ -22,10 +22,12 @@ constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
 constexpr const char* kProbabilities = "Probabilities";
 
 constexpr std::array kKnownFiles{
-    KnownFile{"edge_weights.h5", "edge weights", kEdgeWeights},
-    KnownFile{"feature_single_view_probabilities.h5", "probabilities (image)", kProbabilities},
-    KnownFile{"feature_depth_probabilities.h5", "probabilities (depth)", kProbabilities},
-    KnownFile{"feature_gt_depth_probabilities.h5", "probabilities (true depth)", kProbabilities}};
+    KnownFile{"edge_weights.h5", CompanionKind::EdgeWeights, kEdgeWeights},
+    KnownFile{"feature_single_view_probabilities.h5", CompanionKind::ImageProbabilities,
+              kProbabilities},
+    KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities, kProbabilities},
+    KnownFile{"feature_gt_depth_probabilities.h5", CompanionKind::TrueDepthProbabilities,
+              kProbabilities}};
 
 Hdf5Shape view_shape(const LightField& field) {
   return {static_cast<std::size_t>(field.height()), static_cast<std::size_t>(field.width())};
@@ -80,7 +82,7 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
       found.push_back({known.kind, path, shape_text(shape)});
     } catch (const IoError& error) {
       // A companion that cannot be read must not keep the light field from opening.
-      report.warnings.push_back(std::string("The file of ") + known.kind +
+      report.warnings.push_back(std::string("The file of ") + companion_name(known.kind) +
                                 " is left out: " + error.what() + ".");
     }
   }

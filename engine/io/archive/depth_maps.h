@@ -5,7 +5,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
-#include "engine/io/open/open.h"
+#include "engine/io/open/open_options.h"
 
 #include <cmath>
 #include <string>
@@ -29,7 +29,7 @@ struct DepthMaps {
 /// Settles the units of `stored` by the depth and by warping views (see find_units); what it
 /// decided goes to `report`. Linear in the size of five views.
 [[nodiscard]] CameraGrid settle_units(const DepthMaps& maps, const LightField::Samples& samples,
-                                      const CameraGrid& stored, OpenOptions::Units units,
+                                      const CameraGrid& stored, Units units,
                                       ConventionReport& report);
 
 /// Turns depth into disparity in place. If valid depth lies in a single view, only that is kept; if

@@ -80,10 +80,9 @@ const Reading& best_by_warping(std::vector<Reading>& readings,
 
 }  // namespace
 
-UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,
+UnitsFinding find_units(const DepthFacts& facts, Units choice,
                         const std::function<double(const CameraGrid&)>& warp_error) {
   std::vector<Reading> all = readings(facts);
-  using Units = OpenOptions::Units;
   if (choice != Units::Auto) {
     std::erase_if(
         all, [&](const Reading& one) { return one.has_width != (choice == Units::WithWidth); });

@@ -4,7 +4,7 @@
 #include "engine/core/array/indices.h"
 #include "engine/core/light_field/camera_grid.h"
 #include "engine/core/light_field/scene.h"
-#include "engine/io/open/open.h"
+#include "engine/io/open/open_options.h"
 
 #include <functional>
 #include <string>
@@ -28,7 +28,7 @@ struct UnitsFinding {
 /// Finds whether dH and shift hold the factor xRes: of the readings that give
 /// |d| < 20 px and, if any does, a depth of zero disparity inside the depth range, the one by which
 /// views warp onto each other best. `warp_error(camera)` is in grey levels.
-[[nodiscard]] UnitsFinding find_units(const DepthFacts& facts, OpenOptions::Units choice,
+[[nodiscard]] UnitsFinding find_units(const DepthFacts& facts, Units choice,
                                       const std::function<double(const CameraGrid&)>& warp_error);
 
 /// Where camDistance contradicts dH·focalLength/shift, the latter becomes the depth of zero

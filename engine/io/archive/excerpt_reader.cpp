@@ -7,6 +7,7 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_grid_reader.h"
 #include "engine/io/maps/parse_number.h"
+#include "engine/io/open/scene_folder.h"
 
 #include <algorithm>
 #include <bit>
@@ -82,8 +83,6 @@ ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, V
   return mask;
 }
 
-}  // namespace
-
 bool is_excerpt_folder(const fs::path& folder) {
   return fs::is_directory(folder / "lf") && fs::exists(folder / "depth.bin") &&
          fs::exists(folder / "attributes.dat");
@@ -92,6 +91,7 @@ bool is_excerpt_folder(const fs::path& folder) {
 Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
   const auto attributes = read_attributes(folder / "attributes.dat");
   ImageGridExtras extras;
+  extras.reader = "excerpt";
   extras.format = "archive excerpt (lf, depth.bin)";
   extras.source = folder;
   extras.camera = camera_of(attributes);
@@ -118,6 +118,24 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
         samples);
   };
   return read_image_grid(folder / "lf", options, progress, extras);
+}
+
+fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
+  const fs::path folder = scene_folder(path);
+  const bool is_one = !folder.empty() && !wants_image_grid(options) && is_excerpt_folder(folder);
+  return is_one ? folder : fs::path();
+}
+
+constexpr const char* kOptions[] = {"flip", "units", "pattern", "snake"};
+
+}  // namespace
+
+Reader excerpt_reader() {
+  return {.id = "excerpt",
+          .name = "an excerpt of the 2013 archive",
+          .options = kOptions,
+          .find = find_excerpt,
+          .read = read_excerpt};
 }
 
 }  // namespace episcope::io

@@ -9,6 +9,7 @@
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
 #include <algorithm>
@@ -249,8 +250,6 @@ void read_object_ids(const fs::path& folder, GridShape grid, Size size, GroundTr
   std::copy_n(ids.data(), ids.size(), truth.labels.data());
 }
 
-}  // namespace
-
 bool is_benchmark_folder(const fs::path& folder) {
   return fs::exists(folder / kBenchmarkConfig) || fs::exists(folder / view_file_name(0)) ||
          count_views(folder) > 0;
@@ -268,7 +267,11 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
                               std::to_string(views.grid.v) + "×" + std::to_string(views.grid.u) +
                               " views was inferred from the number of files.");
   }
-  LightFieldInfo info{scene_name(folder), folder.string(), {}, std::nullopt};
+  LightFieldInfo info{scene_name(folder),
+                      folder.string(),
+                      {},
+                      std::nullopt,
+                      {.reader = "benchmark2016", .options = {}}};
   if (config) info.disparity_range = promised_range(*config);
   progress.step("reading views");
   LightField::Samples samples = load_views(
@@ -298,6 +301,24 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
             {{}, "folders of the benchmark are in order"}},
            options, scene, progress);
   return scene;
+}
+
+fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
+  const fs::path folder = scene_folder(path);
+  const bool is_one = !folder.empty() && !wants_image_grid(options) && is_benchmark_folder(folder);
+  return is_one ? folder : fs::path();
+}
+
+constexpr const char* kOptions[] = {"flip"};
+
+}  // namespace
+
+Reader benchmark_reader() {
+  return {.id = "benchmark2016",
+          .name = "a scene of the 2016 benchmark",
+          .options = kOptions,
+          .find = find_benchmark,
+          .read = read_benchmark};
 }
 
 }  // namespace episcope::io

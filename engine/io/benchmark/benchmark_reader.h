@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/progress.h"
-#include "engine/io/open/open.h"
-
-#include <filesystem>
+#include "engine/io/open/reader.h"
 
 namespace episcope::io {
 
-/// Whether a folder looks like a scene of the 2016 benchmark.
-[[nodiscard]] bool is_benchmark_folder(const std::filesystem::path& folder);
-
-/// Reads a scene of the 4D Light Field Benchmark [HJKG16]. Throws IoError,
-/// Cancelled.
-[[nodiscard]] Scene read_benchmark(const std::filesystem::path& folder, const OpenOptions& options,
-                                   const Progress& progress);
+/// Scenes of the 4D Light Field Benchmark of 2016 [HJKG16]: a folder of images with parameters.cfg,
+/// PFM truth, object ids and region masks.
+[[nodiscard]] Reader benchmark_reader();
 
 }  // namespace episcope::io

@@ -5,9 +5,38 @@
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
 namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path find_grid(const fs::path& path, const OpenOptions&) {
+  const fs::path folder = scene_folder(path);
+  if (folder.empty()) return {};
+  for (const char* name : {"lf", "views", "images", "rectified"}) {
+    if (fs::is_directory(folder / name) && count_images(folder / name) > 1) return folder / name;
+  }
+  return count_images(folder) > 0 ? folder : fs::path();
+}
+
+Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  return read_image_grid(folder, options, progress);
+}
+
+constexpr const char* kOptions[] = {"flip", "pattern", "snake"};
+
+}  // namespace
+
+Reader image_grid_reader() {
+  return {.id = "image_grid",
+          .name = "a grid of images",
+          .options = kOptions,
+          .find = find_grid,
+          .read = read_grid};
+}
 
 Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
                       const Progress& progress, const ImageGridExtras& extras) {
@@ -24,7 +53,11 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
                               " images of the folder do not fit the pattern and are left out.");
   }
   const std::filesystem::path& source = extras.source.empty() ? folder : extras.source;
-  LightFieldInfo info{scene_name(source), source.string(), extras.camera, extras.disparity_range};
+  LightFieldInfo info{scene_name(source),
+                      source.string(),
+                      extras.camera,
+                      extras.disparity_range,
+                      {.reader = extras.reader, .options = {}}};
   progress.step("reading views");
   LightField::Samples samples = load_views(
       grid.views,

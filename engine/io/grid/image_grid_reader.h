@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/scene.h"
-#include "engine/core/parallel/progress.h"
-#include "engine/io/open/open.h"
+#include "engine/io/open/reader.h"
 
 #include <filesystem>
 #include <functional>
@@ -12,8 +10,13 @@
 
 namespace episcope::io {
 
+/// Folders of equally sized images on a grid of views, or with a folder of them called lf, views,
+/// images or rectified.
+[[nodiscard]] Reader image_grid_reader();
+
 /// What is known of an image grid from files beside it.
 struct ImageGridExtras {
+  std::string reader = "image_grid";
   std::string format;            ///< For the report; empty = "image grid (pattern)".
   std::filesystem::path source;  ///< What was opened; empty = the folder of images.
   CameraGrid camera;
@@ -23,7 +26,7 @@ struct ImageGridExtras {
       read_truth;
 };
 
-/// Reads a folder of equally sized images on a grid of views. Throws IoError,
+/// Reads a folder of equally sized images, for readers of folders that hold one. Throws IoError,
 /// InvalidInput for a bad pattern, Cancelled.
 [[nodiscard]] Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
                                     const Progress& progress, const ImageGridExtras& extras = {});

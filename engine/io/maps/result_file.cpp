@@ -47,15 +47,28 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
-void write_provenance(Hdf5Output& file, const Estimate& estimate) {
+void write_reading(Hdf5Output& file, const Reading& reading) {
+  if (reading.reader.empty()) return;
+  file.set_text(kGroup, "reader", reading.reader);
+  file.set_text(kGroup, "reading", parameters_to_json(reading.options));
+}
+
+Reading reading_in(const Hdf5Input& file) {
+  const auto options = file.text(kGroup, "reading");
+  return {file.text(kGroup, "reader").value_or(""),
+          options ? parameters_from_json(*options) : ParameterSet()};
+}
+
+void write_provenance(Hdf5Output& file, const Estimate& estimate, const std::string& source) {
   file.set_text(kGroup, "method", estimate.method);
   file.set_text(kGroup, "parameters", parameters_to_json(estimate.parameters));
   file.set_number(kGroup, "seconds", estimate.seconds);
   file.set_text(kGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
-  file.set_text(kGroup, "source", estimate.source);
+  file.set_text(kGroup, "source", source);
   if (estimate.source_hash != 0) {
     file.set_text(kGroup, "source_hash", hash_digits(estimate.source_hash));
   }
+  write_reading(file, estimate.reading);
   if (!(estimate.range == Interval{})) {
     file.set_numbers(kGroup, "range", {estimate.range.min, estimate.range.max});
   }
@@ -155,6 +168,7 @@ class ResultReader {
     estimate.version = text("version");
     estimate.source = text("source");
     estimate.source_hash = hash_from_digits(text("source_hash"));
+    estimate.reading = reading_in(file_);
     estimate.notes = split_lines(text("notes"));
     const std::vector<double> range = file_.numbers(kGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
@@ -167,7 +181,7 @@ class ResultReader {
 }  // namespace
 
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
-                  const Progress& progress) {
+                  const Progress& progress, const std::optional<std::string>& source) {
   if (estimate.field.empty()) throw InvalidInput("an estimate without disparity cannot be written");
   progress.check();
   AtomicFile target(path, result_bytes(estimate));
@@ -181,7 +195,7 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
     write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
   }
   write_layers(file, estimate.layered, progress.part(0.9, 1));
-  write_provenance(file, estimate);
+  write_provenance(file, estimate, source.value_or(estimate.source));
   file.close();
   progress.check();
   target.commit();
@@ -190,6 +204,10 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 Estimate read_result(const std::filesystem::path& path, GridShape grid, const std::string& scene) {
   if (is_result_file(path)) return ResultReader(path, grid).read();
   return read_foreign_result(path, grid, scene);
+}
+
+Reading read_reading(const std::filesystem::path& path) {
+  return is_result_file(path) ? reading_in(Hdf5Input(path)) : Reading{};
 }
 
 bool is_result_file(const std::filesystem::path& path) {

@@ -5,15 +5,18 @@
 #include "engine/core/parallel/progress.h"
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 namespace episcope::io {
 
 /// Writes a result file: group `/estimate` with `disparity`, `confidence`, `valid`
 /// and, of layered methods, `disparity_foreground`, `disparity_background`, `layers`; provenance in
-/// attributes. Atomic: a temporary file beside it, flushed, then renamed.
+/// attributes. Atomic: a temporary file beside it, flushed, then renamed. `source` is stored in the
+/// place of the estimate's own if it is given.
 /// Throws IoError (nothing is left behind), Cancelled.
 void write_result(const std::filesystem::path& path, const Estimate& estimate,
-                  const Progress& progress);
+                  const Progress& progress, const std::optional<std::string>& source = {});
 
 /// Reads a result file, or a result from elsewhere: an HDF5 file with one 2-D or 4-D float dataset,
 /// a PFM, a 32-bit float TIFF, or a folder of the 2016 submission form (`scene` picks the map).
@@ -21,6 +24,10 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 /// Throws IoError with one sentence.
 [[nodiscard]] Estimate read_result(const std::filesystem::path& path, GridShape grid,
                                    const std::string& scene = "");
+
+/// How the light field of a result was read, as its file says; unknown for results from elsewhere
+/// and of former versions. Throws IoError if it is an HDF5 file and damaged.
+[[nodiscard]] Reading read_reading(const std::filesystem::path& path);
 
 /// Whether the file is one that `write_result` wrote (an HDF5 file with the group `/estimate`).
 /// Throws IoError if it is an HDF5 file and damaged.

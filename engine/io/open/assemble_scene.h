@@ -15,7 +15,7 @@ struct SceneParts {
 
 /// The end of reading a light field: brings the parts into the house order, turns samples that are
 /// no numbers into 0, and puts light field and truth, if it is needed, into `scene`, whose
-/// report is continued. Throws Cancelled.
+/// report is continued. Options that were set go to the light field's `reading`. Throws Cancelled.
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene, const Progress& progress);
 
 }  // namespace episcope::io

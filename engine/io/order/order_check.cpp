@@ -98,16 +98,14 @@ std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex cente
   return found;
 }
 
-ViewFlip chosen_flip(OpenOptions::Flip choice) {
-  using Flip = OpenOptions::Flip;
+ViewFlip chosen_flip(Flip choice) {
   return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
 }
 
 }  // namespace
 
 OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
-                        const ExpectedOrder& expected, OpenOptions::Flip choice,
-                        const Progress& progress) {
+                        const ExpectedOrder& expected, Flip choice, const Progress& progress) {
   progress.check();
   Checked checked = check_by_truth(samples, truth, expected.flip);
   OrderFinding finding;
@@ -118,7 +116,7 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   finding.check = checked.is_decided
                       ? checked.text
                       : "not checked (too little depth or texture); " + expected.reason;
-  if (choice != OpenOptions::Flip::Auto) {
+  if (choice != Flip::Auto) {
     finding.flip = chosen_flip(choice);
     finding.order = flip_text(finding.flip) + ", as chosen by hand";
     if (checked.is_decided && !(finding.flip == checked.flip)) {
@@ -139,7 +137,7 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
 }
 
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
-                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress) {
+                  Flip choice, ConventionReport& report, const Progress& progress) {
   progress.step("checking the order of views");
   const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
   const OrderFinding finding =

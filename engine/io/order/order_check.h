@@ -3,7 +3,8 @@
 
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
-#include "engine/io/open/open.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/open/open_options.h"
 #include "engine/io/order/view_order.h"
 
 #include <string>
@@ -36,12 +37,12 @@ struct OrderFinding {
 /// yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
-                                      const ExpectedOrder& expected, OpenOptions::Flip choice,
+                                      const ExpectedOrder& expected, Flip choice,
                                       const Progress& progress);
 
 /// Brings views and truth as stored into the house order, as `find_order` finds it by the disparity
 /// of the truth, and tells `report`. Throws Cancelled.
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
-                  OpenOptions::Flip choice, ConventionReport& report, const Progress& progress);
+                  Flip choice, ConventionReport& report, const Progress& progress);
 
 }  // namespace episcope::io

@@ -5,7 +5,7 @@
 #include "app/benchmark/report_files.h"
 #include "app/benchmark/run_log.h"
 #include "app/benchmark/workload.h"
-#include "app/session/judgement.h"
+#include "app/session/judge/judge.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/evaluation/tables/parameter_search.h"

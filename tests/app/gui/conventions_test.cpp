@@ -22,8 +22,6 @@
 
 namespace episcope::in_conventions_test {
 
-using Flip = io::OpenOptions::Flip;
-
 namespace {
 
 QDialog* open_dialog(MainWindow& window) {
@@ -103,7 +101,7 @@ void ConventionsTest::chosenOrder_readsTheFileAgain() {
 
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.order", 2);
+  choose(dialog, "flip.combo", 2);
   apply(f.window, dialog);
 
   const auto after = f.window.session().light_field()->view<std::uint8_t>({0, 8});
@@ -117,17 +115,17 @@ void ConventionsTest::choice_isRememberedForItsFileOnly() {
   f.openSmall();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.order", 3);
+  choose(dialog, "flip.combo", 3);
   apply(f.window, dialog);
 
   f.openSmall("slant");
   QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("slant") != std::string::npos,
                            kPatience);
-  QVERIFY(f.window.session().conventions().flip == Flip::Auto);
+  QVERIFY(f.window.session().reading_options().empty());
   f.openSmall("edge");
   QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("edge") != std::string::npos, kPatience);
 
-  QVERIFY(f.window.session().conventions().flip == Flip::V);
+  QVERIFY(f.window.session().reading_options() == (ParameterSet{{"flip", "v"}}));
   QVERIFY(f.window.session().scene()->convention.reversed_v);
 }
 
@@ -136,19 +134,19 @@ void ConventionsTest::allAutomatic_forgetsTheChoice() {
   f.openSmall();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.order", 4);
+  choose(dialog, "flip.combo", 4);
   apply(f.window, dialog);
   QTRY_VERIFY_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"), kPatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), kPatience);
 
   dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  QCOMPARE(dialog->findChild<QComboBox*>("conventions.order")->currentIndex(), 4);
+  QCOMPARE(dialog->findChild<QComboBox*>("flip.combo")->currentIndex(), 4);
   click(dialog, "conventions.reset");
   apply(f.window, dialog);
 
   QTRY_VERIFY_WITH_TIMEOUT(!order_shown(f.window).contains("(set by you)"), kPatience);
-  QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
+  QVERIFY(remembered_conventions(f.path("edge/lf.h5")).empty());
 }
 
 void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
@@ -156,7 +154,7 @@ void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
   f.openSmall();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.units", 1);
+  choose(dialog, "units.combo", 1);
   apply(f.window, dialog);
 
   const auto text = [&f] {
@@ -172,7 +170,7 @@ void ConventionsTest::copiedCommand_readsAlike() {
   f.openSmall();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.order", 1);
+  choose(dialog, "flip.combo", 1);
   apply(f.window, dialog);
 
   f.window.actions().find("estimate.copy_command")->trigger();
@@ -187,13 +185,13 @@ void ConventionsTest::cancel_changesNothing() {
   const auto before = f.window.session().generation();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  choose(dialog, "conventions.order", 2);
+  choose(dialog, "flip.combo", 2);
 
   QTest::keyClick(dialog, Qt::Key_Escape);
 
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), kPatience);
   QCOMPARE(f.window.session().generation(), before);
-  QVERIFY(!overrules(remembered_conventions(f.path("edge/lf.h5"))));
+  QVERIFY(remembered_conventions(f.path("edge/lf.h5")).empty());
 }
 
 void ConventionsTest::builtinScene_hasNoChoice() {
@@ -215,8 +213,7 @@ void ConventionsTest::gridOfOddNames_opensByPattern() {
 
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
-  QTest::keyClicks(dialog->findChild<QLineEdit*>("conventions.pattern"),
-                   "take-{col}of{row}-final.png");
+  QTest::keyClicks(dialog->findChild<QLineEdit*>("pattern.text"), "take-{col}of{row}-final.png");
   apply(f.window, dialog);
 
   QVERIFY(f.window.session().light_field()->grid() == (GridShape{3, 4}));
@@ -235,14 +232,12 @@ void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
 void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
   WindowFixture f;
   const QString folder = write_odd_grid(f.path("odd"));
-  io::OpenOptions stale;
-  stale.pattern = "gone-{row}-{col}.png";
-  remember_conventions(folder, stale);
+  remember_conventions(folder, {{"pattern", "gone-{row}-{col}.png"}});
 
   f.window.open(folder);
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, kScenePatience);
-  QVERIFY(!overrules(f.window.session().conventions()));
+  QVERIFY(f.window.session().reading_options().empty());
   const auto& warnings = f.window.session().scene()->convention.warnings;
   QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
     return warning.find("not used") != std::string::npos;

@@ -113,7 +113,7 @@ void MainWindowTest::emptyWindow_saysWhatToDo() {
 
   QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
   QVERIFY(!f.window.actions().find("estimate.run")->isEnabled());
-  QVERIFY(!f.window.actions().find("overlay.signed_error")->isEnabled());
+  QVERIFY(!f.window.actions().find("overlay.error")->isEnabled());
   QVERIFY(f.window.panels().segment->state().isEmpty());  // nothing to segment
 }
 
@@ -124,7 +124,7 @@ void MainWindowTest::builtinScene_isEstimatedAtOnce() {
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, kScenePatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
-  QVERIFY(f.window.actions().find("overlay.signed_error")->isEnabled());
+  QVERIFY(f.window.actions().find("overlay.error")->isEnabled());
 }
 
 void MainWindowTest::run_listsItsResultWithItsError() {
@@ -153,11 +153,11 @@ void MainWindowTest::errorOverlay_isOneClickAway() {
   const QImage before = f.window.overlay().picture();
   const QImage canvas_before = f.window.panels().canvas->grab().toImage();
 
-  click_action(f.window, "overlay.signed_error");
+  click_action(f.window, "overlay.error");
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
   QVERIFY(f.window.panels().canvas->grab().toImage() != canvas_before);
-  QVERIFY(f.window.actions().find("overlay.signed_error")->isChecked());
+  QVERIFY(f.window.actions().find("overlay.error")->isChecked());
 }
 
 void MainWindowTest::arrows_changeTheView() {

@@ -82,7 +82,7 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
     const Scene scene = plane_scene();
     write_raw_archive(path("lf.h5"), scene, {});
     io::OpenOptions options;
-    options.flip = io::OpenOptions::Flip::U;
+    options.flip = io::Flip::U;
 
     const Scene read = open(path("lf.h5"), options);
 
@@ -112,7 +112,7 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
     const Scene scene = plane_scene();
     write_raw_archive(path("lf.h5"), scene, {});
     io::OpenOptions options;
-    options.units = io::OpenOptions::Units::WithoutWidth;
+    options.units = io::Units::WithoutWidth;
 
     const Scene read = open(path("lf.h5"), options);
 

@@ -328,7 +328,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     const io::ProbabilityFile single(path("feature_single_view_probabilities.h5"), read);
 
     QCOMPARE(read.companions.size(), std::size_t{3});
-    QCOMPARE(read.companions[0].kind, std::string("edge weights"));
+    QCOMPARE(read.companions[0].kind, CompanionKind::EdgeWeights);
     QCOMPARE(read.companions[0].shape, std::string("5×5×64×80"));
     QCOMPARE(weights.view({0, 4}).at(0, 3), 3.0F);  // stored at h = 0
     io::write_edge_weights(path("written.h5"), weights, read, Progress(1));

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/document/annotation_journal.h"
+
+#include "app/session/document/journal_records.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <random>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSuffix = ".journal";
+
+fs::path new_path(const fs::path& folder, const std::string& name) {
+  std::random_device random;
+  char suffix[24];
+  std::snprintf(suffix, sizeof suffix, "-%08x", static_cast<unsigned>(random()));
+  std::string stem = name.substr(0, 60);
+  std::ranges::replace(stem, '/', '_');
+  return folder / ((stem.empty() ? "session" : stem) + suffix + kSuffix);
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw IoError(folder, "the folder cannot be made (" + error.message() +
+                              "), so that nothing painted would outlive a crash; make it or allow "
+                              "writing");
+  }
+}
+
+}  // namespace
+
+AnnotationJournal::AnnotationJournal(const fs::path& folder, JournalOwner owner,
+                                     AnnotationDocument& document)
+    : path_(new_path(folder, owner.name)), owner_(std::move(owner)), document_(&document) {
+  make_folder(folder);
+  rewrite();
+  document.set_observer([this](const DocumentEvent& event) { record(event); });
+}
+
+AnnotationJournal::~AnnotationJournal() {
+  document_->set_observer({});
+}
+
+void AnnotationJournal::finish() {
+  document_->set_observer({});
+  discard_journal(path_);
+}
+
+void AnnotationJournal::record(const DocumentEvent& event) {
+  log_->append(step_record(event));
+  if (log_->byte_size() > 2 * first_bytes_ + kSlackBytes) rewrite();
+}
+
+void AnnotationJournal::rewrite() {
+  log_.emplace(path_, io::LogFraming::Checked, io::LogFlush::InBackground,
+               journal_records(owner_, *document_));
+  first_bytes_ = log_->byte_size();
+}
+
+RecoveredAnnotation read_journal(const fs::path& path) {
+  try {
+    return replay(io::read_log(path, io::LogFraming::Checked));
+  } catch (const InvalidInput& error) {
+    throw IoError(path, std::string(error.what()) + "; nothing can be recovered");
+  }
+}
+
+std::vector<LeftJournal> left_journals(const fs::path& folder) {
+  std::vector<LeftJournal> left;
+  std::error_code error;
+  std::vector<fs::path> paths;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == kSuffix) paths.push_back(entry.path());
+  }
+  for (const fs::path& path : paths) {
+    if (io::is_held(path)) continue;
+    try {
+      RecoveredAnnotation found = read_journal(path);
+      if (found.document.has_unsaved_changes()) {
+        left.push_back({path, std::move(found.owner), fs::last_write_time(path, error)});
+        continue;
+      }
+    } catch (const IoError&) {
+      // Nothing in it can be had: it is of no use to anybody.
+    }
+    discard_journal(path);
+  }
+  std::ranges::sort(left, std::greater{}, &LeftJournal::last_change);
+  return left;
+}
+
+void discard_journal(const fs::path& path) {
+  std::error_code ignored;
+  fs::remove(path, ignored);
+}
+
+}  // namespace episcope

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/document/journal_records.h"
+
+#include "annotation/document/edit_code.h"
+#include "engine/core/error.h"
+
+#include <bit>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+constexpr std::uint64_t kVersion = 1;
+constexpr auto kMaxExtent = std::uint64_t{ScribbleLayer::kMaxExtent};
+
+PixelRect whole(const ScribbleLayer& layer) {
+  return {0, 0, layer.height(), layer.width()};
+}
+
+/// The edit that makes a document from an empty one.
+Edit base_edit(const LabelSet& labels, const ScribbleLayer& layer) {
+  Edit edit{EditKind::Import, {}, LabelSetEdit{{}, labels}};
+  for (const ViewIndex view : layer.painted_views()) {
+    edit.views.push_back(difference(view, {}, layer.view(view), whole(layer)));
+  }
+  return edit;
+}
+
+/// The document before the oldest edit that its history keeps.
+Edit base_of(const AnnotationDocument& document) {
+  if (document.history().applied_count() == 0) {
+    return base_edit(document.labels(), document.scribbles());
+  }
+  LabelSet labels = document.labels();
+  ScribbleLayer layer = document.scribbles();
+  for (std::size_t i = document.history().applied_count(); i-- > 0;) {
+    const Edit& edit = document.history().edit(i);
+    for (const ViewEdit& part : edit.views) put_labels(part, EditSide::Before, layer);
+    if (edit.labels) labels = edit.labels->before;
+  }
+  return base_edit(labels, layer);
+}
+
+io::LogRecord head_record(const JournalOwner& owner, const AnnotationDocument& document) {
+  const ScribbleLayer& layer = document.scribbles();
+  ByteWriter out;
+  out.number(kVersion);
+  out.text(owner.name);
+  out.text(owner.source);
+  out.number(owner.sample_hash);
+  for (const int extent : {layer.grid().v, layer.grid().u, layer.height(), layer.width()}) {
+    out.number(static_cast<std::uint64_t>(extent));
+  }
+  out.number(document.history().max_bytes());
+  out.number(std::bit_cast<std::uint64_t>(owner.focus_px));
+  return out.bytes();
+}
+
+io::LogRecord base_record(const AnnotationDocument& document) {
+  ByteWriter out;
+  const bool is_saved = document.saved_state() == document.history().state_after(0);
+  out.byte(is_saved ? 1 : 0);
+  write_edit(base_of(document), out);
+  return out.bytes();
+}
+
+struct Head {
+  JournalOwner owner;
+  GridShape grid;
+  int height = 0;
+  int width = 0;
+  std::size_t history_bytes = 0;
+};
+
+Head read_head(const io::LogRecord& record) {
+  ByteReader in(record);
+  if (in.number() != kVersion) throw InvalidInput("the journal is of another version");
+  Head head;
+  head.owner.name = in.text();
+  head.owner.source = in.text();
+  head.owner.sample_hash = in.number();
+  for (int* extent : {&head.grid.v, &head.grid.u, &head.height, &head.width}) {
+    *extent = static_cast<int>(in.number(kMaxExtent));
+  }
+  head.history_bytes = static_cast<std::size_t>(in.number());
+  // Journals of earlier programs end here.
+  if (!in.at_end()) head.owner.focus_px = std::bit_cast<double>(in.number());
+  return head;
+}
+
+AnnotationDocument read_base(const Head& head, const io::LogRecord& record) {
+  ByteReader in(record);
+  const bool is_saved = in.byte() != 0;
+  // Applied to a document of its own first, which checks that it fits.
+  AnnotationDocument base(head.grid, head.height, head.width, 0);
+  base.apply(read_edit(in));
+  AnnotationDocument document(base.labels(), base.scribbles(), head.history_bytes);
+  if (!is_saved) document.forget_saved();
+  return document;
+}
+
+void replay_step(const io::LogRecord& record, AnnotationDocument& document) {
+  ByteReader in(record);
+  const std::uint8_t step = in.byte();
+  switch (static_cast<DocumentStep>(step)) {
+    case DocumentStep::Edited:
+      document.apply(read_edit(in));
+      return;
+    case DocumentStep::Undone:
+      document.undo();
+      return;
+    case DocumentStep::Redone:
+      document.redo();
+      return;
+    case DocumentStep::Saved:
+      document.mark_saved();
+      return;
+  }
+  throw InvalidInput("the journal holds an unknown step " + std::to_string(step));
+}
+
+}  // namespace
+
+std::vector<io::LogRecord> journal_records(const JournalOwner& owner,
+                                           const AnnotationDocument& document) {
+  const History& history = document.history();
+  std::vector<io::LogRecord> records{head_record(owner, document), base_record(document)};
+  for (std::size_t i = 0; i < history.count(); ++i) {
+    records.push_back(step_record({DocumentStep::Edited, &history.edit(i)}));
+    if (history.state_after(i + 1) == document.saved_state()) {
+      records.push_back(step_record({DocumentStep::Saved, nullptr}));
+    }
+  }
+  for (std::size_t i = history.count(); i > history.applied_count(); --i) {
+    records.push_back(step_record({DocumentStep::Undone, nullptr}));
+  }
+  return records;
+}
+
+io::LogRecord step_record(const DocumentEvent& event) {
+  ByteWriter out;
+  out.byte(static_cast<std::uint8_t>(event.step));
+  if (event.step == DocumentStep::Edited) write_edit(*event.edit, out);
+  return out.bytes();
+}
+
+RecoveredAnnotation replay(const std::vector<io::LogRecord>& records) {
+  if (records.size() < 2) throw InvalidInput("the journal ends before the document begins");
+  const Head head = read_head(records[0]);
+  RecoveredAnnotation found{head.owner, read_base(head, records[1])};
+  for (std::size_t i = 2; i < records.size(); ++i) {
+    try {
+      replay_step(records[i], found.document);
+    } catch (const InvalidInput&) {
+      break;  // What follows would build on a step that is not known.
+    }
+  }
+  return found;
+}
+
+}  // namespace episcope

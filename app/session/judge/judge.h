@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/evaluation/metrics/metrics.h"
+
+#include <memory>
+#include <optional>
+
+namespace episcope {
+
+using EvaluationPtr = std::shared_ptr<const Evaluation>;
+
+/// The view in which a result is judged if nobody asks for another: the centre, or the first that
+/// the truth covers where that is not the centre. The centre if there is no truth.
+[[nodiscard]] ViewIndex judged_view(const Scene& scene);
+
+/// Whether scene and result have what `judge` compares in this view.
+[[nodiscard]] bool can_judge(const Estimate& estimate, const Scene& scene, ViewIndex view);
+
+/// The error of a result in one view, `judged_view` if none is given. Of a result in two layers
+/// against a truth in two layers, keys are those of `layered_metrics`, and the maps are those of
+/// the foreground. Region masks count in the centre view only; the camera is that of the scene,
+/// whatever `options` say. Throws InvalidInput if scene or result lacks what is compared.
+[[nodiscard]] Evaluation judge(const Estimate& estimate, const Scene& scene,
+                               EvaluationOptions options, std::optional<ViewIndex> view = {});
+
+}  // namespace episcope

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/labeling/labeler.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// The disparity that a segmentation goes by: it carries places along the rays, and is a feature if
+/// the parameters say so.
+struct LabelingDisparity {
+  std::shared_ptr<const DisparityField> field;
+  std::string origin;  ///< "truth", "epi_c", or the file it was read from.
+};
+
+/// The method that estimates disparity for labels where none is given.
+inline constexpr const char* kLabelingEstimator = "epi_c";
+
+/// What the set of features asks for: the truth for FeatureSet::ImageTruth, else the result in
+/// `result_file`, else an estimate of all views by kLabelingEstimator. Throws InvalidInput if the
+/// scene has no true disparity of all views or the result does not fit or covers fewer views;
+/// IoError, Cancelled.
+[[nodiscard]] LabelingDisparity find_labeling_disparity(const Scene& scene,
+                                                        const LabelerParameters& parameters,
+                                                        const std::filesystem::path& result_file,
+                                                        const Progress& progress);
+
+/// Whether EDGE_WEIGHTS lie beside the light field.
+[[nodiscard]] bool has_edge_weights(const Scene& scene);
+/// EDGE_WEIGHTS that lie beside the light field; null if there are none. Throws IoError, Cancelled.
+[[nodiscard]] std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
+                                                                        const Progress& progress);
+
+}  // namespace episcope

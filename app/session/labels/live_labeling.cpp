@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/labels/live_labeling.h"
+
+#include "annotation/document/exchange.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+ProbabilityMap copy(VolumeView<const std::uint8_t> from) {
+  ProbabilityMap to(from.height, from.layers, from.width);
+  std::copy_n(from.data, from.size(), to.view().data);
+  return to;
+}
+
+// The one who is told of a draft is not its owner.
+LabelingPtr copy(const Labeling& from) {
+  auto to = std::make_shared<Labeling>();
+  to->probabilities.ids = from.probabilities.ids;
+  to->probabilities.grid = from.probabilities.grid;
+  to->probabilities.first = from.probabilities.first;
+  for (const ProbabilityMap& map : from.probabilities.views) {
+    to->probabilities.views.push_back(copy(map.view()));
+  }
+  to->labels = from.labels.clone();
+  to->is_draft = true;
+  to->seconds = from.seconds;
+  return to;
+}
+
+}  // namespace
+
+Labeler new_labeler(const LabelingInput& input) {
+  return {input.light_field, input.disparity, input.edges};
+}
+
+bool is_same_scene(const LabelingInput& a, const LabelingInput& b) {
+  return a.light_field == b.light_field && a.disparity == b.disparity && a.edges == b.edges;
+}
+
+bool is_same(const LabelingInput& a, const LabelingInput& b) {
+  const Schema<LabelerParameters> schema = labeler_schema();
+  return is_same_scene(a, b) && schema.values(a.parameters) == schema.values(b.parameters) &&
+         *a.scribbles == *b.scribbles;
+}
+
+LabelerParameters possible_parameters(const LabelingInput& input) {
+  LabelerParameters parameters = input.parameters;
+  if (input.disparity) return parameters;
+  parameters.features = FeatureSet::Image;
+  if (info_of(parameters.regularizer).joins_views) parameters.regularizer = Regularizer::View;
+  return parameters;
+}
+
+LabelingPtr label_live(Labeler& labeler, const LabelingInput& input, ViewIndex view,
+                       const std::function<void(LabelingPtr)>& on_draft, const Progress& progress) {
+  return std::make_shared<const Labeling>(
+      labeler.label(scribbles_of(*input.scribbles), possible_parameters(input), {view, {1, 1}},
+                    progress, [&](const Labeling& draft) { on_draft(copy(draft)); }));
+}
+
+LabelingPtr label_all_views(const LabelingInput& input, const Progress& progress) {
+  Labeler labeler = new_labeler(input);
+  return std::make_shared<const Labeling>(
+      labeler.label(scribbles_of(*input.scribbles), possible_parameters(input),
+                    {{0, 0}, input.light_field->grid()}, progress));
+}
+
+}  // namespace episcope

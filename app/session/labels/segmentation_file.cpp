@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/labels/segmentation_file.h"
+
+#include "app/session/run/result_source.h"
+#include "engine/core/error.h"
+#include "engine/io/archive/companions.h"
+#include "engine/io/labels/labeling_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+/// Labels of `ids` with names and colours as far as they are known, else defaults.
+std::vector<LabelInfo> infos_of(const std::vector<std::int32_t>& ids,
+                                const std::vector<LabelInfo>& known) {
+  std::vector<LabelInfo> infos;
+  for (const std::int32_t id : ids) {
+    const auto found = std::ranges::find(known, id, &LabelInfo::id);
+    infos.push_back(found != known.end()
+                        ? *found
+                        : LabelInfo{id, "label " + std::to_string(id), label_color(id)});
+  }
+  return infos;
+}
+
+ViewIndex checked_view(const io::LabelingFile& file, const std::string& name,
+                       std::optional<ViewIndex> asked) {
+  const ViewIndex middle = file.grid().center();
+  const ViewIndex view =
+      asked.value_or(ViewIndex{file.first().v + middle.v, file.first().u + middle.u});
+  if (file.contains(view)) return view;
+  throw InvalidInput(name + " has labels of " + std::to_string(file.grid().v) + "×" +
+                     std::to_string(file.grid().u) + " views from view " + view_text(file.first()) +
+                     " on, but view " + view_text(view) + " was asked for");
+}
+
+/// `[y][x][label]` in [0, 1] as `[y][label][x]` in bytes.
+ProbabilityMap bytes_of(const Image<float>& probabilities) {
+  ProbabilityMap map(probabilities.height(), probabilities.channels(), probabilities.width());
+  for (int y = 0; y < probabilities.height(); ++y) {
+    for (int l = 0; l < probabilities.channels(); ++l) {
+      std::uint8_t* out = map.view().row(y, l);
+      for (int x = 0; x < probabilities.width(); ++x) {
+        const float bounded = std::clamp(probabilities.at(y, x, l), 0.0F, 1.0F);
+        out[x] = static_cast<std::uint8_t>(std::lround(bounded * 255));
+      }
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
+                        const std::string& input, StoredProbabilities probabilities,
+                        const Progress& progress) {
+  const Labeling& labeling = *segmentation.labeling;
+  io::StoredLabeling stored;
+  stored.labels = labeling.labels.clone();
+  stored.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
+  stored.parameters = segmentation.parameters;
+  stored.source = source_text(input, path);
+  stored.seconds = labeling.seconds;
+  io::ViewProbabilities of_view;
+  if (probabilities == StoredProbabilities::All) {
+    of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
+  }
+  io::write_labeling(path, stored, of_view, progress);
+}
+
+Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked,
+                               int label) {
+  const io::LabelingFile file(path);
+  const ViewIndex view = checked_view(file, path.string(), asked);
+  auto labeling = std::make_shared<Labeling>();
+  const Image<std::int32_t> labels = file.labels(view);
+  labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
+  std::copy(labels.begin(), labels.end(), labeling->labels.data());
+  if (file.has_probabilities()) {
+    LabelProbabilities& probabilities = labeling->probabilities;
+    for (const LabelInfo& info : file.infos()) probabilities.ids.push_back(info.id);
+    probabilities.grid = {1, 1};
+    probabilities.first = view;
+    probabilities.views.push_back(bytes_of(file.probabilities(view)));
+  }
+  Segmentation segmentation;
+  segmentation.labeling = std::move(labeling);
+  segmentation.is_up_to_date = true;
+  segmentation.labels = file.infos();
+  segmentation.label = label;
+  return segmentation;
+}
+
+Segmentation read_archive_probabilities(const Scene& scene, ViewIndex view, int label) {
+  const auto found = std::ranges::find_if(scene.companions, [](const Companion& companion) {
+    return companion.kind != CompanionKind::EdgeWeights;
+  });
+  const std::string& name = scene.light_field->info().name;
+  if (found == scene.companions.end()) {
+    throw InvalidInput(name + " has no file of label probabilities beside it");
+  }
+  const io::ProbabilityFile file(found->path, scene);
+  if (!file.contains(view)) {
+    throw InvalidInput(name + " has no probabilities in view " + view_text(view));
+  }
+  auto labeling = std::make_shared<Labeling>();
+  LabelProbabilities& probabilities = labeling->probabilities;
+  for (int id = 1; id <= file.label_count(); ++id) probabilities.ids.push_back(id);
+  probabilities.grid = {1, 1};
+  probabilities.first = view;
+  probabilities.views.push_back(bytes_of(file.view(view)));
+  const Image<std::int32_t> labels =
+      most_probable_labels(probabilities.views.front().view(), probabilities.ids);
+  labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
+  std::copy(labels.begin(), labels.end(), labeling->labels.data());
+  Segmentation segmentation;
+  segmentation.labeling = std::move(labeling);
+  segmentation.is_up_to_date = true;
+  segmentation.label = label;
+  return segmentation;
+}
+
+}  // namespace episcope

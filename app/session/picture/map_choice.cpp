@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/picture/map_choice.h"
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+using render::Subject;
+
+bool is_available_of(const EstimateEntry* shown, Quantity quantity) {
+  if (!shown) return false;
+  const Estimate& estimate = *shown->estimate;
+  switch (quantity) {
+    case Quantity::Confidence:
+      return !estimate.confidence.empty();
+    case Quantity::Background:
+      return !estimate.layered.background.empty();
+    case Quantity::Layers:
+      return !estimate.layered.layers.empty();
+    default:
+      return true;
+  }
+}
+
+bool is_available_of(const GroundTruth& truth, Quantity quantity) {
+  return quantity == Quantity::Truth ? truth.has_disparity() || truth.has_layers()
+                                     : truth.has_layers();
+}
+
+bool is_segmentation_available(const Session& session, Quantity quantity) {
+  if (quantity == Quantity::Edges) return true;
+  if (!session.segmentation() || !session.segmentation()->labeling) return false;
+  return quantity != Quantity::WrongLabels || session.true_labels() != nullptr;
+}
+
+}  // namespace
+
+bool is_available(const Session& session, Quantity quantity) {
+  const auto& scene = session.scene();
+  if (!scene) return quantity == Quantity::View;
+  switch (render::info_of(quantity).subject) {
+    case Subject::LightField:
+      return true;
+    case Subject::Truth:
+      return is_available_of(*scene->truth, quantity);
+    case Subject::TrueLabels:
+      return session.true_labels() != nullptr;
+    case Subject::Result:
+      return is_available_of(session.shown(), quantity);
+    case Subject::Error:
+      return session.shown() && is_available_of(*scene->truth, Quantity::Truth);
+    case Subject::ResultPair:
+      return session.compared() != nullptr;
+    case Subject::Segmentation:
+      return is_segmentation_available(session, quantity);
+  }
+  return false;
+}
+
+std::optional<MapSource> map_source(Session& session, const MapChoice& choice, ViewIndex view) {
+  if (!session.scene() || choice.quantity == Quantity::View) return std::nullopt;
+  MapSource source{.quantity = choice.quantity, .view = view, .light_field = session.light_field()};
+  const Subject subject = render::info_of(choice.quantity).subject;
+  if (subject == Subject::Truth) source.truth = session.scene()->truth;
+  if (subject == Subject::Segmentation) source.segmentation = session.segmentation();
+  if (subject == Subject::TrueLabels || choice.quantity == Quantity::WrongLabels) {
+    source.true_labels = session.true_labels();
+  }
+  if (subject == Subject::Result || subject == Subject::Error || subject == Subject::ResultPair) {
+    const EstimateEntry* entry = session.find_estimate(choice.estimate);
+    if (!entry) return std::nullopt;
+    source.estimate = entry->estimate;
+  }
+  if (subject == Subject::ResultPair) {
+    const EstimateEntry* other = session.find_estimate(choice.other);
+    if (!other) return std::nullopt;
+    source.other = other->estimate;
+  }
+  if (!reason_against(source).empty()) return std::nullopt;
+  if (subject == Subject::Error) {
+    source.evaluation = session.evaluation({choice.estimate, view, Protocol::Vmv2013});
+    if (!source.evaluation) return std::nullopt;
+  }
+  return source;
+}
+
+}  // namespace episcope

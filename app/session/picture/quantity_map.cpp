@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/picture/quantity_map.h"
+
+#include "app/session/picture/segmentation_map.h"
+#include "engine/evaluation/metrics/error_maps.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+using render::Subject;
+
+using Map = std::shared_ptr<QuantityMap>;
+
+Map borrowed(const DisparityView& view, std::shared_ptr<const void> owner) {
+  auto made = std::make_shared<QuantityMap>();
+  made->map = view.disparity;
+  made->valid = view.valid;
+  made->owner = std::move(owner);
+  return made;
+}
+
+Map error_map(const EvaluationPtr& evaluation, Quantity quantity) {
+  auto made = std::make_shared<QuantityMap>();
+  if (quantity == Quantity::SignedError) {
+    made->map = evaluation->signed_error;
+  } else {
+    made->computed = quantity == Quantity::AbsoluteError
+                         ? absolute_error_map(*evaluation)
+                         : bad_pixel_map(*evaluation, kBadPixelThreshold_px);
+    made->map = made->computed;
+  }
+  // A missing estimate has no error to draw, but it is a bad pixel.
+  if (quantity != Quantity::BadPixels) {
+    made->computed_valid = present_mask(*evaluation);
+    made->valid = made->computed_valid;
+  }
+  made->inside = evaluation->judged;
+  made->owner = evaluation;
+  return made;
+}
+
+Map difference_map(const DisparityView& left, const DisparityView& right) {
+  auto made = std::make_shared<QuantityMap>();
+  made->computed = Image<float>(left.disparity.height, left.disparity.width);
+  made->computed_valid = Image<std::uint8_t>(left.disparity.height, left.disparity.width);
+  for (int y = 0; y < left.disparity.height; ++y) {
+    for (int x = 0; x < left.disparity.width; ++x) {
+      if (!left.is_valid(y, x) || !right.is_valid(y, x)) continue;
+      made->computed_valid.at(y, x) = 1;
+      made->computed.at(y, x) = left.disparity.at(y, x) - right.disparity.at(y, x);
+    }
+  }
+  made->map = made->computed;
+  made->valid = made->computed_valid;
+  return made;
+}
+
+Map layers_map(ImageView<const std::uint8_t> layers) {
+  auto made = std::make_shared<QuantityMap>();
+  made->computed = Image<float>(layers.height, layers.width);
+  std::copy_n(layers.data, layers.size(), made->computed.data());
+  made->map = made->computed;
+  return made;
+}
+
+Map result_map(const MapSource& source) {
+  const Estimate& estimate = *source.estimate;
+  switch (source.quantity) {
+    case Quantity::Confidence:
+      return borrowed({estimate.confidence.view(source.view), {}}, source.estimate);
+    case Quantity::Background:
+      return borrowed(estimate.layered.background.view(source.view), source.estimate);
+    case Quantity::Layers:
+      return layers_map(estimate.layered.layers.view(source.view));
+    default:
+      return borrowed(estimate.field.view(source.view), source.estimate);
+  }
+}
+
+Map truth_map(const MapSource& source) {
+  const GroundTruth& truth = *source.truth;
+  const DisparityField& single = truth.has_disparity() ? truth.field : truth.foreground;
+  const bool is_behind = source.quantity == Quantity::TruthBackground;
+  return borrowed((is_behind ? truth.background : single).view(source.view), source.truth);
+}
+
+Map labels_map(const MapSource& source) {
+  auto made = std::make_shared<QuantityMap>();
+  made->labels = source.true_labels->view(source.view);
+  made->owner = source.true_labels;
+  return made;
+}
+
+}  // namespace
+
+QuantityMapPtr make_map(const MapSource& source) {
+  switch (render::info_of(source.quantity).subject) {
+    case Subject::LightField:
+      break;
+    case Subject::Truth:
+      return truth_map(source);
+    case Subject::TrueLabels:
+      return labels_map(source);
+    case Subject::Result:
+      return result_map(source);
+    case Subject::Error:
+      return error_map(source.evaluation, source.quantity);
+    case Subject::ResultPair:
+      return difference_map(source.estimate->field.view(source.view),
+                            source.other->field.view(source.view));
+    case Subject::Segmentation:
+      return make_segmentation_map(source);
+  }
+  return nullptr;
+}
+
+std::optional<double> QuantityMap::value_at(PixelIndex pixel) const {
+  if (pixel.y >= map.height || pixel.x >= map.width) return std::nullopt;
+  if (!inside.empty() && inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
+  if (!DisparityView{map, valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
+  return map.at(pixel.y, pixel.x);
+}
+
+}  // namespace episcope

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/save/save_result.h"
+
+#include "app/session/run/result_source.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/ply.h"
+#include "engine/io/maps/result_file.h"
+#include "engine/render/shade.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace episcope {
+namespace {
+
+Image<std::uint8_t> rgb_of(const Image<std::uint8_t>& rgba) {
+  Image<std::uint8_t> rgb(rgba.height(), rgba.width(), 3);
+  for (int y = 0; y < rgb.height(); ++y) {
+    for (int x = 0; x < rgb.width(); ++x) std::copy_n(&rgba.at(y, x), 3, &rgb.at(y, x));
+  }
+  return rgb;
+}
+
+}  // namespace
+
+std::optional<MapForm> map_form_of(const std::filesystem::path& path) {
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".h5" || suffix == ".hdf5") return MapForm::Result;
+  if (suffix == ".pfm") return MapForm::Pfm;
+  if (suffix == ".tif" || suffix == ".tiff") return MapForm::Tiff;
+  if (suffix == ".ply") return MapForm::PointCloud;
+  return std::nullopt;
+}
+
+void save_result(const std::filesystem::path& path, const Estimate& estimate,
+                 const std::string& input, const Progress& progress) {
+  io::write_result(path, estimate, progress, source_text(input, path));
+}
+
+void save_map(const std::filesystem::path& path, const DisparityView& map) {
+  Image<float> values(map.disparity.height, map.disparity.width, 1,
+                      std::numeric_limits<float>::quiet_NaN());
+  for (int y = 0; y < values.height(); ++y) {
+    for (int x = 0; x < values.width(); ++x) {
+      if (map.is_valid(y, x)) values.at(y, x) = map.disparity.at(y, x);
+    }
+  }
+  map_form_of(path) == MapForm::Pfm ? io::write_pfm(path, values.view())
+                                    : io::write_tiff(path, values.view());
+}
+
+void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
+                      ViewIndex view, const DisparityView& map) {
+  const Image<std::uint8_t> rgb = rgb_of(render::shade_view(light_field, view));
+  io::write_ply(path, {map, rgb.view(), light_field.info().camera});
+}
+
+}  // namespace episcope

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene/load_scene.h"
+
+#include "app/session/scene/scene_cache.h"
+#include "app/session/scene/scribble_place.h"
+#include "engine/core/light_field/shear.h"
+#include "engine/io/open/open.h"
+#include "engine/io/open/reader.h"
+#include "engine/scenes/builtin.h"
+
+#include <system_error>
+#include <utility>
+#include <variant>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kDemo = "demo";
+
+// A built-in scene that was kept, as if it had been rendered: samples are copied, because the scene
+// shares them.
+LightFieldPtr renamed(const LightField& light_field, const std::string& name,
+                      const std::string& source) {
+  LightFieldInfo info = light_field.info();
+  info.name = name;
+  info.source = source;
+  info.reading = {scenes::kBuiltinReader, {}};
+  auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
+                            light_field.samples());
+  return std::make_shared<const LightField>(std::move(samples), std::move(info));
+}
+
+Scene render_center_view(const std::string& id, const scenes::RenderOptions& options,
+                         const Progress& progress) {
+  scenes::RenderOptions center_only = options;
+  center_only.grid = {1, 1};
+  return scenes::render_builtin(id, center_only, progress);
+}
+
+void show_center_view(const std::string& id, const Scene& center, GridShape grid,
+                      const io::OpenOptions& open) {
+  const LightField& light_field = *center.light_field;
+  if (!open.on_center_view || light_field.sample_type() != SampleType::UInt8) return;
+  const ImageView<const std::uint8_t> view = light_field.view<std::uint8_t>({0, 0});
+  Image<std::uint8_t> rgb(view.height, view.width, view.channels);
+  std::copy_n(view.data, view.size(), rgb.data());
+  LightFieldInfo info = light_field.info();
+  info.name = id;
+  open.on_center_view(rgb, info, grid);
+}
+
+// What the archive form cannot hold of a built-in scene: region masks and where it comes from.
+void complete_kept_scene(Scene& kept, const Scene& center) {
+  // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
+  std::const_pointer_cast<GroundTruth>(kept.truth)->regions = center.truth->regions;
+  kept.convention = center.convention;
+}
+
+// All samples of a scene that was rendered in its centre view only.
+Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
+                    const std::string& source) {
+  LightFieldInfo info = center.light_field->info();
+  info.source = source;
+  Scene scene;
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), std::move(info));
+  scene.truth = std::make_shared<const GroundTruth>();
+  scene.convention = center.convention;
+  return scene;
+}
+
+Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
+  const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
+  const scenes::RenderOptions render;
+  progress.step("rendering the centre view");
+  const Scene center = render_center_view(id, render, progress.part(0, 0.02));
+  show_center_view(id, center, render.grid, options.open);
+  progress.step("reading the built-in scene");
+  if (!options.needs_truth) {
+    auto samples = SceneCache(options.cache_folder).read_samples(id, render, progress);
+    if (samples) return without_truth(std::move(*samples), center, source);
+  }
+  std::optional<Scene> scene =
+      SceneCache(options.cache_folder).read(id, render, progress.part(0.02, 0.9));
+  if (scene) {
+    complete_kept_scene(*scene, center);
+  } else {
+    progress.step("rendering all views");
+    scene = scenes::render_builtin(id, render, progress.part(0.02, 1));
+  }
+  if (scene->light_field->info().source != source) {
+    scene->light_field = renamed(*scene->light_field, id, source);
+  }
+  return std::move(*scene);
+}
+
+}  // namespace
+
+std::string builtin_scene_id(const std::string& input) {
+  const std::string prefix = std::string(kDemo) + ":";
+  if (input == kDemo || input == prefix) return kDemo;
+  return input.starts_with(prefix) ? input.substr(prefix.size()) : std::string();
+}
+
+std::string reader_of(const std::string& input, const io::OpenOptions& options) {
+  if (!builtin_scene_id(input).empty()) return scenes::kBuiltinReader;
+  const io::Reader* reader = io::find_reader(input, options).reader;
+  return reader ? reader->id : std::string();
+}
+
+Scene load_scene(const std::string& input, const LoadOptions& options, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  if (id.empty()) {
+    io::OpenOptions open = options.open;
+    open.needs_truth = options.needs_truth;
+    Scene scene = io::open_scene(input, open, progress);
+    if (options.needs_truth) read_kept_scribbles(scene, progress);
+    return scene;
+  }
+  const double focus_px = options.open.focus_px;
+  Scene scene = load_builtin(id, options, progress.part(0, focus_px == 0 ? 1 : 0.8));
+  if (focus_px == 0) return scene;
+  return sheared(scene, focus_px, progress.part(0.8, 1));
+}
+
+void store_in_cache(const std::string& input, const Scene& scene,
+                    const std::filesystem::path& cache_folder, const Progress& progress) {
+  const std::string id = builtin_scene_id(input);
+  if (id.empty() || cache_folder.empty() || scene.convention.focus_px != 0) return;
+  const SceneCache cache(cache_folder);
+  const scenes::RenderOptions render;
+  std::error_code ignored;
+  if (!std::filesystem::exists(cache.place(id, render), ignored)) {
+    cache.write(id, render, scene, progress);
+  }
+}
+
+}  // namespace episcope

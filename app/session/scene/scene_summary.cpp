@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene/scene_summary.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace episcope {
+namespace {
+
+template <class T>
+std::string covered_views(const ViewStack<T>& stack, const LightField& light_field) {
+  if (stack.grid() == light_field.grid()) return "all";
+  if (stack.grid().count() != 1) {
+    return std::to_string(stack.grid().v) + "×" + std::to_string(stack.grid().u);
+  }
+  return stack.first() == light_field.center() ? "centre" : view_text(stack.first());
+}
+
+/// Disparities seen so far.
+struct Spread {
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::size_t valid = 0;
+
+  void add(const DisparityView& view) {
+    for (int y = 0; y < view.disparity.height; ++y) {
+      for (int x = 0; x < view.disparity.width; ++x) {
+        if (!view.is_valid(y, x)) continue;
+        const double value = view.disparity.at(y, x);
+        range = {std::min(range.min, value), std::max(range.max, value)};
+        ++valid;
+      }
+    }
+  }
+  [[nodiscard]] Interval interval() const { return valid > 0 ? range : Interval{}; }
+};
+
+SceneSummary::Truth summarize_truth(const DisparityField& field, const LightField& light_field) {
+  Spread all;
+  Spread center;
+  const auto& stack = field.disparity;
+  for (int v = 0; v < stack.grid().v; ++v) {
+    for (int u = 0; u < stack.grid().u; ++u) {
+      const ViewIndex view{stack.first().v + v, stack.first().u + u};
+      all.add(field.view(view));
+      if (view == light_field.center()) center.add(field.view(view));
+    }
+  }
+  return {covered_views(stack, light_field),
+          100.0 * static_cast<double>(all.valid) / static_cast<double>(stack.size()),
+          center.interval(), all.interval()};
+}
+
+/// Adds label ids above 0 to `ids`; returns how many samples carry one.
+std::size_t collect_ids(const std::int32_t* labels, std::size_t count, std::vector<int>& ids) {
+  std::set<int> found(ids.begin(), ids.end());
+  std::size_t painted = 0;
+  int last = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (labels[i] <= 0) continue;
+    ++painted;
+    if (labels[i] != last) found.insert(last = labels[i]);
+  }
+  ids.assign(found.begin(), found.end());
+  return painted;
+}
+
+const char* sample_type_name(SampleType type) {
+  switch (type) {
+    case SampleType::UInt8:
+      return "uint8";
+    case SampleType::UInt16:
+      return "uint16";
+    case SampleType::Float32:
+      break;
+  }
+  return "float32";
+}
+
+}  // namespace
+
+SceneSummary summarize(const Scene& scene) {
+  SceneSummary summary;
+  const GroundTruth& truth = *scene.truth;
+  summary.sample_type = sample_type_name(scene.light_field->sample_type());
+  if (truth.has_disparity()) summary.truth = summarize_truth(truth.field, *scene.light_field);
+  summary.has_layers = truth.has_layers();
+  if (!truth.labels.empty()) {
+    summary.label_views = covered_views(truth.labels, *scene.light_field);
+    collect_ids(truth.labels.data(), truth.labels.size(), summary.label_ids);
+  }
+  std::size_t painted = 0;
+  std::size_t pixels = 0;
+  for (const auto& [view, labels] : scene.scribbles.views) {
+    painted += collect_ids(labels.data(), labels.size(), summary.scribble_ids);
+    pixels += labels.size();
+    summary.painted_views += summary.painted_views.empty() ? "" : " ";
+    summary.painted_views += view_text(view);
+  }
+  if (pixels > 0) {
+    summary.painted_percent = 100.0 * static_cast<double>(painted) / static_cast<double>(pixels);
+  }
+  return summary;
+}
+
+}  // namespace episcope

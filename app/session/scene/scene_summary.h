@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// What there is to tell about a scene beyond its shape. Linear in its pixels.
+struct SceneSummary {
+  struct Truth {
+    std::string views;  ///< "all", "centre", or "4,4".
+    double valid_percent = 0;
+    Interval center;  ///< Disparities in the centre view; {0, 0} if it has none.
+    Interval all;     ///< In all views that have truth.
+  };
+  std::string sample_type;  ///< "uint8", "uint16", "float32".
+  std::optional<Truth> truth;
+  bool has_layers = false;
+  std::string label_views;     ///< As Truth::views.
+  std::vector<int> label_ids;  ///< Ascending.
+  std::string painted_views;   ///< "4,4 4,5".
+  double painted_percent = 0;  ///< Of the pixels of these.
+  std::vector<int> scribble_ids;
+};
+
+[[nodiscard]] SceneSummary summarize(const Scene& scene);
+
+}  // namespace episcope

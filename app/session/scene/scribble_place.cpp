@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene/scribble_place.h"
+
+#include "engine/core/error.h"
+#include "engine/io/archive/archive_reader.h"
+#include "engine/io/labels/label_file.h"
+
+#include <unistd.h>
+
+namespace episcope {
+
+namespace fs = std::filesystem;
+
+fs::path label_place(const LightField& light_field) {
+  const fs::path source = light_field.info().source;
+  std::error_code ignored;
+  if (fs::is_directory(source, ignored)) return source / "labels.h5";
+  return fs::is_regular_file(source, ignored) ? source.parent_path() / "labels.h5" : fs::path();
+}
+
+bool is_writable(const fs::path& path) {
+  // Files are replaced, so the folder decides too.
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) return false;
+  return ::access(path.c_str(), F_OK) != 0 || ::access(path.c_str(), W_OK) == 0;
+}
+
+void read_kept_scribbles(Scene& scene, const Progress& progress) {
+  const fs::path place = label_place(*scene.light_field);
+  std::error_code ignored;
+  // Readers of the archive look there themselves.
+  const bool is_known = scene.light_field->info().reading.reader == io::kArchiveReader;
+  if (is_known || !fs::exists(place, ignored)) return;
+  try {
+    scene.scribbles = io::read_scribbles(place, scene, progress);
+  } catch (const IoError& error) {
+    scene.convention.warnings.push_back(std::string("Scribbles were not read: ") + error.what());
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/scene/user_folders.h"
+
+#include <cstdlib>
+
+namespace episcope {
+namespace {
+
+std::filesystem::path user_folder(const char* variable, const char* below_home) {
+  const char* named = std::getenv(variable);
+  // The specification has relative paths ignored.
+  if (named && std::filesystem::path(named).is_absolute()) {
+    return std::filesystem::path(named) / "episcope";
+  }
+  const char* home = std::getenv("HOME");
+  return home && *home ? std::filesystem::path(home) / below_home / "episcope"
+                       : std::filesystem::path();
+}
+
+}  // namespace
+
+std::filesystem::path default_cache_folder() {
+  return user_folder("XDG_CACHE_HOME", ".cache");
+}
+
+std::filesystem::path default_state_folder() {
+  return user_folder("XDG_STATE_HOME", ".local/state");
+}
+
+std::filesystem::path default_journal_folder() {
+  const std::filesystem::path state = default_state_folder();
+  return state.empty() ? state : state / "journals";
+}
+
+}  // namespace episcope

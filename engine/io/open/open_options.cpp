@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/open/open_options.h"
+
+namespace episcope::io {
+namespace {
+
+constexpr double kMostFocus_px = 1000;
+
+}  // namespace
+
+Names<Flip> names_of(Flip) {
+  return {{Flip::Auto, "auto", "automatic: found out and checked"},
+          {Flip::None, "none", "as stored"},
+          {Flip::U, "u", "columns (u) reversed"},
+          {Flip::V, "v", "rows (v) reversed"},
+          {Flip::Both, "both", "both reversed"}};
+}
+
+Names<Units> names_of(Units) {
+  return {{Units::Auto, "auto", "automatic: the plausible one"},
+          {Units::WithWidth, "with-width", "dH holds the image width"},
+          {Units::WithoutWidth, "without-width", "dH lacks the image width"}};
+}
+
+Schema<OpenOptions> open_schema() {
+  using O = OpenOptions;
+  Schema<O> schema;
+  schema
+      .choice("flip", &O::flip,
+              {"Order of views", "View axes to reverse against the file; auto = found and checked"})
+      .choice("units", &O::units,
+              {"Depth units",
+               "Whether dH of an archive file holds the factor xRes, which decides how depth "
+               "becomes disparity"})
+      .text("pattern", &O::pattern,
+            {"Image names",
+             "Names of an image grid with {row} and {col}, or {index}; * stands for anything: "
+             "view_{row}_{col}.png"})
+      .toggle("snake", &O::snake,
+              {"Snake", "Every second row of an image grid runs from right to left"})
+      .real(Reading::kFocus, &O::focus_px,
+            {"Focus plane", "Focus plane to bake in: what has this disparity gets 0", "px"},
+            {-kMostFocus_px, kMostFocus_px});
+  return schema;
+}
+
+ParameterSet given_options(const OpenOptions& options) {
+  const Schema<OpenOptions> schema = open_schema();
+  ParameterSet given;
+  for (auto& [key, value] : schema.values(options)) {
+    const auto& description = schema.description(key);
+    if (!(value == description.default_value)) given.emplace_back(key, std::move(value));
+  }
+  return given;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parameter/named.h"
+#include "engine/core/parameter/schema.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace episcope::io {
+
+/// Which view axes to reverse against the order stored.
+enum class Flip { Auto, None, U, V, Both };
+[[nodiscard]] Names<Flip> names_of(Flip);
+
+/// Whether dH of an archive file holds the factor xRes (eq. 2) or lacks it.
+enum class Units { Auto, WithWidth, WithoutWidth };
+[[nodiscard]] Names<Units> names_of(Units);
+
+/// Of which views maps of disparity and depth are read, where there are any of all.
+enum class MapViews { All, Center };
+
+/// How to open a light field: what a user may overrule of what a reader would find out by itself
+/// (`open_schema`), and what the caller wants.
+struct OpenOptions {
+  Flip flip = Flip::Auto;
+  Units units = Units::Auto;
+  std::string
+      pattern{};        ///< Image grids: file name with {row} and {col} or {index}; empty = detect.
+  bool snake = false;   ///< Image grids: every second row was captured right to left.
+  double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.
+
+  /// Without, no truth nor labels are given: only the map of the centre view is then read, by which
+  /// units and the order of views are settled.
+  bool needs_truth = true;
+  /// Called on the reading thread as soon as the centre view is there, before the rest is read.
+  std::function<void(const Image<std::uint8_t>& center_rgb, const LightFieldInfo&, GridShape)>
+      on_center_view{};
+
+  [[nodiscard]] MapViews map_views() const {
+    return needs_truth ? MapViews::All : MapViews::Center;
+  }
+};
+
+/// The reading options: one row each, from which command lines, the dialog of conventions, settings
+/// and result files take them.
+[[nodiscard]] Schema<OpenOptions> open_schema();
+
+/// The reading options that are not automatic, by key.
+[[nodiscard]] ParameterSet given_options(const OpenOptions& options);
+
+}  // namespace episcope::io

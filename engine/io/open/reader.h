@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/open/open_options.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace episcope::io {
+
+/// A form of light fields that can be opened: one row of the table, one pair of files.
+struct Reader {
+  const char* id;    ///< Stored with results: "archive".
+  const char* name;  ///< As in a sentence: "a light field of the 2013 archive".
+  /// Keys of the reading options (`open_schema`) that mean something to it, besides the focus
+  /// plane.
+  std::span<const char* const> options;
+  /// The file or folder that would be read for `path`, which may be it, beside it or around it;
+  /// empty if the form is another. Throws IoError for a damaged file.
+  std::filesystem::path (*find)(const std::filesystem::path& path, const OpenOptions& options);
+  /// Reads what `find` found. Throws IoError, InvalidInput for a bad option, Cancelled.
+  Scene (*read)(const std::filesystem::path& found, const OpenOptions& options,
+                const Progress& progress);
+
+  [[nodiscard]] bool has_option(std::string_view key) const;
+};
+
+/// Every reader; of several that find something, the first one reads.
+[[nodiscard]] std::span<const Reader> readers();
+
+/// Whoever reads `path`, and what. `reader` is null if nobody does.
+struct FoundReader {
+  const Reader* reader = nullptr;
+  std::filesystem::path path;
+};
+/// Throws IoError if there is no such path, or for a damaged file.
+[[nodiscard]] FoundReader find_reader(const std::filesystem::path& path,
+                                      const OpenOptions& options);
+
+/// The reader with this id; null for an unknown one.
+[[nodiscard]] const Reader* reader_named(const std::string& id);
+
+}  // namespace episcope::io
