@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/actions.h"
 
-#include "app/gui/action_table.h"
 #include "app/gui/annotate_actions.h"
 #include "app/gui/browse_actions.h"
+#include "app/gui/compare/picture_export.h"
 #include "app/gui/compare_actions.h"
-#include "app/gui/estimate_controller.h"
-#include "app/gui/export_controller.h"
+#include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
-#include "app/gui/open_controller.h"
+#include "app/gui/opening/scene_opener.h"
 #include "app/gui/segment_actions.h"
-#include "app/gui/theme_choice.h"
 
 #include <QAction>
 #include <QTabWidget>

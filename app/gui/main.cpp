@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
-#include "app/gui/theme_choice.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/version.h"
 

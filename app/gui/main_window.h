@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/panels.h"
+#include "app/gui/frame/frame.h"
 
 #include <QMainWindow>
 

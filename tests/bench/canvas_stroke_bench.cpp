@@ -2,11 +2,11 @@
 // From a movement of the mouse to the painted screen: a stroke on a view of 1024×1024 pixels in the
 // window that ships, at rest and while the view is segmented live on every core, against drawing
 // the whole view anew. A frame of the screen lasts 16 ms. Run with QT_QPA_PLATFORM=offscreen.
-#include "app/gui/action_table.h"
-#include "app/gui/annotate_controller.h"
-#include "app/gui/document_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/document/document_controller.h"
 #include "app/gui/main_window.h"
-#include "app/gui/segment_controller.h"
+#include "app/gui/segment/segment_controller.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
 #include "widgets/canvas/view_canvas.h"

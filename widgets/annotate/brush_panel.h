@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/canvas/brush_tool.h"
+#include "widgets/canvas/tools/stroke_tool.h"
 
 #include <QWidget>
 

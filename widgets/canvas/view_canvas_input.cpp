@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/brush_tool.h"
+#include "widgets/canvas/tools/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QApplication>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/action_table.h"
+#include "app/gui/frame/commands.h"
 
-#include "app/gui/theme_choice.h"
+#include "app/gui/help/theme_choice.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

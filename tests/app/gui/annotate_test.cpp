@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Paints with the mouse and the keys on the window that ships.
-#include "app/gui/annotate_controller.h"
+#include "app/gui/annotate/annotate_controller.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/open_controller.h"
-#include "app/gui/scribble_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"

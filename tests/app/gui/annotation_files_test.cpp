@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What is painted goes to files, and is not lost by leaving it.
-#include "app/gui/annotation_files.h"
+#include "app/gui/annotate/annotation_files.h"
 
-#include "app/gui/jobs.h"
+#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"

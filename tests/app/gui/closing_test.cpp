@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The window may be closed at any moment; whatever runs ends with it.
-#include "app/gui/action_table.h"
-#include "app/gui/compare_controller.h"
-#include "app/gui/jobs.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/compare/compare_controller.h"
+#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/compare_controller.h"
+#include "app/gui/compare/compare_controller.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/statistics_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/compare/statistics_controller.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/browse/value_bar.h"

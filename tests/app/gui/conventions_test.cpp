@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/action_table.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
-#include "app/gui/open_controller.h"
-#include "app/gui/remembered_conventions.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/opening/remembered_conventions.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

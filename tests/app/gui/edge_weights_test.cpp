@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The edge weights that lie beside a light field, in the window that ships.
-#include "app/gui/action_table.h"
-#include "app/gui/overlay_controller.h"
-#include "app/gui/segment_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/segment/segment_controller.h"
 #include "engine/io/archive/companions.h"
 #include "engine/io/open/open.h"
 #include "tests/app/gui/window_fixture.h"

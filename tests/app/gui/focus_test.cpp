@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/focus_controller.h"
+#include "app/gui/files/focus_controller.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/document_controller.h"
-#include "app/gui/jobs.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/document/document_controller.h"
+#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

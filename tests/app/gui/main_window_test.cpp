@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/export_controller.h"
-#include "app/gui/jobs.h"
-#include "app/gui/open_controller.h"
-#include "app/gui/overlay_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/compare/picture_export.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/overlay.h"
 #include "app/session/session.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/maps/result_file.h"

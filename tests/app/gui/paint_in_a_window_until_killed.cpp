@@ -2,9 +2,9 @@
 // The window that ships, painted in with the mouse until it is killed. After each stroke it says
 // how many steps the document has and what it looks like.
 // Usage: paint_in_a_window_until_killed <folder of journals> <light field> <folder of settings>
-#include "app/gui/action_table.h"
-#include "app/gui/annotate_controller.h"
-#include "app/gui/document_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/document/document_controller.h"
 #include "app/gui/main_window.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"

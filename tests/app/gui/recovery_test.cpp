@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a killed window had painted is offered by the next one.
-#include "app/gui/recovery_controller.h"
+#include "app/gui/annotate/recovery_controller.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/annotate_controller.h"
-#include "app/gui/document_controller.h"
-#include "app/gui/open_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/document/document_controller.h"
+#include "app/gui/opening/scene_opener.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
 #include "tests/app/gui/window_fixture.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segments in the window that ships, from what is painted with the mouse.
-#include "app/gui/segment_controller.h"
+#include "app/gui/segment/segment_controller.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/annotation_files.h"
-#include "app/gui/export_controller.h"
-#include "app/gui/open_controller.h"
-#include "app/gui/overlay_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/annotate/annotation_files.h"
+#include "app/gui/compare/picture_export.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/overlay.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/labels/labeling_file.h"
 #include "tests/app/gui/annotating.h"

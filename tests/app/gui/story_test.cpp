@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way of a user, by mouse and keys: opens a light field, adds labels, paints, undoes across
 // views, carries to all views, segments, saves, and finds the same in another window.
-#include "app/gui/action_table.h"
-#include "app/gui/jobs.h"
-#include "app/gui/overlay_controller.h"
-#include "app/gui/scribble_controller.h"
-#include "app/gui/segment_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/annotate/scribble_controller.h"
+#include "app/gui/segment/segment_controller.h"
 #include "engine/evaluation/metrics/label_accuracy.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/app/gui/window_fixture.h"
 
-#include "app/gui/action_table.h"
-#include "app/gui/jobs.h"
-#include "app/gui/open_controller.h"
-#include "app/gui/segment_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/segment/segment_controller.h"
 #include "engine/io/archive/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
 

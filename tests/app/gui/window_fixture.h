@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/document_controller.h"
+#include "app/gui/document/document_controller.h"
 #include "app/gui/main_window.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The tool in hand, driven with the mouse on a canvas.
-#include "widgets/canvas/brush_tool.h"
+#include "widgets/canvas/tools/stroke_tool.h"
 #include "tests/window_test_main.h"
 
 #include "tests/widgets/pictures.h"

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/annotate/annotation_files.h"
+
+#include "annotation/document/exchange.h"
+#include "app/session/scene/scribble_place.h"
+#include "engine/core/light_field/shear.h"
+#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_pictures.h"
+#include "widgets/annotate/annotation_bar.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+
+#include <memory>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+std::filesystem::path path_of(const QString& path) {
+  return path.toStdString();
+}
+
+/// Asks for a file to read; opened by the caller.
+QFileDialog* reading_dialog(const char* name, const QString& title, const QString& filter,
+                            QWidget* parent) {
+  auto* dialog = new QFileDialog(parent, title, QString(), filter);
+  dialog->setObjectName(name);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::ExistingFile);
+  return dialog;
+}
+
+}  // namespace
+
+AnnotationFiles::AnnotationFiles(Session& session, Jobs& jobs, DocumentController& document,
+                                 const Panels& panels, QObject* parent)
+    : QObject(parent), session_(session), jobs_(jobs), document_(document), panels_(panels) {
+  connect(&document_, &DocumentController::replaced, this, &AnnotationFiles::showState);
+  connect(&document_, &DocumentController::unsavedChanged, this, &AnnotationFiles::showState);
+  session_.on_changed([this](Parts parts) {
+    if (!parts.has(Part::Scene)) return;
+    place_.clear();
+    showState();
+  });
+  showState();
+}
+
+void AnnotationFiles::showState() {
+  const QString path = place();
+  const QString name = path.isEmpty() ? tr("no file yet") : QFileInfo(path).fileName();
+  panels_.annotation->setFileState(!document_.document()           ? QString()
+                                   : saving_ > 0                   ? tr("saving …")
+                                   : document_.hasUnsavedChanges() ? tr("%1 · not saved").arg(name)
+                                                                   : name);
+}
+
+QString AnnotationFiles::place() const {
+  if (!place_.empty()) return QString::fromStdString(place_.string());
+  const LightFieldPtr light_field = session_.light_field();
+  if (!light_field || !document_.isWhole()) return {};
+  const auto beside = label_place(*light_field);
+  return beside.empty() || !is_writable(beside) ? QString()
+                                                : QString::fromStdString(beside.string());
+}
+
+QString AnnotationFiles::suggestion() const {
+  const QString known = place();
+  if (!known.isEmpty()) return known;
+  const QString name = QString::fromStdString(session_.light_field()->info().name);
+  return QDir::home().filePath(name + "_labels.h5");
+}
+
+void AnnotationFiles::save() {
+  saveAndThen(nullptr);
+}
+
+void AnnotationFiles::saveAndThen(std::function<void()> then) {
+  if (!document_.document()) return;
+  const QString path = place();
+  path.isEmpty() ? askForPlace(std::move(then)) : saveTo(path, std::move(then));
+}
+
+void AnnotationFiles::saveAsDialog() {
+  askForPlace(nullptr);
+}
+
+void AnnotationFiles::askForPlace(std::function<void()> then) {
+  if (!document_.document()) return;
+  auto* dialog = new QFileDialog(panels_.viewer->window(), tr("Save scribbles"), suggestion(),
+                                 tr("Labels of the archive (*.h5)"));
+  dialog->setObjectName("save_scribbles");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setAcceptMode(QFileDialog::AcceptSave);
+  // What else a file of labels holds stays as it is.
+  dialog->setOption(QFileDialog::DontConfirmOverwrite);
+  dialog->setDefaultSuffix("h5");
+  dialog->selectFile(suggestion());
+  connect(dialog, &QFileDialog::fileSelected, this,
+          [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
+  dialog->open();
+}
+
+void AnnotationFiles::saveAs(const QString& path) {
+  saveTo(path, nullptr);
+}
+
+std::function<Scribbles()> AnnotationFiles::snapshot() {
+  document_.endStroke();
+  const AnnotationDocument& document = *document_.document();
+  auto layer = std::make_shared<ScribbleLayer>(document.scribbles());
+  return [labels = document.labels(), layer] {
+    return scribbles_of(AnnotationDocument(labels, std::move(*layer), 0));
+  };
+}
+
+void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
+  if (!document_.document()) return;
+  const auto scribbles = snapshot();
+  const std::uint64_t generation = session_.generation();
+  ++saving_;
+  showState();
+  jobs_.start<bool>(
+      Lane::Export, tr("Saving %1").arg(QFileInfo(path).fileName()),
+      [scribbles, path, scene = session_.scene()](const Progress& progress) {
+        io::write_scribbles(path_of(path), scribbles(), *scene, progress);
+        return true;
+      },
+      [this, path, generation, state = document_.document()->state(),
+       then = std::move(then)](bool) {
+        if (generation == session_.generation()) {
+          place_ = path_of(path);
+          document_.noteSaved(state);
+        }
+        emit written(path);
+        if (then) then();
+      },
+      [this] {
+        --saving_;
+        showState();
+      });
+}
+
+void AnnotationFiles::exportDialog() {
+  if (!document_.document()) return;
+  if (document_.document()->scribbles().painted_views().empty()) {
+    emit hint(tr("Nothing is painted yet: there are no scribbles to export."));
+    return;
+  }
+  auto* dialog =
+      new QFileDialog(panels_.viewer->window(), tr("Folder for a picture of each painted view"));
+  dialog->setObjectName("export_scribbles");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setFileMode(QFileDialog::Directory);
+  dialog->setOption(QFileDialog::ShowDirsOnly);
+  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::exportPictures);
+  dialog->open();
+}
+
+void AnnotationFiles::exportPictures(const QString& folder) {
+  if (!document_.document()) return;
+  jobs_.start<bool>(
+      Lane::Export, tr("Writing pictures of scribbles"),
+      [scribbles = snapshot(), folder, scene = session_.scene()](const Progress&) {
+        io::write_scribble_pictures(
+            path_of(folder),
+            unsheared(scribbles(), {}, scene->light_field->center(), scene->convention.focus_px));
+        return true;
+      },
+      [this, folder](bool) { emit written(folder); });
+}
+
+void AnnotationFiles::importDialog() {
+  if (!document_.document()) return;
+  QFileDialog* dialog = reading_dialog(
+      "import_scribbles", tr("Import scribbles"),
+      tr("Labels of the archive, or a picture of those exported (*.h5 *.hdf5 scribbles_*.png);;All "
+         "files (*)"),
+      panels_.viewer->window());
+  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::importFrom);
+  dialog->open();
+}
+
+void AnnotationFiles::importFrom(const QString& path) {
+  if (!document_.document()) return;
+  const bool is_folder = QFileInfo(path).isDir();
+  const bool has_pictures = is_folder || QFileInfo(path).suffix().toLower() == "png";
+  const QString folder = is_folder ? path : QFileInfo(path).path();
+  const std::uint64_t generation = session_.generation();
+  jobs_.start<std::shared_ptr<Scribbles>>(
+      Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
+      [scene = session_.scene(), path, folder, has_pictures](const Progress& progress) {
+        if (!has_pictures) {
+          return std::make_shared<Scribbles>(io::read_scribbles(path_of(path), *scene, progress));
+        }
+        const LightField& light_field = *scene->light_field;
+        const Scribbles read = io::read_scribble_pictures(
+            path_of(folder), light_field.grid(), light_field.height(), light_field.width());
+        return std::make_shared<Scribbles>(
+            sheared(read, light_field.center(), scene->convention.focus_px));
+      },
+      [this, path, generation](const std::shared_ptr<Scribbles>& scribbles) {
+        if (generation != session_.generation()) return;
+        const bool is_new = document_.edit(
+            [&](AnnotationDocument& document) { import_scribbles(document, *scribbles); });
+        if (is_new) {
+          emit imported(path);
+        } else {
+          emit hint(tr("%1 holds no scribbles that were not here already.")
+                        .arg(QFileInfo(path).fileName()));
+        }
+      });
+}
+
+void AnnotationFiles::compareDialog() {
+  if (!session_.scene()) return;
+  QFileDialog* dialog = reading_dialog("compare_labels", tr("Compare with true labels"),
+                                       tr("Labels of the archive (*.h5 *.hdf5);;All files (*)"),
+                                       panels_.viewer->window());
+  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::compareWith);
+  dialog->open();
+}
+
+void AnnotationFiles::compareWith(const QString& path) {
+  if (!session_.scene()) return;
+  jobs_.start<TrueLabelsPtr>(
+      Lane::Load, tr("Reading %1").arg(QFileInfo(path).fileName()),
+      [scene = session_.scene(), path](const Progress& progress) -> TrueLabelsPtr {
+        return std::make_shared<ViewStack<std::int32_t>>(
+            io::read_true_labels(path_of(path), *scene, progress));
+      },
+      [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
+        if (generation != session_.generation()) return;
+        session_.set_true_labels(labels);
+        emit compared(path);
+      });
+}
+
+void AnnotationFiles::leave(std::function<void()> go_on) {
+  document_.endStroke();
+  if (!document_.hasUnsavedChanges()) {
+    go_on();
+    return;
+  }
+  if (question_) {
+    question_->raise();
+    return;
+  }
+  question_ = new QMessageBox(QMessageBox::Question, tr("Unsaved scribbles"),
+                              tr("What you painted on “%1” is not saved.")
+                                  .arg(QString::fromStdString(session_.light_field()->info().name)),
+                              QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
+                              panels_.viewer->window());
+  question_->setObjectName("unsaved_scribbles");
+  question_->setAttribute(Qt::WA_DeleteOnClose);
+  question_->setDefaultButton(QMessageBox::Save);
+  connect(question_, &QMessageBox::buttonClicked, this,
+          [this, box = question_.data(), go_on = std::move(go_on)](QAbstractButton* button) {
+            const auto answer = box->standardButton(button);
+            question_ = nullptr;
+            if (answer == QMessageBox::Discard) {
+              document_.discardChanges();
+              go_on();
+            } else if (answer == QMessageBox::Save) {
+              saveAndThen([this, go_on] { leave(go_on); });
+            }
+          });
+  question_->open();
+}
+
+}  // namespace episcope

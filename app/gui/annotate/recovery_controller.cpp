@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/annotate/recovery_controller.h"
+
+#include "engine/core/error.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QDateTime>
+#include <QLocale>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+QString time_of(const LeftJournal& journal) {
+  const auto time = std::chrono::file_clock::to_sys(journal.last_change);
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
+  return QLocale().toString(QDateTime::fromMSecsSinceEpoch(ms.count()), QLocale::ShortFormat);
+}
+
+QString name_of(const LeftJournal& journal) {
+  return QString::fromStdString(journal.owner.name);
+}
+
+/// What a worker found in a journal, or why it found nothing.
+struct Found {
+  std::unique_ptr<RecoveredAnnotation> annotation;
+  std::uint64_t sample_hash = 0;  ///< Of the light field that is open.
+  QString failure;
+};
+
+}  // namespace
+
+RecoveryController::RecoveryController(Session& session, DocumentController& document,
+                                       MessageBar& bar, Open open, Leave leave, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      document_(document),
+      bar_(bar),
+      open_(std::move(open)),
+      leave_(std::move(leave)),
+      job_(this) {
+  connect(&document_, &DocumentController::replaced, this, [this] {
+    if (!awaited_ || !isOpen(awaited_->owner)) return;
+    read(*std::exchange(awaited_, std::nullopt));
+  });
+}
+
+bool RecoveryController::isOpen(const JournalOwner& owner) const {
+  return session_.scene() && session_.input() == owner.source &&
+         session_.scene()->convention.focus_px == owner.focus_px;
+}
+
+void RecoveryController::look() {
+  using Journals = std::vector<LeftJournal>;
+  job_.start<Journals>(
+      [folder = document_.journalFolder()](const Progress&) {
+        return folder.empty() ? Journals() : left_journals(folder);
+      },
+      [this](Journals journals) {
+        left_ = std::move(journals);
+        std::ranges::reverse(left_);
+        offerNext();
+      });
+}
+
+void RecoveryController::offerNext() {
+  if (left_.empty()) return;
+  const LeftJournal journal = left_.back();
+  left_.pop_back();
+  bar_.showMessage(
+      Severity::Warning,
+      tr("Episcope ended unexpectedly while “%1” was painted (%2). What was painted can be "
+         "recovered.")
+          .arg(name_of(journal), time_of(journal)),
+      {tr("Recover"), [this, journal] { recover(journal); }},
+      {tr("Discard"), [this, journal] { discard(journal); }});
+}
+
+void RecoveryController::discard(const LeftJournal& journal) {
+  discard_journal(journal.path);
+  offerNext();
+}
+
+void RecoveryController::recover(const LeftJournal& journal) {
+  leave_([this, journal] {
+    if (document_.document() && isOpen(journal.owner)) {
+      read(journal);
+      return;
+    }
+    awaited_ = journal;
+    open_(QString::fromStdString(journal.owner.source), journal.owner.focus_px);
+  });
+}
+
+void RecoveryController::read(const LeftJournal& journal) {
+  job_.start<std::shared_ptr<Found>>(
+      [journal, light_field = session_.light_field()](const Progress&) {
+        auto found = std::make_shared<Found>();
+        try {
+          found->annotation = std::make_unique<RecoveredAnnotation>(read_journal(journal.path));
+          found->sample_hash = light_field->sample_hash();
+        } catch (const IoError& error) {
+          found->failure = QString::fromUtf8(error.what());
+        }
+        return found;
+      },
+      [this, journal](const std::shared_ptr<Found>& found) {
+        if (!found->failure.isEmpty()) {
+          refuse(found->failure);
+        } else {
+          takeOver(journal, std::move(*found->annotation), found->sample_hash);
+        }
+      });
+}
+
+void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotation found,
+                                  std::uint64_t sample_hash) {
+  const LightFieldPtr light_field = session_.light_field();
+  if (!light_field || !isOpen(journal.owner)) return;
+  const ScribbleLayer& layer = found.document.scribbles();
+  const bool fits = layer.grid() == light_field->grid() &&
+                    layer.height() == light_field->height() &&
+                    layer.width() == light_field->width();
+  if (!fits || (found.owner.sample_hash != 0 && found.owner.sample_hash != sample_hash)) {
+    refuse(tr("“%1” is not the light field any more that was painted. What was painted is kept in "
+              "%2.")
+               .arg(name_of(journal), QString::fromStdString(journal.path.string())));
+    return;
+  }
+  document_.replace(std::move(found.document), document_.isWhole());
+  discard_journal(journal.path);
+  emit recovered(name_of(journal));
+  offerNext();
+}
+
+void RecoveryController::refuse(const QString& sentence) {
+  bar_.showMessage(Severity::Error, sentence);
+}
+
+}  // namespace episcope

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare/compare_controller.h"
+
+#include "app/gui/browse/value_controller.h"
+#include "app/gui/estimate/estimate_controller.h"
+#include "widgets/browse/epi_pane.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/compare_bar.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/style/number_text.h"
+
+#include <QApplication>
+
+#include <limits>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+
+// Estimates have ids from 1.
+constexpr quint64 kViewTile = 0;
+constexpr quint64 kTruthTile = std::numeric_limits<quint64>::max();
+
+bool is_of_a_result(Quantity quantity) {
+  const render::Subject subject = render::info_of(quantity).subject;
+  return subject == render::Subject::Result || subject == render::Subject::Error;
+}
+
+QStringList value_text(const QuantityMap& map, int y, int x) {
+  const auto value = map.value_at({y, x});
+  return value ? QStringList(number_text(*value)) : QStringList();
+}
+
+}  // namespace
+
+CompareController::CompareController(Session& session, OverlayController& overlay,
+                                     const Panels& panels, QObject* parent)
+    : QObject(parent), session_(session), overlay_(overlay), panels_(panels), tile_job_(this) {
+  connectWall();
+  connect(&overlay_, &OverlayController::drawn, this, &CompareController::showMode);
+  connect(panels_.overlay_bar, &OverlayBar::opacityChanged, this, &CompareController::showMode);
+  connect(panels_.canvas, &ViewCanvas::wipeMoved, this, [this](double position) {
+    wipe_position_ = position;
+    showWipe();
+  });
+  connect(panels_.compare, &CompareBar::aChosen, this,
+          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(panels_.compare, &CompareBar::bChosen, this,
+          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
+  connect(&overlay_, &OverlayController::choiceChanged, this, &CompareController::listChoices);
+  listChoices();
+  session_.on_changed([this](Parts parts) { update(parts); });
+}
+
+void CompareController::connectWall() {
+  TileWall* wall = panels_.wall;
+  ViewCanvas* canvas = panels_.canvas;
+  connect(wall, &TileWall::zoomChanged, canvas,
+          [canvas](const LinkedZoom& zoom) { set_zoom(*canvas, zoom); });
+  connect(wall, &TileWall::chosen, this, [this](quint64 tile) {
+    // Side by side, the two stay where they are.
+    if (mode_ == CompareMode::Wall) session_.show_estimate(static_cast<int>(tile));
+  });
+  connect(wall, &TileWall::opened, this, &CompareController::open);
+  // The rest is answered as if it had happened in the canvas.
+  connect(wall, &TileWall::crossHairRequested, canvas, &ViewCanvas::crossHairRequested);
+  connect(wall, &TileWall::focusRequested, canvas, &ViewCanvas::focusRequested);
+  connect(wall, &TileWall::cursorMoved, canvas, &ViewCanvas::cursorMoved);
+  connect(wall, &TileWall::spaceTapped, canvas, &ViewCanvas::spaceTapped);
+  connect(wall, &TileWall::focusStepped, canvas, &ViewCanvas::focusStepped);
+}
+
+void CompareController::update(Parts parts) {
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown) && !isAvailable(mode_)) {
+    setMode(CompareMode::Single);
+  }
+  if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown)) showMode();
+  if (parts.has(Part::CrossHair) && session_.scene()) {
+    panels_.wall->setCrossHair(session_.cross_hair());
+  }
+}
+
+void CompareController::listChoices() {
+  std::vector<CompareBar::Choice> choices;
+  for (const EstimateEntry& entry : session_.estimates()) {
+    choices.push_back({static_cast<quint64>(entry.id), QString::fromStdString(entry.name)});
+  }
+  const EstimateEntry* shown = session_.shown();
+  const EstimateEntry* compared = session_.compared();
+  panels_.compare->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
+                              compared ? static_cast<quint64>(compared->id) : 0,
+                              overlay_.describe(overlay_.choiceB()));
+}
+
+bool CompareController::isAvailable(CompareMode mode) const {
+  if (mode == CompareMode::Single) return true;
+  if (!session_.scene()) return false;
+  return session_.shown() || (mode == CompareMode::Wall && session_.has_truth(session_.view()));
+}
+
+void CompareController::toggleMode(CompareMode mode) {
+  setMode(mode_ == mode ? CompareMode::Single : mode);
+}
+
+void CompareController::setMode(CompareMode mode) {
+  if (mode == mode_ || !isAvailable(mode)) return;
+  const bool has_focus = panels_.canvas->hasFocus() || panels_.wall->hasFocus() ||
+                         panels_.wall->isAncestorOf(QApplication::focusWidget());
+  mode_ = mode;
+  const bool has_wall = mode == CompareMode::Sides || mode == CompareMode::Wall;
+  if (mode != CompareMode::Wipe) {
+    panels_.canvas->endWipe();
+    wipe_picture_ = {};
+  }
+  if (mode == CompareMode::Wipe || mode == CompareMode::Sides) overlay_.setDifference(false);
+  if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
+    overlay_.setQuantity(session_.shown() ? Quantity::Disparity : Quantity::Truth);
+  }
+  panels_.wall->setVisible(has_wall);
+  if (has_focus && has_wall) panels_.wall->setFocus();
+  panels_.canvas->setVisible(!has_wall);
+  panels_.vertical_epi->setVisible(!has_wall);
+  if (has_focus && !has_wall) panels_.canvas->setFocus();
+  if (!has_wall) {
+    entries_.clear();
+    tile_job_.drop();
+    panels_.wall->setTiles({});
+  }
+  showMode();
+  emit modeChanged();
+}
+
+bool CompareController::leave() {
+  if (mode_ == CompareMode::Single) return false;
+  setMode(CompareMode::Single);
+  return true;
+}
+
+void CompareController::toggleDifference() {
+  if (!overlay_.showsDifference() && mode_ != CompareMode::Wall) leave();
+  overlay_.setDifference(!overlay_.showsDifference());
+}
+
+ViewCanvas* CompareController::activeCanvas() const {
+  return panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active()
+             ? panels_.wall->active()
+             : panels_.canvas;
+}
+
+void CompareController::showMode() {
+  if (!session_.scene() || panels_.canvas->state() != ViewCanvas::State::Picture) return;
+  if (mode_ == CompareMode::Wipe) {
+    showWipe();
+  } else if (mode_ != CompareMode::Single) {
+    showTiles();
+  }
+}
+
+void CompareController::showWipe() {
+  const MapChoice other = overlay_.choiceB();
+  if (auto picture = overlay_.pictureOf(other)) wipe_picture_ = *std::move(picture);
+  panels_.canvas->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
+}
+
+TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
+  TileRequest made{session_.light_field(), session_.view(), {}, {}, 1};
+  if (!choice) return made;
+  made.source = map_source(session_, *choice, session_.view());
+  made.shading = overlay_.shadingOf(*choice);
+  made.opacity = panels_.overlay_bar->opacity();
+  return made;
+}
+
+std::vector<CompareController::Entry> CompareController::sides() const {
+  std::vector<Entry> entries;
+  for (const Side side : {Side::A, Side::B}) {
+    const MapChoice choice = side == Side::A ? overlay_.choiceA() : overlay_.choiceB();
+    entries.push_back(
+        {static_cast<quint64>(side), overlay_.describe(choice), side, request(choice), {}});
+  }
+  return entries;
+}
+
+QString CompareController::captionOf(const EstimateEntry& entry) const {
+  const QString name = QString::fromStdString(entry.name);
+  const auto evaluation =
+      session_.evaluation({entry.id, judged_view(*session_.scene()), Protocol::Vmv2013});
+  const auto mse = evaluation ? find_metric(evaluation->metrics, "mse_100") : std::nullopt;
+  return mse ? tr("%1 · MSE×100 %2").arg(name, number_text(*mse, 2)) : name;
+}
+
+std::vector<CompareController::Entry> CompareController::everything() const {
+  std::vector<Entry> entries = {{kViewTile, tr("view"), Side::None, request(std::nullopt), {}}};
+  if (session_.has_truth(session_.view())) {
+    entries.push_back(
+        {kTruthTile, tr("truth"), Side::None, request(MapChoice{Quantity::Truth, 0, 0}), {}});
+  }
+  const EstimateEntry* shown = session_.shown();
+  const EstimateEntry* compared = session_.compared();
+  const Quantity quantity =
+      is_of_a_result(overlay_.quantity()) ? overlay_.quantity() : Quantity::Disparity;
+  for (const EstimateEntry& entry : session_.estimates()) {
+    const bool is_compared = compared && compared->id == entry.id;
+    MapChoice choice{quantity, entry.id, 0};
+    if (overlay_.showsDifference() && compared && !is_compared) {
+      choice = {Quantity::Difference, entry.id, compared->id};
+    }
+    const Side side = is_compared                         ? Side::B
+                      : compared && shown->id == entry.id ? Side::A
+                                                          : Side::None;
+    entries.push_back(
+        {static_cast<quint64>(entry.id), captionOf(entry), side, request(choice), {}});
+  }
+  return entries;
+}
+
+void CompareController::showTiles() {
+  std::vector<Entry> entries = mode_ == CompareMode::Sides ? sides() : everything();
+  std::vector<TileRequest> missing;
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    for (const Entry& known : entries_) {
+      if (!known.picture.picture.isNull() && is_same(known.request, entries[i].request)) {
+        entries[i].picture = known.picture;
+      }
+    }
+    if (!entries[i].picture.picture.isNull()) continue;
+    missing.push_back(entries[i].request);
+    places.push_back(i);
+  }
+  if (missing.empty()) {
+    tile_job_.drop();
+    entries_ = std::move(entries);
+    fillWall();
+    return;
+  }
+  using Pictures = std::vector<TilePicture>;
+  tile_job_.start<Pictures>(
+      [missing](const Progress& progress) { return make_tile_pictures(missing, progress); },
+      [this, entries, places](const Pictures& pictures) {
+        entries_ = entries;
+        for (std::size_t i = 0; i < places.size(); ++i) entries_[places[i]].picture = pictures[i];
+        fillWall();
+      });
+}
+
+void CompareController::fillWall() {
+  std::vector<Tile> tiles;
+  for (const Entry& entry : entries_) {
+    Tile tile{entry.id, entry.caption, entry.side, entry.picture.picture, {}};
+    if (const auto map = entry.picture.map) {
+      tile.pixel_text = [map](int y, int x) { return value_text(*map, y, x); };
+    } else if (!entry.request.source && entry.id == kViewTile) {
+      tile.pixel_text = [request = entry.request](int y, int x) {
+        return sample_texts(*request.light_field, request.view, {y, x});
+      };
+    } else {
+      tile.caption = tr("%1 · no such map of this view").arg(entry.caption);
+    }
+    tiles.push_back(std::move(tile));
+  }
+  const bool was_empty = panels_.wall->count() == 0;
+  panels_.wall->setTiles(tiles);
+  if (was_empty) panels_.wall->setZoom(zoom_of(*panels_.canvas));
+  panels_.wall->setCrossHair(session_.cross_hair());
+}
+
+void CompareController::open(quint64 tile) {
+  if (mode_ == CompareMode::Sides) {
+    if (tile == static_cast<quint64>(Side::B) && session_.compared()) {
+      session_.show_estimate(session_.compared()->id);
+    }
+  } else if (tile == kViewTile || tile == kTruthTile) {
+    overlay_.setQuantity(tile == kViewTile ? Quantity::View : Quantity::Truth);
+  } else {
+    session_.show_estimate(static_cast<int>(tile));
+  }
+  setMode(CompareMode::Single);
+}
+
+}  // namespace episcope

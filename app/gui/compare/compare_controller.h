@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/compare/tile_pictures.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/stage/overlay.h"
+#include "app/session/session.h"
+#include "widgets/style/side.h"
+
+#include <QObject>
+
+#include <vector>
+
+namespace episcope {
+
+/// How results are laid beside each other.
+enum class CompareMode {
+  Single,  ///< One picture: A, or B while flipped.
+  Wipe,    ///< A left and B right of a divider.
+  Sides,   ///< A and B side by side.
+  Wall     ///< The view, the truth and every result.
+};
+
+/// Shows results against each other: wipe, side by side, a wall of all of them.
+class CompareController : public QObject {
+  Q_OBJECT
+
+ public:
+  CompareController(Session& session, OverlayController& overlay, const Panels& panels,
+                    QObject* parent);
+
+  /// Ignored if there is nothing to compare. Chosen again, a mode is left.
+  void toggleMode(CompareMode mode);
+  void setMode(CompareMode mode);
+  [[nodiscard]] CompareMode mode() const { return mode_; }
+  /// Whether a mode has something to show now.
+  [[nodiscard]] bool isAvailable(CompareMode mode) const;
+  /// Back to the single picture; false if it is there already.
+  bool leave();
+  /// Shows A − B instead of the quantity, which ends a wipe.
+  void toggleDifference();
+  /// What zoom commands act on.
+  [[nodiscard]] ViewCanvas* activeCanvas() const;
+
+ signals:
+  void modeChanged();
+
+ private:
+  struct Entry {
+    quint64 id;
+    QString caption;
+    Side side;
+    TileRequest request;
+    TilePicture picture;
+  };
+
+  void connectWall();
+  void update(Parts parts);
+  void listChoices();
+  void showMode();
+  void showWipe();
+  void showTiles();
+  void fillWall();
+  [[nodiscard]] TileRequest request(const std::optional<MapChoice>& choice) const;
+  [[nodiscard]] std::vector<Entry> sides() const;
+  [[nodiscard]] std::vector<Entry> everything() const;
+  [[nodiscard]] QString captionOf(const EstimateEntry& entry) const;
+  void open(quint64 tile);
+
+  Session& session_;
+  OverlayController& overlay_;
+  Panels panels_;
+  CompareMode mode_ = CompareMode::Single;
+  double wipe_position_ = 0.5;
+  QImage wipe_picture_;  // of B, until the next one is made
+  std::vector<Entry> entries_;
+  LatestJob tile_job_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare/statistics_controller.h"
+
+#include "engine/evaluation/metrics/error_maps.h"
+#include "engine/evaluation/metrics/region_metrics.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/overlay_bar.h"
+#include "widgets/compare/statistics_panel.h"
+#include "widgets/style/quantity_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+using render::PixelRegion;
+
+constexpr int kBars = 96;
+
+std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRegion& region) {
+  if (!evaluation) return std::nullopt;
+  const Image<std::uint8_t>& judged = evaluation->judged;
+  Image<std::uint8_t> mask(judged.height(), judged.width());
+  for (int y = region.y0; y < std::min(region.y1, mask.height()); ++y) {
+    for (int x = region.x0; x < std::min(region.x1, mask.width()); ++x) mask.at(y, x) = 1;
+  }
+  return bad_percentage(*evaluation, &mask, InvalidEstimates::Bad, [](float error) {
+    return std::abs(error) > static_cast<float>(kBadPixelThreshold_px);
+  });
+}
+
+// Zero stays in the middle of colours that tell signs apart.
+Interval balanced(Interval range) {
+  const double reach = std::max(std::abs(range.min), std::abs(range.max));
+  return {-reach, reach};
+}
+
+}  // namespace
+
+StatisticsController::StatisticsController(Session& session, OverlayController& overlay,
+                                           const Panels& panels, QObject* parent)
+    : QObject(parent), session_(session), overlay_(overlay), panels_(panels), job_(this) {
+  connect(&overlay_, &OverlayController::drawn, this, &StatisticsController::begin);
+  connect(panels_.canvas, &ViewCanvas::transformChanged, this, &StatisticsController::begin);
+  connect(panels_.wall, &TileWall::zoomChanged, this, &StatisticsController::begin);
+  connect(panels_.statistics, &StatisticsPanel::rangeEdited, &overlay_,
+          [this](Interval range) { overlay_.setRange(range); });
+  begin();
+}
+
+void StatisticsController::begin() {
+  if (!overlay_.isUpToDate()) {
+    job_.drop();
+    statistics_.reset();
+    return;
+  }
+  const bool has_wall = panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active();
+  const QRect seen = (has_wall ? panels_.wall->active() : panels_.canvas)->visiblePixels();
+  const PixelRegion region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
+  const bool is_same = map_ == overlay_.map() && region == region_ && statistics_;
+  map_ = overlay_.map();
+  region_ = region;
+  choice_ = overlay_.choice();
+  if (!map_ || seen.isEmpty()) {
+    job_.drop();
+    statistics_.reset();
+    wants_range_ = false;
+    panels_.statistics->clear(tr("No map is shown"));
+    return;
+  }
+  if (!is_same) statistics_.reset();
+  const bool is_result = session_.find_estimate(choice_.estimate) &&
+                         choice_.quantity != render::Quantity::Difference &&
+                         choice_.quantity != render::Quantity::Truth;
+  const EvaluationPtr evaluation =
+      is_result ? session_.evaluation({choice_.estimate, session_.view(), Protocol::Vmv2013})
+                : nullptr;
+  job_.start<Counted>(
+      [map = map_, region, evaluation,
+       shown = overlay_.shadingOf(choice_).range](const Progress& progress) {
+        progress.check();
+        return Counted{
+            render::region_statistics({map->map, map->valid, map->inside}, region, shown, kBars),
+            bad_percent(evaluation, region)};
+      },
+      [this](const Counted& counted) { show(counted); });
+}
+
+void StatisticsController::show(const Counted& counted) {
+  statistics_ = counted.statistics;
+  panels_.statistics->setSummary({overlay_.describe(choice_), quantity_unit(choice_.quantity),
+                                  counted.statistics, counted.bad_percent,
+                                  overlay_.shadingOf(choice_)});
+  emit updated();
+  if (wants_range_) applyAutomaticRange();
+}
+
+void StatisticsController::useAutomaticRange() {
+  if (!map_ && overlay_.isUpToDate()) return;  // There is none, and none is on its way.
+  wants_range_ = true;
+  if (statistics_) applyAutomaticRange();
+}
+
+void StatisticsController::applyAutomaticRange() {
+  wants_range_ = false;
+  const bool is_signed = render::info_of(choice_.quantity).is_signed();
+  const Interval range = is_signed ? balanced(statistics_->robust) : statistics_->robust;
+  if (statistics_->count > 0 && range.length() > 0) overlay_.setRange(range);
+}
+
+}  // namespace episcope

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "annotation/paint/stroke.h"
+#include "app/gui/frame/jobs.h"
+#include "app/session/document/annotation.h"
+#include "app/session/session.h"
+
+#include <QObject>
+#include <QString>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+namespace episcope {
+
+/// The document that is painted on the open light field: makes it, changes it, keeps its journal,
+/// and tells what changed. Whoever shows, saves or learns from scribbles listens to this.
+class DocumentController : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit DocumentController(Session& session, QObject* parent);
+  ~DocumentController() override;
+
+  /// Where journals are kept, the user's own folder at first; empty = nowhere.
+  void setJournalFolder(std::filesystem::path folder);
+  [[nodiscard]] const std::filesystem::path& journalFolder() const { return journal_folder_; }
+
+  /// Null if nothing is open, or not yet.
+  [[nodiscard]] AnnotationDocument* document();
+  [[nodiscard]] const AnnotationDocument* document() const;
+  /// Whether it holds all scribbles of the light field's own files; else they must not be written
+  /// over.
+  [[nodiscard]] bool isWhole() const { return is_whole_; }
+  [[nodiscard]] bool hasUnsavedChanges() const;
+  /// Puts another document in the place of the present one, whose journal ends. `is_whole` as
+  /// above.
+  void replace(AnnotationDocument document, bool is_whole);
+  /// Notes that the state was written to a file; if painting went on meanwhile, there are unsaved
+  /// changes still.
+  void noteSaved(std::uint64_t state);
+  /// The user does not want the present changes: they may be dropped with the document.
+  void discardChanges();
+  /// Makes sure that what is painted next outlives a crash.
+  void keepJournal();
+
+  /// Makes any edit; what it throws is told as a problem. Returns whether the document changed.
+  bool edit(const std::function<void(AnnotationDocument&)>& change);
+  void undo();
+  void redo();
+
+  /// A stroke on one view, under way until it is ended or cancelled. False if it cannot begin.
+  bool beginStroke(ViewIndex view, const PaintStyle& style, StrokePoint at);
+  void extendStroke(StrokePoint at);
+  void endStroke();
+  void cancelStroke();
+  [[nodiscard]] bool isStroking() const { return stroke_ != nullptr; }
+
+ signals:
+  /// Another document, or none.
+  void replaced();
+  /// Pixels of a view changed within a stroke.
+  void painted(episcope::ViewIndex view, const episcope::PixelRect& rect);
+  /// The history went a step on or back. Rectangles may hold more than what changed.
+  void changed(const episcope::DocumentChange& change);
+  /// As `changed`, by undo or redo: who works on it wants to see where.
+  void steppedBack(const episcope::DocumentChange& change);
+  void unsavedChanged(bool has_unsaved_changes);
+  /// A sentence for the user.
+  void problem(const QString& sentence);
+
+ private:
+  void update(Parts parts);
+  void openDocument();
+  void leaveDocument();
+  void setDocument(AnnotationDocument document, bool is_whole);
+  void go(DocumentChange (AnnotationDocument::*step)());
+  void tell(const DocumentChange& change);
+  void tellUnsaved();
+  /// Runs a change and tells what it threw. A journal that fails is given up.
+  void run(const std::function<void()>& change);
+  [[nodiscard]] DocumentChange everything() const;
+  [[nodiscard]] bool isCurrent() const;
+
+  Session& session_;
+  std::filesystem::path journal_folder_;
+  std::unique_ptr<Annotation> annotation_;
+  bool is_whole_ = true;
+  std::uint64_t generation_ = 0;   // of the session, when the document was made
+  std::uint64_t sample_hash_ = 0;  // of the light field; 0 = not known yet
+  LatestJob hash_job_;
+  std::unique_ptr<Stroke> stroke_;
+  ViewIndex stroke_view_;
+  PixelRect stroke_rect_;
+  std::optional<std::uint64_t> written_state_;  // noted while a stroke was under way
+  std::optional<std::uint64_t> discarded_state_;
+  bool was_unsaved_ = false;
+};
+
+}  // namespace episcope

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/conventions_dialog.h"
+
+#include "widgets/controls/elided_label.h"
+#include "widgets/estimate/parameter_form.h"
+
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+constexpr int kWidth = 460;
+
+}  // namespace
+
+ConventionsDialog::ConventionsDialog(const QString& path,
+                                     const std::vector<ParameterDescription>& options,
+                                     const ParameterSet& given, QWidget* parent)
+    : QDialog(parent), form_(new ParameterForm(this)) {
+  setObjectName("conventions");
+  setWindowTitle(tr("Conventions"));
+  auto* file = new ElidedLabel(this, Qt::ElideMiddle);
+  file->setFullText(path);
+  auto* note = new QLabel(tr("The file is read again, and your choice is remembered for it. "
+                             "Results of this light field are removed from the list."),
+                          this);
+  note->setWordWrap(true);
+  form_->setParameters(options);
+  form_->setValues(given);
+  auto* buttons =
+      new QDialogButtonBox(QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
+  auto* apply = buttons->addButton(tr("Read again"), QDialogButtonBox::AcceptRole);
+  apply->setObjectName("conventions.apply");
+  apply->setDefault(true);
+  QPushButton* reset = buttons->button(QDialogButtonBox::RestoreDefaults);
+  reset->setText(tr("All automatic"));
+  reset->setObjectName("conventions.reset");
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(file);
+  layout->addWidget(form_);
+  layout->addWidget(note);
+  layout->addStretch(1);
+  layout->addWidget(buttons);
+  connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+  connect(reset, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
+  resize(kWidth, sizeHint().height());
+}
+
+ParameterSet ConventionsDialog::given() const {
+  return form_->modifiedValues();
+}
+
+}  // namespace episcope

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/focus_controller.h"
+
+#include "app/session/run/run_estimator.h"
+#include "app/session/scene/scene_range.h"
+#include "engine/core/light_field/shear.h"
+
+namespace episcope {
+
+FocusController::FocusController(Session& session, Jobs& jobs, OpenController& opener,
+                                 const DocumentController& document, QObject* parent)
+    : QObject(parent), session_(session), jobs_(jobs), opener_(opener), document_(document) {}
+
+bool FocusController::canApply() const {
+  return session_.scene() && session_.focus_px() != 0;
+}
+
+bool FocusController::canUndo() const {
+  return session_.scene() && session_.scene()->convention.focus_px != 0;
+}
+
+void FocusController::apply() {
+  if (canApply()) bake(session_.scene()->convention.focus_px + session_.focus_px());
+}
+
+void FocusController::undo() {
+  if (canUndo()) bake(0);
+}
+
+void FocusController::bake(double focus_px) {
+  if (jobs_.count(Lane::Estimate) > 0) {
+    emit hint(
+        tr("A method is running on the light field as it is: wait for its end, or cancel it."));
+    return;
+  }
+  if (document_.hasUnsavedChanges()) {
+    emit hint(tr("What is painted belongs to the light field as it is: save or undo it first."));
+    return;
+  }
+  const double moved_px = focus_px - session_.scene()->convention.focus_px;
+  opener_.reopenAt(focus_px, [this, kept = kept(), moved_px] { bringBack(kept, moved_px); });
+}
+
+FocusController::Kept FocusController::kept() const {
+  Kept kept{session_.view(),
+            session_.cross_hair(),
+            {},
+            session_.estimates().size(),
+            session_.estimates().size()};
+  for (const EstimateEntry& entry : session_.estimates()) {
+    if (session_.shown() == &entry) kept.shown = kept.estimates.size();
+    if (session_.compared() == &entry) kept.compared = kept.estimates.size();
+    kept.estimates.push_back(entry.estimate);
+  }
+  return kept;
+}
+
+void FocusController::bringBack(const Kept& kept, double moved_px) {
+  session_.set_view(kept.view);
+  session_.set_cross_hair(kept.cross_hair);
+  if (!kept.estimates.empty()) moveResults(kept, moved_px);
+}
+
+void FocusController::moveResults(const Kept& kept, double moved_px) {
+  using Moved = std::vector<FinishedEstimate>;
+  jobs_.start<Moved>(
+      Lane::Load, tr("Moving results to the focus plane"),
+      [light_field = session_.light_field(), estimates = kept.estimates,
+       moved_px](const Progress& progress) {
+        const ShearedInto into{light_field->center(), light_field->sample_hash()};
+        Moved moved;
+        for (const EstimatePtr& each : estimates) {
+          progress.check();
+          auto estimate =
+              std::make_shared<const Estimate>(sheared(*each, into, moved_px, progress));
+          const Interval range = display_range(*estimate);
+          moved.push_back({std::move(estimate), range});
+        }
+        return moved;
+      },
+      [this, kept, generation = session_.generation()](const Moved& moved) {
+        std::vector<int> ids;
+        for (const FinishedEstimate& each : moved) {
+          ids.push_back(session_.add_estimate(each.estimate, each.display_range, generation));
+        }
+        if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
+        if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);
+      });
+}
+
+}  // namespace episcope

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/scene_info.h"
+
+#include "app/session/scene/scene_range.h"
+#include "widgets/style/number_text.h"
+
+#include <QCoreApplication>
+
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+QString text(const char* source) {
+  return QCoreApplication::translate("episcope::InfoPanel", source);
+}
+
+QString sample_text(const LightField& light_field) {
+  const QString color = light_field.channels() == 3 ? text("RGB") : text("grey");
+  switch (light_field.sample_type()) {
+    case SampleType::UInt8:
+      return color + text(", 8 bit");
+    case SampleType::UInt16:
+      return color + text(", 16 bit");
+    case SampleType::Float32:
+      return color + text(", float");
+  }
+  return color;
+}
+
+QString coverage(const ViewStack<float>& maps, GridShape grid) {
+  return maps.grid() == grid ? text("all views")
+                             : text("%1 of %2 views").arg(maps.grid().count()).arg(grid.count());
+}
+
+QString truth_text(const GroundTruth& truth, GridShape grid) {
+  QStringList parts;
+  if (truth.has_disparity()) {
+    parts << text("disparity (%1)").arg(coverage(truth.field.disparity, grid));
+  }
+  if (truth.has_layers()) parts << text("two layers");
+  if (!truth.labels.empty()) parts << text("labels");
+  if (!truth.regions.empty()) {
+    const int regions = static_cast<int>(truth.regions.size());
+    parts << (regions == 1 ? text("1 region mask") : text("%1 region masks").arg(regions));
+  }
+  return parts.isEmpty() ? text("none") : parts.join(", ");
+}
+
+// Four digits, and no exponent where whole numbers say as much.
+QString measure(double value) {
+  return std::abs(value) >= 1000 ? number_text(value, 0)
+                                 : with_minus(QString::number(value, 'g', 4));
+}
+
+QString camera_text(const CameraGrid& camera) {
+  if (!camera.is_known()) return text("unknown: disparity only, no depth");
+  QString line = text("B·f %1, shift %2 px")
+                     .arg(measure(camera.baseline * camera.focal_length), measure(camera.shift));
+  if (camera.cam_distance) line += text(", Z₀ %1").arg(measure(*camera.cam_distance));
+  return line;
+}
+
+QString megabytes(std::size_t bytes) {
+  const double count = static_cast<double>(bytes) / 1e6;
+  return QString::number(count, 'f', count < 10 ? 1 : 0);
+}
+
+// Readers speak of a choice made by hand; here it is known whose hand it was.
+QString by_whom(QString finding) {
+  return with_minus(finding.replace(", as chosen by hand", text(" (set by you)")));
+}
+
+// Names of an image grid that were given; empty if they were found.
+QString names_text(const Reading& reading) {
+  const ParameterValue* pattern = reading.find("pattern");
+  const bool is_snake = reading.find("snake") != nullptr;
+  if (!pattern && !is_snake) return {};
+  QString names = pattern ? QString::fromStdString(to_text(*pattern)) : text("automatic");
+  if (is_snake) names += text(", snake");
+  return names + text(" (set by you)");
+}
+
+}  // namespace
+
+SceneInfo describe(const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const GridShape grid = light_field.grid();
+  const ConventionReport& convention = scene.convention;
+  const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
+  SceneInfo info;
+  info.title = utf8(light_field.info().name);
+  info.rows.push_back({text("Views"), text("%1×%2").arg(grid.v).arg(grid.u), {}});
+  info.rows.push_back({text("Size"),
+                       text("%1×%2 px, %3 MB")
+                           .arg(light_field.width())
+                           .arg(light_field.height())
+                           .arg(megabytes(light_field.byte_size())),
+                       {}});
+  info.rows.push_back({text("Samples"), sample_text(light_field), {}});
+  if (const Interval range = known_disparity_range(scene); range.length() > 0) {
+    info.rows.push_back(
+        {text("Disparity"),
+         text("%1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2)),
+         {}});
+  }
+  if (convention.focus_px != 0) {
+    info.rows.push_back({text("Focus"),
+                         text("%1 px baked in").arg(number_text(convention.focus_px, 2)),
+                         text("All views but the centre one are interpolated.")});
+  }
+  info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
+  info.rows.push_back(
+      {text("Order"), by_whom(utf8(convention.order)), with_minus(utf8(convention.order_check))});
+  info.rows.push_back(
+      {text("Camera"), camera_text(light_field.info().camera), by_whom(utf8(convention.units))});
+  info.rows.push_back({text("Format"), utf8(convention.format), {}});
+  if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
+    info.rows.push_back({text("Names"), names, {}});
+  }
+  for (const Companion& companion : scene.companions) {
+    info.rows.push_back({utf8(companion_name(companion.kind)), utf8(companion.shape), {}});
+  }
+  info.rows.push_back({text("Source"), utf8(light_field.info().source), {}});
+  for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
+  return info;
+}
+
+}  // namespace episcope

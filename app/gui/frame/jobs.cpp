@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/frame/jobs.h"
+
+#include "app/gui/frame/queued_post.h"
+
+#include <algorithm>
+#include <new>
+
+namespace episcope {
+
+QString failure_sentence(const std::exception_ptr& failure) {
+  try {
+    std::rethrow_exception(failure);
+  } catch (const std::bad_alloc&) {
+    return Jobs::tr("There is not enough memory. Close other programs or remove results.");
+  } catch (const std::exception& error) {
+    return QString::fromUtf8(error.what());
+  } catch (...) {
+    return Jobs::tr("An unknown error occurred.");
+  }
+}
+
+Jobs::Jobs(QObject* parent) : QObject(parent) {
+  for (auto& each : runners_) each = std::make_unique<JobRunner>(queued_post(this));
+}
+
+Jobs::~Jobs() = default;
+
+quint64 Jobs::add(const QString& title, Lane lane) {
+  jobs_[++last_id_] = {lane, 0, title};
+  emit added(last_id_, title);
+  return last_id_;
+}
+
+void Jobs::attach(quint64 id, JobId runner_id) {
+  jobs_[id].runner_id = runner_id;
+}
+
+void Jobs::report(quint64 id, const ProgressState& state) {
+  if (jobs_.contains(id)) {
+    emit progressed(id, state.fraction, QString::fromStdString(state.step));
+  }
+}
+
+void Jobs::finish(quint64 id, const std::exception_ptr& failure) {
+  const QString title = jobs_[id].title;
+  jobs_.erase(id);
+  emit removed(id);
+  if (failure) emit failed(tr("%1 failed: %2").arg(title, failure_sentence(failure)));
+}
+
+void Jobs::cancel(quint64 id) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  runner(found->second.lane).cancel(found->second.runner_id);
+  emit cancelling(id);
+}
+
+void Jobs::finishEarly(quint64 id) {
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  runner(found->second.lane).finish(found->second.runner_id);
+  emit finishing(id);
+}
+
+void Jobs::cancelLane(Lane lane) {
+  for (const auto& [id, job] : jobs_) {
+    if (job.lane == lane) cancel(id);
+  }
+}
+
+quint64 Jobs::newest() const {
+  return jobs_.empty() ? 0 : jobs_.rbegin()->first;
+}
+
+int Jobs::count(Lane lane) const {
+  return static_cast<int>(std::count_if(jobs_.begin(), jobs_.end(),
+                                        [&](const auto& job) { return job.second.lane == lane; }));
+}
+
+LatestJob::LatestJob(QObject* context) : runner_(queued_post(context)) {}
+
+}  // namespace episcope

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/segment/labeling_source.h"
+
+#include "app/session/run/run_estimator.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+// Somebody waits for it while painting: seconds, where better methods take half a minute.
+constexpr const char* kQuickEstimator = "epi_s";
+
+}  // namespace
+
+LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
+    : QObject(parent), session_(session), jobs_(jobs) {
+  session_.on_changed([this](Parts parts) { update(parts); });
+}
+
+void LabelingSource::update(Parts parts) {
+  if (parts.has(Part::Scene)) {
+    choice_ = Automatic;
+    own_ = nullptr;
+    is_running_ = false;
+  }
+  if (!parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) return;
+  if (choice_ > 0 && !session_.find_estimate(choice_)) choice_ = Automatic;
+  emit changed();
+}
+
+void LabelingSource::choose(int choice) {
+  choice_ = choice;
+  emit changed();
+}
+
+bool LabelingSource::coversAll(const DisparityField& field) const {
+  return !field.empty() && field.disparity.grid() == session_.light_field()->grid();
+}
+
+std::shared_ptr<const DisparityField> LabelingSource::fieldOf(const EstimateEntry* entry) const {
+  if (!entry || !coversAll(entry->estimate->field)) return nullptr;
+  return {entry->estimate, &entry->estimate->field};
+}
+
+std::shared_ptr<const DisparityField> LabelingSource::truth() const {
+  const GroundTruthPtr& truth = session_.scene()->truth;
+  if (!coversAll(truth->field)) return nullptr;
+  return {truth, &truth->field};
+}
+
+std::shared_ptr<const DisparityField> LabelingSource::automatic() const {
+  if (auto shown = fieldOf(session_.shown())) return shown;
+  const auto& entries = session_.estimates();
+  for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
+    if (auto field = fieldOf(&*entry)) return field;
+  }
+  // Its own belongs to the light field that it was made of.
+  return tried_ == session_.generation() ? own_ : nullptr;
+}
+
+std::shared_ptr<const DisparityField> LabelingSource::find(FeatureSet features) const {
+  if (!session_.scene()) return nullptr;
+  if (features == FeatureSet::ImageTruth || choice_ == Truth) return truth();
+  if (choice_ == None) return nullptr;
+  return choice_ == Automatic ? automatic() : fieldOf(session_.find_estimate(choice_));
+}
+
+std::vector<SegmentPanel::Source> LabelingSource::sources() const {
+  std::vector<SegmentPanel::Source> sources{{Automatic, tr("automatic"), true},
+                                            {None, tr("none: images alone"), true}};
+  if (!session_.scene()) return sources;
+  sources.push_back({Truth, tr("the truth"), truth() != nullptr});
+  for (const EstimateEntry& entry : session_.estimates()) {
+    sources.push_back({entry.id, QString::fromStdString(entry.name), fieldOf(&entry) != nullptr});
+  }
+  return sources;
+}
+
+bool LabelingSource::isComing() const {
+  return choice_ == Automatic && jobs_.count(Lane::Estimate) > 0 && !automatic();
+}
+
+void LabelingSource::provide() {
+  const LightFieldPtr light_field = session_.light_field();
+  const std::uint64_t generation = session_.generation();
+  if (!light_field || choice_ != Automatic || automatic() || is_running_ || tried_ == generation ||
+      jobs_.count(Lane::Estimate) > 0) {
+    return;
+  }
+  tried_ = generation;
+  is_running_ = true;
+  jobs_.start<FinishedEstimate>(
+      Lane::Estimate, tr("Disparity for labels"),
+      [light_field](const Progress& progress) {
+        return run_estimator(*light_field, {kQuickEstimator, {}, {}}, progress);
+      },
+      [this, generation](const FinishedEstimate& finished) {
+        if (generation != session_.generation()) return;
+        own_ = {finished.estimate, &finished.estimate->field};
+      },
+      [this] {
+        is_running_ = false;
+        emit changed();
+      });
+}
+
+}  // namespace episcope

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/frame/jobs.h"
+#include "app/session/session.h"
+#include "engine/labeling/labeler.h"
+#include "widgets/annotate/segment_panel.h"
+
+#include <QObject>
+
+#include <memory>
+#include <vector>
+
+namespace episcope {
+
+/// Finds the disparity that a segmentation goes by: of all views, since labels are carried through
+/// them all. By itself it takes the shown result, else the newest one that covers all views, else
+/// runs a method for it once, in the background.
+class LabelingSource : public QObject {
+  Q_OBJECT
+
+ public:
+  /// What is chosen besides the ids of results.
+  enum Choice { Automatic = 0, None = -1, Truth = -2 };
+
+  LabelingSource(Session& session, Jobs& jobs, QObject* parent);
+
+  void choose(int choice);
+  [[nodiscard]] int choice() const { return choice_; }
+  [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
+  /// What the features ask for; null if there is none (yet).
+  [[nodiscard]] std::shared_ptr<const DisparityField> find(FeatureSet features) const;
+  /// Begins to estimate what is missing, unless that was tried already, something is chosen, or a
+  /// run is under way that may give it.
+  void provide();
+  /// Whether a disparity is on its way.
+  [[nodiscard]] bool isComing() const;
+
+ signals:
+  /// What is found, or what can be chosen, may be another.
+  void changed();
+
+ private:
+  void update(Parts parts);
+  [[nodiscard]] std::shared_ptr<const DisparityField> fieldOf(const EstimateEntry* entry) const;
+  [[nodiscard]] std::shared_ptr<const DisparityField> automatic() const;
+  [[nodiscard]] std::shared_ptr<const DisparityField> truth() const;
+  [[nodiscard]] bool coversAll(const DisparityField& field) const;
+
+  Session& session_;
+  Jobs& jobs_;
+  int choice_ = Automatic;
+  std::shared_ptr<const DisparityField> own_;  // estimated for labels alone
+  std::uint64_t tried_ = 0;                    // generation of the session
+  bool is_running_ = false;
+};
+
+}  // namespace episcope

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/document/document_controller.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/segment/edge_source.h"
+#include "app/gui/segment/labeling_source.h"
+#include "app/session/labels/judge_labeling.h"
+#include "app/session/labels/live_labeler.h"
+#include "app/session/session.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+
+#include <optional>
+
+namespace episcope {
+
+/// Segments from what is painted, while painting goes on: the view that is looked at, live or when
+/// asked, and all views as a job. Shows the state and how good the labels are.
+class SegmentController : public QObject {
+  Q_OBJECT
+
+ public:
+  SegmentController(Session& session, DocumentController& document, AnnotateController& annotate,
+                    Jobs& jobs, const Panels& panels, QObject* parent);
+
+  /// Live: every change of the document, the view or the settings gives new labels.
+  void setLive(bool is_live);
+  [[nodiscard]] bool isLive() const { return is_live_; }
+  /// Labels of this view, once.
+  void updateNow();
+  /// Labels of all views, as a job.
+  void segmentAllViews();
+  /// Ends what is under way for this view; false if nothing is.
+  bool cancel();
+
+  [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
+  [[nodiscard]] bool isSegmentingAll() const { return jobs_.count(Lane::Label) > 0; }
+
+ signals:
+  void changed();
+  /// The first labels that were asked for: who asks for them wants to see them.
+  void labelsArrived();
+  void hint(const QString& sentence);
+
+ private:
+  void update(Parts parts);
+  void noteInput();
+  void begin();
+  void endWish();
+  void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
+  void followLabeler();
+  void publish();
+  void showState();
+  void score();
+  void showScores(const LabelingScores& scores);
+  [[nodiscard]] LabelerParameters parameters() const;
+  [[nodiscard]] QString missing() const;
+
+  Session& session_;
+  DocumentController& document_;
+  AnnotateController& annotate_;
+  Jobs& jobs_;
+  Panels panels_;
+  LabelingSource source_;
+  EdgeSource edges_;
+  bool is_live_ = false;
+  bool wants_to_show_ = false;
+  bool is_wanted_ = false;  // an update was asked for that is not there yet
+  QElapsedTimer clock_;     // since the labels that are on their way were asked for
+  double seconds_ = 0;      // that the newest ones took
+  QString scores_;
+  LabelingPtr scored_;
+  TrueLabelsPtr scored_truth_;
+  ViewIndex scored_view_;
+  std::shared_ptr<const LabelingInput> tried_all_;
+  LatestJob score_job_;
+  LiveLabeler live_;
+};
+
+}  // namespace episcope
