@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "annotation/document/edit.h"
 #include "annotation/document/history.h"
 #include "annotation/document/label_set.h"
 #include "annotation/document/scribble_layer.h"
@@ -46,7 +47,7 @@ class AnnotationDocument {
 
   [[nodiscard]] const LabelSet& labels() const { return labels_; }
   [[nodiscard]] const ScribbleLayer& scribbles() const { return scribbles_; }
-  [[nodiscard]] const History& history() const { return history_; }
+  [[nodiscard]] const History<Edit>& history() const { return history_; }
 
   /// Each an edit; a change to the same vanishes. Throw InvalidInput as LabelSet does.
   int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
@@ -90,7 +91,7 @@ class AnnotationDocument {
 
   LabelSet labels_;
   ScribbleLayer scribbles_;
-  History history_;
+  History<Edit> history_;
   std::uint64_t saved_state_ = 0;
   bool is_editing_ = false;
   Observer observer_;

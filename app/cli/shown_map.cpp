@@ -92,8 +92,7 @@ void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
   loaded.source.truth = scene.truth;
   loaded.source.true_labels = true_labels_of(scene.truth);
   if (shown.quantity == Quantity::Probability && shown.kind != ShownKind::Labels) {
-    loaded.source.segmentation = std::make_shared<const Segmentation>(
-        read_archive_probabilities(scene, loaded.source.view, shown.label));
+    loaded.source.labeling = read_archive_probabilities(scene, loaded.source.view);
   }
   loaded.scene = std::move(scene);
 }
@@ -135,10 +134,10 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
 }
 
 void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
-  auto segmentation = std::make_shared<const Segmentation>(
-      read_segmentation(shown.subject, shown.view, shown.label));
-  loaded.source.view = segmentation->labeling->labels.first();
-  loaded.source.segmentation = std::move(segmentation);
+  const Segmentation segmentation = read_segmentation(shown.subject, shown.view);
+  loaded.source.view = segmentation.labeling->labels.first();
+  loaded.source.labeling = segmentation.labeling;
+  loaded.source.label_infos = segmentation.labels;
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
   const std::string named = io::LabelingFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));
@@ -148,12 +147,10 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
 
 /// Edges are those of the file beside the light field, else of image and result.
 void add_edges(LoadedMap& loaded, const Progress& progress) {
-  auto segmentation = std::make_shared<Segmentation>();
-  segmentation->edges = find_edge_weights(*loaded.scene, progress);
+  loaded.source.edges = find_edge_weights(*loaded.scene, progress);
   if (const EstimatePtr& estimate = loaded.source.estimate) {
-    segmentation->disparity = {estimate, &estimate->field};
+    loaded.source.edge_disparity = {estimate, &estimate->field};
   }
-  loaded.source.segmentation = std::move(segmentation);
 }
 
 }  // namespace
@@ -162,6 +159,7 @@ LoadedMap load_map(const ShownMap& shown, const ReadOptions& read, Job& job) {
   check_kind(shown);
   LoadedMap loaded;
   loaded.source.quantity = shown.quantity;
+  loaded.source.label = shown.label;
   if (shown.kind == ShownKind::LightField) load_light_field(shown, read, loaded, job);
   if (shown.kind == ShownKind::Result) load_result(shown, read, loaded, job);
   if (shown.kind == ShownKind::Labels) load_labels(shown, read, loaded, job);

@@ -58,7 +58,6 @@ int main(int argc, char** argv) {
 
   episcope::MainWindow window;
   window.show();
-  window.open(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());
-  window.offerRecovery();
+  window.start(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());
   return QApplication::exec();
 }

@@ -5,15 +5,14 @@ namespace episcope {
 
 /// The coarse parts of a session that change together.
 enum class Part : unsigned {
-  Scene = 1,           ///< Light field, truth, labels, convention.
-  Estimates = 2,       ///< The list of estimates.
-  Shown = 4,           ///< Which estimate is shown.
-  Evaluations = 8,     ///< An evaluation that was asked for is there.
-  View = 16,           ///< The current view.
-  CrossHair = 32,      ///< The current pixel.
-  Focus = 64,          ///< The focus plane.
-  Segmentation = 128,  ///< What is shown of the segmentation.
-  TrueLabels = 256,    ///< The labels that it is compared with.
+  Scene = 1,         ///< Light field, truth, labels, convention.
+  Estimates = 2,     ///< The list of estimates.
+  Shown = 4,         ///< Which estimate is shown.
+  Evaluations = 8,   ///< An evaluation that was asked for is there.
+  View = 16,         ///< The current view.
+  CrossHair = 32,    ///< The current pixel.
+  Focus = 64,        ///< The focus plane.
+  TrueLabels = 128,  ///< The labels that segmentations are compared with.
 };
 
 /// A set of parts.

@@ -43,7 +43,6 @@ void Session::close() {
   for (const EstimateEntry& entry : estimates_) evaluations_.forget(entry.id);
   estimates_.clear();
   scene_.reset();
-  segmentation_.reset();
   true_labels_.reset();
   input_.clear();
   shown_ = compared_ = 0;
@@ -52,7 +51,7 @@ void Session::close() {
   focus_px_ = 0;
   ++generation_;
   changed(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-          Part::CrossHair | Part::Focus | Part::Segmentation | Part::TrueLabels);
+          Part::CrossHair | Part::Focus | Part::TrueLabels);
 }
 
 ParameterSet Session::reading_options() const {
@@ -155,12 +154,6 @@ Interval Session::disparity_range() const {
   const auto found = std::ranges::find_if(
       estimates_, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
   return shown_range(known_range_, found == estimates_.end() ? Interval{} : found->display_range);
-}
-
-void Session::set_segmentation(SegmentationPtr segmentation) {
-  if (!scene_) return;
-  segmentation_ = std::move(segmentation);
-  changed(Part::Segmentation);
 }
 
 void Session::set_true_labels(TrueLabelsPtr labels) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/session/judge/evaluation_cache.h"
-#include "app/session/labels/segmentation.h"
 #include "app/session/parts.h"
 #include "app/session/picture/map_source.h"
 
@@ -73,10 +72,6 @@ class Session {
   [[nodiscard]] bool is_evaluating() const { return evaluations_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
-  /// What is shown of the segmentation; null = nothing.
-  void set_segmentation(SegmentationPtr segmentation);
-  [[nodiscard]] const SegmentationPtr& segmentation() const { return segmentation_; }
-
   /// Compares with other labels than those that came with the scene, until another is opened.
   void set_true_labels(TrueLabelsPtr labels);
   /// Null if there are none.
@@ -111,7 +106,6 @@ class Session {
   int shown_ = 0;
   int compared_ = 0;
   bool is_compared_chosen_ = false;
-  SegmentationPtr segmentation_;
   TrueLabelsPtr true_labels_;
   ViewIndex view_;
   PixelIndex cross_hair_;

@@ -2,13 +2,15 @@
 // From a movement of the mouse to the painted screen: a stroke on a view of 1024×1024 pixels in the
 // window that ships, at rest and while the view is segmented live on every core, against drawing
 // the whole view anew. A frame of the screen lasts 16 ms. Run with QT_QPA_PLATFORM=offscreen.
-#include "app/gui/frame/commands.h"
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
 #include "app/gui/segment/segment_controller.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
+#include "widgets/canvas/tools/stroke_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <benchmark/benchmark.h>
@@ -38,26 +40,26 @@ class PaintedWindow {
   PaintedWindow() {
     QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder_.path());
     window = std::make_unique<MainWindow>();
-    window->document().setJournalFolder(folder_.filePath("journals").toStdString());
+    window->bench().document.setJournalFolder(folder_.filePath("journals").toStdString());
     window->resize(kWindow);
     window->show();
     scenes::RenderOptions options;
     options.grid = {3, 3};
     options.height = options.width = kSize;
-    window->session().open(
+    window->bench().session.open(
         std::make_shared<const Scene>(scenes::render_builtin("objects", options, Progress())),
         "bench");
-    while (!window->document().document()) QCoreApplication::processEvents();
-    window->annotate().setAnnotating(true);
+    while (!window->bench().document.document()) QCoreApplication::processEvents();
+    window->findChild<AnnotateController*>()->setAnnotating(true);
     settle();
   }
-  ~PaintedWindow() { window->document().discardChanges(); }
+  ~PaintedWindow() { window->bench().document.discardChanges(); }
 
   static void settle() {
     for (int i = 0; i < 50; ++i) QCoreApplication::processEvents();
   }
   void send(QEvent::Type type, QPointF image) {
-    ViewCanvas* canvas = window->panels().canvas;
+    ViewCanvas* canvas = window->bench().stage.canvas();
     const QPointF at = canvas->canvasTransform().to_widget(image, canvas->size());
     const bool is_move = type == QEvent::MouseMove;
     QMouseEvent event(type, at, canvas->mapToGlobal(at), is_move ? Qt::NoButton : Qt::LeftButton,
@@ -71,7 +73,7 @@ class PaintedWindow {
   }
   /// The end of a stroke begins a labeling.
   void keepLabeling(QPointF image) {
-    if (!window->segment().labeler().is_running()) beginStroke(image);
+    if (!window->findChild<SegmentController*>()->labeler().is_running()) beginStroke(image);
   }
 
  private:
@@ -102,9 +104,9 @@ void report(benchmark::State& state, std::vector<double>& ms) {
 void segment_on_screen(benchmark::State& state) {
   PaintedWindow painted;
   const bool is_live = state.range(1) != 0;
-  if (is_live) painted.window->actions().find("segment.live")->trigger();
-  ViewCanvas* canvas = painted.window->panels().canvas;
-  canvas->tool()->setBrushSize(static_cast<double>(state.range(0)));
+  if (is_live) painted.window->bench().commands.trigger("segment.live");
+  ViewCanvas* canvas = painted.window->bench().stage.canvas();
+  qobject_cast<StrokeTool*>(canvas->tool())->setBrushSize(static_cast<double>(state.range(0)));
   painted.send(QEvent::MouseButtonPress, point_at(0));
   PaintedWindow::settle();
   std::vector<double> ms;
@@ -136,7 +138,7 @@ void whole_view_on_screen(benchmark::State& state) {
   std::vector<double> ms;
   for (auto _ : state) {
     const auto begin = Clock::now();
-    painted.window->panels().canvas->update();
+    painted.window->bench().stage.canvas()->update();
     QCoreApplication::processEvents();
     const std::chrono::duration<double> took = Clock::now() - begin;
     state.SetIterationTime(took.count());

@@ -197,7 +197,7 @@ void ViewCanvas::changeTransform(const CanvasTransform& transform, bool fitted) 
   if (bounded == transform_) return;
   transform_ = bounded;
   update();
-  updateRing();
+  updateMark();
   emit transformChanged(transform_);
 }
 

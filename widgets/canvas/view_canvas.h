@@ -16,7 +16,7 @@ class QTabletEvent;
 
 namespace episcope {
 
-class BrushTool;
+class CanvasTool;
 
 /// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
 /// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
@@ -57,7 +57,7 @@ class ViewCanvas : public QWidget {
   void patchScribbles(QPoint at, const QImage& patch);
   void setScribbleOpacity(double opacity);
   /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
-  void setTool(BrushTool* tool);
+  void setTool(CanvasTool* tool);
   /// Whether a left drag is parallax (default). Off: it pans.
   void setParallaxEnabled(bool enabled);
 
@@ -74,7 +74,7 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] const QImage& picture() const { return picture_; }
   [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
   [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
-  [[nodiscard]] BrushTool* tool() const { return tool_; }
+  [[nodiscard]] CanvasTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
   /// Scale at which the whole picture just fits.
@@ -141,7 +141,7 @@ class ViewCanvas : public QWidget {
   void hideEvent(QHideEvent* event) override;
 
  private:
-  enum class Gesture { None, Press, Pan, Parallax, Wipe, Paint };
+  enum class Gesture { None, Press, Pan, Parallax, Wipe, Tool };
 
   void changeTransform(const CanvasTransform& transform, bool fitted);
   void zoomAt(QPointF anchor, double factor);
@@ -151,7 +151,7 @@ class ViewCanvas : public QWidget {
                                Qt::KeyboardModifiers modifiers);
   void endTool();
   void updatePixels(const QRect& pixels);
-  void updateRing();
+  void updateMark();
   void updateCursorShape();
   void showMessage(State state, const QString& text);
   [[nodiscard]] double dividerX() const;
@@ -160,7 +160,7 @@ class ViewCanvas : public QWidget {
   void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
   void paintCrossHair(QPainter& painter) const;
-  void paintRing(QPainter& painter) const;
+  void paintMark(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
   void paintMessage(QPainter& painter) const;
   void followCursor(std::optional<QPointF> position);
@@ -185,8 +185,8 @@ class ViewCanvas : public QWidget {
   bool fitted_ = true;
   bool parallax_enabled_ = true;
 
-  BrushTool* tool_ = nullptr;
-  QRect ring_rect_;       // as it was drawn last
+  CanvasTool* tool_ = nullptr;
+  QRect mark_rect_;       // as it was drawn last
   bool has_pen_ = false;  // a pen is drawing
   Gesture gesture_ = Gesture::None;
   Qt::MouseButton gesture_button_ = Qt::NoButton;  // that ends it

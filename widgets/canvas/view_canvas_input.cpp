@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/tools/stroke_tool.h"
+#include "widgets/canvas/tools/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QApplication>
@@ -99,7 +99,7 @@ void ViewCanvas::drag(QPointF position) {
     emit parallaxDragged((press_position_ - position) / kParallaxStep);
   } else if (gesture_ == Gesture::Wipe) {
     emit wipeMoved(std::clamp(position.x() / std::max(1, width()), 0.0, 1.0));
-  } else if (gesture_ == Gesture::Paint) {
+  } else if (gesture_ == Gesture::Tool) {
     tool_->drag(transform_.to_image(position, size()));
   }
   last_position_ = position;
@@ -109,9 +109,9 @@ void ViewCanvas::mouseReleaseEvent(QMouseEvent* event) {
   if (event->button() != gesture_button_) return;
   const Gesture ended = gesture_;
   gesture_ = Gesture::None;
-  if (ended == Gesture::Paint) tool_->release();
+  if (ended == Gesture::Tool) tool_->release();
   updateCursorShape();
-  updateRing();
+  updateMark();
   if (ended == Gesture::Parallax) emit parallaxFinished();
   if (ended != Gesture::Press) return;
   if (const auto pixel = pixelAt(press_position_)) {
@@ -137,7 +137,7 @@ void ViewCanvas::leaveEvent(QEvent*) {
 
 void ViewCanvas::followCursor(std::optional<QPointF> position) {
   cursor_ = position;
-  if (tool_) updateRing();
+  if (tool_) updateMark();
   const auto pixel = position ? pixelAt(*position) : std::nullopt;
   if (pixel == hovered_) return;
   hovered_ = pixel;
@@ -179,7 +179,7 @@ void ViewCanvas::hideEvent(QHideEvent* event) {
 }
 
 void ViewCanvas::endTool() {
-  if (gesture_ != Gesture::Paint) return;
+  if (gesture_ != Gesture::Tool) return;
   gesture_ = Gesture::None;
   has_pen_ = false;
   tool_->end();

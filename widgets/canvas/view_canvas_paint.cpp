@@ -40,7 +40,7 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
     if (wipe_position_) paintWipe(painter, event->rect());
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
-    paintRing(painter);
+    paintMark(painter);
     paintCaption(painter);
   } else {
     paintMessage(painter);

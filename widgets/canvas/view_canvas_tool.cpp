@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "widgets/canvas/tools/stroke_tool.h"
+#include "widgets/canvas/tools/canvas_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QPainter>
@@ -7,18 +7,18 @@
 
 namespace episcope {
 
-void ViewCanvas::setTool(BrushTool* tool) {
+void ViewCanvas::setTool(CanvasTool* tool) {
   if (tool == tool_) return;
   if (tool_) {
     tool_->end();
     tool_->disconnect(this);
   }
   tool_ = tool;
-  if (gesture_ == Gesture::Paint) gesture_ = Gesture::None;
+  if (gesture_ == Gesture::Tool) gesture_ = Gesture::None;
   if (tool_) {
-    connect(tool_, &BrushTool::changed, this, [this] {
+    connect(tool_, &CanvasTool::changed, this, [this] {
       updateCursorShape();
-      updateRing();
+      updateMark();
     });
   }
   updateCursorShape();
@@ -53,18 +53,18 @@ void ViewCanvas::updatePixels(const QRect& pixels) {
              .adjusted(-1, -1, 1, 1));
 }
 
-void ViewCanvas::updateRing() {
-  update(ring_rect_);
-  ring_rect_ = {};
+void ViewCanvas::updateMark() {
+  update(mark_rect_);
+  mark_rect_ = {};
   if (!tool_ || !cursor_ || picture_.isNull()) return;
-  ring_rect_ = tool_->ringRect(*cursor_, transform_.scale).toAlignedRect();
-  update(ring_rect_);
+  mark_rect_ = tool_->markRect(*cursor_, transform_.scale).toAlignedRect();
+  update(mark_rect_);
 }
 
-void ViewCanvas::paintRing(QPainter& painter) const {
-  const bool is_in_use = gesture_ == Gesture::None || gesture_ == Gesture::Paint;
+void ViewCanvas::paintMark(QPainter& painter) const {
+  const bool is_in_use = gesture_ == Gesture::None || gesture_ == Gesture::Tool;
   if (tool_ && cursor_ && is_in_use && !space_held_) {
-    tool_->paintRing(painter, *cursor_, transform_.scale);
+    tool_->paintMark(painter, *cursor_, transform_.scale);
   }
 }
 
@@ -73,9 +73,9 @@ bool ViewCanvas::pressTool(QPointF position, Qt::MouseButton button,
   const bool is_painting = tool_ && (button == Qt::LeftButton || button == Qt::RightButton) &&
                            !(modifiers & Qt::ControlModifier);
   if (!is_painting) return false;
-  gesture_ = Gesture::Paint;
+  gesture_ = Gesture::Tool;
   gesture_button_ = button;
-  tool_->press(transform_.to_image(position, size()), button, modifiers);
+  tool_->press({transform_.to_image(position, size()), button, modifiers});
   updateCursorShape();
   return true;
 }

@@ -89,6 +89,7 @@ PointCloud make_point_cloud(const DisparityView& view, const CameraGrid& camera,
       if (!std::isfinite(position[2])) continue;
       cloud.positions.push_back(position);
       cloud.colors.push_back({rgba.at(y, x, 0), rgba.at(y, x, 1), rgba.at(y, x, 2)});
+      cloud.pixels.push_back({y, x});
     }
   }
   return cloud;

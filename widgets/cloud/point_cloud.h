@@ -14,7 +14,8 @@ namespace episcope {
 struct PointCloud {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<std::uint8_t, 3>> colors;  ///< One a position.
-  bool is_metric = false;  ///< Positions are in scene units, not in stretched disparity.
+  std::vector<PixelIndex> pixels{};  ///< Where each is from, one a position; may be empty.
+  bool is_metric = false;            ///< Positions are in scene units, not in stretched disparity.
 };
 
 /// A box {x0, x1, y0, y1, z0, z1} around the bulk of a cloud: half a percent of the points may lie

@@ -53,6 +53,11 @@ PointCloudPanel::PointCloudPanel(QWidget* parent)
 
   QWidget* made = make_point_cloud_view(this);
   view_ = qobject_cast<PointCloudView*>(made);
+  if (view_) {
+    connect(view_, &PointCloudView::pointPicked, this, [this](std::size_t point) {
+      if (point < pixels_.size()) emit pixelPicked(pixels_[point]);
+    });
+  }
   stack_->addWidget(hint_);
   stack_->addWidget(made);
   auto* layout = new QVBoxLayout(this);
@@ -141,6 +146,7 @@ void PointCloudPanel::setCloud(const PointCloud& cloud, const QString& hint) {
   count_->setText(cloud.positions.empty()
                       ? QString()
                       : tr("%1 points").arg(QLocale().toString(quint64(cloud.positions.size()))));
+  pixels_ = cloud.pixels;
   if (view_) view_->setCloud(cloud);
   stack_->setCurrentIndex(view_ && cloud.positions.empty() ? 0 : 1);
 }

@@ -42,6 +42,8 @@ class PointCloudPanel : public QWidget {
  signals:
   /// The host should give a cloud of these colours.
   void coloringSelected(episcope::CloudColoring coloring);
+  /// A click on a point that is from this pixel.
+  void pixelPicked(episcope::PixelIndex pixel);
 
  private:
   QHBoxLayout* makePresets();
@@ -59,6 +61,7 @@ class PointCloudPanel : public QWidget {
   ColorRamp* ramp_;
   QStackedLayout* stack_;
   PointCloudView* view_ = nullptr;
+  std::vector<PixelIndex> pixels_;  // of the points
 };
 
 }  // namespace episcope

@@ -16,6 +16,7 @@
 #include <vtkNew.h>
 #include <vtkOpenGLState.h>
 #include <vtkPointData.h>
+#include <vtkPointPicker.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
@@ -25,6 +26,7 @@
 
 #include <QGuiApplication>
 #include <QLabel>
+#include <QLineF>
 #include <QMouseEvent>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
@@ -37,6 +39,12 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+constexpr double kPickReach = 5;   // logical pixels
+constexpr double kClickReach = 3;  // a longer way is a drag
+
+}  // namespace
 
 /// Everything of VTK: one render window, one renderer, one actor, never shared.
 class PointCloudView::Scene {
@@ -119,6 +127,8 @@ class PointCloudView::Scene {
   /// Takes effect with the next frame, when the size of the window is known.
   void look(double azimuth, double elevation) { wanted_look_ = {azimuth, elevation}; }
   void handle(const QMouseEvent& event, unsigned long vtk_event);
+  /// The nearest point under a place of the widget, if there is one.
+  [[nodiscard]] std::optional<std::size_t> pick(QPointF at);
   void handle(const QWheelEvent& event);
 
  private:
@@ -161,6 +171,7 @@ class PointCloudView::Scene {
   vtkNew<vtkPolyData> points_;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
+  vtkNew<vtkPointPicker> picker_;
 };
 
 void PointCloudView::Scene::setCloud(const PointCloud& cloud) {
@@ -244,6 +255,15 @@ void PointCloudView::Scene::handle(const QWheelEvent& event) {
                                                       : vtkCommand::MouseWheelBackwardEvent);
 }
 
+std::optional<std::size_t> PointCloudView::Scene::pick(QPointF at) {
+  const double ratio = view_.devicePixelRatioF();
+  const int* size = window_->GetSize();
+  picker_->SetTolerance(kPickReach * ratio / std::hypot(size[0], size[1]));
+  if (picker_->Pick(at.x() * ratio, size[1] - 1 - at.y() * ratio, 0, renderer_) == 0) return {};
+  const vtkIdType point = picker_->GetPointId();
+  return point < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(point));
+}
+
 PointCloudView::PointCloudView(QWidget* parent)
     : QOpenGLWidget(parent), scene_(std::make_unique<Scene>(*this)) {
   setObjectName("pointCloudView");
@@ -319,27 +339,47 @@ void PointCloudView::resetCamera() {
   showPreset(CloudPreset::Tilted);
 }
 
+bool PointCloudView::handleMouse(const QMouseEvent& event) {
+  const bool is_press = event.type() == QEvent::MouseButtonPress;
+  switch (event.button()) {
+    case Qt::LeftButton:
+      scene_->handle(
+          event, is_press ? vtkCommand::LeftButtonPressEvent : vtkCommand::LeftButtonReleaseEvent);
+      break;
+    case Qt::MiddleButton:
+      scene_->handle(event, is_press ? vtkCommand::MiddleButtonPressEvent
+                                     : vtkCommand::MiddleButtonReleaseEvent);
+      break;
+    case Qt::RightButton:
+      scene_->handle(event, is_press ? vtkCommand::RightButtonPressEvent
+                                     : vtkCommand::RightButtonReleaseEvent);
+      break;
+    default:
+      break;
+  }
+  if (event.button() != Qt::LeftButton) return true;
+  const auto pressed = std::exchange(press_, std::nullopt);
+  if (is_press) {
+    press_ = event.position();
+  } else if (pressed) {
+    if (const auto point = scene_->pick(event.position())) emit pointPicked(*point);
+  }
+  return true;
+}
+
 bool PointCloudView::event(QEvent* event) {
   // QOpenGLWidget sends events from within its constructor, before there is a scene.
   if (!scene_) return QOpenGLWidget::event(event);
-  const auto mouse = [&](unsigned long left, unsigned long middle, unsigned long right) {
-    const auto& mouse_event = static_cast<const QMouseEvent&>(*event);
-    const auto button = mouse_event.button();
-    if (button == Qt::LeftButton) scene_->handle(mouse_event, left);
-    if (button == Qt::MiddleButton) scene_->handle(mouse_event, middle);
-    if (button == Qt::RightButton) scene_->handle(mouse_event, right);
-    return true;
-  };
   switch (event->type()) {
     case QEvent::MouseButtonPress:
-      return mouse(vtkCommand::LeftButtonPressEvent, vtkCommand::MiddleButtonPressEvent,
-                   vtkCommand::RightButtonPressEvent);
     case QEvent::MouseButtonRelease:
-      return mouse(vtkCommand::LeftButtonReleaseEvent, vtkCommand::MiddleButtonReleaseEvent,
-                   vtkCommand::RightButtonReleaseEvent);
-    case QEvent::MouseMove:
-      scene_->handle(static_cast<const QMouseEvent&>(*event), vtkCommand::MouseMoveEvent);
+      return handleMouse(static_cast<const QMouseEvent&>(*event));
+    case QEvent::MouseMove: {
+      const auto& moved = static_cast<const QMouseEvent&>(*event);
+      scene_->handle(moved, vtkCommand::MouseMoveEvent);
+      if (press_ && QLineF(*press_, moved.position()).length() > kClickReach) press_.reset();
       return true;
+    }
     case QEvent::Wheel:
       scene_->handle(static_cast<const QWheelEvent&>(*event));
       return true;

@@ -4,16 +4,21 @@
 #include "widgets/cloud/point_cloud.h"
 
 #include <QOpenGLWidget>
+#include <QPointF>
 #include <QString>
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+
+class QMouseEvent;
 
 namespace episcope {
 
 enum class CloudPreset { Front, Tilted, Side };
 
-/// A point cloud drawn by VTK: left drag turns, middle drag pans, wheel zooms. Cannot live on the
-/// offscreen platform: use `make_point_cloud_view`.
+/// A point cloud drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click picks a
+/// point. Cannot live on the offscreen platform: use `make_point_cloud_view`.
 class PointCloudView : public QOpenGLWidget {
   Q_OBJECT
 
@@ -28,6 +33,10 @@ class PointCloudView : public QOpenGLWidget {
 
   [[nodiscard]] std::size_t pointCount() const;
 
+ signals:
+  /// Place of the point in the cloud.
+  void pointPicked(std::size_t point);
+
  public slots:
   void showPreset(episcope::CloudPreset preset);
   /// The tilted preset, everything in sight.
@@ -41,8 +50,10 @@ class PointCloudView : public QOpenGLWidget {
  private:
   class Scene;
   void releaseContext();
+  bool handleMouse(const QMouseEvent& event);
 
   std::unique_ptr<Scene> scene_;
+  std::optional<QPointF> press_;  // of the left button, until it is dragged
 };
 
 /// A PointCloudView, or, where there is no display to draw it, a QLabel saying why.

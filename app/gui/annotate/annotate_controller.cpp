@@ -2,15 +2,17 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "annotation/paint/flood_fill.h"
-#include "widgets/annotate/annotation_bar.h"
+#include "app/gui/document/label_choice.h"
+#include "app/gui/frame/cancels.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/stage.h"
 #include "widgets/annotate/brush_panel.h"
-#include "widgets/annotate/label_palette.h"
+#include "widgets/canvas/tools/fill_tool.h"
+#include "widgets/canvas/tools/point_tool.h"
 #include "widgets/canvas/view_canvas.h"
-
-#include <QColorDialog>
-#include <QMessageBox>
-#include <QPushButton>
-#include <QTabWidget>
 
 #include <algorithm>
 #include <cmath>
@@ -36,311 +38,195 @@ double stepped(double size_px, double steps) {
                     kMaxBrush_px);
 }
 
-QColor color_of(const Rgb& rgb) {
-  return {rgb[0], rgb[1], rgb[2]};
-}
-
 }  // namespace
 
-AnnotateController::AnnotateController(Session& session, DocumentController& document,
-                                       const Panels& panels, QObject* parent)
-    : QObject(parent),
-      session_(session),
-      document_(document),
-      panels_(panels),
-      tool_(new BrushTool(this)) {
-  connectTool();
+AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      canvas_(bench.stage.canvas()),
+      panel_(panel),
+      stroke_tool_(new StrokeTool(this)),
+      fill_tool_(new FillTool(this)),
+      pick_tool_(new PointTool(this)) {
+  addCommands();
+  connectTools();
   connectPanel();
-  connectPalette();
-  connect(panels_.tabs, &QTabWidget::currentChanged, this, [this] { setAnnotating(isTabShown()); });
-  connect(panels_.tabs, &QTabWidget::currentChanged, this, &AnnotateController::showScribbles);
-  connect(&document_, &DocumentController::replaced, this, [this] {
-    label_ = former_label_ = 0;
-    showLabels();
-    showMode();
-  });
-  connect(&document_, &DocumentController::changed, this, [this](const DocumentChange& change) {
-    if (change.has_new_labels) showLabels();
-  });
+  bench.cancels.add(CancelRank::Stroke, [this] { return canvasTool()->cancel(); });
+  connect(&bench.frame, &Frame::tabShown, this, [this] { setAnnotating(isTabShown()); });
+  connect(&bench.frame, &Frame::tabShown, this, &AnnotateController::showScribbles);
+  connect(&bench.stage, &Stage::previewChanged, this, &AnnotateController::showMode);
+  connect(&bench.labels, &LabelChoice::changed, this, &AnnotateController::showColor);
+  connect(&document_, &DocumentController::replaced, this, &AnnotateController::showMode);
+  connect(&document_, &DocumentController::changed, &bench.commands, &Commands::refresh);
   connect(&document_, &DocumentController::steppedBack, this, &AnnotateController::goTo);
-  session_.on_changed([this](Parts parts) { update(parts); });
-  showLabels();
+  session_.on_changed([this](Parts parts) {
+    if (parts.has(Part::View)) canvasTool()->end();
+  });
   showMode();
 }
 
-// The tool dies with this, the canvas later.
+// The tools die with this, the canvas later.
 AnnotateController::~AnnotateController() {
-  panels_.canvas->setTool(nullptr);
+  canvas_->setTool(nullptr);
 }
 
-void AnnotateController::connectTool() {
-  connect(tool_, &BrushTool::strokeStarted, this, [this](const StrokeStart& start) {
+void AnnotateController::connectTools() {
+  StrokeTool* tool = stroke_tool_;
+  connect(tool, &StrokeTool::strokeStarted, this, [this](const StrokeStart& start) {
     if (!start.erases && !requireLabel()) return;
     document_.beginStroke(session_.view(), styleOf(start), point_of(start.at));
   });
-  connect(tool_, &BrushTool::strokeExtended, this,
+  connect(tool, &StrokeTool::strokeExtended, this,
           [this](QPointF image) { document_.extendStroke(point_of(image)); });
-  connect(tool_, &BrushTool::strokeFinished, &document_, &DocumentController::endStroke);
-  connect(tool_, &BrushTool::strokeCancelled, &document_, &DocumentController::cancelStroke);
-  connect(tool_, &BrushTool::fillRequested, this, &AnnotateController::fill);
-  connect(tool_, &BrushTool::pickRequested, this, &AnnotateController::pick);
-  connect(tool_, &BrushTool::sizeStepped, this, &AnnotateController::stepSize);
+  connect(tool, &StrokeTool::strokeFinished, &document_, &DocumentController::endStroke);
+  connect(tool, &StrokeTool::strokeCancelled, &document_, &DocumentController::cancelStroke);
+  connect(tool, &StrokeTool::sizeStepped, this, &AnnotateController::stepSize);
+  connect(fill_tool_, &FillTool::fillRequested, this, &AnnotateController::fill);
+  connect(pick_tool_, &PointTool::pointPicked, this, &AnnotateController::pick);
 }
 
 void AnnotateController::connectPanel() {
-  BrushPanel* panel = panels_.brush;
-  panel->setBrushSize(tool_->brushSize());
-  panel->setEraserSize(tool_->eraserSize());
+  panel_->setBrushSize(stroke_tool_->brushSize());
+  panel_->setEraserSize(stroke_tool_->eraserSize());
   showScribbles();
-  connect(panel, &BrushPanel::brushSizeEdited, tool_, &BrushTool::setBrushSize);
-  connect(panel, &BrushPanel::eraserSizeEdited, tool_, &BrushTool::setEraserSize);
-  connect(panel, &BrushPanel::protectsOthersEdited, this, &AnnotateController::setProtectsOthers);
-  connect(panel, &BrushPanel::scribbleOpacityEdited, this, &AnnotateController::showScribbles);
-}
-
-void AnnotateController::connectPalette() {
-  LabelPalette* palette = panels_.labels;
-  connect(palette, &LabelPalette::currentChosen, this, &AnnotateController::chooseLabel);
-  connect(palette, &LabelPalette::addRequested, this, &AnnotateController::addLabel);
-  connect(palette, &LabelPalette::removeRequested, this, &AnnotateController::removeLabel);
-  connect(palette, &LabelPalette::colorRequested, this, &AnnotateController::recolorLabel);
-  connect(palette, &LabelPalette::renameRequested, this, [this](int id, const QString& name) {
-    const bool is_renamed = document_.edit([&](AnnotationDocument& document) {
-      document.rename_label(id, name.trimmed().toStdString());
-    });
-    if (!is_renamed) showLabels();  // the row holds what was typed
+  connect(panel_, &BrushPanel::brushSizeEdited, stroke_tool_, &StrokeTool::setBrushSize);
+  connect(panel_, &BrushPanel::eraserSizeEdited, stroke_tool_, &StrokeTool::setEraserSize);
+  connect(panel_, &BrushPanel::protectsOthersEdited, this, &AnnotateController::setProtectsOthers);
+  connect(panel_, &BrushPanel::scribbleOpacityEdited, this, &AnnotateController::showScribbles);
+  connect(&bench_.commands, &Commands::keysChanged, this, &AnnotateController::showSizeKeys);
+  connect(&bench_.overlay, &Overlay::choiceChanged, this, [this] {
+    panel_->setSegmentationAvailable(bench_.overlay.isAvailable(render::Quantity::Segmentation));
   });
+  showSizeKeys();
 }
 
-void AnnotateController::update(Parts parts) {
-  if (parts.has(Part::View)) tool_->end();
-  if (parts.has(Part::Scene)) is_suspended_ = false;
-  if (parts.has(Part::Scene)) showMode();
+void AnnotateController::showSizeKeys() {
+  QStringList keys{bench_.commands.keyText("annotate.smaller"),
+                   bench_.commands.keyText("annotate.larger")};
+  keys.removeAll({});
+  panel_->setSizeKeys(keys.join(tr(" and ")));
 }
 
 void AnnotateController::setAnnotating(bool is_annotating) {
-  if (is_annotating) showTab();
+  if (is_annotating) bench_.frame.showTab("annotate");
   if (std::exchange(is_annotating_, is_annotating) == is_annotating) return;
-  if (is_annotating) document_.keepJournal();
+  if (is_annotating) {
+    document_.keepJournal();
+    bench_.stage.requestSingleView();
+  }
   showMode();
-}
-
-void AnnotateController::setSuspended(bool is_suspended) {
-  is_suspended_ = is_suspended;
-  showMode();
-}
-
-void AnnotateController::showTab() {
-  panels_.tabs->setCurrentWidget(panels_.annotate_tab);
 }
 
 bool AnnotateController::isTabShown() const {
-  return panels_.tabs->currentWidget() == panels_.annotate_tab;
+  return bench_.frame.shownTab() == "annotate";
+}
+
+bool AnnotateController::hasDocument() const {
+  return document_.document() != nullptr;
 }
 
 void AnnotateController::showScribbles() {
-  panels_.canvas->setScribbleOpacity(isTabShown() ? panels_.brush->scribbleOpacity() : 0);
+  canvas_->setScribbleOpacity(isTabShown() ? panel_->scribbleOpacity() : 0);
 }
 
-QString AnnotateController::labelHint() const {
-  if (document_.document()) {
-    return tr(
-        "No labels yet. Add one for each kind of thing, then paint a few strokes on the view.");
-  }
-  return is_suspended_ ? tr("The light field is being read.")
-                       : tr("Open a light field to label it.");
+CanvasTool* AnnotateController::canvasTool() const {
+  if (tool_ == AnnotationTool::Fill) return fill_tool_;
+  if (tool_ == AnnotationTool::Pick) return pick_tool_;
+  return stroke_tool_;
 }
 
 void AnnotateController::showMode() {
-  panels_.labels->setHint(labelHint());
-  const bool is_painting = is_annotating_ && !is_suspended_ && document_.document();
-  if (!is_painting) tool_->end();
-  panels_.canvas->setTool(is_painting ? tool_ : nullptr);
-  panels_.brush->setEnabled(document_.document() != nullptr);
-  panels_.labels->setEnabled(document_.document() != nullptr);
-  panels_.annotation->setEnabled(document_.document() != nullptr);
-  emit modeChanged();
+  const bool is_painting = is_annotating_ && !bench_.stage.isPreviewing() && hasDocument();
+  if (!is_painting) canvasTool()->end();
+  canvas_->setTool(is_painting ? canvasTool() : nullptr);
+  panel_->setEnabled(hasDocument());
+  bench_.commands.refresh();
+}
+
+void AnnotateController::showColor() {
+  const LabelInfo* label = bench_.labels.info();
+  if (document_.isStroking()) canvasTool()->end();
+  stroke_tool_->setColor(label ? QColor(label->color[0], label->color[1], label->color[2])
+                               : QColor());
 }
 
 void AnnotateController::setTool(AnnotationTool tool) {
-  if (!document_.document()) return;
-  tool_->setTool(tool);
+  if (!hasDocument()) return;
+  canvasTool()->end();
+  tool_ = tool;
+  stroke_tool_->setErasing(tool == AnnotationTool::Eraser);
   setAnnotating(true);
-  emit toolChanged();
+  showMode();
 }
 
 void AnnotateController::stepSize(double steps) {
-  const bool is_eraser = tool_->tool() == AnnotationTool::Eraser;
-  if (is_eraser) {
-    tool_->setEraserSize(stepped(tool_->eraserSize(), steps));
-    panels_.brush->setEraserSize(tool_->eraserSize());
+  if (tool_ == AnnotationTool::Eraser) {
+    stroke_tool_->setEraserSize(stepped(stroke_tool_->eraserSize(), steps));
+    panel_->setEraserSize(stroke_tool_->eraserSize());
   } else {
-    tool_->setBrushSize(stepped(tool_->brushSize(), steps));
-    panels_.brush->setBrushSize(tool_->brushSize());
+    stroke_tool_->setBrushSize(stepped(stroke_tool_->brushSize(), steps));
+    panel_->setBrushSize(stroke_tool_->brushSize());
   }
 }
 
 void AnnotateController::setProtectsOthers(bool protects) {
   protects_others_ = protects;
-  panels_.brush->setProtectsOthers(protects);
-  emit toolChanged();
-}
-
-void AnnotateController::showLabels() {
-  const AnnotationDocument* document = document_.document();
-  const auto labels = document ? document->labels().labels() : std::vector<LabelInfo>();
-  const auto is_known = [&](int id) { return document && document->labels().contains(id); };
-  if (!is_known(label_)) label_ = is_known(former_label_) ? former_label_ : 0;
-  if (!is_known(former_label_)) former_label_ = 0;
-  if (label_ == 0 && !labels.empty()) label_ = labels.front().id;
-  panels_.labels->setLabels(labels);
-  panels_.labels->setCurrent(label_);
-  const LabelInfo* current = document ? document->labels().find(label_) : nullptr;
-  tool_->setColor(current ? color_of(current->color) : QColor());
-  emit labelChanged();
-}
-
-void AnnotateController::chooseLabel(int id) {
-  const AnnotationDocument* document = document_.document();
-  if (!document || id == label_) return;
-  if (!document->labels().contains(id)) {
-    emit hint(tr("There is no label %1.").arg(id));
-    return;
-  }
-  tool_->end();
-  former_label_ = std::exchange(label_, id);
-  panels_.labels->setCurrent(id);
-  tool_->setColor(color_of(document->labels().find(id)->color));
-  emit labelChanged();
-}
-
-void AnnotateController::chooseNextLabel() {
-  if (!document_.document()) return;
-  const auto& labels = document_.document()->labels().labels();
-  if (labels.empty()) return;
-  const auto next = std::ranges::upper_bound(labels, label_, {}, &LabelInfo::id);
-  chooseLabel(next == labels.end() ? labels.front().id : next->id);
-}
-
-void AnnotateController::swapLabels() {
-  if (former_label_ != 0) chooseLabel(former_label_);
-}
-
-void AnnotateController::addLabel() {
-  int id = 0;
-  document_.edit([&](AnnotationDocument& document) { id = document.add_label(); });
-  if (id != 0) chooseLabel(id);
-}
-
-void AnnotateController::renameLabel() {
-  if (label_ == 0) return;
-  showTab();
-  panels_.labels->editName(label_);
-}
-
-bool AnnotateController::isPainted(int id) const {
-  const ScribbleLayer& layer = document_.document()->scribbles();
-  return std::ranges::any_of(layer.painted_views(), [&](ViewIndex view) {
-    const auto image = layer.view(view);
-    const std::size_t size = static_cast<std::size_t>(image.height) * image.width;
-    return std::find(image.data, image.data + size, id) != image.data + size;
-  });
-}
-
-void AnnotateController::removeLabel(int id) {
-  const AnnotationDocument* document = document_.document();
-  const LabelInfo* label = document ? document->labels().find(id) : nullptr;
-  if (!label) return;
-  if (!isPainted(id)) {
-    removeNow(id);
-    return;
-  }
-  auto* box =
-      new QMessageBox(QMessageBox::Question, tr("Remove a label"),
-                      tr("Remove “%1” and everything that is painted with it, on all views?")
-                          .arg(QString::fromStdString(label->name)),
-                      QMessageBox::Cancel, panels_.viewer->window());
-  box->setObjectName("remove_label");
-  box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
-  box->setAttribute(Qt::WA_DeleteOnClose);
-  connect(box, &QDialog::accepted, this, [this, id] { removeNow(id); });
-  box->open();
-}
-
-void AnnotateController::removeNow(int id) {
-  document_.edit([id](AnnotationDocument& document) { document.remove_label(id); });
-}
-
-void AnnotateController::recolorLabel(int id) {
-  const AnnotationDocument* document = document_.document();
-  const LabelInfo* label = document ? document->labels().find(id) : nullptr;
-  if (!label) return;
-  auto* dialog = new QColorDialog(color_of(label->color), panels_.viewer->window());
-  dialog->setObjectName("label_color");
-  dialog->setWindowTitle(tr("Colour of “%1”").arg(QString::fromStdString(label->name)));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  connect(dialog, &QColorDialog::colorSelected, this, [this, id](const QColor& color) {
-    const Rgb rgb{static_cast<std::uint8_t>(color.red()), static_cast<std::uint8_t>(color.green()),
-                  static_cast<std::uint8_t>(color.blue())};
-    document_.edit([&](AnnotationDocument& edited) { edited.recolor_label(id, rgb); });
-  });
-  dialog->open();
+  panel_->setProtectsOthers(protects);
+  bench_.commands.refresh();
 }
 
 PaintStyle AnnotateController::styleOf(const StrokeStart& start) const {
   PaintStyle style;
   style.tool = start.erases ? PaintTool::Eraser : PaintTool::Brush;
-  style.label = std::max(1, label_);
-  style.diameter_px = start.erases ? tool_->eraserSize() : tool_->brushSize();
+  style.label = std::max(1, bench_.labels.current());
+  style.diameter_px = start.erases ? stroke_tool_->eraserSize() : stroke_tool_->brushSize();
   style.protects_others = start.protects_others || protects_others_;
   return style;
 }
 
 // Who begins to paint without a label gets one.
 bool AnnotateController::requireLabel() {
-  if (label_ == 0) addLabel();
-  return label_ != 0;
+  if (bench_.labels.current() == 0) {
+    document_.edit([](AnnotationDocument& document) { document.add_label(); });
+  }
+  return bench_.labels.current() != 0;
+}
+
+PixelRegion AnnotateController::regionAt(PixelIndex seed) const {
+  const ViewIndex view = session_.view();
+  if (panel_->fillBound() == FillBound::Segmentation) {
+    const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
+    if (source) return region_of_segment(source->labeling->labels.view(view), seed);
+  }
+  constexpr double kGreyLevels = 255;
+  return region_within_edges(session_.light_field()->view_as_float(view).view(), seed,
+                             panel_->fillGradient() / kGreyLevels);
 }
 
 void AnnotateController::fill(const StrokeStart& start) {
-  if (!document_.document() || (!start.erases && !requireLabel())) return;
-  const ViewIndex view = session_.view();
-  const PixelIndex seed = pixel_of(start.at);
-  PixelRegion region;
-  if (segmentation_ && panels_.brush->fillBound() == FillBound::Segmentation) {
-    region = region_of_segment(segmentation_(view), seed);
-  } else {
-    constexpr double kGreyLevels = 255;
-    region = region_within_edges(session_.light_field()->view_as_float(view).view(), seed,
-                                 panels_.brush->fillGradient() / kGreyLevels);
-  }
+  if (!hasDocument() || (!start.erases && !requireLabel())) return;
+  const PixelRegion region = regionAt(pixel_of(start.at));
   if (region.empty()) {
-    emit hint(tr("There is an edge here: click beside it, or let the fill pass stronger edges."));
+    bench_.messages.hint(
+        tr("There is an edge here: click beside it, or let the fill pass stronger edges."));
     return;
   }
-  document_.edit(
-      [&](AnnotationDocument& document) { fill_region(document, view, region, styleOf(start)); });
+  document_.edit([&](AnnotationDocument& document) {
+    fill_region(document, session_.view(), region, styleOf(start));
+  });
 }
 
 void AnnotateController::pick(QPointF image) {
-  const AnnotationDocument* document = document_.document();
-  if (!document) return;
-  const int id = document->scribbles().label_at(session_.view(), pixel_of(image));
+  if (!hasDocument()) return;
+  const int id = document_.document()->scribbles().label_at(session_.view(), pixel_of(image));
   if (id == 0) {
-    emit hint(tr("Nothing is painted here."));
+    bench_.messages.hint(tr("Nothing is painted here."));
     return;
   }
-  chooseLabel(id);
+  bench_.labels.choose(id);
   setTool(AnnotationTool::Brush);
-}
-
-void AnnotateController::setSegmentation(Segmentation segmentation) {
-  segmentation_ = std::move(segmentation);
-  panels_.brush->setSegmentationAvailable(static_cast<bool>(segmentation_));
-}
-
-bool AnnotateController::cancelStroke() {
-  return tool_->cancel();
 }
 
 void AnnotateController::goTo(const DocumentChange& change) {
@@ -348,8 +234,7 @@ void AnnotateController::goTo(const DocumentChange& change) {
   const auto here = std::ranges::find(change.views, session_.view(), &DocumentChange::Part::view);
   const auto& part = here == change.views.end() ? change.views.front() : *here;
   session_.set_view(part.view);
-  panels_.canvas->ensureVisible(
-      {(part.rect.y0 + part.rect.y1) / 2, (part.rect.x0 + part.rect.x1) / 2});
+  canvas_->ensureVisible({(part.rect.y0 + part.rect.y1) / 2, (part.rect.x0 + part.rect.x1) / 2});
 }
 
 }  // namespace episcope

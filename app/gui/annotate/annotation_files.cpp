@@ -2,6 +2,11 @@
 #include "app/gui/annotate/annotation_files.h"
 
 #include "annotation/document/exchange.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/leave_guards.h"
+#include "app/gui/frame/messages.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/label_file.h"
@@ -9,7 +14,6 @@
 #include "widgets/annotate/annotation_bar.h"
 
 #include <QDir>
-#include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
 #include <QPushButton>
@@ -24,21 +28,17 @@ std::filesystem::path path_of(const QString& path) {
   return path.toStdString();
 }
 
-/// Asks for a file to read; opened by the caller.
-QFileDialog* reading_dialog(const char* name, const QString& title, const QString& filter,
-                            QWidget* parent) {
-  auto* dialog = new QFileDialog(parent, title, QString(), filter);
-  dialog->setObjectName(name);
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::ExistingFile);
-  return dialog;
-}
-
 }  // namespace
 
-AnnotationFiles::AnnotationFiles(Session& session, Jobs& jobs, DocumentController& document,
-                                 const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), jobs_(jobs), document_(document), panels_(panels) {
+AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      bar_(bar) {
+  addCommands();
+  bench.guards.add({[this] { return !document_.hasUnsavedChanges(); },
+                    [this](std::function<void()> go_on) { leave(std::move(go_on)); }});
   connect(&document_, &DocumentController::replaced, this, &AnnotationFiles::showState);
   connect(&document_, &DocumentController::unsavedChanged, this, &AnnotationFiles::showState);
   session_.on_changed([this](Parts parts) {
@@ -49,13 +49,48 @@ AnnotationFiles::AnnotationFiles(Session& session, Jobs& jobs, DocumentControlle
   showState();
 }
 
+void AnnotationFiles::addCommand(const QString& id, const QString& text, const QString& tip,
+                                 const QString& icon, const QList<QKeySequence>& keys,
+                                 void (AnnotationFiles::*run)()) {
+  bench_.commands.add({.id = "file." + id,
+                       .menu = Menu::File,
+                       .text = text,
+                       .tip = tip,
+                       .icon = icon,
+                       .keys = keys,
+                       .run = [this, run] { (this->*run)(); },
+                       .section = section::kScribbles,
+                       .enabled = [this] { return session_.scene() != nullptr; }});
+}
+
+void AnnotationFiles::addCommands() {
+  addCommand("save_scribbles", tr("Save scribbles"),
+             tr("Saves labels and scribbles, beside the light field if that can be written"),
+             "save", {QKeySequence::Save}, &AnnotationFiles::save);
+  addCommand("save_scribbles_as", tr("Save scribbles as…"),
+             tr("Saves labels and scribbles in another file"), {}, {tr("Ctrl+Shift+S")},
+             &AnnotationFiles::saveAsDialog);
+  addCommand("import_scribbles", tr("Import scribbles…"),
+             tr("Adds scribbles of another file where nothing is painted"), "open", {},
+             &AnnotationFiles::importDialog);
+  addCommand("compare_labels", tr("Compare with true labels…"),
+             tr("Compares the segmentation with GT_LABELS of another file"), "open", {},
+             &AnnotationFiles::compareDialog);
+  addCommand("export_scribbles", tr("Export scribbles as pictures…"),
+             tr("Writes a PNG picture of each painted view"), "picture", {},
+             &AnnotationFiles::exportDialog);
+  for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
+    bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
+  }
+}
+
 void AnnotationFiles::showState() {
   const QString path = place();
   const QString name = path.isEmpty() ? tr("no file yet") : QFileInfo(path).fileName();
-  panels_.annotation->setFileState(!document_.document()           ? QString()
-                                   : saving_ > 0                   ? tr("saving …")
-                                   : document_.hasUnsavedChanges() ? tr("%1 · not saved").arg(name)
-                                                                   : name);
+  bar_->setFileState(!document_.document()           ? QString()
+                     : saving_ > 0                   ? tr("saving …")
+                     : document_.hasUnsavedChanges() ? tr("%1 · not saved").arg(name)
+                                                     : name);
 }
 
 QString AnnotationFiles::place() const {
@@ -90,18 +125,14 @@ void AnnotationFiles::saveAsDialog() {
 
 void AnnotationFiles::askForPlace(std::function<void()> then) {
   if (!document_.document()) return;
-  auto* dialog = new QFileDialog(panels_.viewer->window(), tr("Save scribbles"), suggestion(),
-                                 tr("Labels of the archive (*.h5)"));
-  dialog->setObjectName("save_scribbles");
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setAcceptMode(QFileDialog::AcceptSave);
-  // What else a file of labels holds stays as it is.
-  dialog->setOption(QFileDialog::DontConfirmOverwrite);
-  dialog->setDefaultSuffix("h5");
-  dialog->selectFile(suggestion());
-  connect(dialog, &QFileDialog::fileSelected, this,
-          [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
-  dialog->open();
+  ask_where_to_save(&bench_.window,
+                    {.name = "save_scribbles",
+                     .title = tr("Save scribbles"),
+                     .filter = tr("Labels of the archive (*.h5)"),
+                     .proposal = suggestion(),
+                     // What else a file of labels holds stays as it is.
+                     .confirms_overwrite = false},
+                    [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
 }
 
 void AnnotationFiles::saveAs(const QString& path) {
@@ -123,7 +154,7 @@ void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
   const std::uint64_t generation = session_.generation();
   ++saving_;
   showState();
-  jobs_.start<bool>(
+  bench_.jobs.start<bool>(
       Lane::Export, tr("Saving %1").arg(QFileInfo(path).fileName()),
       [scribbles, path, scene = session_.scene()](const Progress& progress) {
         io::write_scribbles(path_of(path), scribbles(), *scene, progress);
@@ -135,7 +166,7 @@ void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
           place_ = path_of(path);
           document_.noteSaved(state);
         }
-        emit written(path);
+        bench_.messages.written(path);
         if (then) then();
       },
       [this] {
@@ -147,22 +178,18 @@ void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
 void AnnotationFiles::exportDialog() {
   if (!document_.document()) return;
   if (document_.document()->scribbles().painted_views().empty()) {
-    emit hint(tr("Nothing is painted yet: there are no scribbles to export."));
+    bench_.messages.hint(tr("Nothing is painted yet: there are no scribbles to export."));
     return;
   }
-  auto* dialog =
-      new QFileDialog(panels_.viewer->window(), tr("Folder for a picture of each painted view"));
-  dialog->setObjectName("export_scribbles");
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setFileMode(QFileDialog::Directory);
-  dialog->setOption(QFileDialog::ShowDirsOnly);
-  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::exportPictures);
-  dialog->open();
+  ask_for_folder(
+      &bench_.window,
+      {.name = "export_scribbles", .title = tr("Folder for a picture of each painted view")},
+      [this](const QString& folder) { exportPictures(folder); });
 }
 
 void AnnotationFiles::exportPictures(const QString& folder) {
   if (!document_.document()) return;
-  jobs_.start<bool>(
+  bench_.jobs.start<bool>(
       Lane::Export, tr("Writing pictures of scribbles"),
       [scribbles = snapshot(), folder, scene = session_.scene()](const Progress&) {
         io::write_scribble_pictures(
@@ -170,18 +197,17 @@ void AnnotationFiles::exportPictures(const QString& folder) {
             unsheared(scribbles(), {}, scene->light_field->center(), scene->convention.focus_px));
         return true;
       },
-      [this, folder](bool) { emit written(folder); });
+      [this, folder](bool) { bench_.messages.written(folder); });
 }
 
 void AnnotationFiles::importDialog() {
   if (!document_.document()) return;
-  QFileDialog* dialog = reading_dialog(
-      "import_scribbles", tr("Import scribbles"),
-      tr("Labels of the archive, or a picture of those exported (*.h5 *.hdf5 scribbles_*.png);;All "
-         "files (*)"),
-      panels_.viewer->window());
-  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::importFrom);
-  dialog->open();
+  ask_for_file(&bench_.window,
+               {.name = "import_scribbles",
+                .title = tr("Import scribbles"),
+                .filter = tr("Labels of the archive, or a picture of those exported (*.h5 *.hdf5 "
+                             "scribbles_*.png);;All files (*)")},
+               [this](const QString& path) { importFrom(path); });
 }
 
 void AnnotationFiles::importFrom(const QString& path) {
@@ -190,7 +216,7 @@ void AnnotationFiles::importFrom(const QString& path) {
   const bool has_pictures = is_folder || QFileInfo(path).suffix().toLower() == "png";
   const QString folder = is_folder ? path : QFileInfo(path).path();
   const std::uint64_t generation = session_.generation();
-  jobs_.start<std::shared_ptr<Scribbles>>(
+  bench_.jobs.start<std::shared_ptr<Scribbles>>(
       Lane::Load, tr("Importing %1").arg(QFileInfo(path).fileName()),
       [scene = session_.scene(), path, folder, has_pictures](const Progress& progress) {
         if (!has_pictures) {
@@ -207,26 +233,26 @@ void AnnotationFiles::importFrom(const QString& path) {
         const bool is_new = document_.edit(
             [&](AnnotationDocument& document) { import_scribbles(document, *scribbles); });
         if (is_new) {
-          emit imported(path);
+          bench_.messages.success(tr("Imported: %1").arg(path));
         } else {
-          emit hint(tr("%1 holds no scribbles that were not here already.")
-                        .arg(QFileInfo(path).fileName()));
+          bench_.messages.hint(tr("%1 holds no scribbles that were not here already.")
+                                   .arg(QFileInfo(path).fileName()));
         }
       });
 }
 
 void AnnotationFiles::compareDialog() {
   if (!session_.scene()) return;
-  QFileDialog* dialog = reading_dialog("compare_labels", tr("Compare with true labels"),
-                                       tr("Labels of the archive (*.h5 *.hdf5);;All files (*)"),
-                                       panels_.viewer->window());
-  connect(dialog, &QFileDialog::fileSelected, this, &AnnotationFiles::compareWith);
-  dialog->open();
+  ask_for_file(&bench_.window,
+               {.name = "compare_labels",
+                .title = tr("Compare with true labels"),
+                .filter = tr("Labels of the archive (*.h5 *.hdf5);;All files (*)")},
+               [this](const QString& path) { compareWith(path); });
 }
 
 void AnnotationFiles::compareWith(const QString& path) {
   if (!session_.scene()) return;
-  jobs_.start<TrueLabelsPtr>(
+  bench_.jobs.start<TrueLabelsPtr>(
       Lane::Load, tr("Reading %1").arg(QFileInfo(path).fileName()),
       [scene = session_.scene(), path](const Progress& progress) -> TrueLabelsPtr {
         return std::make_shared<ViewStack<std::int32_t>>(
@@ -235,7 +261,7 @@ void AnnotationFiles::compareWith(const QString& path) {
       [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
         if (generation != session_.generation()) return;
         session_.set_true_labels(labels);
-        emit compared(path);
+        bench_.messages.success(tr("Labels are compared with %1").arg(path));
       });
 }
 
@@ -253,7 +279,7 @@ void AnnotationFiles::leave(std::function<void()> go_on) {
                               tr("What you painted on “%1” is not saved.")
                                   .arg(QString::fromStdString(session_.light_field()->info().name)),
                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
-                              panels_.viewer->window());
+                              &bench_.window);
   question_->setObjectName("unsaved_scribbles");
   question_->setAttribute(Qt::WA_DeleteOnClose);
   question_->setDefaultButton(QMessageBox::Save);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/bench/workbench.h"
 #include "app/gui/document/document_controller.h"
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 
+#include <QKeySequence>
+#include <QList>
 #include <QObject>
 #include <QPointer>
 #include <QString>
@@ -17,6 +18,8 @@ class QMessageBox;
 
 namespace episcope {
 
+class AnnotationBar;
+
 /// Saves, exports and imports scribbles in the background, and sees to it that nobody loses any by
 /// leaving the light field. Files and pictures keep to the views as they are stored, also at a
 /// focus plane (shear.h).
@@ -24,8 +27,7 @@ class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
-  AnnotationFiles(Session& session, Jobs& jobs, DocumentController& document, const Panels& panels,
-                  QObject* parent);
+  AnnotationFiles(const Workbench& bench, AnnotationBar* bar);
 
   /// Where `save` writes: where it was saved last, else beside the light field; empty if neither is
   /// known or can be written, then `save` asks.
@@ -46,13 +48,10 @@ class AnnotationFiles : public QObject {
   /// is never called if the user stays or saving fails.
   void leave(std::function<void()> go_on);
 
- signals:
-  void written(const QString& path);
-  void imported(const QString& path);
-  void compared(const QString& path);
-  void hint(const QString& sentence);
-
  private:
+  void addCommands();
+  void addCommand(const QString& id, const QString& text, const QString& tip, const QString& icon,
+                  const QList<QKeySequence>& keys, void (AnnotationFiles::*run)());
   void showState();
   void saveTo(const QString& path, std::function<void()> then);
   /// As `save`, then calls `then` on success.
@@ -61,10 +60,10 @@ class AnnotationFiles : public QObject {
   [[nodiscard]] std::function<Scribbles()> snapshot();
   [[nodiscard]] QString suggestion() const;
 
+  Workbench bench_;
   Session& session_;
-  Jobs& jobs_;
   DocumentController& document_;
-  Panels panels_;
+  AnnotationBar* bar_;
   std::filesystem::path place_;  // where it was saved last
   int saving_ = 0;
   QPointer<QMessageBox> question_;

@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/annotate/recovery_controller.h"
 
+#include "app/gui/document/document_controller.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/leave_guards.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/session/session.h"
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
 
@@ -34,15 +40,16 @@ struct Found {
 
 }  // namespace
 
-RecoveryController::RecoveryController(Session& session, DocumentController& document,
-                                       MessageBar& bar, Open open, Leave leave, QObject* parent)
-    : QObject(parent),
-      session_(session),
-      document_(document),
-      bar_(bar),
-      open_(std::move(open)),
-      leave_(std::move(leave)),
+RecoveryController::RecoveryController(const Workbench& bench)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      bar_(new MessageBar(&bench.frame)),
       job_(this) {
+  bar_->setObjectName("recoveryBar");
+  bench.frame.addLine(Line::Recovery, bar_);
+  connect(&bench.frame, &Frame::started, this, &RecoveryController::look);
   connect(&document_, &DocumentController::replaced, this, [this] {
     if (!awaited_ || !isOpen(awaited_->owner)) return;
     read(*std::exchange(awaited_, std::nullopt));
@@ -71,7 +78,7 @@ void RecoveryController::offerNext() {
   if (left_.empty()) return;
   const LeftJournal journal = left_.back();
   left_.pop_back();
-  bar_.showMessage(
+  bar_->showMessage(
       Severity::Warning,
       tr("Episcope ended unexpectedly while “%1” was painted (%2). What was painted can be "
          "recovered.")
@@ -86,14 +93,22 @@ void RecoveryController::discard(const LeftJournal& journal) {
 }
 
 void RecoveryController::recover(const LeftJournal& journal) {
-  leave_([this, journal] {
+  bench_.guards.leave([this, journal] {
     if (document_.document() && isOpen(journal.owner)) {
       read(journal);
       return;
     }
     awaited_ = journal;
-    open_(QString::fromStdString(journal.owner.source), journal.owner.focus_px);
+    open(journal.owner);
   });
+}
+
+void RecoveryController::open(const JournalOwner& owner) {
+  std::function<void()> then;
+  if (owner.focus_px != 0) {
+    then = [this, focus_px = owner.focus_px] { bench_.opener.reopenAt(focus_px, nullptr); };
+  }
+  bench_.opener.open(QString::fromStdString(owner.source), std::move(then));
 }
 
 void RecoveryController::read(const LeftJournal& journal) {
@@ -133,12 +148,13 @@ void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotatio
   }
   document_.replace(std::move(found.document), document_.isWhole());
   discard_journal(journal.path);
-  emit recovered(name_of(journal));
+  bench_.frame.showTab("annotate");
+  bench_.messages.success(tr("Recovered what was painted on “%1”.").arg(name_of(journal)));
   offerNext();
 }
 
 void RecoveryController::refuse(const QString& sentence) {
-  bar_.showMessage(Severity::Error, sentence);
+  bar_->showMessage(Severity::Error, sentence);
 }
 
 }  // namespace episcope

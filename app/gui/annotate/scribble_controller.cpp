@@ -2,8 +2,11 @@
 #include "app/gui/annotate/scribble_controller.h"
 
 #include "annotation/paint/propagate.h"
+#include "app/gui/annotate/annotate_section.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/stage/stage.h"
 #include "widgets/annotate/annotation_bar.h"
-#include "widgets/browse/view_grid.h"
 #include "widgets/canvas/scribble_picture.h"
 #include "widgets/canvas/view_canvas.h"
 
@@ -11,35 +14,50 @@
 
 namespace episcope {
 
-ScribbleController::ScribbleController(Session& session, DocumentController& document,
-                                       const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), document_(document), panels_(panels), carry_job_(this) {
+ScribbleController::ScribbleController(const Workbench& bench, AnnotationBar* bar)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      canvas_(bench.stage.canvas()),
+      bar_(bar),
+      carry_job_(this) {
+  addCommand();
   connect(&document_, &DocumentController::painted, this, &ScribbleController::showRect);
   connect(&document_, &DocumentController::changed, this, &ScribbleController::showChange);
   connect(&document_, &DocumentController::replaced, this, [this] {
+    bar_->setEnabled(document_.document() != nullptr);
     dropCarried();
     show();
-    markViews();
     carry();
   });
-  connect(panels_.annotation, &AnnotationBar::carriedEdited, this, &ScribbleController::setCarried);
-  connect(panels_.annotation, &AnnotationBar::carriedByEdited, this, &ScribbleController::carry);
+  connect(&bench.stage, &Stage::previewChanged, this, &ScribbleController::show);
+  connect(bar_, &AnnotationBar::carriedEdited, this, &ScribbleController::setCarried);
+  connect(bar_, &AnnotationBar::carriedByEdited, this, &ScribbleController::carry);
   session_.on_changed([this](Parts parts) { update(parts); });
+  bar_->setEnabled(false);
+}
+
+void ScribbleController::addCommand() {
+  bench_.commands.add({.id = "annotate.carry",
+                       .menu = Menu::Annotate,
+                       .text = tr("Carry to all views"),
+                       .tip = tr("Shows on every view what is painted on the others"),
+                       .icon = "carry",
+                       .keys = {Qt::Key_C},
+                       .run = [this] { setCarried(!is_carried_); },
+                       .section = annotate_section::kCarry,
+                       .enabled = [this] { return document_.document() != nullptr; },
+                       .checked = [this] { return is_carried_; }});
 }
 
 void ScribbleController::update(Parts parts) {
-  if (parts.has(Part::Scene)) is_suspended_ = false;
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
-    panels_.annotation->setSources(session_.shown() != nullptr,
-                                   session_.scene() && session_.scene()->truth->has_disparity());
+    bar_->setSources(session_.shown() != nullptr,
+                     session_.scene() && session_.scene()->truth->has_disparity());
     if (field() != carried_by_) carry();
   }
   if (parts.has(Part::View)) show();
-}
-
-void ScribbleController::setSuspended(bool is_suspended) {
-  is_suspended_ = is_suspended;
-  show();
 }
 
 QImage ScribbleController::picture(const PixelRect& rect) const {
@@ -52,17 +70,17 @@ QImage ScribbleController::picture(const PixelRect& rect) const {
 
 void ScribbleController::show() {
   const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document || is_suspended_) {
-    panels_.canvas->setScribbles({});
+  if (!document || bench_.stage.isPreviewing()) {
+    canvas_->setScribbles({});
     return;
   }
   const ScribbleLayer& layer = document->scribbles();
-  panels_.canvas->setScribbles(picture({0, 0, layer.height(), layer.width()}));
+  canvas_->setScribbles(picture({0, 0, layer.height(), layer.width()}));
 }
 
 void ScribbleController::showRect(ViewIndex view, const PixelRect& rect) {
-  if (view != session_.view() || is_suspended_) return;
-  panels_.canvas->patchScribbles({rect.x0, rect.y0}, picture(rect));
+  if (view != session_.view() || bench_.stage.isPreviewing()) return;
+  canvas_->patchScribbles({rect.x0, rect.y0}, picture(rect));
 }
 
 void ScribbleController::showChange(const DocumentChange& change) {
@@ -71,34 +89,28 @@ void ScribbleController::showChange(const DocumentChange& change) {
   } else {
     for (const auto& part : change.views) showRect(part.view, part.rect);
   }
-  markViews();
   if (!change.views.empty()) carry();
-}
-
-void ScribbleController::markViews() {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  panels_.view_grid->setPainted(document ? document->scribbles().painted_views()
-                                         : std::vector<ViewIndex>());
 }
 
 void ScribbleController::setCarried(bool is_carried) {
   is_carried_ = is_carried;
-  panels_.annotation->setCarried(is_carried);
+  bar_->setCarried(is_carried);
   if (!is_carried) {
     dropCarried();
     show();
   } else if (session_.scene() && !field()) {
-    emit hint(tr("No disparity is known to carry scribbles by: run a method in the Estimate tab."));
+    bench_.messages.hint(
+        tr("No disparity is known to carry scribbles by: run a method in the Estimate tab."));
   }
   carry();
-  emit carriedChanged();
+  bench_.commands.refresh();
 }
 
 std::shared_ptr<const DisparityField> ScribbleController::field() const {
   const auto& scene = session_.scene();
   if (!scene) return nullptr;
   const EstimateEntry* shown = session_.shown();
-  if (shown && panels_.annotation->carriedBy() == AnnotationBar::CarriedBy::Estimate) {
+  if (shown && bar_->carriedBy() == AnnotationBar::CarriedBy::Estimate) {
     return {shown->estimate, &shown->estimate->field};
   }
   return scene->truth->has_disparity()
@@ -110,8 +122,8 @@ void ScribbleController::dropCarried() {
   carry_job_.drop();
   is_carrying_ = false;
   carried_by_ = nullptr;
-  panels_.annotation->setCarryState({});
-  if (std::exchange(carried_, nullptr)) emit carriedChanged();
+  bar_->setCarryState({});
+  carried_ = nullptr;
 }
 
 void ScribbleController::carry() {
@@ -124,7 +136,7 @@ void ScribbleController::carry() {
   using Layer = std::shared_ptr<const ScribbleLayer>;
   is_carrying_ = true;
   carried_by_ = by;
-  panels_.annotation->setCarryState(tr("carrying …"));
+  bar_->setCarryState(tr("carrying …"));
   carry_job_.start<Layer>(
       [painted = std::make_shared<const ScribbleLayer>(document->scribbles()),
        by](const Progress& progress) -> Layer {
@@ -133,9 +145,8 @@ void ScribbleController::carry() {
       [this](const Layer& carried) {
         is_carrying_ = false;
         carried_ = carried;
-        panels_.annotation->setCarryState({});
+        bar_->setCarryState({});
         show();
-        emit carriedChanged();
       });
 }
 

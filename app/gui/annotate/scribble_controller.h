@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/bench/workbench.h"
 #include "app/gui/document/document_controller.h"
-#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 
 #include <QObject>
@@ -11,15 +12,17 @@
 
 namespace episcope {
 
-/// Shows scribbles: on the view, and which views are painted in the grid. Where wanted, carries
+class AnnotationBar;
+class ViewCanvas;
+
+/// Shows scribbles: on the view, and in which views there are any. Where wanted, carries
 /// them to all views by a disparity map, in the background, as a layer of its own that follows
 /// every edit.
 class ScribbleController : public QObject {
   Q_OBJECT
 
  public:
-  ScribbleController(Session& session, DocumentController& document, const Panels& panels,
-                     QObject* parent);
+  ScribbleController(const Workbench& bench, AnnotationBar* bar);
 
   void setCarried(bool is_carried);
   [[nodiscard]] bool isCarried() const { return is_carried_; }
@@ -27,31 +30,26 @@ class ScribbleController : public QObject {
   /// document.
   [[nodiscard]] const std::shared_ptr<const ScribbleLayer>& carried() const { return carried_; }
   [[nodiscard]] bool isCarrying() const { return is_carrying_; }
-  /// While suspended, something else than the session is on the canvas.
-  void setSuspended(bool is_suspended);
-
- signals:
-  void carriedChanged();
-  void hint(const QString& sentence);
 
  private:
+  void addCommand();
   void update(Parts parts);
   void show();
   void showRect(ViewIndex view, const PixelRect& rect);
   void showChange(const DocumentChange& change);
-  void markViews();
   [[nodiscard]] QImage picture(const PixelRect& rect) const;
   void carry();
   void dropCarried();
   /// What to carry by: keeps the scene or the estimate alive. Null if there is none.
   [[nodiscard]] std::shared_ptr<const DisparityField> field() const;
 
+  Workbench bench_;
   Session& session_;
   DocumentController& document_;
-  Panels panels_;
+  ViewCanvas* canvas_;
+  AnnotationBar* bar_;
   bool is_carried_ = false;
   bool is_carrying_ = false;
-  bool is_suspended_ = false;
   std::shared_ptr<const ScribbleLayer> carried_;
   std::shared_ptr<const DisparityField> carried_by_;
   LatestJob carry_job_;

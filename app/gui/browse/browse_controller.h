@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
+#include "app/gui/bench/workbench.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 
 #include <QImage>
+#include <QKeySequence>
+#include <QList>
 #include <QObject>
 
 #include <optional>
@@ -13,19 +15,16 @@
 
 namespace episcope {
 
+class ViewCanvas;
+class ViewGrid;
+
 /// Walks through the views: current view, cross-hair, EPIs, focus plane, view grid, playing,
 /// parallax.
 class BrowseController : public QObject {
   Q_OBJECT
 
  public:
-  BrowseController(Session& session, const Panels& panels, QObject* parent);
-
-  /// Shows a picture that does not belong to the session yet; it cannot be browsed.
-  void showPreview(const QImage& picture, const QString& caption);
-  /// Back to the session.
-  void endPreview();
-  [[nodiscard]] bool isPreviewing() const { return is_previewing_; }
+  explicit BrowseController(const Workbench& bench);
 
   void step(int dv, int du);
   void jump(int dv, int du);
@@ -38,25 +37,32 @@ class BrowseController : public QObject {
   /// Ends playing or forgets the line drawn in an EPI; false if there was nothing to end.
   bool endWhatIsInHand();
 
- signals:
-  /// A sentence for the user that is no failure.
-  void hint(const QString& sentence);
-
  private:
+  void addCommands();
+  void addWalkCommands();
+  void addStep(const QString& id, const QString& text, const QString& tip, int dv, int du,
+               Qt::Key key);
+  void addZoomCommands();
+  void addZoom(const QString& id, const QString& text, const QString& tip, const QString& icon,
+               const QList<QKeySequence>& keys, void (ViewCanvas::*zoom)());
+  void addFocusCommands();
   void connectCanvas();
   void connectEpis();
   void update(Parts parts);
+  void setPreviewing(bool is_previewing);
   void showScene();
   void showView();
   void showPicture(const QImage& picture);
   void showEpis();
   void showSlopes();
   void startThumbnails();
+  void markPainted();
   void focusAt(PixelIndex pixel);
 
+  Workbench bench_;
   Session& session_;
-  Panels panels_;
-  bool is_previewing_ = false;
+  Stage& stage_;
+  ViewGrid* grid_;
   bool refocuses_ = true;
   ViewIndex parallax_start_;
   LatestJob refocus_job_;

@@ -2,13 +2,17 @@
 #include "app/gui/browse/value_controller.h"
 
 #include "app/gui/browse/disparity_at.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/sample_text.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
 #include "widgets/browse/value_bar.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/style/number_text.h"
 
 #include <algorithm>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
 namespace episcope {
@@ -37,40 +41,39 @@ std::vector<const EstimateEntry*> shown_first(const Session& session) {
 
 }  // namespace
 
-QStringList sample_texts(const LightField& light_field, ViewIndex view, PixelIndex pixel) {
-  QStringList texts;
-  std::visit(
-      [&](const auto& stack) {
-        const auto image = stack.view(view);
-        for (int c = 0; c < image.channels; ++c) {
-          const auto value = image.at(pixel.y, pixel.x, c);
-          const int decimals = std::is_floating_point_v<decltype(value + 0)> ? 3 : 0;
-          texts << QString::number(static_cast<double>(value), 'f', decimals);
-        }
-      },
-      light_field.samples());
-  return texts;
-}
-
-ValueController::ValueController(Session& session, const OverlayController& overlay,
-                                 const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), overlay_(overlay), panels_(panels) {
-  connect(panels_.canvas, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
+ValueController::ValueController(const Workbench& bench)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      bar_(new ValueBar(&bench.frame)) {
+  bench.frame.addLine(Line::Values, bar_);
+  ViewCanvas* canvas = bench.stage.canvas();
+  connect(canvas, &ViewCanvas::cursorMoved, this, [this](std::optional<PixelIndex> pixel) {
     cursor_ = pixel;
     show();
   });
-  panels_.canvas->setPixelText([this](int y, int x) { return pixelText({y, x}); });
+  canvas->setPixelText([this](int y, int x) { return pixelText({y, x}); });
+  connect(&bench.jobs, &Jobs::added, this, &ValueController::showStatus);
+  connect(&bench.jobs, &Jobs::removed, this, &ValueController::showStatus);
+  showStatus();
   session_.on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) cursor_.reset();
     show();
   });
 }
 
+void ValueController::showStatus() {
+  const int count = bench_.jobs.count();
+  bar_->setStatus(count == 0   ? tr("ready")
+                  : count == 1 ? tr("1 job running")
+                               : tr("%1 jobs running").arg(count));
+}
+
 void ValueController::show() {
   const LightFieldPtr light_field = session_.light_field();
   const PixelIndex pixel = cursor_.value_or(session_.cross_hair());
   if (!light_field || pixel.y >= light_field->height() || pixel.x >= light_field->width()) {
-    panels_.values->setReading(std::nullopt);
+    bar_->setReading(std::nullopt);
     return;
   }
   const ViewIndex view = session_.view();
@@ -88,7 +91,7 @@ void ValueController::show() {
     const DisparityPair found = disparities_at(*entry->estimate, view, pixel);
     reading.estimates.push_back({QString::fromStdString(entry->name), found.front, found.behind});
   }
-  panels_.values->setReading(reading);
+  bar_->setReading(reading);
 }
 
 QStringList ValueController::pixelText(PixelIndex pixel) const {
@@ -96,8 +99,8 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
   if (!light_field || pixel.y >= light_field->height() || pixel.x >= light_field->width()) {
     return {};
   }
-  if (!overlay_.picture().isNull()) {
-    const auto value = overlay_.valueAt(pixel);
+  if (!bench_.overlay.picture().isNull()) {
+    const auto value = bench_.overlay.valueAt(pixel);
     if (value) return {number_text(*value)};
   }
   return sample_texts(*light_field, session_.view(), pixel);

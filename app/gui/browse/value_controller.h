@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
-#include "app/gui/stage/overlay.h"
-#include "app/session/session.h"
+#include "app/gui/bench/workbench.h"
+#include "engine/core/light_field/light_field.h"
 
 #include <QObject>
 #include <QStringList>
@@ -12,26 +11,24 @@
 
 namespace episcope {
 
-/// The samples of a pixel, one text a channel, as they are stored.
-[[nodiscard]] QStringList sample_texts(const LightField& light_field, ViewIndex view,
-                                       PixelIndex pixel);
+class ValueBar;
 
 /// Reads out what is known of the pixel under the cursor (of the cross-hair while the cursor is
-/// elsewhere), and prints values into large pixels.
+/// elsewhere), prints values into large pixels, and tells how many jobs are running.
 class ValueController : public QObject {
   Q_OBJECT
 
  public:
-  ValueController(Session& session, const OverlayController& overlay, const Panels& panels,
-                  QObject* parent);
+  explicit ValueController(const Workbench& bench);
 
  private:
   void show();
+  void showStatus();
   [[nodiscard]] QStringList pixelText(PixelIndex pixel) const;
 
+  Workbench bench_;
   Session& session_;
-  const OverlayController& overlay_;
-  Panels panels_;
+  ValueBar* bar_;
   std::optional<PixelIndex> cursor_;
 };
 

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/cloud/cloud_controller.h"
 
+#include "app/gui/frame/frame.h"
+#include "app/gui/stage/overlay.h"
+#include "app/session/picture/picture.h"
+#include "app/session/session.h"
 #include "widgets/cloud/point_cloud_panel.h"
+#include "widgets/style/quantity_text.h"
 
-#include <QTabWidget>
 #include <QVBoxLayout>
 
 namespace episcope {
 namespace {
+
+using render::Quantity;
 
 // A software renderer draws this many points fluently.
 constexpr std::size_t kMostPoints = 400'000;
@@ -22,13 +28,15 @@ int step_for(std::size_t pixels) {
 
 }  // namespace
 
-CloudController::CloudController(Session& session, const OverlayController& overlay,
-                                 const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), overlay_(overlay), panels_(panels), job_(this) {
-  connect(panels_.tabs, &QTabWidget::currentChanged, this, [this] {
+CloudController::CloudController(const Workbench& bench, QWidget* tab)
+    : QObject(&bench.owner), bench_(bench), session_(bench.session), tab_(tab), job_(this) {
+  connect(&bench.frame, &Frame::tabShown, this, [this] {
     if (!isOnScreen()) return;
     makePanel();
     if (is_stale_) update();
+  });
+  connect(&bench.overlay, &Overlay::drawn, this, [this] {
+    if (panel_ && isOnScreen() && panel_->coloring() != CloudColoring::Image) update();
   });
   session_.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Scene | Part::Shown | Part::View | Part::Evaluations)) {
@@ -39,20 +47,21 @@ CloudController::CloudController(Session& session, const OverlayController& over
 }
 
 bool CloudController::isOnScreen() const {
-  return panels_.tabs->currentWidget() == panels_.cloud_tab;
+  return bench_.frame.shownTab() == "cloud";
 }
 
 void CloudController::makePanel() {
   if (panel_) return;
   // The first OpenGL widget has the window made anew, and placed by the desktop unless it says
   // where it is.
-  QWidget* window = panels_.tabs->window();
-  window->move(window->pos());
-  panel_ = new PointCloudPanel(panels_.cloud_tab);
-  auto* layout = new QVBoxLayout(panels_.cloud_tab);
+  bench_.window.move(bench_.window.pos());
+  panel_ = new PointCloudPanel(tab_);
+  auto* layout = new QVBoxLayout(tab_);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panel_);
   connect(panel_, &PointCloudPanel::coloringSelected, this, [this] { update(); });
+  connect(panel_, &PointCloudPanel::pixelPicked, this,
+          [this](PixelIndex pixel) { session_.set_cross_hair(pixel); });
 }
 
 QString CloudController::obstacle() const {
@@ -66,6 +75,14 @@ QString CloudController::obstacle() const {
   return {};
 }
 
+std::optional<CloudController::Coloring> CloudController::coloring() const {
+  const Quantity quantity =
+      panel_->coloring() == CloudColoring::Error ? Quantity::SignedError : Quantity::Disparity;
+  auto source = map_source(session_, {quantity, session_.shown()->id, 0}, session_.view());
+  if (!source) return std::nullopt;
+  return Coloring{std::move(*source), bench_.overlay.shadingOf(quantity)};
+}
+
 void CloudController::update() {
   if (!panel_ || !panel_->isAvailable()) return;
   is_stale_ = false;
@@ -73,33 +90,37 @@ void CloudController::update() {
   panel_->setErrorAvailable(session_.has_truth(session_.view()));
   if (!hint.isEmpty()) {
     job_.drop();
+    panel_->setLegend({});
     panel_->setCloud({}, hint);
     return;
   }
-  const ViewIndex view = session_.view();
-  const EstimateEntry& shown = *session_.shown();
-  const CloudColoring coloring = panel_->coloring();
-  QuantityMapPtr colors;
-  render::Shading shading;
-  if (coloring != CloudColoring::Image) {
-    const auto quantity = coloring == CloudColoring::Error ? render::Quantity::SignedError
-                                                           : render::Quantity::Disparity;
-    shading = overlay_.shadingOf(quantity);
-    const auto source = map_source(session_, {quantity, shown.id, 0}, view);
-    if (!source) return;  // its evaluation tells when it is there
-    colors = make_map(*source);
-  }
+  if (panel_->coloring() == CloudColoring::Image) {
+    startCloud(std::nullopt);
+  } else if (const auto colors = coloring()) {
+    startCloud(colors);
+  }  // else its evaluation tells when it is there
+}
+
+void CloudController::startCloud(const std::optional<Coloring>& coloring) {
   job_.start<CloudPtr>(
-      [light_field = session_.light_field(), estimate = shown.estimate, view, colors,
-       shading](const Progress& progress) {
+      [light_field = session_.light_field(), estimate = session_.shown()->estimate,
+       view = session_.view(), coloring](const Progress& progress) {
         progress.check();
-        const Image<std::uint8_t> rgba = colors ? render::shade(colors->map, colors->valid, shading)
-                                                : render::shade_view(*light_field, view);
-        return std::make_shared<const PointCloud>(
-            make_point_cloud(estimate->field.view(view), light_field->info().camera, rgba,
-                             step_for(estimate->field.view(view).disparity.size())));
+        const RgbaImage colors = coloring
+                                     ? map_picture(*make_map(coloring->source), coloring->shading)
+                                     : render::shade_view(*light_field, view);
+        progress.check();
+        const DisparityView map = estimate->field.view(view);
+        return std::make_shared<const PointCloud>(make_point_cloud(
+            map, light_field->info().camera, colors, step_for(map.disparity.size())));
       },
-      [this](const CloudPtr& cloud) {
+      [this, coloring](const CloudPtr& cloud) {
+        if (coloring) {
+          const Quantity quantity = coloring->source.quantity;
+          panel_->setLegend(quantity_label(quantity), coloring->shading);
+        } else {
+          panel_->setLegend({});
+        }
         panel_->setCloud(*cloud, tr("This result has no valid pixel in this view."));
       });
 }

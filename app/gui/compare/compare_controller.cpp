@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/compare_controller.h"
 
-#include "app/gui/browse/value_controller.h"
-#include "app/gui/estimate/estimate_controller.h"
-#include "widgets/browse/epi_pane.h"
+#include "app/gui/frame/cancels.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/sample_text.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/run/run_estimator.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/compare_bar.h"
 #include "widgets/compare/overlay_bar.h"
 #include "widgets/style/number_text.h"
-
-#include <QApplication>
 
 #include <limits>
 
@@ -35,28 +36,39 @@ QStringList value_text(const QuantityMap& map, int y, int x) {
 
 }  // namespace
 
-CompareController::CompareController(Session& session, OverlayController& overlay,
-                                     const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), overlay_(overlay), panels_(panels), tile_job_(this) {
+CompareController::CompareController(const Workbench& bench, CompareBar* bar)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      overlay_(bench.overlay),
+      canvas_(bench.stage.canvas()),
+      wall_(bench.stage.wall()),
+      bar_(bar),
+      tile_job_(this) {
+  addCommands();
   connectWall();
-  connect(&overlay_, &OverlayController::drawn, this, &CompareController::showMode);
-  connect(panels_.overlay_bar, &OverlayBar::opacityChanged, this, &CompareController::showMode);
-  connect(panels_.canvas, &ViewCanvas::wipeMoved, this, [this](double position) {
+  bench.cancels.add(CancelRank::Comparing, [this] { return leave(); });
+  connect(&overlay_, &Overlay::drawn, this, &CompareController::showMode);
+  connect(bench.stage.overlayBar(), &OverlayBar::opacityChanged, this,
+          &CompareController::showMode);
+  connect(&bench.stage, &Stage::singleViewRequested, this, &CompareController::leave);
+  connect(&bench.stage, &Stage::previewChanged, this, &CompareController::leave);
+  connect(canvas_, &ViewCanvas::wipeMoved, this, [this](double position) {
     wipe_position_ = position;
     showWipe();
   });
-  connect(panels_.compare, &CompareBar::aChosen, this,
+  connect(bar_, &CompareBar::aChosen, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
-  connect(panels_.compare, &CompareBar::bChosen, this,
+  connect(bar_, &CompareBar::bChosen, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
-  connect(&overlay_, &OverlayController::choiceChanged, this, &CompareController::listChoices);
+  connect(&overlay_, &Overlay::choiceChanged, this, &CompareController::listChoices);
   listChoices();
   session_.on_changed([this](Parts parts) { update(parts); });
 }
 
 void CompareController::connectWall() {
-  TileWall* wall = panels_.wall;
-  ViewCanvas* canvas = panels_.canvas;
+  TileWall* wall = wall_;
+  ViewCanvas* canvas = canvas_;
   connect(wall, &TileWall::zoomChanged, canvas,
           [canvas](const LinkedZoom& zoom) { set_zoom(*canvas, zoom); });
   connect(wall, &TileWall::chosen, this, [this](quint64 tile) {
@@ -78,7 +90,7 @@ void CompareController::update(Parts parts) {
   }
   if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown)) showMode();
   if (parts.has(Part::CrossHair) && session_.scene()) {
-    panels_.wall->setCrossHair(session_.cross_hair());
+    wall_->setCrossHair(session_.cross_hair());
   }
 }
 
@@ -89,9 +101,9 @@ void CompareController::listChoices() {
   }
   const EstimateEntry* shown = session_.shown();
   const EstimateEntry* compared = session_.compared();
-  panels_.compare->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
-                              compared ? static_cast<quint64>(compared->id) : 0,
-                              overlay_.describe(overlay_.choiceB()));
+  bar_->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
+                   compared ? static_cast<quint64>(compared->id) : 0,
+                   overlay_.describe(overlay_.choiceB()));
 }
 
 bool CompareController::isAvailable(CompareMode mode) const {
@@ -106,30 +118,24 @@ void CompareController::toggleMode(CompareMode mode) {
 
 void CompareController::setMode(CompareMode mode) {
   if (mode == mode_ || !isAvailable(mode)) return;
-  const bool has_focus = panels_.canvas->hasFocus() || panels_.wall->hasFocus() ||
-                         panels_.wall->isAncestorOf(QApplication::focusWidget());
   mode_ = mode;
   const bool has_wall = mode == CompareMode::Sides || mode == CompareMode::Wall;
   if (mode != CompareMode::Wipe) {
-    panels_.canvas->endWipe();
+    canvas_->endWipe();
     wipe_picture_ = {};
   }
   if (mode == CompareMode::Wipe || mode == CompareMode::Sides) overlay_.setDifference(false);
   if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
     overlay_.setQuantity(session_.shown() ? Quantity::Disparity : Quantity::Truth);
   }
-  panels_.wall->setVisible(has_wall);
-  if (has_focus && has_wall) panels_.wall->setFocus();
-  panels_.canvas->setVisible(!has_wall);
-  panels_.vertical_epi->setVisible(!has_wall);
-  if (has_focus && !has_wall) panels_.canvas->setFocus();
+  bench_.stage.setWallShown(has_wall);
   if (!has_wall) {
     entries_.clear();
     tile_job_.drop();
-    panels_.wall->setTiles({});
+    wall_->setTiles({});
   }
   showMode();
-  emit modeChanged();
+  bench_.commands.refresh();
 }
 
 bool CompareController::leave() {
@@ -143,14 +149,8 @@ void CompareController::toggleDifference() {
   overlay_.setDifference(!overlay_.showsDifference());
 }
 
-ViewCanvas* CompareController::activeCanvas() const {
-  return panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active()
-             ? panels_.wall->active()
-             : panels_.canvas;
-}
-
 void CompareController::showMode() {
-  if (!session_.scene() || panels_.canvas->state() != ViewCanvas::State::Picture) return;
+  if (!session_.scene() || canvas_->state() != ViewCanvas::State::Picture) return;
   if (mode_ == CompareMode::Wipe) {
     showWipe();
   } else if (mode_ != CompareMode::Single) {
@@ -161,15 +161,15 @@ void CompareController::showMode() {
 void CompareController::showWipe() {
   const MapChoice other = overlay_.choiceB();
   if (auto picture = overlay_.pictureOf(other)) wipe_picture_ = *std::move(picture);
-  panels_.canvas->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
+  canvas_->setWipe(wipe_position_, wipe_picture_, overlay_.describe(other));
 }
 
 TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
   TileRequest made{session_.light_field(), session_.view(), {}, {}, 1};
   if (!choice) return made;
-  made.source = map_source(session_, *choice, session_.view());
-  made.shading = overlay_.shadingOf(*choice);
-  made.opacity = panels_.overlay_bar->opacity();
+  made.source = overlay_.sourceOf(*choice);
+  made.shading = overlay_.shadingOf(choice->quantity);
+  made.opacity = bench_.stage.overlayBar()->opacity();
   return made;
 }
 
@@ -261,10 +261,10 @@ void CompareController::fillWall() {
     }
     tiles.push_back(std::move(tile));
   }
-  const bool was_empty = panels_.wall->count() == 0;
-  panels_.wall->setTiles(tiles);
-  if (was_empty) panels_.wall->setZoom(zoom_of(*panels_.canvas));
-  panels_.wall->setCrossHair(session_.cross_hair());
+  const bool was_empty = wall_->count() == 0;
+  wall_->setTiles(tiles);
+  if (was_empty) wall_->setZoom(zoom_of(*canvas_));
+  wall_->setCrossHair(session_.cross_hair());
 }
 
 void CompareController::open(quint64 tile) {

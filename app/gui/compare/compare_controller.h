@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/bench/workbench.h"
 #include "app/gui/compare/tile_pictures.h"
-#include "app/gui/frame/frame.h"
 #include "app/gui/frame/jobs.h"
-#include "app/gui/stage/overlay.h"
 #include "app/session/session.h"
 #include "widgets/style/side.h"
 
@@ -13,6 +12,10 @@
 #include <vector>
 
 namespace episcope {
+
+class CompareBar;
+class TileWall;
+class ViewCanvas;
 
 /// How results are laid beside each other.
 enum class CompareMode {
@@ -27,8 +30,7 @@ class CompareController : public QObject {
   Q_OBJECT
 
  public:
-  CompareController(Session& session, OverlayController& overlay, const Panels& panels,
-                    QObject* parent);
+  CompareController(const Workbench& bench, CompareBar* bar);
 
   /// Ignored if there is nothing to compare. Chosen again, a mode is left.
   void toggleMode(CompareMode mode);
@@ -40,11 +42,6 @@ class CompareController : public QObject {
   bool leave();
   /// Shows A − B instead of the quantity, which ends a wipe.
   void toggleDifference();
-  /// What zoom commands act on.
-  [[nodiscard]] ViewCanvas* activeCanvas() const;
-
- signals:
-  void modeChanged();
 
  private:
   struct Entry {
@@ -55,6 +52,10 @@ class CompareController : public QObject {
     TilePicture picture;
   };
 
+  void addCommands();
+  void addOverlayCommands();
+  void addChoiceCommands();
+  void addModeCommands();
   void connectWall();
   void update(Parts parts);
   void listChoices();
@@ -68,9 +69,12 @@ class CompareController : public QObject {
   [[nodiscard]] QString captionOf(const EstimateEntry& entry) const;
   void open(quint64 tile);
 
+  Workbench bench_;
   Session& session_;
-  OverlayController& overlay_;
-  Panels panels_;
+  Overlay& overlay_;
+  ViewCanvas* canvas_;
+  TileWall* wall_;
+  CompareBar* bar_;
   CompareMode mode_ = CompareMode::Single;
   double wipe_position_ = 0.5;
   QImage wipe_picture_;  // of B, until the next one is made

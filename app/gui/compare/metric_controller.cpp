@@ -2,11 +2,12 @@
 #include "app/gui/compare/metric_controller.h"
 
 #include "app/gui/compare/metric_names.h"
-#include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/messages.h"
 #include "app/gui/frame/text_file.h"
+#include "app/session/run/run_estimator.h"
 #include "widgets/compare/metric_table.h"
 
-#include <QFileDialog>
 #include <QVariant>
 
 #include <algorithm>
@@ -55,19 +56,19 @@ MetricRow row_of(const Judged& judged, const std::vector<Place>& places) {
 
 }  // namespace
 
-MetricController::MetricController(Session& session, Jobs& jobs, const Panels& panels,
-                                   QObject* parent)
-    : QObject(parent), session_(session), jobs_(jobs), panels_(panels) {
-  connect(panels_.metrics, &MetricTable::rowClicked, this,
+MetricController::MetricController(const Workbench& bench, MetricTable* table)
+    : QObject(&bench.owner), bench_(bench), session_(bench.session), table_(table) {
+  connect(table_, &MetricTable::rowClicked, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
-  connect(panels_.metrics, &MetricTable::compareRequested, this,
+  connect(table_, &MetricTable::compareRequested, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
-  connect(panels_.metrics, &MetricTable::copied, this, [this](const QString& form) {
+  connect(table_, &MetricTable::copied, this, [this](const QString& form) {
     const auto count = session_.estimates().size();
-    emit hint(count == 1 ? tr("Copied the numbers of one result as %1").arg(form)
-                         : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
+    bench_.messages.hint(count == 1
+                             ? tr("Copied the numbers of one result as %1").arg(form)
+                             : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
   });
-  connect(panels_.metrics, &MetricTable::saveRequested, this, &MetricController::save);
+  connect(table_, &MetricTable::saveRequested, this, &MetricController::save);
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
 }
@@ -77,21 +78,20 @@ void MetricController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
     const EstimateEntry* shown = session_.shown();
     const EstimateEntry* compared = session_.compared();
-    panels_.metrics->setSides(shown ? static_cast<quint64>(shown->id) : 0,
-                              compared ? static_cast<quint64>(compared->id) : 0);
+    table_->setSides(shown ? static_cast<quint64>(shown->id) : 0,
+                     compared ? static_cast<quint64>(compared->id) : 0);
   }
 }
 
 void MetricController::fillTable() {
   const auto& scene = session_.scene();
   if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
-    panels_.metrics->setTable({}, {});
-    panels_.metrics->setEmptyText(
-        scene ? tr("This light field has no ground truth to judge results by.")
-              : tr("Open a light field with ground truth and run a method."));
+    table_->setTable({}, {});
+    table_->setEmptyText(scene ? tr("This light field has no ground truth to judge results by.")
+                               : tr("Open a light field with ground truth and run a method."));
     return;
   }
-  panels_.metrics->setEmptyText(tr("Run a method: its errors against the truth appear here."));
+  table_->setEmptyText(tr("Run a method: its errors against the truth appear here."));
   const std::vector<Judged> judged = judgeAll();
   const std::vector<Place> places = places_of(judged);
   std::vector<MetricColumn> columns = {
@@ -100,7 +100,7 @@ void MetricController::fillTable() {
   columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
   std::vector<MetricRow> rows;
   for (const Judged& each : judged) rows.push_back(row_of(each, places));
-  panels_.metrics->setTable(columns, rows);
+  table_->setTable(columns, rows);
 }
 
 std::vector<Judged> MetricController::judgeAll() {
@@ -118,21 +118,16 @@ std::vector<Judged> MetricController::judgeAll() {
 }
 
 void MetricController::save(const QString& suffix, const QString& text) {
-  auto* dialog = new QFileDialog(panels_.metrics, tr("Save the table"), "metrics." + suffix,
-                                 suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"));
-  dialog->setAttribute(Qt::WA_DeleteOnClose);
-  dialog->setAcceptMode(QFileDialog::AcceptSave);
-  dialog->setDefaultSuffix(suffix);
-  connect(dialog, &QFileDialog::fileSelected, this, [this, text](const QString& path) {
-    jobs_.start<bool>(
-        Lane::Export, tr("Saving the table"),
-        [path, text](const Progress&) {
-          write_text_file(path, text);
-          return true;
-        },
-        [this, path](bool) { emit written(path); });
-  });
-  dialog->open();
+  ask_where_to_save(&bench_.window,
+                    {.name = "save_table",
+                     .title = tr("Save the table"),
+                     .filter = suffix == "csv" ? tr("CSV (*.csv)") : tr("LaTeX (*.tex)"),
+                     .proposal = "metrics." + suffix},
+                    [this, text](const QString& path) {
+                      write_in_background(
+                          bench_.jobs, bench_.messages, path,
+                          [path, text](const Progress&) { write_text_file(path, text); });
+                    });
 }
 
 }  // namespace episcope

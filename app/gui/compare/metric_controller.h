@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/bench/workbench.h"
 #include "app/session/session.h"
 
 #include <QObject>
@@ -12,6 +11,8 @@
 #include <vector>
 
 namespace episcope {
+
+class MetricTable;
 
 /// A result with the numbers that are known of it.
 struct Judged {
@@ -26,12 +27,7 @@ class MetricController : public QObject {
   Q_OBJECT
 
  public:
-  MetricController(Session& session, Jobs& jobs, const Panels& panels, QObject* parent);
-
- signals:
-  /// One sentence for the user.
-  void hint(const QString& sentence);
-  void written(const QString& path);
+  MetricController(const Workbench& bench, MetricTable* table);
 
  private:
   void update(Parts parts);
@@ -39,9 +35,9 @@ class MetricController : public QObject {
   [[nodiscard]] std::vector<Judged> judgeAll();
   void save(const QString& suffix, const QString& text);
 
+  Workbench bench_;
   Session& session_;
-  Jobs& jobs_;
-  Panels panels_;
+  MetricTable* table_;
 };
 
 }  // namespace episcope

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/statistics_controller.h"
 
+#include "app/gui/compare/compare_section.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
 #include "engine/evaluation/metrics/error_maps.h"
 #include "engine/evaluation/metrics/region_metrics.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/compare/overlay_bar.h"
+#include "widgets/compare/color_bar.h"
 #include "widgets/compare/statistics_panel.h"
 #include "widgets/style/quantity_text.h"
 
@@ -39,15 +44,39 @@ Interval balanced(Interval range) {
 
 }  // namespace
 
-StatisticsController::StatisticsController(Session& session, OverlayController& overlay,
-                                           const Panels& panels, QObject* parent)
-    : QObject(parent), session_(session), overlay_(overlay), panels_(panels), job_(this) {
-  connect(&overlay_, &OverlayController::drawn, this, &StatisticsController::begin);
-  connect(panels_.canvas, &ViewCanvas::transformChanged, this, &StatisticsController::begin);
-  connect(panels_.wall, &TileWall::zoomChanged, this, &StatisticsController::begin);
-  connect(panels_.statistics, &StatisticsPanel::rangeEdited, &overlay_,
+StatisticsController::StatisticsController(const Workbench& bench, StatisticsPanel* panel)
+    : QObject(&bench.owner), bench_(bench), overlay_(bench.overlay), panel_(panel), job_(this) {
+  addCommands();
+  const Stage& stage = bench.stage;
+  connect(&overlay_, &Overlay::drawn, this, &StatisticsController::begin);
+  connect(stage.canvas(), &ViewCanvas::transformChanged, this, &StatisticsController::begin);
+  connect(stage.wall(), &TileWall::zoomChanged, this, &StatisticsController::begin);
+  connect(stage.colorBar(), &ColorBar::automaticRangeRequested, this,
+          &StatisticsController::useAutomaticRange);
+  connect(panel_, &StatisticsPanel::rangeEdited, &overlay_,
           [this](Interval range) { overlay_.setRange(range); });
   begin();
+}
+
+void StatisticsController::addCommands() {
+  QAction* automatic = bench_.commands.add({.id = "compare.auto_range",
+                                            .menu = Menu::Compare,
+                                            .text = tr("Automatic range"),
+                                            .tip = tr("Stretches the colours over the values in "
+                                                      "sight"),
+                                            .icon = "auto",
+                                            .keys = {Qt::Key_A},
+                                            .run = [this] { useAutomaticRange(); },
+                                            .section = compare_section::kRange});
+  QAction* own = bench_.commands.add({.id = "compare.own_range",
+                                      .menu = Menu::Compare,
+                                      .text = tr("Own range"),
+                                      .tip = tr("Back to the range that belongs to the quantity"),
+                                      .icon = "reset",
+                                      .keys = {Qt::Key_R},
+                                      .run = [this] { overlay_.setRange(std::nullopt); },
+                                      .section = compare_section::kRange});
+  bench_.stage.colorBar()->followTips(automatic, own);
 }
 
 void StatisticsController::begin() {
@@ -56,8 +85,7 @@ void StatisticsController::begin() {
     statistics_.reset();
     return;
   }
-  const bool has_wall = panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active();
-  const QRect seen = (has_wall ? panels_.wall->active() : panels_.canvas)->visiblePixels();
+  const QRect seen = bench_.stage.pixelsInSight();
   const PixelRegion region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const bool is_same = map_ == overlay_.map() && region == region_ && statistics_;
   map_ = overlay_.map();
@@ -67,19 +95,24 @@ void StatisticsController::begin() {
     job_.drop();
     statistics_.reset();
     wants_range_ = false;
-    panels_.statistics->clear(tr("No map is shown"));
+    panel_->clear(tr("No map is shown"));
     return;
   }
   if (!is_same) statistics_.reset();
-  const bool is_result = session_.find_estimate(choice_.estimate) &&
+  count(region);
+}
+
+void StatisticsController::count(const PixelRegion& region) {
+  Session& session = bench_.session;
+  const bool is_result = session.find_estimate(choice_.estimate) &&
                          choice_.quantity != render::Quantity::Difference &&
                          choice_.quantity != render::Quantity::Truth;
   const EvaluationPtr evaluation =
-      is_result ? session_.evaluation({choice_.estimate, session_.view(), Protocol::Vmv2013})
+      is_result ? session.evaluation({choice_.estimate, session.view(), Protocol::Vmv2013})
                 : nullptr;
   job_.start<Counted>(
       [map = map_, region, evaluation,
-       shown = overlay_.shadingOf(choice_).range](const Progress& progress) {
+       shown = overlay_.shadingOf(choice_.quantity).range](const Progress& progress) {
         progress.check();
         return Counted{
             render::region_statistics({map->map, map->valid, map->inside}, region, shown, kBars),
@@ -90,9 +123,9 @@ void StatisticsController::begin() {
 
 void StatisticsController::show(const Counted& counted) {
   statistics_ = counted.statistics;
-  panels_.statistics->setSummary({overlay_.describe(choice_), quantity_unit(choice_.quantity),
-                                  counted.statistics, counted.bad_percent,
-                                  overlay_.shadingOf(choice_)});
+  panel_->setSummary({overlay_.describe(choice_), quantity_unit(choice_.quantity),
+                      counted.statistics, counted.bad_percent,
+                      overlay_.shadingOf(choice_.quantity)});
   emit updated();
   if (wants_range_) applyAutomaticRange();
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
+#include "app/gui/bench/workbench.h"
 #include "app/gui/frame/jobs.h"
-#include "app/gui/stage/overlay.h"
-#include "app/session/session.h"
+#include "app/session/picture/map_choice.h"
+#include "app/session/picture/quantity_map.h"
 #include "engine/render/region_statistics.h"
 
 #include <QObject>
@@ -13,13 +13,14 @@
 
 namespace episcope {
 
+class StatisticsPanel;
+
 /// Sums up in the background what is in sight of the shown map, and sets its colour range from it.
 class StatisticsController : public QObject {
   Q_OBJECT
 
  public:
-  StatisticsController(Session& session, OverlayController& overlay, const Panels& panels,
-                       QObject* parent);
+  StatisticsController(const Workbench& bench, StatisticsPanel* panel);
 
   /// Stretches the colours over the values in sight; at once, or as soon as they are known.
   void useAutomaticRange();
@@ -36,13 +37,15 @@ class StatisticsController : public QObject {
     render::RegionStatistics statistics;
     std::optional<double> bad_percent;
   };
+  void addCommands();
   void begin();
+  void count(const render::PixelRegion& region);
   void show(const Counted& counted);
   void applyAutomaticRange();
 
-  Session& session_;
-  OverlayController& overlay_;
-  Panels panels_;
+  Workbench bench_;
+  Overlay& overlay_;
+  StatisticsPanel* panel_;
   LatestJob job_;
   QuantityMapPtr map_;  // what the statistics are of
   render::PixelRegion region_;

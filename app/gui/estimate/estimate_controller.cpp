@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
+#include "app/gui/estimate/result_export.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
 #include "app/session/run/command_line.h"
 #include "engine/disparity/registry.h"
-#include "widgets/controls/job_panel.h"
+#include "widgets/controls/fitting_splitter.h"
 #include "widgets/estimate/method_panel.h"
 #include "widgets/estimate/result_list.h"
 #include "widgets/style/number_text.h"
 
+#include <QAbstractItemView>
 #include <QClipboard>
 #include <QGuiApplication>
 
@@ -15,6 +22,9 @@
 
 namespace episcope {
 namespace {
+
+constexpr const char* kFirstMethod = "epi_l";
+constexpr int kLeastResults = 150;  // height of a list of five
 
 std::vector<MethodDescription> described_methods() {
   std::vector<MethodDescription> methods;
@@ -67,39 +77,61 @@ QString detail_text(const Estimate& estimate) {
 
 }  // namespace
 
-EstimateController::EstimateController(Session& session, Jobs& jobs, const Panels& panels,
-                                       QObject* parent)
-    : QObject(parent), session_(session), jobs_(jobs), panels_(panels) {
-  panels_.method->setMethods(described_methods());
-  connect(panels_.method, &MethodPanel::runRequested, this,
+EstimateController::EstimateController(const Workbench& bench)
+    : QObject(&bench.owner), bench_(bench), session_(bench.session) {
+  addTab();
+  addCommands();
+  method_->setMethods(described_methods());
+  connect(method_, &MethodPanel::runRequested, this,
           [this](const RunRequest& request) { run(request_of(request)); });
-  connect(panels_.method, &MethodPanel::cancelRequested, this, &EstimateController::cancel);
-  connect(panels_.method, &MethodPanel::copyCommandRequested, this,
-          &EstimateController::copyCommand);
-  ResultList* results = panels_.results;
-  connect(results, &ResultList::selected, this,
-          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
-  connect(results, &ResultList::compareRequested, this,
-          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
-  connect(results, &ResultList::removeRequested, this,
-          [this](quint64 id) { session_.remove_estimate(static_cast<int>(id)); });
-  connect(results, &ResultList::exportRequested, this,
-          [this](quint64 id) { emit exportRequested(static_cast<int>(id)); });
-  const auto with_entry = [this](void (EstimateController::*act)(const EstimateEntry&)) {
-    return [this, act](quint64 id) {
-      if (const auto* entry = session_.find_estimate(static_cast<int>(id))) (this->*act)(*entry);
-    };
-  };
-  connect(results, &ResultList::copyCommandRequested, this,
-          with_entry(&EstimateController::copyCommandOf));
-  connect(results, &ResultList::reuseRequested, this, with_entry(&EstimateController::reuse));
+  connect(method_, &MethodPanel::cancelRequested, this, &EstimateController::cancel);
+  connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
+  connectResults();
+  // There is something to see at once in a scene that was opened to look at the program.
+  connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
+    if (is_builtin(input)) run({kFirstMethod, {}, {}});
+  });
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
 }
 
+void EstimateController::addTab() {
+  auto* tab = new FittingSplitter(kLeastResults, &bench_.frame);
+  method_ = new MethodPanel(tab);
+  results_ = new ResultList(tab);
+  tab->addWidget(method_);
+  tab->addWidget(results_);
+  bench_.frame.addTab({.id = "estimate",
+                       .title = tr("Estimate"),
+                       .command_text = tr("Estimate tab"),
+                       .command_tip = tr("Shows methods and results"),
+                       .widget = tab});
+  bench_.commands.hearHeldKeys(results_->findChild<QAbstractItemView*>());
+}
+
+void EstimateController::connectResults() {
+  connect(results_, &ResultList::selected, this,
+          [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
+  connect(results_, &ResultList::compareRequested, this,
+          [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
+  connect(results_, &ResultList::removeRequested, this,
+          [this](quint64 id) { session_.remove_estimate(static_cast<int>(id)); });
+  const auto with_entry = [this](auto act) {
+    return [this, act](quint64 id) {
+      if (const auto* entry = session_.find_estimate(static_cast<int>(id))) act(*entry);
+    };
+  };
+  connect(results_, &ResultList::exportRequested, this,
+          with_entry([this](const EstimateEntry& entry) { ask_to_export(bench_, entry); }));
+  connect(results_, &ResultList::copyCommandRequested, this,
+          with_entry([this](const EstimateEntry& entry) { copyCommandOf(entry); }));
+  connect(results_, &ResultList::reuseRequested, this,
+          with_entry([this](const EstimateEntry& entry) { reuse(entry); }));
+}
+
 void EstimateController::run() {
   if (!session_.scene()) return;
-  if (const RunRequest request = panels_.method->request(); !request.method.empty()) {
+  if (const RunRequest request = method_->request(); !request.method.empty()) {
     run(request_of(request));
   }
 }
@@ -109,7 +141,7 @@ void EstimateController::run(const EstimateRequest& request) {
   if (!light_field) return;
   const std::uint64_t generation = session_.generation();
   const EstimatorInfo info = find_estimator(request.method).info;
-  const quint64 job = jobs_.start<FinishedEstimate>(
+  const quint64 job = bench_.jobs.start<FinishedEstimate>(
       Lane::Estimate, QString::fromStdString(info.name),
       [light_field, request](const Progress& progress) {
         return run_estimator(*light_field, request, progress);
@@ -118,18 +150,18 @@ void EstimateController::run(const EstimateRequest& request) {
         session_.add_estimate(finished.estimate, finished.display_range, generation);
       },
       [this] { showRunning(); });
-  if (info.iterative) panels_.jobs->setIterative(job);
+  if (info.iterative) bench_.jobs.setIterative(job);
   showRunning();
 }
 
 void EstimateController::showRunning() {
-  const bool is_running = jobs_.count(Lane::Estimate) > 0;
-  panels_.method->setRunning(is_running);
-  panels_.results->setExpecting(is_running);
+  const bool is_running = bench_.jobs.count(Lane::Estimate) > 0;
+  method_->setRunning(is_running);
+  results_->setExpecting(is_running);
 }
 
 void EstimateController::cancel() {
-  jobs_.cancelLane(Lane::Estimate);
+  bench_.jobs.cancelLane(Lane::Estimate);
 }
 
 void EstimateController::removeShown() {
@@ -148,17 +180,17 @@ void EstimateController::showNeighbour(int step) {
 
 void EstimateController::update(Parts parts) {
   if (parts.has(Part::Scene)) {
-    panels_.method->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
+    method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) {
-    const EstimateEntry* shown = session_.shown();
-    const EstimateEntry* compared = session_.compared();
-    const auto id_of = [](const EstimateEntry* entry) {
-      return entry ? std::optional<quint64>(entry->id) : std::nullopt;
-    };
-    panels_.results->setShown(id_of(shown), id_of(compared));
-  }
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) showChoice();
+}
+
+void EstimateController::showChoice() {
+  const auto id_of = [](const EstimateEntry* entry) {
+    return entry ? std::optional<quint64>(entry->id) : std::nullopt;
+  };
+  results_->setShown(id_of(session_.shown()), id_of(session_.compared()));
 }
 
 void EstimateController::listResults() {
@@ -177,11 +209,11 @@ void EstimateController::listResults() {
     }
     rows.push_back(row);
   }
-  panels_.results->setResults(rows);
+  results_->setResults(rows);
 }
 
 void EstimateController::copyCommand() {
-  const RunRequest request = panels_.method->request();
+  const RunRequest request = method_->request();
   if (request.method.empty() || !session_.scene()) return;
   copy(command_line_for(request.method, request.values, views_of(request.all_views),
                         session_.input(), session_.reading_options()));
@@ -193,12 +225,12 @@ void EstimateController::copyCommandOf(const EstimateEntry& entry) {
 
 void EstimateController::copy(const std::string& command) {
   QGuiApplication::clipboard()->setText(QString::fromStdString(command));
-  emit hint(tr("Copied: %1").arg(QString::fromStdString(command)));
+  bench_.messages.hint(tr("Copied: %1").arg(QString::fromStdString(command)));
 }
 
 void EstimateController::reuse(const EstimateEntry& entry) {
   const Estimate& estimate = *entry.estimate;
-  panels_.method->setRequest(
+  method_->setRequest(
       {estimate.method, estimate.parameters, estimate.field.disparity.grid().count() > 1});
 }
 

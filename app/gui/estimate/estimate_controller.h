@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
-#include "app/gui/frame/jobs.h"
+#include "app/gui/bench/workbench.h"
+#include "app/session/parts.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/session.h"
 
 #include <QObject>
 
-#include <optional>
-
 namespace episcope {
 
-struct RunRequest;
+class MethodPanel;
+class ResultList;
 
-/// Runs methods in the background and lists what they found.
+/// The tab of methods and results: runs methods in the background and lists what they found.
 class EstimateController : public QObject {
   Q_OBJECT
 
  public:
-  EstimateController(Session& session, Jobs& jobs, const Panels& panels, QObject* parent);
+  explicit EstimateController(const Workbench& bench);
 
   /// Runs what the form says; parameters are copied now.
   void run();
@@ -31,21 +30,23 @@ class EstimateController : public QObject {
   void copyCommand();
   void showNeighbour(int step);
 
- signals:
-  void exportRequested(int estimate);
-  void hint(const QString& sentence);
-
  private:
+  void addTab();
+  void addCommands();
+  void addResultCommands();
+  void connectResults();
   void update(Parts parts);
+  void showChoice();
   void showRunning();
   void listResults();
   void copyCommandOf(const EstimateEntry& entry);
   void copy(const std::string& command);
   void reuse(const EstimateEntry& entry);
 
+  Workbench bench_;
   Session& session_;
-  Jobs& jobs_;
-  Panels panels_;
+  MethodPanel* method_;
+  ResultList* results_;
 };
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/gui/frame/menus.h"
+
 #include <QKeySequence>
 #include <QList>
 #include <QObject>
@@ -11,7 +13,11 @@
 #include <vector>
 
 class QAction;
+class QKeyEvent;
+class QMenu;
 class QMenuBar;
+class QToolBar;
+class QWidget;
 
 namespace episcope {
 
@@ -19,37 +25,47 @@ namespace episcope {
 enum class KeyScope {
   Window,
   Viewer,
-  Held  ///< Nowhere: who needs press and release asks `ActionTable::keys`.
+  Held  ///< In the widgets given to `Commands::hearHeldKeys`: `hold` is told of press and release.
 };
 
-/// One command: all that menus, tool bars, tool tips, the list of keys and the palette show of it.
+/// One command: all that menus, tool bars, tool tips, the list of keys and the palette show of it,
+/// what it does and when it can be run.
 struct Command {
-  QString id;    ///< "view.next_column"
-  QString menu;  ///< "View"; "View › Zoom" for a menu in a menu that has commands already.
-  QString text;  ///< As in the menu, without mnemonic.
-  QString tip;   ///< A sentence on what it does.
-  QString icon;  ///< Of resources/icons; may be empty.
-  QList<QKeySequence> keys;   ///< Until the user gives it others.
-  std::function<void()> run;  ///< May be empty: whoever needs it listens to the action.
+  QString id;  ///< "view.left"
+  Menu menu = Menu::File;
+  QString text;                ///< As in the menu, without mnemonic.
+  QString tip;                 ///< A sentence on what it does.
+  QString icon{};              ///< Of resources/icons; may be empty.
+  QList<QKeySequence> keys{};  ///< Until the user gives it others.
+  std::function<void()> run{};
+  int section = 0;  ///< Of the menu, see `section`.
+  BarSection bar = BarSection::None;
   KeyScope scope = KeyScope::Window;
-  bool is_checkable = false;
-  bool begins_group = false;  ///< A separator stands before it in the menu.
+  std::function<bool()> enabled{};       ///< Empty = always.
+  std::function<bool()> checked{};       ///< Makes it checkable.
+  std::function<bool()> visible{};       ///< Empty = always.
+  std::function<QString()> live_text{};  ///< Its text as things are now; empty = `text`.
+  std::function<void(bool)> hold{};      ///< For KeyScope::Held.
+  QMenu* submenu = nullptr;              ///< Opened by the entry, which then runs nothing.
 };
 
-/// The one table of commands, in the order of menus.
-class ActionTable : public QObject {
+/// The one table of commands, in the order in which they were added. Whoever changes what
+/// `enabled`, `checked`, `visible` or `live_text` of any command go by calls `refresh`.
+class Commands : public QObject {
   Q_OBJECT
 
  public:
   /// `window` hears the keys of scope Window, `viewer` those of scope Viewer.
-  ActionTable(QWidget* window, QWidget* viewer);
+  Commands(QWidget* window, QWidget* viewer);
 
   /// The action with text, tool tip, icon, keys (those of the user, if there are) and handler. Its
   /// object name is the id.
-  QAction* add(const Command& command);
+  QAction* add(Command command);
   /// Null for an unknown id.
   [[nodiscard]] QAction* find(const QString& id) const;
-  [[nodiscard]] const std::vector<Command>& commands() const { return commands_; }
+  [[nodiscard]] const std::vector<Command>& all() const { return commands_; }
+  /// Runs a command if it is enabled. Returns whether it was.
+  bool trigger(const QString& id);
 
   /// Keys of a command now; its own ones unless the user changed them.
   [[nodiscard]] QList<QKeySequence> keys(const QString& id) const;
@@ -64,22 +80,41 @@ class ActionTable : public QObject {
   /// Back to the command's own keys, but for those that another command has now.
   void resetKeys(const QString& id);
   void resetAllKeys();
+  /// Keys of scope Held are heard in this widget, which must outlive this.
+  void hearHeldKeys(QWidget* widget);
 
-  /// Fills a menu bar with the menus named by the commands, in order of appearance.
+  /// Fills a menu bar, once all commands are there.
   void fillMenus(QMenuBar& bar) const;
+  /// A widget in the tool bar, before the commands of its section.
+  void addBarWidget(BarSection section, QWidget* widget);
+  /// Likewise a tool bar.
+  void fillBar(QToolBar& bar) const;
+
+ public slots:
+  /// Enables, checks, shows and names all commands as things are now.
+  void refresh();
 
  signals:
   void keysChanged();
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   [[nodiscard]] const Command* command(const QString& id) const;
   void apply(const Command& command, const QList<QKeySequence>& keys);
+  void show(const Command& command);
+  void fillMenu(QMenu& menu, Menu which) const;
+  /// Whether a key event belongs to a held command, which is then told.
+  bool hearHeld(const Command& command, const QKeyEvent& event);
 
   QWidget* window_;
   QWidget* viewer_;
   std::vector<Command> commands_;
   std::map<QString, QAction*> actions_;
   std::map<QString, QList<QKeySequence>> keys_;
+  std::vector<std::pair<BarSection, QWidget*>> bar_widgets_;
+  QString held_;  // id of the command whose key is down
 };
 
 }  // namespace episcope

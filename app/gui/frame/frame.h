@@ -1,63 +1,75 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QString>
+#include <QWidget>
+
+#include <map>
+#include <vector>
+
+class QBoxLayout;
+class QSplitter;
 class QTabWidget;
-class QToolBar;
-class QWidget;
+class QVBoxLayout;
 
 namespace episcope {
 
-class AnnotationBar;
-class BrushPanel;
-class ColorBar;
-class CompareBar;
-class EpiPane;
-class InfoPanel;
-class JobPanel;
-class LabelPalette;
-class MessageBar;
-class MethodPanel;
-class MetricTable;
-class OverlayBar;
-class ResultList;
-class SegmentPanel;
-class StatisticsPanel;
-class TileWall;
-class ValueBar;
-class ViewCanvas;
-class ViewGrid;
-
-/// The widgets of the main window, owned by their Qt parents. Controllers are given these.
-struct Panels {
-  QToolBar* tool_bar = nullptr;
-  OverlayBar* overlay_bar = nullptr;
-  QWidget* viewer = nullptr;  ///< Holds canvas, EPIs, legend and view grid.
-  ViewCanvas* canvas = nullptr;
-  TileWall* wall = nullptr;  ///< In the place of canvas and vertical EPI; hidden at first.
-  EpiPane* horizontal_epi = nullptr;
-  EpiPane* vertical_epi = nullptr;
-  ColorBar* color_bar = nullptr;
-  ViewGrid* view_grid = nullptr;
-  InfoPanel* info = nullptr;
-  QTabWidget* tabs = nullptr;
-  MethodPanel* method = nullptr;
-  ResultList* results = nullptr;
-  CompareBar* compare = nullptr;
-  StatisticsPanel* statistics = nullptr;
-  MetricTable* metrics = nullptr;
-  QWidget* annotate_tab = nullptr;
-  BrushPanel* brush = nullptr;
-  LabelPalette* labels = nullptr;
-  SegmentPanel* segment = nullptr;
-  AnnotationBar* annotation = nullptr;
-  QWidget* cloud_tab = nullptr;  ///< Empty until it is shown first.
-  JobPanel* jobs = nullptr;
-  MessageBar* recovery = nullptr;  ///< What a crash left; other messages do not push it aside.
-  MessageBar* messages = nullptr;
-  ValueBar* values = nullptr;
+/// A tab at the right.
+struct Tab {
+  QString id;  ///< "compare"; its command is "tab.compare".
+  QString title;
+  QString command_text;  ///< "Compare tab"
+  QString command_tip;
+  QString icon{};
+  QWidget* widget = nullptr;
+  QBoxLayout* room = nullptr;  ///< Where other features may add to it; may be null.
 };
 
-/// Makes all panels and arranges them inside `window`.
-[[nodiscard]] Panels make_panels(QWidget* window);
+/// Lines under everything else, in their order.
+enum class Line { Recovery, Messages, Values };
+
+/// The places of the main window, where features put their widgets: the viewer with a column at its
+/// left, tabs at the right, and lines under both.
+class Frame : public QWidget {
+  Q_OBJECT
+
+ public:
+  explicit Frame(QWidget* parent);
+
+  /// Holds the column at the left and the stage: keys of KeyScope::Viewer are heard there.
+  [[nodiscard]] QWidget* viewer() const { return viewer_; }
+  /// In the column at the left; what stretches takes the room that the others leave, below them.
+  void addToColumn(QWidget* widget, bool stretches);
+  void setStage(QWidget* stage);
+  void addTab(const Tab& tab);
+  /// Into the room of a tab that has one; else ignored.
+  void addToTab(const QString& id, QWidget* widget);
+  /// Under the tabs.
+  void addUnderTabs(QWidget* widget);
+  void addLine(Line line, QWidget* widget);
+
+  [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
+  void showTab(const QString& id);
+  /// Id of the tab that is shown.
+  [[nodiscard]] QString shownTab() const;
+
+  /// The program has begun: features may offer what is left from before.
+  void start() { emit started(); }
+
+ signals:
+  void started();
+  void tabShown(const QString& id);
+
+ private:
+  QWidget* viewer_;
+  QSplitter* column_;
+  int fixed_count_ = 0;  // of widgets in the column that do not stretch; they stand first
+  QSplitter* browser_;
+  QTabWidget* book_;
+  QVBoxLayout* right_;
+  QVBoxLayout* rows_;
+  std::map<Line, QWidget*> lines_;
+  std::vector<Tab> tabs_;
+};
 
 }  // namespace episcope

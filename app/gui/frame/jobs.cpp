@@ -69,8 +69,10 @@ void Jobs::cancelLane(Lane lane) {
   }
 }
 
-quint64 Jobs::newest() const {
-  return jobs_.empty() ? 0 : jobs_.rbegin()->first;
+bool Jobs::cancelNewest() {
+  if (jobs_.empty()) return false;
+  cancel(jobs_.rbegin()->first);
+  return true;
 }
 
 int Jobs::count(Lane lane) const {

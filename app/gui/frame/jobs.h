@@ -47,18 +47,21 @@ class Jobs : public QObject {
     return id;
   }
 
+  /// Notes that a job can end early with what it has.
+  void setIterative(quint64 id) { emit endsEarly(id); }
   /// Ignored for an unknown id.
   void cancel(quint64 id);
   void cancelLane(Lane lane);
   /// Asks a job for the best result so far (Progress::finish_requested); not all jobs have one.
   void finishEarly(quint64 id);
-  /// The job begun last, or 0.
-  [[nodiscard]] quint64 newest() const;
+  /// Cancels the job begun last. Returns whether there was one.
+  bool cancelNewest();
   [[nodiscard]] int count() const { return static_cast<int>(jobs_.size()); }
   [[nodiscard]] int count(Lane lane) const;
 
  signals:
   void added(quint64 id, const QString& title);
+  void endsEarly(quint64 id);
   void progressed(quint64 id, double fraction, const QString& stage);
   void cancelling(quint64 id);
   void finishing(quint64 id);

@@ -30,9 +30,9 @@ bool matches(const QString& haystack, const QString& text) {
 
 }  // namespace
 
-CommandPalette::CommandPalette(const ActionTable& table, QWidget* parent)
+CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
     : QDialog(parent, Qt::Popup),
-      table_(table),
+      commands_(commands),
       edit_(new QLineEdit(this)),
       list_(new QListWidget(this)) {
   setObjectName("command_palette");
@@ -62,12 +62,12 @@ void CommandPalette::popUp() {
 
 void CommandPalette::filter(const QString& text) {
   list_->clear();
-  for (const Command& command : table_.commands()) {
-    const QAction* action = table_.find(command.id);
-    if (!action->isEnabled() || !matches(command.menu + ' ' + command.text, text)) continue;
+  for (const Command& command : commands_.all()) {
+    const QAction* action = commands_.find(command.id);
+    const QString title = QStringLiteral("%1: %2").arg(menu_path(command.menu), action->text());
+    if (!action->isEnabled() || command.submenu || !matches(title, text)) continue;
     const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-    auto* item =
-        new QListWidgetItem(QStringLiteral("%1: %2").arg(command.menu, command.text), list_);
+    auto* item = new QListWidgetItem(title, list_);
     item->setData(kActionIdRole, command.id);
     item->setData(AsideDelegate::kAsideRole, keys);
     item->setToolTip(command.tip);
@@ -78,7 +78,7 @@ void CommandPalette::filter(const QString& text) {
 void CommandPalette::runCurrent() {
   const QListWidgetItem* item = list_->currentItem();
   if (!item) return;
-  QAction* action = table_.find(item->data(kActionIdRole).toString());
+  QAction* action = commands_.find(item->data(kActionIdRole).toString());
   close();
   // After the popup is gone, so that the command finds the window in front.
   QTimer::singleShot(0, action, &QAction::trigger);

@@ -8,14 +8,14 @@ class QListWidget;
 
 namespace episcope {
 
-class ActionTable;
+class Commands;
 
 /// Finds any command by typing parts of its name; Enter runs it.
 class CommandPalette : public QDialog {
   Q_OBJECT
 
  public:
-  CommandPalette(const ActionTable& table, QWidget* parent);
+  CommandPalette(const Commands& commands, QWidget* parent);
 
   /// Opens empty under the top edge of the parent.
   void popUp();
@@ -27,7 +27,7 @@ class CommandPalette : public QDialog {
   void filter(const QString& text);
   void runCurrent();
 
-  const ActionTable& table_;
+  const Commands& commands_;
   QLineEdit* edit_;
   QListWidget* list_;
 };

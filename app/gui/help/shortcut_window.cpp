@@ -39,8 +39,11 @@ QTreeWidgetItem* add_group(QTreeWidget* tree, const QString& title) {
 
 }  // namespace
 
-ShortcutWindow::ShortcutWindow(ActionTable& table, QWidget* parent)
-    : QDialog(parent), table_(table), find_(new QLineEdit(this)), tree_(new QTreeWidget(this)) {
+ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
+    : QDialog(parent),
+      commands_(commands),
+      find_(new QLineEdit(this)),
+      tree_(new QTreeWidget(this)) {
   setObjectName("shortcut_window");
   setWindowTitle(tr("Keys and mouse"));
   tree_->setObjectName("keys.tree");
@@ -65,7 +68,7 @@ ShortcutWindow::ShortcutWindow(ActionTable& table, QWidget* parent)
   });
   connect(tree_, &QTreeWidget::itemActivated, edit_, qOverload<>(&QWidget::setFocus));
   connect(find_, &QLineEdit::textChanged, this, &ShortcutWindow::filter);
-  connect(&table_, &ActionTable::keysChanged, this, &ShortcutWindow::showKeys);
+  connect(&commands_, &Commands::keysChanged, this, &ShortcutWindow::showKeys);
   resize(700, 680);
 }
 
@@ -98,8 +101,8 @@ QWidget* ShortcutWindow::makeEditor() {
     updateEditor();
   });
   connect(set_, &QPushButton::clicked, this, &ShortcutWindow::setKey);
-  connect(reset_, &QPushButton::clicked, this, [this] { table_.resetKeys(command()); });
-  connect(reset_all, &QPushButton::clicked, &table_, &ActionTable::resetAllKeys);
+  connect(reset_, &QPushButton::clicked, this, [this] { commands_.resetKeys(command()); });
+  connect(reset_all, &QPushButton::clicked, &commands_, &Commands::resetAllKeys);
   updateEditor();
   return editor;
 }
@@ -135,12 +138,14 @@ void ShortcutWindow::addGestures(const QString& title, const QList<QStringList>&
 }
 
 void ShortcutWindow::fillCommands() {
-  QTreeWidgetItem* group = nullptr;
-  QString menu;
-  for (const Command& command : table_.commands()) {
-    if (!group || command.menu != menu) group = add_group(tree_, menu = command.menu);
-    auto* item = new QTreeWidgetItem(group, {QString(), command.tip});
-    item->setData(0, kIdRole, command.id);
+  for (const MenuInfo& menu : menus()) {
+    QTreeWidgetItem* group = nullptr;
+    for (const Command& command : commands_.all()) {
+      if (command.menu != menu.menu || command.submenu) continue;
+      if (!group) group = add_group(tree_, menu_path(menu.menu));
+      auto* item = new QTreeWidgetItem(group, {QString(), command.tip});
+      item->setData(0, kIdRole, command.id);
+    }
   }
 }
 
@@ -151,9 +156,9 @@ void ShortcutWindow::showKeys() {
       QTreeWidgetItem* item = group->child(row);
       const QString id = item->data(0, kIdRole).toString();
       if (id.isEmpty()) continue;
-      item->setText(0, key_text(table_.keys(id)));
+      item->setText(0, key_text(commands_.keys(id)));
       QFont font = item->font(0);
-      font.setBold(table_.hasOwnKeys(id));
+      font.setBold(commands_.hasOwnKeys(id));
       item->setFont(0, font);
     }
   }
@@ -186,21 +191,21 @@ void ShortcutWindow::updateEditor() {
   edit_->setEnabled(!id.isEmpty());
   set_->setEnabled(!id.isEmpty() && !key.isEmpty());
   set_->setText(tr("Set key"));
-  reset_->setEnabled(!id.isEmpty() && table_.hasOwnKeys(id));
+  reset_->setEnabled(!id.isEmpty() && commands_.hasOwnKeys(id));
   hint_->setPalette(QPalette());
   if (id.isEmpty()) {
     hint_->setText(tr("Choose a command to change its key."));
     return;
   }
-  const QString name = table_.find(id)->text();
-  const QString user = key.isEmpty() ? QString() : table_.userOf(key);
+  const QString name = commands_.find(id)->text();
+  const QString user = key.isEmpty() ? QString() : commands_.userOf(key);
   if (user.isEmpty() || user == id) {
     hint_->setText(tr("%1: press the new key in the field.").arg(name));
     return;
   }
   const QString text = key.toString(QKeySequence::NativeText);
-  hint_->setText(
-      tr("%1 already belongs to “%2”, which would lose it.").arg(text, table_.find(user)->text()));
+  hint_->setText(tr("%1 already belongs to “%2”, which would lose it.")
+                     .arg(text, commands_.find(user)->text()));
   hint_->setPalette(theme::text_palette(theme::warning_text(palette())));
   set_->setText(tr("Take it"));
 }
@@ -209,12 +214,12 @@ void ShortcutWindow::setKey() {
   const QString id = command();
   const QKeySequence key = edit_->keySequence();
   if (id.isEmpty() || key.isEmpty()) return;
-  if (const QString user = table_.userOf(key); !user.isEmpty() && user != id) {
-    QList<QKeySequence> left = table_.keys(user);
+  if (const QString user = commands_.userOf(key); !user.isEmpty() && user != id) {
+    QList<QKeySequence> left = commands_.keys(user);
     left.removeAll(key);
-    table_.setKeys(user, left);
+    commands_.setKeys(user, left);
   }
-  table_.setKeys(id, {key});
+  commands_.setKeys(id, {key});
   const QSignalBlocker blocker(edit_);
   edit_->clear();
   updateEditor();

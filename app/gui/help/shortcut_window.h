@@ -14,7 +14,7 @@ class QTreeWidgetItem;
 
 namespace episcope {
 
-class ActionTable;
+class Commands;
 
 /// Every key and mouse gesture, from the table of commands. Keys can be changed here: choose a
 /// command, press the new key, set it; a key that another command has is named and taken from it
@@ -23,7 +23,7 @@ class ShortcutWindow : public QDialog {
   Q_OBJECT
 
  public:
-  ShortcutWindow(ActionTable& table, QWidget* parent);
+  ShortcutWindow(Commands& commands, QWidget* parent);
 
  private:
   void fillGestures();
@@ -38,7 +38,7 @@ class ShortcutWindow : public QDialog {
   void updateEditor();
   void setKey();
 
-  ActionTable& table_;
+  Commands& commands_;
   QLineEdit* find_;
   QTreeWidget* tree_;
   QKeySequenceEdit* edit_ = nullptr;

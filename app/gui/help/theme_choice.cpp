@@ -2,12 +2,10 @@
 #include "app/gui/help/theme_choice.h"
 
 #include "app/gui/frame/commands.h"
-#include "app/gui/main_window.h"
 #include "widgets/style/outlined_style.h"
 #include "widgets/style/theme.h"
 
 #include <QAction>
-#include <QActionGroup>
 #include <QApplication>
 #include <QSettings>
 #include <QStyle>
@@ -15,12 +13,9 @@
 namespace episcope {
 namespace {
 
+constexpr const char* kContext = "episcope::Theme";
 constexpr const char* kSetting = "theme";
 constexpr const char* kApplied = "episcope.theme";  // property of the application
-
-QString tr(const char* source) {
-  return MainWindow::tr(source);
-}
 
 struct Theme {
   const char* name;
@@ -28,13 +23,12 @@ struct Theme {
   const char* tip;
 };
 
-constexpr Theme kThemes[] = {
-    {"system", QT_TRANSLATE_NOOP("episcope::MainWindow", "As the desktop"),
-     QT_TRANSLATE_NOOP("episcope::MainWindow", "Colours of the desktop")},
-    {"light", QT_TRANSLATE_NOOP("episcope::MainWindow", "Light"),
-     QT_TRANSLATE_NOOP("episcope::MainWindow", "Dark text on light ground")},
-    {"dark", QT_TRANSLATE_NOOP("episcope::MainWindow", "Dark"),
-     QT_TRANSLATE_NOOP("episcope::MainWindow", "Light text on dark ground")}};
+constexpr Theme kThemes[] = {{"system", QT_TRANSLATE_NOOP("episcope::Theme", "As the desktop"),
+                              QT_TRANSLATE_NOOP("episcope::Theme", "Colours of the desktop")},
+                             {"light", QT_TRANSLATE_NOOP("episcope::Theme", "Light"),
+                              QT_TRANSLATE_NOOP("episcope::Theme", "Dark text on light ground")},
+                             {"dark", QT_TRANSLATE_NOOP("episcope::Theme", "Dark"),
+                              QT_TRANSLATE_NOOP("episcope::Theme", "Light text on dark ground")}};
 
 }  // namespace
 
@@ -59,24 +53,22 @@ QString remembered_theme() {
   return name == "light" || name == "dark" ? name : QString("system");
 }
 
-void add_theme_actions(ActionTable& table) {
-  auto* themes = new QActionGroup(&table);
-  const QString applied = qApp->property(kApplied).toString();
+void add_theme_commands(Commands& commands) {
   for (const Theme& theme : kThemes) {
     const QString name = theme.name;
-    QAction* action = table.add({.id = "theme." + name,
-                                 .menu = tr("View › Colours"),
-                                 .text = tr(theme.text),
-                                 .tip = tr(theme.tip),
-                                 .icon = "",
-                                 .keys = {},
-                                 .run =
-                                     [name] {
-                                       if (apply_theme(name)) QSettings().setValue(kSetting, name);
-                                     },
-                                 .is_checkable = true});
-    themes->addAction(action);
-    action->setChecked(name == (applied.isEmpty() ? QString("system") : applied));
+    commands.add({.id = "theme." + name,
+                  .menu = Menu::Colours,
+                  .text = QCoreApplication::translate(kContext, theme.text),
+                  .tip = QCoreApplication::translate(kContext, theme.tip),
+                  .run =
+                      [name] {
+                        if (apply_theme(name)) QSettings().setValue(kSetting, name);
+                      },
+                  .checked =
+                      [name] {
+                        const QString applied = qApp->property(kApplied).toString();
+                        return name == (applied.isEmpty() ? QString("system") : applied);
+                      }});
   }
 }
 

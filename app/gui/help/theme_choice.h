@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-class ActionTable;
+class Commands;
 
 /// Colours the application: "light", "dark", or "system" for those of the desktop. False for any
 /// other name, and nothing changes.
@@ -15,6 +15,6 @@ bool apply_theme(const QString& name);
 [[nodiscard]] QString remembered_theme();
 
 /// Commands that choose the colours, and remember them.
-void add_theme_actions(ActionTable& table);
+void add_theme_commands(Commands& commands);
 
 }  // namespace episcope

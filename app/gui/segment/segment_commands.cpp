@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/segment_actions.h"
-
-#include "app/gui/compare/picture_export.h"
 #include "app/gui/frame/commands.h"
-#include "app/gui/main_window.h"
 #include "app/gui/segment/segment_controller.h"
+#include "app/gui/segment/segmentation_export.h"
 #include "app/gui/stage/overlay.h"
-#include "app/session/session.h"
-#include "widgets/annotate/segment_panel.h"
 #include "widgets/style/quantity_text.h"
 
 #include <QAction>
@@ -17,112 +12,91 @@ namespace {
 
 using render::Quantity;
 
-QString tr(const char* source) {
-  return MainWindow::tr(source);
-}
-
-QString segment_menu() {
-  return tr("Annotate › Segmentation");
-}
-
-void add_runs(ActionTable& table, MainWindow& window) {
-  SegmentController& segment = window.segment();
-  const QString menu = segment_menu();
-  QAction* live = table.add({.id = "segment.live",
-                             .menu = menu,
-                             .text = tr("Live"),
-                             .tip = tr("Segments the view again after every stroke"),
-                             .icon = "live",
-                             .keys = {Qt::Key_L},
-                             .run = {},
-                             .is_checkable = true});
-  QObject::connect(live, &QAction::toggled, &segment, &SegmentController::setLive);
-  table.add({.id = "segment.update",
-             .menu = menu,
-             .text = tr("Update now"),
-             .tip = tr("Segments this view from what is painted"),
-             .icon = "run",
-             .keys = {Qt::Key_U},
-             .run = [&segment] { segment.updateNow(); }});
-  table.add({.id = "segment.all",
-             .menu = menu,
-             .text = tr("Segment all views"),
-             .tip = tr("Segments every view so that labels agree along the rays"),
-             .icon = "tiles",
-             .keys = {tr("Shift+U")},
-             .run = [&segment] { segment.segmentAllViews(); }});
-  table.add(
-      {.id = "segment.export",
-       .menu = menu,
-       .text = tr("Export segmentation…"),
-       .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
-       .icon = "export",
-       .keys = {},
-       .run = [&window] { window.exporter().exportSegmentationDialog(); }});
-}
-
-QList<QKeySequence> overlay_keys(Quantity quantity) {
-  if (quantity == Quantity::Segmentation) return {Qt::Key_S};
-  return quantity == Quantity::Probability ? QList<QKeySequence>{Qt::Key_P} : QList<QKeySequence>();
-}
-
-void add_overlays(ActionTable& table, MainWindow& window) {
-  OverlayController& overlay = window.overlay();
-  for (const auto& [id, quantity] : segment_overlay_actions()) {
-    table.add({.id = id,
-               .menu = segment_menu(),
-               .text = quantity_button(quantity),
-               .tip = quantity_tip(quantity),
-               .icon = "",
-               .keys = overlay_keys(quantity),
-               .run =
-                   [&overlay, quantity = quantity] {
-                     const bool is_shown = overlay.quantity() == quantity;
-                     overlay.setQuantity(is_shown ? Quantity::View : quantity);
-                   },
-               .is_checkable = true,
-               .begins_group = quantity == Quantity::Segmentation});
-  }
-}
-
-void show_state(ActionTable& table, MainWindow& window) {
-  const bool has_input = window.segment().labeler().has_input();
-  for (const char* id : {"segment.live", "segment.update", "segment.all"}) {
-    table.find(id)->setEnabled(has_input);
-  }
-  const SegmentationPtr& segmentation = window.session().segmentation();
-  table.find("segment.export")->setEnabled(segmentation && segmentation->labeling);
-  table.find("segment.live")->setChecked(window.segment().isLive());
-}
+// Sections of the menu.
+constexpr int kRun = 0;
+constexpr int kMaps = 1;
 
 }  // namespace
 
-void add_segment_actions(ActionTable& table, MainWindow& window) {
-  add_runs(table, window);
-  add_overlays(table, window);
+void SegmentController::addRunCommands() {
+  const auto has_input = [this] { return live_.has_input(); };
+  bench_.commands.add({.id = "segment.live",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Live"),
+                       .tip = tr("Segments the view again after every stroke"),
+                       .icon = "live",
+                       .keys = {Qt::Key_L},
+                       .run = [this] { setLive(!is_live_); },
+                       .section = kRun,
+                       .enabled = has_input,
+                       .checked = [this] { return is_live_; }});
+  bench_.commands.add({.id = "segment.update",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Update now"),
+                       .tip = tr("Segments this view from what is painted"),
+                       .icon = "run",
+                       .keys = {Qt::Key_U},
+                       .run = [this] { updateNow(); },
+                       .section = kRun,
+                       .enabled = has_input});
+  bench_.commands.add({.id = "segment.all",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Segment all views"),
+                       .tip = tr("Segments every view so that labels agree along the rays"),
+                       .icon = "tiles",
+                       .keys = {tr("Shift+U")},
+                       .run = [this] { segmentAllViews(); },
+                       .section = kRun,
+                       .enabled = has_input});
+  bench_.commands.add(
+      {.id = "segment.export",
+       .menu = Menu::Segmentation,
+       .text = tr("Export segmentation…"),
+       .tip = tr("Writes labels and probabilities as HDF5, or the labels of this view as PNG"),
+       .icon = "export",
+       .run = [this] { ask_to_export_segmentation(bench_, *this); },
+       .section = kRun,
+       .enabled = [this] { return segmentation().has_value(); }});
 }
 
-const std::vector<std::pair<QString, Quantity>>& segment_overlay_actions() {
-  static const std::vector<std::pair<QString, Quantity>> actions = {
-      {"segment.show", Quantity::Segmentation},
-      {"segment.probability", Quantity::Probability},
-      {"segment.uncertainty", Quantity::Uncertainty},
-      {"segment.edges", Quantity::Edges},
-      {"segment.wrong", Quantity::WrongLabels}};
-  return actions;
+void SegmentController::addOverlayCommands() {
+  struct Row {
+    const char* id;
+    Quantity quantity;
+    QList<QKeySequence> keys{};
+  };
+  for (const Row& row :
+       std::initializer_list<Row>{{"segment.show", Quantity::Segmentation, {Qt::Key_S}},
+                                  {"segment.probability", Quantity::Probability, {Qt::Key_P}},
+                                  {"segment.uncertainty", Quantity::Uncertainty},
+                                  {"segment.edges", Quantity::Edges},
+                                  {"segment.wrong", Quantity::WrongLabels}}) {
+    Overlay& overlay = bench_.overlay;
+    const Quantity quantity = row.quantity;
+    QAction* action = bench_.commands.add(
+        {.id = row.id,
+         .menu = Menu::Segmentation,
+         .text = quantity_button(quantity),
+         .tip = quantity_tip(quantity),
+         .keys = row.keys,
+         .run =
+             [&overlay, quantity] {
+               const bool is_shown = overlay.quantity() == quantity;
+               overlay.setQuantity(is_shown ? Quantity::View : quantity);
+             },
+         .section = kMaps,
+         .enabled = [&overlay, quantity] { return overlay.isAvailable(quantity); },
+         .checked = [&overlay, quantity] { return overlay.quantity() == quantity; }});
+    panel_->addOverlay(action, QString("button.%1").arg(row.id));
+  }
 }
 
-void follow_segmentation(ActionTable& table, MainWindow& window) {
-  SegmentPanel* panel = window.panels().segment;
+void SegmentController::addCommands() {
+  addRunCommands();
+  addOverlayCommands();
   for (const char* id : {"segment.live", "segment.update", "segment.all", "segment.export"}) {
-    panel->addAction(table.find(id), QString("button.%1").arg(id));
+    panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
   }
-  for (const auto& [id, quantity] : segment_overlay_actions()) {
-    panel->addOverlay(table.find(id), QString("button.%1").arg(id));
-  }
-  QObject::connect(&window.segment(), &SegmentController::changed, &table,
-                   [&table, &window] { show_state(table, window); });
-  show_state(table, window);
 }
 
 }  // namespace episcope

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/segment/segment_controller.h"
 
+#include "app/gui/document/label_choice.h"
+#include "app/gui/frame/cancels.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
-#include "widgets/annotate/brush_panel.h"
+#include "app/gui/stage/overlay.h"
+#include "widgets/annotate/segment_panel.h"
 
 #include <utility>
 
@@ -15,52 +20,95 @@ QString percent(double share) {
 
 }  // namespace
 
-SegmentController::SegmentController(Session& session, DocumentController& document,
-                                     AnnotateController& annotate, Jobs& jobs, const Panels& panels,
-                                     QObject* parent)
-    : QObject(parent),
-      session_(session),
-      document_(document),
-      annotate_(annotate),
-      jobs_(jobs),
-      panels_(panels),
-      source_(session, jobs, this),
-      edges_(session, this),
+SegmentController::SegmentController(const Workbench& bench, SegmentPanel* panel)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      document_(bench.document),
+      jobs_(bench.jobs),
+      panel_(panel),
+      source_(bench.session, bench.jobs, this),
+      edges_(bench.session, this),
       score_job_(this),
       live_(queued_post(this), [this] { followLabeler(); }) {
-  panels_.segment->setParameters(labeler_schema().descriptions());
-  panels_.segment->setSources(source_.sources(), source_.choice());
-  connect(&document_, &DocumentController::replaced, this, &SegmentController::noteInput);
-  connect(&document_, &DocumentController::changed, this,
-          [this](const DocumentChange& change) { change.views.empty() ? publish() : noteInput(); });
-  connect(&source_, &LabelingSource::changed, this, [this] {
-    panels_.segment->setSources(source_.sources(), source_.choice());
-    const bool is_same = live_.has_input() && live_.input()->disparity ==
-                                                  source_.find(live_.input()->parameters.features);
-    is_same ? showState() : noteInput();
-  });
-  connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
-  connect(&edges_, &EdgeSource::failed, this, &SegmentController::hint);
-  connect(panels_.segment, &SegmentPanel::sourceEdited, this,
-          [this] { source_.choose(panels_.segment->source()); });
-  connect(panels_.segment, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
-  connect(panels_.segment, &SegmentPanel::keepsAllViewsEdited, this,
-          &SegmentController::followLabeler);
-  connect(&annotate_, &AnnotateController::labelChanged, this, &SegmentController::publish);
+  addCommands();
+  connectDocument();
+  connectPanel();
+  bench.overlay.setProvider(render::Subject::Segmentation, this);
+  bench.cancels.add(CancelRank::LiveSegmentation, [this] { return cancel(); });
   connect(&jobs_, &Jobs::removed, this, [this] {
     if (is_live_ || is_wanted_) source_.provide();
-    emit changed();
-  });
-  annotate_.setSegmentation([this](ViewIndex view) {
-    const LabelingPtr labeling = live_.labeling(view);
-    return labeling ? labeling->labels.view(view) : ImageView<const std::int32_t>();
   });
   session_.on_changed([this](Parts parts) { update(parts); });
   showState();
 }
 
+SegmentController::~SegmentController() {
+  bench_.overlay.setProvider(render::Subject::Segmentation, nullptr);
+}
+
+void SegmentController::connectDocument() {
+  connect(&document_, &DocumentController::replaced, this, &SegmentController::noteInput);
+  connect(&document_, &DocumentController::changed, this,
+          [this](const DocumentChange& change) { change.views.empty() ? publish() : noteInput(); });
+  connect(&bench_.labels, &LabelChoice::changed, this, &SegmentController::publish);
+  connect(&source_, &LabelingSource::changed, this, [this] {
+    panel_->setSources(source_.sources(), source_.choice());
+    const bool is_same = live_.has_input() && live_.input()->disparity ==
+                                                  source_.find(live_.input()->parameters.features);
+    is_same ? showState() : noteInput();
+  });
+  connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
+  connect(&edges_, &EdgeSource::failed, &bench_.messages, &Messages::hint);
+}
+
+void SegmentController::connectPanel() {
+  panel_->setParameters(labeler_schema().descriptions());
+  panel_->setSources(source_.sources(), source_.choice());
+  connect(panel_, &SegmentPanel::sourceEdited, this, [this] { source_.choose(panel_->source()); });
+  connect(panel_, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
+  connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, &SegmentController::followLabeler);
+}
+
+std::optional<Segmentation> SegmentController::segmentation() const {
+  LabelingPtr labeling = live_.labeling(session_.view());
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!labeling || !document || !live_.has_input()) return std::nullopt;
+  return Segmentation{std::move(labeling), document->labels().labels(),
+                      labeler_schema().values(possible_parameters(*live_.input()))};
+}
+
+bool SegmentController::has_map(render::Quantity quantity) const {
+  if (!live_.has_input()) return false;
+  if (quantity == render::Quantity::Edges) return true;
+  if (quantity == render::Quantity::WrongLabels && !session_.true_labels()) return false;
+  return live_.labeling(session_.view()) != nullptr;
+}
+
+std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
+                                                       ViewIndex view) const {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  if (!document || !live_.has_input()) return std::nullopt;
+  MapSource source;
+  source.quantity = quantity;
+  source.view = view;
+  source.light_field = session_.light_field();
+  // What a map does not need would have it made again whenever that changes.
+  if (quantity == render::Quantity::Edges) {
+    source.edges = live_.input()->edges;
+    source.edge_disparity = live_.input()->disparity;
+    return source;
+  }
+  source.labeling = live_.labeling(view);
+  if (quantity == render::Quantity::Segmentation) source.label_infos = document->labels().labels();
+  if (quantity == render::Quantity::Probability) source.label = bench_.labels.current();
+  if (quantity == render::Quantity::WrongLabels) source.true_labels = session_.true_labels();
+  if (!reason_against(source).empty()) return std::nullopt;
+  return source;
+}
+
 LabelerParameters SegmentController::parameters() const {
-  return labeler_schema().parse(panels_.segment->parameters());
+  return labeler_schema().parse(panel_->parameters());
 }
 
 void SegmentController::update(Parts parts) {
@@ -69,7 +117,7 @@ void SegmentController::update(Parts parts) {
   } else if (parts.has(Part::View)) {
     if (is_live_) begin();
     publish();
-  } else if (parts.has(Part::TrueLabels) && session_.segmentation()) {
+  } else if (parts.has(Part::TrueLabels)) {
     score();
   }
 }
@@ -115,12 +163,11 @@ void SegmentController::setLive(bool is_live) {
     live_.cancel();
   }
   publish();
-  emit changed();
 }
 
 void SegmentController::updateNow() {
   if (!live_.has_input()) {
-    emit hint(tr("Open a light field first."));
+    bench_.messages.hint(tr("Open a light field first."));
     return;
   }
   is_wanted_ = wants_to_show_ = true;
@@ -147,7 +194,6 @@ void SegmentController::segmentAllViews() {
       Lane::Label, tr("Segment all views"),
       [input](const Progress& progress) { return label_all_views(*input, progress); },
       [this, input](const LabelingPtr& labeling) { finishAll(labeling, input); });
-  emit changed();
 }
 
 void SegmentController::finishAll(const LabelingPtr& labeling,
@@ -159,39 +205,32 @@ void SegmentController::finishAll(const LabelingPtr& labeling,
 
 void SegmentController::followLabeler() {
   const LabelingPtr labeling = live_.labeling(session_.view());
-  const bool is_new = !session_.segmentation() || session_.segmentation()->labeling != labeling;
-  if (is_new && labeling) seconds_ = static_cast<double>(clock_.elapsed()) / 1000;
+  if (labeling && labeling != shown_labeling_)
+    seconds_ = static_cast<double>(clock_.elapsed()) / 1000;
   endWish();
   publish();
   const bool is_done = live_.state() == LiveState::Idle && live_.is_up_to_date(session_.view());
-  if (is_live_ && is_done && panels_.segment->keepsAllViews() && tried_all_ != live_.input() &&
+  if (is_live_ && is_done && panel_->keepsAllViews() && tried_all_ != live_.input() &&
       labeling->labels.grid().count() == 1) {
     segmentAllViews();
   }
 }
 
+// Tells the overlay of what is there now.
 void SegmentController::publish() {
-  const AnnotationDocument* document = std::as_const(document_).document();
-  if (!document || !live_.has_input()) {
-    session_.set_segmentation(nullptr);
-    panels_.brush->setSegmentationAvailable(false);
-    showState();
-    return;
-  }
-  auto segmentation = std::make_shared<Segmentation>();
-  segmentation->labeling = live_.labeling(session_.view());
-  segmentation->is_up_to_date = live_.is_up_to_date(session_.view());
-  segmentation->labels = document->labels().labels();
-  segmentation->label = annotate_.label();
-  segmentation->disparity = live_.input()->disparity;
-  segmentation->edges = live_.input()->edges;
-  segmentation->parameters = labeler_schema().values(possible_parameters(*live_.input()));
-  panels_.brush->setSegmentationAvailable(segmentation->labeling != nullptr);
-  const bool is_labeled = segmentation->labeling != nullptr;
-  session_.set_segmentation(std::move(segmentation));
-  if (is_labeled && std::exchange(wants_to_show_, false)) emit labelsArrived();
+  shown_labeling_ = live_.labeling(session_.view());
+  bench_.overlay.updateProvided();
+  if (shown_labeling_ && std::exchange(wants_to_show_, false)) showLabels();
   score();
   showState();
+}
+
+// Who asks for labels wants to see them.
+void SegmentController::showLabels() {
+  const render::Quantity quantity = bench_.overlay.quantity();
+  if (render::info_of(quantity).subject != render::Subject::Segmentation) {
+    bench_.overlay.setQuantity(render::Quantity::Segmentation);
+  }
 }
 
 QString SegmentController::missing() const {
@@ -208,67 +247,52 @@ QString SegmentController::missing() const {
   return {};
 }
 
-void SegmentController::showState() {
-  const auto seconds = [this] { return tr("%1 s").arg(seconds_, 0, 'f', 1); };
-  const bool is_labeled = live_.labeling(session_.view()) != nullptr;
-  QString text = !session_.scene()                      ? QString()
-                 : !is_labeled                          ? tr("idle")
-                 : live_.is_up_to_date(session_.view()) ? tr("idle · %1").arg(seconds())
-                                                        : tr("out of date");
-  ChipMood mood =
-      is_labeled && !live_.is_up_to_date(session_.view()) ? ChipMood::Stale : ChipMood::Quiet;
+SegmentController::State SegmentController::state() const {
+  const QString seconds = tr("%1 s").arg(seconds_, 0, 'f', 1);
   switch (live_.state()) {
     case LiveState::Training:
-      text = tr("training …");
-      mood = ChipMood::Busy;
-      break;
+      return {tr("training …"), ChipMood::Busy};
     case LiveState::Labeling:
-      text = tr("labelling …");
-      mood = ChipMood::Busy;
-      break;
+      return {tr("labelling …"), ChipMood::Busy};
     case LiveState::Refining:
-      text = tr("refining … %1").arg(seconds());
-      mood = ChipMood::Busy;
-      break;
+      return {tr("refining … %1").arg(seconds), ChipMood::Busy};
     case LiveState::Hint:
-      text = tr("waiting");
-      mood = ChipMood::Hint;
-      break;
+      return {tr("waiting"), ChipMood::Hint};
     case LiveState::Failed:
-      text = tr("failed");
-      mood = ChipMood::Failed;
-      break;
+      return {tr("failed"), ChipMood::Failed};
     case LiveState::Idle:
     case LiveState::OutOfDate:
       break;
   }
-  panels_.segment->setState(text, mood,
-                            tr("What the segmentation of this view does, and how long it took.") +
-                                '\n' + edges_.origin());
+  if (!session_.scene()) return {{}, ChipMood::Quiet};
+  if (!live_.labeling(session_.view())) return {tr("idle"), ChipMood::Quiet};
+  if (!live_.is_up_to_date(session_.view())) return {tr("out of date"), ChipMood::Stale};
+  return {tr("idle · %1").arg(seconds), ChipMood::Quiet};
+}
+
+void SegmentController::showState() {
+  const State shown = state();
+  panel_->setState(shown.text, shown.mood,
+                   tr("What the segmentation of this view does, and how long it took.") + '\n' +
+                       edges_.origin());
   const QString sentence = missing();
-  panels_.segment->setNote(sentence.isEmpty() ? scores_ : sentence);
-  emit changed();
+  panel_->setNote(sentence.isEmpty() ? scores_ : sentence);
+  bench_.commands.refresh();
 }
 
 void SegmentController::score() {
-  const SegmentationPtr segmentation = session_.segmentation();
-  const TrueLabelsPtr& truth = session_.true_labels();
-  if (segmentation->labeling == scored_ && session_.view() == scored_view_ &&
-      truth == scored_truth_) {
-    return;
-  }
-  scored_ = segmentation->labeling;
-  scored_truth_ = truth;
-  scored_view_ = session_.view();
+  const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view()};
+  if (now == scored_) return;
+  scored_ = now;
   scores_.clear();
   score_job_.drop();
-  if (!scored_) return;
+  if (!now.labeling) return;
   score_job_.start<LabelingScores>(
-      [truth, segmentation, view = scored_view_,
-       scene = session_.scene()](const Progress& progress) {
+      [now, scene = session_.scene(),
+       disparity = live_.input()->disparity](const Progress& progress) {
         static const ViewStack<std::int32_t> kNone;
-        return judge_labeling(segmentation->labeling->labels, view, truth ? *truth : kNone,
-                              *scene->truth, segmentation->disparity.get(), progress);
+        return judge_labeling(now.labeling->labels, now.view, now.truth ? *now.truth : kNone,
+                              *scene->truth, disparity.get(), progress);
       },
       [this](const LabelingScores& scores) { showScores(scores); });
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/bench/workbench.h"
 #include "app/gui/document/document_controller.h"
-#include "app/gui/frame/frame.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/segment/edge_source.h"
 #include "app/gui/segment/labeling_source.h"
+#include "app/gui/stage/map_provider.h"
 #include "app/session/labels/judge_labeling.h"
 #include "app/session/labels/live_labeler.h"
+#include "app/session/labels/segmentation.h"
 #include "app/session/session.h"
 
 #include <QElapsedTimer>
@@ -19,13 +20,14 @@
 namespace episcope {
 
 /// Segments from what is painted, while painting goes on: the view that is looked at, live or when
-/// asked, and all views as a job. Shows the state and how good the labels are.
-class SegmentController : public QObject {
+/// asked, and all views as a job. Shows the state and how good the labels are, and gives the
+/// overlay the maps of the segmentation.
+class SegmentController : public QObject, public MapProvider {
   Q_OBJECT
 
  public:
-  SegmentController(Session& session, DocumentController& document, AnnotateController& annotate,
-                    Jobs& jobs, const Panels& panels, QObject* parent);
+  SegmentController(const Workbench& bench, SegmentPanel* panel);
+  ~SegmentController() override;
 
   /// Live: every change of the document, the view or the settings gives new labels.
   void setLive(bool is_live);
@@ -39,14 +41,30 @@ class SegmentController : public QObject {
 
   [[nodiscard]] const LiveLabeler& labeler() const { return live_; }
   [[nodiscard]] bool isSegmentingAll() const { return jobs_.count(Lane::Label) > 0; }
+  /// Labels that cover the current view, as files hold them; nothing without.
+  [[nodiscard]] std::optional<Segmentation> segmentation() const;
 
- signals:
-  void changed();
-  /// The first labels that were asked for: who asks for them wants to see them.
-  void labelsArrived();
-  void hint(const QString& sentence);
+  [[nodiscard]] bool has_map(render::Quantity quantity) const override;
+  [[nodiscard]] std::optional<MapSource> map_source(render::Quantity quantity,
+                                                    ViewIndex view) const override;
 
  private:
+  void addCommands();
+  void addRunCommands();
+  void addOverlayCommands();
+  void connectDocument();
+  void connectPanel();
+  struct Scored {
+    LabelingPtr labeling;
+    TrueLabelsPtr truth;
+    ViewIndex view;
+    friend bool operator==(const Scored&, const Scored&) = default;
+  };
+  struct State {
+    QString text;
+    ChipMood mood;
+  };
+
   void update(Parts parts);
   void noteInput();
   void begin();
@@ -54,17 +72,19 @@ class SegmentController : public QObject {
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
   void followLabeler();
   void publish();
+  [[nodiscard]] State state() const;
   void showState();
   void score();
+  void showLabels();
   void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
   [[nodiscard]] QString missing() const;
 
+  Workbench bench_;
   Session& session_;
   DocumentController& document_;
-  AnnotateController& annotate_;
   Jobs& jobs_;
-  Panels panels_;
+  SegmentPanel* panel_;
   LabelingSource source_;
   EdgeSource edges_;
   bool is_live_ = false;
@@ -73,9 +93,8 @@ class SegmentController : public QObject {
   QElapsedTimer clock_;     // since the labels that are on their way were asked for
   double seconds_ = 0;      // that the newest ones took
   QString scores_;
-  LabelingPtr scored_;
-  TrueLabelsPtr scored_truth_;
-  ViewIndex scored_view_;
+  Scored scored_;
+  LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
   LatestJob score_job_;
   LiveLabeler live_;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/frame/frame.h"
-#include "app/session/picture/map_choice.h"
-#include "app/session/picture/picture.h"
+#include "app/gui/stage/map_provider.h"
+#include "app/gui/stage/overlay_pictures.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
-#include "engine/core/parallel/job_runner.h"
 
 #include <QImage>
 #include <QObject>
 
-#include <list>
 #include <map>
 #include <optional>
 
@@ -18,12 +16,18 @@ namespace episcope {
 
 /// Draws a quantity over the view: which one, how opaque, in which range; flips to the other result
 /// while asked to. Pictures are made in the background: what was drawn stays until they are there.
-class OverlayController : public QObject {
+class Overlay : public QObject {
   Q_OBJECT
 
  public:
-  OverlayController(Session& session, const Panels& panels, QObject* parent);
+  Overlay(Session& session, Stage& stage, QObject* parent);
 
+  /// Whose maps are drawn for quantities of this subject; it must outlive this. Null takes it away.
+  void setProvider(render::Subject subject, const MapProvider* provider);
+  /// The maps of a provider changed, or which of them there are.
+  void updateProvided();
+
+  /// Ignored if it is not available.
   void setQuantity(render::Quantity quantity);
   void selectNextQuantity();
   [[nodiscard]] render::Quantity quantity() const { return quantity_; }
@@ -35,7 +39,6 @@ class OverlayController : public QObject {
   [[nodiscard]] bool showsDifference() const { return shows_difference_; }
   /// Shows the other result (or the truth, or no overlay) instead of the shown one.
   void setFlipped(bool is_flipped);
-
   [[nodiscard]] bool isFlipped() const { return is_flipped_; }
 
   /// What is drawn: A, the difference, or B while flipped.
@@ -46,26 +49,23 @@ class OverlayController : public QObject {
   [[nodiscard]] MapChoice choiceB() const;
   /// "error of EPI_L", "truth"; "view" without an overlay.
   [[nodiscard]] QString describe(const MapChoice& choice) const;
-  [[nodiscard]] render::Shading shadingOf(const MapChoice& choice) const;
+  /// Colours as they are drawn now, edited ranges included.
+  [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
+  /// What the map of a choice in the current view is made from; nothing if there is none, or not
+  /// yet.
+  [[nodiscard]] std::optional<MapSource> sourceOf(const MapChoice& choice) const;
   /// Picture of a choice in the current view, null if there is none; nothing while it is being
   /// made: `drawn` tells when to ask again.
   [[nodiscard]] std::optional<QImage> pictureOf(const MapChoice& choice);
 
   /// Range of what is drawn; none = the quantity's own one.
   void setRange(std::optional<Interval> range);
-  void useOwnRange();
   /// Whether `map` is what was chosen last, and not what stays until that is there.
   [[nodiscard]] bool isUpToDate() const { return is_up_to_date_; }
   /// What is drawn; null without a map.
   [[nodiscard]] const QuantityMapPtr& map() const { return map_; }
-
-  /// While suspended, something else than the session is on the canvas.
-  void setSuspended(bool is_suspended);
-
   /// Value of the overlay at a pixel of the current view.
   [[nodiscard]] std::optional<double> valueAt(PixelIndex pixel) const;
-  /// Colours of a quantity as they are drawn now.
-  [[nodiscard]] render::Shading shadingOf(render::Quantity quantity) const;
   /// The picture over the view; null if there is none.
   [[nodiscard]] const QImage& picture() const { return picture_; }
 
@@ -76,36 +76,26 @@ class OverlayController : public QObject {
   void drawn();
 
  private:
+  void connectStage();
   void update(Parts parts);
-  struct Shaded {
-    MapSource source;
-    render::Shading shading;
-    QuantityMapPtr map;
-    QImage picture;
-  };
-  [[nodiscard]] const Shaded* find(const MapSource& source, const render::Shading& shading);
-  [[nodiscard]] QuantityMapPtr knownMap(const MapSource& source) const;
-  void beginShading(const MapSource& source, const render::Shading& shading);
-  void finishShading(Shaded shaded);
   void showAvailable();
   void draw();
   void drawMap(const MapChoice& choice);
+  void showScale(const MapChoice& choice) const;
   void showCaption(const MapChoice& choice) const;
 
   Session& session_;
-  Panels panels_;
+  Stage& stage_;
+  std::map<render::Subject, const MapProvider*> providers_;
   render::Quantity quantity_ = render::Quantity::View;
   bool shows_difference_ = false;
   bool is_flipped_ = false;
-  bool is_suspended_ = false;
   bool is_up_to_date_ = true;
   std::size_t known_estimates_ = 0;
   std::map<render::Quantity, Interval> edited_ranges_;  // all disparities under one
-  std::list<Shaded> shaded_;  // the newest used comes first: flips and wipes go to and fro
-  bool is_shading_ = false;
   QuantityMapPtr map_;
   QImage picture_;
-  JobRunner runner_;
+  OverlayPictures pictures_;
 };
 
 }  // namespace episcope

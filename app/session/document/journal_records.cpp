@@ -123,7 +123,7 @@ void replay_step(const io::LogRecord& record, AnnotationDocument& document) {
 
 std::vector<io::LogRecord> journal_records(const JournalOwner& owner,
                                            const AnnotationDocument& document) {
-  const History& history = document.history();
+  const History<Edit>& history = document.history();
   std::vector<io::LogRecord> records{head_record(owner, document), base_record(document)};
   for (std::size_t i = 0; i < history.count(); ++i) {
     records.push_back(step_record({DocumentStep::Edited, &history.edit(i)}));

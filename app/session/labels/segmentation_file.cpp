@@ -70,8 +70,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   io::write_labeling(path, stored, of_view, progress);
 }
 
-Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked,
-                               int label) {
+Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked) {
   const io::LabelingFile file(path);
   const ViewIndex view = checked_view(file, path.string(), asked);
   auto labeling = std::make_shared<Labeling>();
@@ -85,15 +84,10 @@ Segmentation read_segmentation(const std::filesystem::path& path, std::optional<
     probabilities.first = view;
     probabilities.views.push_back(bytes_of(file.probabilities(view)));
   }
-  Segmentation segmentation;
-  segmentation.labeling = std::move(labeling);
-  segmentation.is_up_to_date = true;
-  segmentation.labels = file.infos();
-  segmentation.label = label;
-  return segmentation;
+  return {std::move(labeling), file.infos(), {}};
 }
 
-Segmentation read_archive_probabilities(const Scene& scene, ViewIndex view, int label) {
+LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {
   const auto found = std::ranges::find_if(scene.companions, [](const Companion& companion) {
     return companion.kind != CompanionKind::EdgeWeights;
   });
@@ -115,11 +109,7 @@ Segmentation read_archive_probabilities(const Scene& scene, ViewIndex view, int 
       most_probable_labels(probabilities.views.front().view(), probabilities.ids);
   labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);
   std::copy(labels.begin(), labels.end(), labeling->labels.data());
-  Segmentation segmentation;
-  segmentation.labeling = std::move(labeling);
-  segmentation.is_up_to_date = true;
-  segmentation.label = label;
-  return segmentation;
+  return labeling;
 }
 
 }  // namespace episcope

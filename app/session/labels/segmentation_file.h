@@ -15,22 +15,20 @@ namespace episcope {
 enum class StoredProbabilities { None, All };
 
 /// Writes labels with their names and colours, and probabilities, as `io::write_labeling` does.
-/// `input` is what opens the light field. Precondition: there is a labeling. Throws IoError,
-/// Cancelled.
+/// `input` is what opens the light field. Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
                         const std::string& input, StoredProbabilities probabilities,
                         const Progress& progress);
 
 /// A view of a file that `write_segmentation` wrote, or of another file with LABELS: the middle one
-/// unless another is asked for. `label` is whose probability will be shown. Throws IoError,
-/// InvalidInput for a view that the file does not hold.
+/// unless another is asked for. Throws IoError, InvalidInput for a view that the file does not
+/// hold.
 [[nodiscard]] Segmentation read_segmentation(const std::filesystem::path& path,
-                                             std::optional<ViewIndex> view, int label);
+                                             std::optional<ViewIndex> view);
 
 /// A view of the first file of label probabilities of the archive that lies beside the light field;
 /// its labels count from 1. Throws InvalidInput, naming the light field, if there is no such file
 /// or view, IoError.
-[[nodiscard]] Segmentation read_archive_probabilities(const Scene& scene, ViewIndex view,
-                                                      int label);
+[[nodiscard]] LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view);
 
 }  // namespace episcope

@@ -27,12 +27,6 @@ bool is_available_of(const GroundTruth& truth, Quantity quantity) {
                                      : truth.has_layers();
 }
 
-bool is_segmentation_available(const Session& session, Quantity quantity) {
-  if (quantity == Quantity::Edges) return true;
-  if (!session.segmentation() || !session.segmentation()->labeling) return false;
-  return quantity != Quantity::WrongLabels || session.true_labels() != nullptr;
-}
-
 }  // namespace
 
 bool is_available(const Session& session, Quantity quantity) {
@@ -52,7 +46,7 @@ bool is_available(const Session& session, Quantity quantity) {
     case Subject::ResultPair:
       return session.compared() != nullptr;
     case Subject::Segmentation:
-      return is_segmentation_available(session, quantity);
+      return false;
   }
   return false;
 }
@@ -62,10 +56,7 @@ std::optional<MapSource> map_source(Session& session, const MapChoice& choice, V
   MapSource source{.quantity = choice.quantity, .view = view, .light_field = session.light_field()};
   const Subject subject = render::info_of(choice.quantity).subject;
   if (subject == Subject::Truth) source.truth = session.scene()->truth;
-  if (subject == Subject::Segmentation) source.segmentation = session.segmentation();
-  if (subject == Subject::TrueLabels || choice.quantity == Quantity::WrongLabels) {
-    source.true_labels = session.true_labels();
-  }
+  if (subject == Subject::TrueLabels) source.true_labels = session.true_labels();
   if (subject == Subject::Result || subject == Subject::Error || subject == Subject::ResultPair) {
     const EstimateEntry* entry = session.find_estimate(choice.estimate);
     if (!entry) return std::nullopt;

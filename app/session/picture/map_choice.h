@@ -16,7 +16,8 @@ struct MapChoice {
   friend bool operator==(const MapChoice&, const MapChoice&) = default;
 };
 
-/// Whether a quantity can be shown now, in some view.
+/// Whether a quantity can be shown now, in some view. What is of a segmentation never can: it is
+/// not the session's.
 [[nodiscard]] bool is_available(const Session& session, render::Quantity quantity);
 
 /// Looks up what a map of a view is made from. Nothing for the view alone, if there is no such map,

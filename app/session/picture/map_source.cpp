@@ -41,9 +41,8 @@ std::string reason_against_result(const MapSource& source) {
 
 std::string reason_against_segmentation(const MapSource& source) {
   if (source.quantity == Quantity::Edges) return {};
-  const Segmentation* segmentation = source.segmentation.get();
-  if (!segmentation || !segmentation->labeling) return "nothing is segmented yet";
-  const Labeling& labeling = *segmentation->labeling;
+  if (!source.labeling) return "nothing is segmented yet";
+  const Labeling& labeling = *source.labeling;
   const std::string who = "the segmentation";
   std::string reason = reason_against_view(labeling.labels, source.view, who, "labels");
   if (!reason.empty() || source.quantity == Quantity::Segmentation) return reason;
@@ -56,13 +55,13 @@ std::string reason_against_segmentation(const MapSource& source) {
   const LabelProbabilities& probabilities = labeling.probabilities;
   if (!probabilities.contains(source.view)) return who + " has no probabilities";
   const bool has_label =
-      std::ranges::find(probabilities.ids, segmentation->label) != probabilities.ids.end();
+      std::ranges::find(probabilities.ids, source.label) != probabilities.ids.end();
   if (has_label || source.quantity != Quantity::Probability) return {};
   std::string known;
   for (const std::int32_t id : probabilities.ids) {
     known += (known.empty() ? "" : ", ") + std::to_string(id);
   }
-  return who + " has no label " + std::to_string(segmentation->label) + "; it has " + known;
+  return who + " has no label " + std::to_string(source.label) + "; it has " + known;
 }
 
 std::string reason_against_truth(const MapSource& source) {

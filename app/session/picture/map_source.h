@@ -2,15 +2,17 @@
 #pragma once
 
 #include "app/session/judge/judge.h"
-#include "app/session/labels/segmentation.h"
+#include "app/session/labels/live_labeling.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/ground_truth.h"
+#include "engine/core/light_field/label_info.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/render/quantity.h"
 
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace episcope {
 
@@ -28,9 +30,15 @@ struct MapSource {
   LightFieldPtr light_field{};
   GroundTruthPtr truth{};
   EstimatePtr estimate{};
-  EstimatePtr other{};         ///< For a difference: estimate − other.
-  EvaluationPtr evaluation{};  ///< Of `estimate` in `view`.
-  SegmentationPtr segmentation{};
+  EstimatePtr other{};                   ///< For a difference: estimate − other.
+  EvaluationPtr evaluation{};            ///< Of `estimate` in `view`.
+  LabelingPtr labeling{};                ///< For what is of a segmentation, but for Edges.
+  std::vector<LabelInfo> label_infos{};  ///< Colours of its labels; others have the default ones.
+  int label = 0;                         ///< Whose probability.
+  /// For Edges: EDGE_WEIGHTS of a file, else computed from the image and, if it is known,
+  /// disparity.
+  std::shared_ptr<const ViewStack<float>> edges{};
+  std::shared_ptr<const DisparityField> edge_disparity{};
   TrueLabelsPtr true_labels{};
   friend bool operator==(const MapSource&, const MapSource&) = default;
 };

@@ -26,14 +26,10 @@ Image<float> probability_of(int label, VolumeView<const std::uint8_t> map,
 // Those that boundaries between labels go by: of a file, else of the image and, if it is known, the
 // disparity.
 Image<float> edges_of(const MapSource& source) {
-  const Segmentation* segmentation = source.segmentation.get();
-  if (segmentation && segmentation->edges) {
-    return larger_edge_probability(segmentation->edges->view(source.view));
-  }
+  if (source.edges) return larger_edge_probability(source.edges->view(source.view));
   const DisparityField none;
-  const bool has_disparity = segmentation && segmentation->disparity;
   return edge_probability(*source.light_field, source.view,
-                          has_disparity ? *segmentation->disparity : none, {});
+                          source.edge_disparity ? *source.edge_disparity : none, {});
 }
 
 void fill_wrong(ImageView<const std::int32_t> labels, ImageView<const std::int32_t> truth,
@@ -53,24 +49,23 @@ void fill_wrong(ImageView<const std::int32_t> labels, ImageView<const std::int32
 
 std::shared_ptr<QuantityMap> make_segmentation_map(const MapSource& source) {
   auto made = std::make_shared<QuantityMap>();
-  made->owner = source.segmentation;
+  made->owner = source.labeling;
   if (source.quantity == Quantity::Edges) {
     made->computed = edges_of(source);
     made->map = made->computed;
     return made;
   }
-  const Labeling& labeling = *source.segmentation->labeling;
+  const Labeling& labeling = *source.labeling;
   if (source.quantity == Quantity::Segmentation) {
     made->labels = labeling.labels.view(source.view);
-    made->label_infos = source.segmentation->labels;
+    made->label_infos = source.label_infos;
     return made;
   }
   if (source.quantity == Quantity::WrongLabels) {
     fill_wrong(labeling.labels.view(source.view), source.true_labels->view(source.view), *made);
   } else if (source.quantity == Quantity::Probability) {
-    made->computed =
-        probability_of(source.segmentation->label, labeling.probabilities.view(source.view).view(),
-                       labeling.probabilities.ids);
+    made->computed = probability_of(source.label, labeling.probabilities.view(source.view).view(),
+                                    labeling.probabilities.ids);
   } else {
     made->computed = label_uncertainty(labeling.probabilities.view(source.view).view());
   }

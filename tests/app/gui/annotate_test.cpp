@@ -2,9 +2,9 @@
 // Paints with the mouse and the keys on the window that ships.
 #include "app/gui/annotate/annotate_controller.h"
 
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
-#include "app/gui/annotate/scribble_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/widgets/pictures.h"
@@ -21,6 +21,14 @@
 #include <QTreeWidget>
 
 namespace episcope::in_annotate_test {
+
+namespace {
+
+StrokeTool& strokeTool(const Annotating& f) {
+  return find<StrokeTool>(f.window);
+}
+
+}  // namespace
 
 class AnnotateTest : public QObject {
   Q_OBJECT
@@ -83,7 +91,7 @@ void AnnotateTest::shift_protectsOtherLabels() {
   Annotating f;
   f.drag({40, 20}, {40, 60});
   f.trigger("annotate.add_label");
-  QCOMPARE(f.window.annotate().label(), 2);
+  QCOMPARE(f.window.bench().labels.current(), 2);
 
   f.drag({20, 40}, {60, 40}, Qt::LeftButton, Qt::ShiftModifier);
 
@@ -123,35 +131,34 @@ void AnnotateTest::wheelAndMiddleDrag_stillZoomAndPan() {
   QVERIFY(f.canvas()->canvasTransform().scale > scale);
   QVERIFY(f.canvas()->canvasTransform().center != center);
   QVERIFY(f.document().scribbles().painted_views().empty());
-  const double size = f.canvas()->tool()->brushSize();
+  const double size = strokeTool(f).brushSize();
   test::turn_wheel(*f.canvas(), f.at({40, 40}), 3, Qt::ControlModifier | Qt::ShiftModifier);
-  QVERIFY(f.canvas()->tool()->brushSize() > size);
-  QCOMPARE(f.window.findChild<QSpinBox*>("brush.spin")->value(),
-           qRound(f.canvas()->tool()->brushSize()));
+  QVERIFY(strokeTool(f).brushSize() > size);
+  QCOMPARE(f.window.findChild<QSpinBox*>("brush.spin")->value(), qRound(strokeTool(f).brushSize()));
 }
 
 void AnnotateTest::keys_chooseToolsSizesAndLabels() {
   Annotating f;
-  AnnotateController& annotate = f.window.annotate();
+  AnnotateController& annotate = find<AnnotateController>(f.window);
   for (int i = 0; i < 3; ++i) f.trigger("annotate.add_label");
 
   f.key(Qt::Key_2);
-  QCOMPARE(annotate.label(), 2);
+  QCOMPARE(f.window.bench().labels.current(), 2);
   f.key(Qt::Key_N);
-  QCOMPARE(annotate.label(), 3);
+  QCOMPARE(f.window.bench().labels.current(), 3);
   f.key(Qt::Key_N);
-  QCOMPARE(annotate.label(), 1);
+  QCOMPARE(f.window.bench().labels.current(), 1);
   f.key(Qt::Key_X);
-  QCOMPARE(annotate.label(), 3);
+  QCOMPARE(f.window.bench().labels.current(), 3);
   f.key(Qt::Key_X);
-  QCOMPARE(annotate.label(), 1);
+  QCOMPARE(f.window.bench().labels.current(), 1);
   f.key(Qt::Key_E);
   QVERIFY(annotate.tool() == AnnotationTool::Eraser);
-  const double eraser = f.canvas()->tool()->eraserSize();
-  const double brush = f.canvas()->tool()->brushSize();
+  const double eraser = strokeTool(f).eraserSize();
+  const double brush = strokeTool(f).brushSize();
   f.key(Qt::Key_BracketRight);
-  QVERIFY(f.canvas()->tool()->eraserSize() > eraser);
-  QCOMPARE(f.canvas()->tool()->brushSize(), brush);
+  QVERIFY(strokeTool(f).eraserSize() > eraser);
+  QCOMPARE(strokeTool(f).brushSize(), brush);
   f.key(Qt::Key_F);
   QVERIFY(annotate.tool() == AnnotationTool::Fill);
   f.key(Qt::Key_I);
@@ -159,10 +166,10 @@ void AnnotateTest::keys_chooseToolsSizesAndLabels() {
   f.key(Qt::Key_B);
   QVERIFY(annotate.tool() == AnnotationTool::Brush);
   for (int i = 0; i < 40; ++i) f.key(Qt::Key_Comma);
-  QCOMPARE(f.canvas()->tool()->brushSize(), 1.0);
+  QCOMPARE(strokeTool(f).brushSize(), 1.0);
   for (int i = 0; i < 60; ++i) f.key(Qt::Key_Period);
-  QCOMPARE(f.canvas()->tool()->brushSize(), 100.0);
-  QVERIFY(f.window.actions().find("annotate.brush")->isChecked());
+  QCOMPARE(strokeTool(f).brushSize(), 100.0);
+  QVERIFY(f.window.bench().commands.find("annotate.brush")->isChecked());
 }
 
 void AnnotateTest::tipsOfSizes_nameTheKeysOfTheTable() {
@@ -170,8 +177,8 @@ void AnnotateTest::tipsOfSizes_nameTheKeysOfTheTable() {
   const auto* size = f.window.findChild<QSpinBox*>("brush.spin");
   QVERIFY2(size->toolTip().contains("[ and ]"), qPrintable(size->toolTip()));
 
-  f.window.actions().setKeys("annotate.larger", {QKeySequence("Ctrl+Alt+J")});
-  f.window.actions().setKeys("annotate.smaller", {});
+  f.window.bench().commands.setKeys("annotate.larger", {QKeySequence("Ctrl+Alt+J")});
+  f.window.bench().commands.setKeys("annotate.smaller", {});
 
   QVERIFY2(size->toolTip().contains("(Ctrl+Alt+J, or"), qPrintable(size->toolTip()));
 }
@@ -179,7 +186,7 @@ void AnnotateTest::tipsOfSizes_nameTheKeysOfTheTable() {
 void AnnotateTest::fill_staysWithinEdges() {
   Annotating f("objects");
   f.trigger("annotate.add_label");
-  const int label = f.window.annotate().label();
+  const int label = f.window.bench().labels.current();
   f.window.findChild<QDoubleSpinBox*>("fill.gradient")->setValue(60);
   f.key(Qt::Key_F);
 
@@ -199,8 +206,8 @@ void AnnotateTest::pick_takesTheLabelUnderTheMouse() {
   f.press({40, 40});
   f.release({40, 40});
 
-  QCOMPARE(f.window.annotate().label(), 1);
-  QVERIFY(f.window.annotate().tool() == AnnotationTool::Brush);
+  QCOMPARE(f.window.bench().labels.current(), 1);
+  QVERIFY(find<AnnotateController>(f.window).tool() == AnnotationTool::Brush);
 }
 
 void AnnotateTest::otherView_endsTheStroke() {
@@ -209,8 +216,8 @@ void AnnotateTest::otherView_endsTheStroke() {
   f.press({40, 20});
   f.move({40, 40});
 
-  f.window.session().set_view({4, 5});
-  QTRY_VERIFY(!f.window.document().isStroking());
+  f.window.bench().session.set_view({4, 5});
+  QTRY_VERIFY(!f.window.bench().document.isStroking());
   f.move({40, 60});
   f.release({40, 60});
 
@@ -219,25 +226,25 @@ void AnnotateTest::otherView_endsTheStroke() {
   QVERIFY(f.document().scribbles().view({4, 5}).empty());
   // So does a loss of the focus.
   f.press({60, 20});
-  QVERIFY(f.window.document().isStroking());
-  f.window.panels().labels->findChild<QTreeWidget*>("labels.tree")->setFocus();
-  QVERIFY(!f.window.document().isStroking());
+  QVERIFY(f.window.bench().document.isStroking());
+  f.window.findChild<LabelPalette*>()->findChild<QTreeWidget*>("labels.tree")->setFocus();
+  QVERIFY(!f.window.bench().document.isStroking());
 }
 
 void AnnotateTest::undo_jumpsToTheViewItChanges() {
   Annotating f;
   f.drag({40, 20}, {40, 60});
-  f.window.session().set_view({0, 1});
+  f.window.bench().session.set_view({0, 1});
   QTRY_COMPARE(f.canvas()->scribbles().pixelColor(40, 40).alpha(), 0);
   f.drag({60, 20}, {60, 60});
-  f.window.session().set_view({8, 8});
+  f.window.bench().session.set_view({8, 8});
 
   f.key(Qt::Key_Z, Qt::ControlModifier);
-  QVERIFY((f.window.session().view() == ViewIndex{0, 1}));
+  QVERIFY((f.window.bench().session.view() == ViewIndex{0, 1}));
   QCOMPARE(f.labelAt({60, 40}, {0, 1}), 0);
   QCOMPARE(f.labelAt({40, 40}), 1);
   f.key(Qt::Key_Z, Qt::ControlModifier);
-  QVERIFY(f.window.session().view() == Annotating::kCenter);
+  QVERIFY(f.window.bench().session.view() == Annotating::kCenter);
   QCOMPARE(f.labelAt({40, 40}), 0);
   f.key(Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
   QCOMPARE(f.labelAt({40, 40}), 1);
@@ -251,7 +258,7 @@ void AnnotateTest::brushWithoutLabels_addsOne() {
   f.drag({40, 20}, {40, 60});
 
   QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
-  QCOMPARE(f.window.annotate().label(), 1);
+  QCOMPARE(f.window.bench().labels.current(), 1);
   QCOMPARE(f.labelAt({40, 40}), 1);
 }
 
@@ -277,14 +284,14 @@ void AnnotateTest::removedLabel_isAskedForOnlyIfPainted() {
 void AnnotateTest::carriedLabels_neverCoverPaintedOnes() {
   Annotating f;
   f.drag({40, 20}, {40, 70});
-  f.window.session().set_view({4, 6});
+  f.window.bench().session.set_view({4, 6});
   f.trigger("annotate.add_label");
   f.drag({30, 45}, {50, 45});
 
   f.trigger("annotate.carry");  // by the truth: there is no estimate
 
-  QTRY_VERIFY(f.window.scribbles().carried());
-  const auto& carried = *f.window.scribbles().carried();
+  QTRY_VERIFY(find<ScribbleController>(f.window).carried());
+  const auto& carried = *find<ScribbleController>(f.window).carried();
   QCOMPARE(carried.label_at({4, 6}, {40, 45}), 0);
   QCOMPARE(f.labelAt({40, 45}, {4, 6}), 2);
   QVERIFY(carried.painted_views().size() > 70);
@@ -300,10 +307,10 @@ void AnnotateTest::carriedLabels_neverCoverPaintedOnes() {
   f.trigger("annotate.undo");
   f.trigger("annotate.undo");
   f.trigger("annotate.undo");
-  QTRY_VERIFY(!f.window.scribbles().isCarrying());
-  QVERIFY(f.window.scribbles().carried()->painted_views().size() < before);
+  QTRY_VERIFY(!find<ScribbleController>(f.window).isCarrying());
+  QVERIFY(find<ScribbleController>(f.window).carried()->painted_views().size() < before);
   f.trigger("annotate.carry");
-  QVERIFY(!f.window.scribbles().carried());
+  QVERIFY(!find<ScribbleController>(f.window).carried());
 }
 
 void AnnotateTest::otherTab_goesBackToBrowsing() {
@@ -312,16 +319,16 @@ void AnnotateTest::otherTab_goesBackToBrowsing() {
 
   f.trigger("tab.estimate");
   QVERIFY(!f.canvas()->tool());
-  QVERIFY(!f.window.annotate().isAnnotating());
+  QVERIFY(!find<AnnotateController>(f.window).isAnnotating());
   f.trigger("tab.annotate");
   QVERIFY(f.canvas()->tool());
   f.trigger("annotate.mode");
   QVERIFY(!f.canvas()->tool());
-  QVERIFY(!f.window.actions().find("annotate.mode")->isChecked());
+  QVERIFY(!f.window.bench().commands.find("annotate.mode")->isChecked());
   // Without a tool in hand a click moves the cross-hair again.
   f.press({10, 12});
   f.release({10, 12});
-  QVERIFY((f.window.session().cross_hair() == PixelIndex{10, 12}));
+  QVERIFY((f.window.bench().session.cross_hair() == PixelIndex{10, 12}));
 }
 
 void AnnotateTest::otherTab_hidesWhatIsPainted() {
@@ -344,11 +351,11 @@ void AnnotateTest::preview_cannotBePainted() {
   Annotating f;
   f.trigger("annotate.add_label");
 
-  emit f.window.opener().previewing(true);
+  f.window.bench().stage.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
   f.drag({40, 20}, {40, 60});
   QVERIFY(f.document().scribbles().painted_views().empty());
-  emit f.window.opener().previewing(false);
-  f.window.session().set_view(Annotating::kCenter);  // the drag was parallax
+  f.window.bench().stage.endPreview();
+  f.window.bench().session.set_view(Annotating::kCenter);  // the drag was parallax
   QCoreApplication::processEvents();
   f.drag({40, 20}, {40, 60});
   QCOMPARE(f.labelAt({40, 40}), 1);
@@ -358,12 +365,12 @@ void AnnotateTest::whileTheFirstIsRead_theHintSaysSo() {
   WindowFixture f;
   const auto* hint = f.window.findChild<QLabel*>("labels.hint");
   QVERIFY2(hint->text().startsWith("Open "), qPrintable(hint->text()));
-  QVERIFY(!f.window.panels().labels->isEnabled());
+  QVERIFY(!f.window.findChild<LabelPalette*>()->isEnabled());
 
-  emit f.window.opener().previewing(true);
+  f.window.bench().stage.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
   QVERIFY2(hint->text().contains("being read"), qPrintable(hint->text()));
 
-  emit f.window.opener().previewing(false);
+  f.window.bench().stage.endPreview();
   QVERIFY(hint->text().startsWith("Open "));
 }
 

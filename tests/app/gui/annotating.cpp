@@ -11,7 +11,7 @@ namespace episcope {
 
 Annotating::Annotating(const std::string& id) {
   openSmall(id);
-  QTRY_VERIFY_WITH_TIMEOUT(window.document().document(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(window.bench().document.document(), kPatience);
   trigger("annotate.mode");
 }
 
@@ -21,7 +21,7 @@ QColor Annotating::shownAt(PixelIndex pixel) const {
 
 double Annotating::accuracy() {
   const LabelingPtr labeling = segment().labeler().labeling(view());
-  const auto& truth = window.session().scene()->truth->labels;
+  const auto& truth = window.bench().session.scene()->truth->labels;
   return judge_labels(labeling->labels.view(view()), truth.view(view())).share().value_or(0);
 }
 

@@ -23,7 +23,7 @@ class Annotating : public WindowFixture {
   /// What is painted, as it is drawn over the view.
   [[nodiscard]] QColor shownAt(PixelIndex pixel) const;
 
-  SegmentController& segment() { return window.segment(); }
+  SegmentController& segment() { return find<SegmentController>(window); }
   /// Share of right pixels of the view.
   double accuracy();
 };

@@ -31,12 +31,12 @@ class AnnotationFilesTest : public QObject {
 void AnnotationFilesTest::failedSave_keepsTheDocument() {
   Annotating f;
   f.drag({40, 20}, {40, 60});
-  QSignalSpy failures(&f.window.jobs(), &Jobs::failed);
+  QSignalSpy failures(&f.window.bench().jobs, &Jobs::failed);
 
-  f.window.annotationFiles().saveAs(f.path("none/labels.h5"));
+  find<AnnotationFiles>(f.window).saveAs(f.path("none/labels.h5"));
 
   QTRY_COMPARE(failures.size(), 1);
-  QVERIFY(f.window.panels().messages->text().contains("labels.h5"));
+  QVERIFY(f.window.findChild<MessageBar*>("messageBar")->text().contains("labels.h5"));
   QVERIFY(f.window.isWindowModified());
   QCOMPARE(f.labelAt({40, 40}), 1);
 }
@@ -45,15 +45,14 @@ void AnnotationFilesTest::exportedPictures_comeBackByImport() {
   Annotating f;
   f.drag({40, 20}, {40, 60});
   QDir().mkpath(f.path("pictures"));
-  QSignalSpy written(&f.window.annotationFiles(), &AnnotationFiles::written);
-  f.window.annotationFiles().exportPictures(f.path("pictures"));
-  QTRY_COMPARE(written.size(), 1);
+  const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
+  find<AnnotationFiles>(f.window).exportPictures(f.path("pictures"));
+  QTRY_VERIFY(told().contains("Written"));
   f.trigger("annotate.undo");
   QCOMPARE(f.labelAt({40, 40}), 0);
 
-  QSignalSpy imported(&f.window.annotationFiles(), &AnnotationFiles::imported);
-  f.window.annotationFiles().importFrom(f.path("pictures"));
-  QTRY_COMPARE(imported.size(), 1);
+  find<AnnotationFiles>(f.window).importFrom(f.path("pictures"));
+  QTRY_VERIFY(told().contains("Imported"));
 
   QCOMPARE(f.labelAt({40, 40}), 1);
   QCOMPARE(f.document().history().next_undo()->kind, EditKind::Import);
@@ -87,7 +86,7 @@ void AnnotationFilesTest::close_asksAboutUnsavedChanges() {
   QCOMPARE(std::filesystem::last_write_time(file) != written, saves);
   QCOMPARE(f.labelAt({40, 40}), 1);
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-  if (!closes) f.window.document().discardChanges();
+  if (!closes) f.window.bench().document.discardChanges();
 }
 
 void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
@@ -95,23 +94,23 @@ void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
   f.drag({40, 20}, {40, 60});
   const QString other = f.writeScene("slant", WindowFixture::smallOptions());
 
-  f.window.open(other);
+  f.window.bench().opener.open(other);
   auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
   QVERIFY(box);
   box->button(QMessageBox::Cancel)->click();
-  QCOMPARE(f.window.jobs().count(), 0);
+  QCOMPARE(f.window.bench().jobs.count(), 0);
   QCOMPARE(f.labelAt({40, 40}), 1);
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
 
-  f.window.open(other);
+  f.window.bench().opener.open(other);
   box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
   QVERIFY(box);
   box->button(QMessageBox::Discard)->click();
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().input(), other.toStdString(), kPatience);
-  QTRY_VERIFY(f.window.document().document());
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(), other.toStdString(), kPatience);
+  QTRY_VERIFY(f.window.bench().document.document());
   QVERIFY(f.document().scribbles().painted_views().empty());
   // The journal of what was discarded is gone.
-  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
+  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
 }
 
 }  // namespace episcope::in_annotation_files_test

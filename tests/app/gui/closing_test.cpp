@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The window may be closed at any moment; whatever runs ends with it.
-#include "app/gui/frame/commands.h"
 #include "app/gui/compare/compare_controller.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
@@ -44,10 +44,10 @@ void ClosingTest::whileASceneLoads_data() {
 void ClosingTest::whileASceneLoads() {
   QFETCH(int, turns);
   auto f = std::make_unique<WindowFixture>();
-  f->window.open(f->writeScene("slant", mediumOptions()));
-  QCOMPARE(f->window.jobs().count(), 1);
+  f->window.bench().opener.open(f->writeScene("slant", mediumOptions()));
+  QCOMPARE(f->window.bench().jobs.count(), 1);
 
-  for (int i = 0; i < turns && f->window.jobs().count() > 0; ++i) {
+  for (int i = 0; i < turns && f->window.bench().jobs.count() > 0; ++i) {
     QCoreApplication::processEvents(QEventLoop::AllEvents);
   }
   f->window.close();
@@ -61,10 +61,10 @@ void ClosingTest::whileASceneLoads() {
 void ClosingTest::whileTheNextSceneLoads() {
   auto f = std::make_unique<WindowFixture>();
   f->openSmall();
-  f->window.open(f->writeScene("slant", mediumOptions()));
+  f->window.bench().opener.open(f->writeScene("slant", mediumOptions()));
 
   // The preview of the next scene over the former one.
-  QTRY_VERIFY_WITH_TIMEOUT(f->window.panels().canvas->picture().width() == 256, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.bench().stage.canvas()->picture().width() == 256, kPatience);
   f.reset();
   QCoreApplication::processEvents(QEventLoop::AllEvents);
 }
@@ -72,8 +72,8 @@ void ClosingTest::whileTheNextSceneLoads() {
 void ClosingTest::whileAMethodRuns() {
   auto f = std::make_unique<WindowFixture>();
   f->openSmall();
-  f->window.actions().find("estimate.run")->trigger();
-  QVERIFY(f->window.jobs().count() > 0);
+  f->window.bench().commands.find("estimate.run")->trigger();
+  QVERIFY(f->window.bench().jobs.count() > 0);
 
   f.reset();
   QCoreApplication::processEvents(QEventLoop::AllEvents);
@@ -83,9 +83,10 @@ void ClosingTest::whileTilesAreMade() {
   auto f = std::make_unique<WindowFixture>();
   f->openSmall();
   f->runAndWait();
-  QTRY_VERIFY_WITH_TIMEOUT(f->window.actions().find("compare.tiles")->isEnabled(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f->window.bench().commands.find("compare.tiles")->isEnabled(),
+                           kPatience);
 
-  f->window.compare().setMode(CompareMode::Wall);
+  find<CompareController>(f->window).setMode(CompareMode::Wall);
   f.reset();
   QCoreApplication::processEvents(QEventLoop::AllEvents);
 }

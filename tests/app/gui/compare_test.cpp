@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/compare_controller.h"
 
-#include "app/gui/frame/commands.h"
 #include "app/gui/compare/statistics_controller.h"
+#include "app/gui/frame/commands.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/browse/value_bar.h"
@@ -40,23 +40,24 @@ class Compared : public WindowFixture {
       QTRY_COMPARE_WITH_TIMEOUT(tree->topLevelItemCount(), static_cast<int>(offsets.size()),
                                 kPatience);
     }();
-    window.panels().canvas->setFocus();
+    window.bench().stage.canvas()->setFocus();
   }
 
   int add(float offset) {
-    const auto& truth = window.session().scene()->truth->field.disparity;
+    const auto& truth = window.bench().session.scene()->truth->field.disparity;
     auto estimate = std::make_shared<Estimate>();
     estimate->method = "off";
     estimate->field.disparity = truth.clone();
     float* values = estimate->field.disparity.data();
     for (std::size_t i = 0; i < truth.size(); ++i) values[i] += offset;
     values[0] = std::numeric_limits<float>::quiet_NaN();
-    ids.push_back(window.session().add_estimate(estimate, {-1, 1}, window.session().generation()));
+    ids.push_back(window.bench().session.add_estimate(estimate, {-1, 1},
+                                                      window.bench().session.generation()));
     return ids.back();
   }
 
-  Session& session() { return window.session(); }
-  TileWall* wall() { return window.panels().wall; }
+  Session& session() { return window.bench().session; }
+  TileWall* wall() { return window.bench().stage.wall(); }
   void key(Qt::Key key) {
     window.activateWindow();  // shortcuts are heard in the active window only
     QVERIFY(QTest::qWaitForWindowActive(&window));
@@ -109,14 +110,14 @@ class CompareTest : public QObject {
 
 void CompareTest::keyG_showsTheViewTheTruthAndEveryResult() {
   Compared f({0.1F, 0.2F});
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.tiles")->isEnabled(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("compare.tiles")->isEnabled(), kPatience);
 
   f.key(Qt::Key_G);
 
   QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, kPatience);
   QVERIFY(f.wall()->isVisible());
   QVERIFY(!f.canvas()->isVisible());
-  QVERIFY(f.window.actions().find("compare.tiles")->isChecked());
+  QVERIFY(f.window.bench().commands.find("compare.tiles")->isChecked());
   for (int i = 0; i < 4; ++i) QCOMPARE(f.wall()->tile(i)->picture().size(), QSize(96, 96));
 
   f.key(Qt::Key_G);
@@ -151,7 +152,7 @@ void CompareTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {
 
   QTest::mouseDClick(f.wall()->tile(3), Qt::LeftButton);
   QCOMPARE(f.session().shown()->id, f.ids[1]);
-  QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+  QCOMPARE(find<CompareController>(f.window).mode(), CompareMode::Single);
 }
 
 void CompareTest::tileOfTheView_printsItsSamples() {
@@ -176,7 +177,7 @@ void CompareTest::tilesOfErrors_differByResult() {
   f.trigger("compare.tiles");
   QTRY_COMPARE_WITH_TIMEOUT(f.wall()->count(), 4, kPatience);
 
-  f.window.overlay().setQuantity(render::Quantity::SignedError);
+  f.window.bench().overlay.setQuantity(render::Quantity::SignedError);
 
   // White is no error, red is too far: the second result is redder in the middle of the picture.
   const auto color = [&f](int tile) { return f.wall()->tile(tile)->picture().pixelColor(48, 48); };
@@ -208,7 +209,7 @@ void CompareTest::escape_leavesTheTiles() {
 
 void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   f.trigger("compare.wipe");
   QVERIFY(f.canvas()->wipePosition().has_value());
   const int width = f.canvas()->width();
@@ -231,7 +232,7 @@ void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
 
 void CompareTest::sideBySide_showsAAndB() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.sides")->isEnabled(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("compare.sides")->isEnabled(), kPatience);
 
   f.key(Qt::Key_H);
 
@@ -244,13 +245,13 @@ void CompareTest::sideBySide_showsAAndB() {
 
 void CompareTest::flip_marksWhichOneIsSeen() {
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   const QImage of_a = f.canvas()->grab().toImage();
   const QRect badge(0, 0, 26, 26);
 
   QTest::keyPress(f.canvas(), Qt::Key_Tab);
   const QImage of_b = f.canvas()->grab().toImage();
-  QVERIFY(f.window.overlay().isFlipped());
+  QVERIFY(f.window.bench().overlay.isFlipped());
   QTest::keyRelease(f.canvas(), Qt::Key_Tab);
 
   QVERIFY(of_a.copy(badge) != of_b.copy(badge));
@@ -267,26 +268,28 @@ void CompareTest::flip_isHeardInLists_data() {
 void CompareTest::flip_isHeardInLists() {
   QFETCH(QString, list);
   Compared f({0.0F, 0.5F});
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   auto* widget = f.window.findChild<QWidget*>(list);
 
   QTest::keyPress(widget, Qt::Key_Tab);
-  QVERIFY(f.window.overlay().isFlipped());
+  QVERIFY(f.window.bench().overlay.isFlipped());
   QTest::keyRelease(widget, Qt::Key_Tab);
 
-  QVERIFY(!f.window.overlay().isFlipped());
+  QVERIFY(!f.window.bench().overlay.isFlipped());
 }
 
 void CompareTest::difference_isOfAAndB() {
   Compared f({0.0F, 0.5F, 0.75F});
   f.session().compare_with(f.ids[0]);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("compare.difference")->isEnabled(), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("compare.difference")->isEnabled(),
+                           kPatience);
 
   f.key(Qt::Key_D);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().valueAt({48, 48}).has_value(), kPatience);
-  QVERIFY(std::abs(*f.window.overlay().valueAt({48, 48}) - 0.75) < 1e-5);
-  QVERIFY(f.window.panels().color_bar->range() == (Interval{-0.2, 0.2}));  // a range of its own
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.valueAt({48, 48}).has_value(), kPatience);
+  QVERIFY(std::abs(*f.window.bench().overlay.valueAt({48, 48}) - 0.75) < 1e-5);
+  QVERIFY(f.window.bench().stage.colorBar()->range() ==
+          (Interval{-0.2, 0.2}));  // a range of its own
 }
 
 void CompareTest::clickOnAMark_choosesB() {
@@ -316,7 +319,7 @@ void CompareTest::chosenB_staysWhenAnotherIsShown() {
 
 void CompareTest::rowOfTheMetricTable_showsItsResult() {
   Compared f({0.1F, 0.2F});
-  f.window.panels().tabs->setCurrentIndex(1);
+  f.window.findChild<QTabWidget*>()->setCurrentIndex(1);
   auto* table = f.window.findChild<QTableWidget*>("metrics.table");
   QTRY_COMPARE_WITH_TIMEOUT(table->rowCount(), 2, kPatience);
   QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, kPatience);
@@ -331,7 +334,7 @@ void CompareTest::rowOfTheMetricTable_showsItsResult() {
 
 void CompareTest::metricTable_isCopiedByKey() {
   Compared f({0.1F, 0.2F});
-  f.window.panels().tabs->setCurrentIndex(1);
+  f.window.findChild<QTabWidget*>()->setCurrentIndex(1);
   auto* table = f.window.findChild<QTableWidget*>("metrics.table");
   QTRY_VERIFY_WITH_TIMEOUT(table->columnCount() > 7, kPatience);
   f.window.activateWindow();
@@ -346,12 +349,12 @@ void CompareTest::metricTable_isCopiedByKey() {
 
 void CompareTest::statistics_areOfWhatIsInSight() {
   Compared f({0.25F});
-  f.window.overlay().setQuantity(render::Quantity::SignedError);
-  const auto& known = f.window.statistics().statistics();
+  f.window.bench().overlay.setQuantity(render::Quantity::SignedError);
+  const auto& known = find<StatisticsController>(f.window).statistics();
   QTRY_VERIFY_WITH_TIMEOUT(known && known->count + known->invalid == 96U * 96U, kPatience);
   QVERIFY(std::abs(known->median - -0.25) < 1e-5);
-  QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().statistics->text().contains("bad 100.00 %"),
-                            qPrintable(f.window.panels().statistics->text()), kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(f.window.findChild<StatisticsPanel*>()->text().contains("bad 100.00 %"),
+                            qPrintable(f.window.findChild<StatisticsPanel*>()->text()), kPatience);
 
   f.canvas()->setCanvasTransform({f.canvas()->fitScale() * 6, {48, 48}});
 
@@ -363,12 +366,12 @@ void CompareTest::statistics_areOfWhatIsInSight() {
 
 void CompareTest::automaticRange_isThatOfWhatIsInSight() {
   Compared f({0.25F});
-  f.window.overlay().setQuantity(render::Quantity::SignedError);
-  const Interval own = f.window.panels().color_bar->range();
+  f.window.bench().overlay.setQuantity(render::Quantity::SignedError);
+  const Interval own = f.window.bench().stage.colorBar()->range();
 
   f.key(Qt::Key_A);
 
-  const ColorBar* bar = f.window.panels().color_bar;
+  const ColorBar* bar = f.window.bench().stage.colorBar();
   // Zero stays in the middle.
   QTRY_VERIFY_WITH_TIMEOUT(std::abs(bar->range().max - 0.25) < 0.01, kPatience);
   QVERIFY(std::abs(bar->range().min - -0.25) < 0.01);
@@ -378,10 +381,10 @@ void CompareTest::automaticRange_isThatOfWhatIsInSight() {
 
 void CompareTest::draggedHandle_changesTheColours() {
   Compared f({0.25F});
-  f.window.panels().tabs->setCurrentIndex(1);
+  f.window.findChild<QTabWidget*>()->setCurrentIndex(1);
   auto* view = f.window.findChild<HistogramView*>();
   QTRY_VERIFY_WITH_TIMEOUT(!view->histogram().counts.empty() && view->isVisible(), kPatience);
-  const QImage before = f.window.overlay().picture();
+  const QImage before = f.window.bench().overlay.picture();
   const Interval range = view->range();
   const QPoint from(static_cast<int>(view->xOf(range.max)), view->height() / 2);
 
@@ -391,13 +394,13 @@ void CompareTest::draggedHandle_changesTheColours() {
 
   QVERIFY(view->range().max < range.max);
   QCOMPARE(view->range().min, range.min);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
 }
 
 void CompareTest::valuesOfAAndB_comeFirst() {
   Compared f({0.1F, 0.2F, 0.3F});
   const auto place = [&f](const char* name) {
-    return f.window.panels().values->text().indexOf(name);
+    return f.window.findChild<ValueBar*>()->text().indexOf(name);
   };
 
   QTRY_VERIFY_WITH_TIMEOUT(place("off 3 ") > 0, kPatience);
@@ -407,23 +410,23 @@ void CompareTest::valuesOfAAndB_comeFirst() {
 void CompareTest::withoutResults_nothingCanBeCompared() {
   WindowFixture f;
   for (const char* id : {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference"}) {
-    QVERIFY2(!f.window.actions().find(id)->isEnabled(), id);
+    QVERIFY2(!f.window.bench().commands.find(id)->isEnabled(), id);
   }
-  f.window.compare().setMode(CompareMode::Wall);
-  QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+  find<CompareController>(f.window).setMode(CompareMode::Wall);
+  QCOMPARE(find<CompareController>(f.window).mode(), CompareMode::Single);
 }
 
 void CompareTest::closedScene_leavesEveryMode() {
   for (const char* id : {"compare.tiles", "compare.sides", "compare.wipe"}) {
     Compared f({0.1F, 0.2F});
-    QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find(id)->isEnabled(), kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find(id)->isEnabled(), kPatience);
     f.trigger(id);
 
     f.trigger("file.close");
 
     QTRY_COMPARE_WITH_TIMEOUT(f.canvas()->state(), ViewCanvas::State::Empty, kPatience);
     QVERIFY2(f.canvas()->isVisible(), id);
-    QCOMPARE(f.window.compare().mode(), CompareMode::Single);
+    QCOMPARE(find<CompareController>(f.window).mode(), CompareMode::Single);
   }
 }
 

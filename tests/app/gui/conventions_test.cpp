@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
-#include "app/gui/opening/scene_opener.h"
 #include "app/gui/opening/remembered_conventions.h"
+#include "app/gui/opening/scene_opener.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -51,10 +51,11 @@ void click(QDialog* dialog, const char* name) {
 
 // Applies what the dialog says and waits for the scene that comes of it.
 void apply(MainWindow& window, QDialog* dialog) {
-  const auto before = window.session().generation();
+  const auto before = window.bench().session.generation();
   click(dialog, "conventions.apply");
-  QTRY_VERIFY_WITH_TIMEOUT(window.session().generation() > before && window.session().scene(),
-                           kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(
+      window.bench().session.generation() > before && window.bench().session.scene(),
+      kScenePatience);
 }
 
 QString order_shown(const MainWindow& window) {
@@ -96,7 +97,7 @@ class ConventionsTest : public QObject {
 void ConventionsTest::chosenOrder_readsTheFileAgain() {
   WindowFixture f;
   f.openSmall();
-  const auto before = f.window.session().scene();
+  const auto before = f.window.bench().session.scene();
   const auto first = before->light_field->view<std::uint8_t>({0, 0});
 
   QDialog* dialog = open_dialog(f.window);
@@ -104,7 +105,7 @@ void ConventionsTest::chosenOrder_readsTheFileAgain() {
   choose(dialog, "flip.combo", 2);
   apply(f.window, dialog);
 
-  const auto after = f.window.session().light_field()->view<std::uint8_t>({0, 8});
+  const auto after = f.window.bench().session.light_field()->view<std::uint8_t>({0, 8});
   QVERIFY(std::equal(first.data, first.data + first.size(), after.data));
   QTRY_VERIFY2_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"),
                             qPrintable(order_shown(f.window)), kPatience);
@@ -119,14 +120,15 @@ void ConventionsTest::choice_isRememberedForItsFileOnly() {
   apply(f.window, dialog);
 
   f.openSmall("slant");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("slant") != std::string::npos,
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.input().find("slant") != std::string::npos,
                            kPatience);
-  QVERIFY(f.window.session().reading_options().empty());
+  QVERIFY(f.window.bench().session.reading_options().empty());
   f.openSmall("edge");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().input().find("edge") != std::string::npos, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.input().find("edge") != std::string::npos,
+                           kPatience);
 
-  QVERIFY(f.window.session().reading_options() == (ParameterSet{{"flip", "v"}}));
-  QVERIFY(f.window.session().scene()->convention.reversed_v);
+  QVERIFY(f.window.bench().session.reading_options() == (ParameterSet{{"flip", "v"}}));
+  QVERIFY(f.window.bench().session.scene()->convention.reversed_v);
 }
 
 void ConventionsTest::allAutomatic_forgetsTheChoice() {
@@ -159,7 +161,8 @@ void ConventionsTest::chosenUnits_areShownAsSetByTheUser() {
 
   const auto text = [&f] {
     QString all;
-    for (const auto* label : f.window.panels().info->findChildren<QLabel*>()) all += label->text();
+    for (const auto* label : f.window.findChild<InfoPanel*>()->findChildren<QLabel*>())
+      all += label->text();
     return all;
   };
   QTRY_VERIFY2_WITH_TIMEOUT(text().contains("(set by you)"), qPrintable(text()), kPatience);
@@ -173,7 +176,7 @@ void ConventionsTest::copiedCommand_readsAlike() {
   choose(dialog, "flip.combo", 1);
   apply(f.window, dialog);
 
-  f.window.actions().find("estimate.copy_command")->trigger();
+  f.window.bench().commands.find("estimate.copy_command")->trigger();
 
   const QString command = QApplication::clipboard()->text();
   QVERIFY2(command.endsWith(" --flip=none"), qPrintable(command));
@@ -182,7 +185,7 @@ void ConventionsTest::copiedCommand_readsAlike() {
 void ConventionsTest::cancel_changesNothing() {
   WindowFixture f;
   f.openSmall();
-  const auto before = f.window.session().generation();
+  const auto before = f.window.bench().session.generation();
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
   choose(dialog, "flip.combo", 2);
@@ -190,33 +193,35 @@ void ConventionsTest::cancel_changesNothing() {
   QTest::keyClick(dialog, Qt::Key_Escape);
 
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("conventions"), kPatience);
-  QCOMPARE(f.window.session().generation(), before);
+  QCOMPARE(f.window.bench().session.generation(), before);
   QVERIFY(remembered_conventions(f.path("edge/lf.h5")).empty());
 }
 
 void ConventionsTest::builtinScene_hasNoChoice() {
   WindowFixture f;
-  QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
-  f.window.open("demo:fronto");
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  QVERIFY(!f.window.bench().commands.find("file.conventions")->isEnabled());
+  f.window.bench().opener.open("demo:fronto");
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("estimate.run")->isEnabled(),
+                           kScenePatience);
 
-  QVERIFY(!f.window.actions().find("file.conventions")->isEnabled());
+  QVERIFY(!f.window.bench().commands.find("file.conventions")->isEnabled());
 }
 
 void ConventionsTest::gridOfOddNames_opensByPattern() {
   WindowFixture f;
-  f.window.open(write_odd_grid(f.path("odd")));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), kPatience);
-  QVERIFY(f.window.session().scene());
+  f.window.bench().opener.open(write_odd_grid(f.path("odd")));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("file.conventions")->isEnabled(),
+                           kPatience);
+  QVERIFY(f.window.bench().session.scene());
   // Left alone, a reader takes the first number for the row.
-  QVERIFY(f.window.session().light_field()->grid() == (GridShape{4, 3}));
+  QVERIFY(f.window.bench().session.light_field()->grid() == (GridShape{4, 3}));
 
   QDialog* dialog = open_dialog(f.window);
   QVERIFY(dialog);
   QTest::keyClicks(dialog->findChild<QLineEdit*>("pattern.text"), "take-{col}of{row}-final.png");
   apply(f.window, dialog);
 
-  QVERIFY(f.window.session().light_field()->grid() == (GridShape{3, 4}));
+  QVERIFY(f.window.bench().session.light_field()->grid() == (GridShape{3, 4}));
   QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.Names"), kPatience);
 }
 
@@ -224,9 +229,10 @@ void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
   WindowFixture f;
   const QString folder = write_odd_grid(f.path("odd"));
   QVERIFY(QFile::copy(folder + "/take-1of1-final.png", folder + "/take-7of9-final.png"));
-  f.window.open(folder);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.actions().find("file.conventions")->isEnabled(), kPatience);
-  QVERIFY(!f.window.session().scene());
+  f.window.bench().opener.open(folder);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().commands.find("file.conventions")->isEnabled(),
+                           kPatience);
+  QVERIFY(!f.window.bench().session.scene());
 }
 
 void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
@@ -234,11 +240,11 @@ void ConventionsTest::rememberedChoiceThatNoLongerFits_isToldAndNotUsed() {
   const QString folder = write_odd_grid(f.path("odd"));
   remember_conventions(folder, {{"pattern", "gone-{row}-{col}.png"}});
 
-  f.window.open(folder);
+  f.window.bench().opener.open(folder);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, kScenePatience);
-  QVERIFY(f.window.session().reading_options().empty());
-  const auto& warnings = f.window.session().scene()->convention.warnings;
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kScenePatience);
+  QVERIFY(f.window.bench().session.reading_options().empty());
+  const auto& warnings = f.window.bench().session.scene()->convention.warnings;
   QVERIFY(std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
     return warning.find("not used") != std::string::npos;
   }));

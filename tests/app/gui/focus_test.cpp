@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/focus_controller.h"
+#include "app/gui/browse/focus_controller.h"
 
-#include "app/gui/frame/commands.h"
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
 #include "tests/app/gui/window_fixture.h"
@@ -35,13 +35,13 @@ class Focused : public WindowFixture {
     session().set_focus(kFocus);
   }
 
-  Session& session() { return window.session(); }
+  Session& session() { return window.bench().session; }
   double baked() { return session().scene()->convention.focus_px; }
   double truth() { return session().scene()->truth->field.view({4, 4}).disparity.at(20, 33); }
   double found() {
     return session().estimates().front().estimate->field.view({4, 4}).disparity.at(20, 33);
   }
-  QAction* action(const char* id) { return window.actions().find(id); }
+  QAction* action(const char* id) { return window.bench().commands.find(id); }
   void waitFor(double baked_px) {
     QTRY_COMPARE_WITH_TIMEOUT(baked(), baked_px, kPatience);
     QTRY_COMPARE_WITH_TIMEOUT(session().estimates().size(), 1U, kPatience);
@@ -72,8 +72,8 @@ void FocusTest::withoutFocus_nothingCanBeApplied() {
   WindowFixture f;
   f.openSmall();
 
-  QVERIFY(!f.window.actions().find("view.focus_apply")->isEnabled());
-  QVERIFY(!f.window.actions().find("view.focus_undo")->isEnabled());
+  QVERIFY(!f.window.bench().commands.find("view.focus_apply")->isEnabled());
+  QVERIFY(!f.window.bench().commands.find("view.focus_undo")->isEnabled());
 }
 
 void FocusTest::appliedFocus_movesTruthAndResults() {
@@ -105,7 +105,7 @@ void FocusTest::appliedFocus_keepsThePlace() {
   QVERIFY(f.session().view() == kView);
   QVERIFY(f.session().cross_hair() == kPixel);
   QCOMPARE(f.session().focus_px(), 0.0);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().overlay_bar->focus(), 0.0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.overlayBar()->focus(), 0.0, kPatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), kPatience);
 }
 
@@ -130,7 +130,7 @@ void FocusTest::undo_bringsTheFileBack() {
 
 void FocusTest::whileAMethodRuns_itIsRefused() {
   Focused f;
-  f.window.jobs().start<int>(
+  f.window.bench().jobs.start<int>(
       Lane::Estimate, "endless",
       [](const Progress& progress) -> int {
         while (true) progress.check();
@@ -139,26 +139,27 @@ void FocusTest::whileAMethodRuns_itIsRefused() {
 
   f.clickApply();
 
-  QTRY_VERIFY2_WITH_TIMEOUT(f.window.panels().messages->text().contains("running"),
-                            qPrintable(f.window.panels().messages->text()), kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(
+      f.window.findChild<MessageBar*>("messageBar")->text().contains("running"),
+      qPrintable(f.window.findChild<MessageBar*>("messageBar")->text()), kPatience);
   QCOMPARE(f.baked(), 0.0);
-  QCOMPARE(f.window.jobs().count(), 1);
-  f.window.jobs().cancelLane(Lane::Estimate);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
+  QCOMPARE(f.window.bench().jobs.count(), 1);
+  f.window.bench().jobs.cancelLane(Lane::Estimate);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 }
 
 void FocusTest::whatIsPainted_isNotLost() {
   Focused f;
-  f.window.document().edit([](AnnotationDocument& document) { document.add_label(); });
-  QVERIFY(f.window.document().hasUnsavedChanges());
+  f.window.bench().document.edit([](AnnotationDocument& document) { document.add_label(); });
+  QVERIFY(f.window.bench().document.hasUnsavedChanges());
 
   f.clickApply();
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("painted"), qPrintable(messages->text()),
                             kPatience);
   QCOMPARE(f.baked(), 0.0);
-  QVERIFY(f.window.document().hasUnsavedChanges());
+  QVERIFY(f.window.bench().document.hasUnsavedChanges());
 }
 
 void FocusTest::whatIsPaintedAtAPlane_isSavedWhereItBelongs() {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/main_window.h"
+#include "app/gui/estimate/result_export.h"
+#include "app/gui/files/recent_inputs.h"
+#include "app/gui/opening/result_opener.h"
 
-#include "app/gui/frame/commands.h"
 #include "app/gui/compare/picture_export.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/overlay.h"
@@ -52,7 +55,8 @@ void click_pixel(ViewCanvas* canvas, PixelIndex pixel, Qt::KeyboardModifiers key
 }
 
 void click_action(MainWindow& window, const QString& id) {
-  QWidget* button = window.panels().tool_bar->widgetForAction(window.actions().find(id));
+  QWidget* button =
+      window.findChild<QToolBar*>()->widgetForAction(window.bench().commands.find(id));
   QVERIFY2(button && button->isEnabled(), qPrintable(id));
   QTest::mouseClick(button, Qt::LeftButton);
 }
@@ -104,27 +108,27 @@ void MainWindowTest::openedFile_isShown() {
   WindowFixture f;
   f.openSmall();
 
-  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Picture);
+  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
   QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
 }
 
 void MainWindowTest::emptyWindow_saysWhatToDo() {
   WindowFixture f;
 
-  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Empty);
-  QVERIFY(!f.window.actions().find("estimate.run")->isEnabled());
-  QVERIFY(!f.window.actions().find("overlay.error")->isEnabled());
-  QVERIFY(f.window.panels().segment->state().isEmpty());  // nothing to segment
+  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Empty);
+  QVERIFY(!f.window.bench().commands.find("estimate.run")->isEnabled());
+  QVERIFY(!f.window.bench().commands.find("overlay.error")->isEnabled());
+  QVERIFY(f.window.findChild<SegmentPanel*>()->state().isEmpty());  // nothing to segment
 }
 
 void MainWindowTest::builtinScene_isEstimatedAtOnce() {
   WindowFixture f;
 
-  f.window.open("demo:fronto");
+  f.window.bench().opener.open("demo:fronto");
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 1U, kScenePatience);
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
-  QVERIFY(f.window.actions().find("overlay.error")->isEnabled());
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
 }
 
 void MainWindowTest::run_listsItsResultWithItsError() {
@@ -142,29 +146,29 @@ void MainWindowTest::run_listsItsResultWithItsError() {
   };
   QTRY_VERIFY2_WITH_TIMEOUT(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
                             qPrintable(row_text()), kPatience);
-  QCOMPARE(f.window.overlay().quantity(), render::Quantity::Disparity);
+  QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Disparity);
 }
 
 void MainWindowTest::errorOverlay_isOneClickAway() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
-  const QImage before = f.window.overlay().picture();
-  const QImage canvas_before = f.window.panels().canvas->grab().toImage();
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  const QImage before = f.window.bench().overlay.picture();
+  const QImage canvas_before = f.window.bench().stage.canvas()->grab().toImage();
 
   click_action(f.window, "overlay.error");
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
-  QVERIFY(f.window.panels().canvas->grab().toImage() != canvas_before);
-  QVERIFY(f.window.actions().find("overlay.error")->isChecked());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
+  QVERIFY(f.window.bench().stage.canvas()->grab().toImage() != canvas_before);
+  QVERIFY(f.window.bench().commands.find("overlay.error")->isChecked());
 }
 
 void MainWindowTest::arrows_changeTheView() {
   WindowFixture f;
   f.openSmall();
-  auto* canvas = f.window.panels().canvas;
-  const Session& session = f.window.session();
+  auto* canvas = f.window.bench().stage.canvas();
+  const Session& session = f.window.bench().session;
   canvas->setFocus();
   f.window.activateWindow();
   QTRY_VERIFY_WITH_TIMEOUT(canvas->hasFocus(), kPatience);
@@ -185,34 +189,35 @@ void MainWindowTest::arrows_changeTheView() {
 void MainWindowTest::click_movesTheCrossHairAndTheEpis() {
   WindowFixture f;
   f.openSmall();
-  auto* epi = f.window.panels().horizontal_epi;
+  auto* epi = f.window.bench().stage.horizontalEpi();
   const QImage before = epi->grab().toImage();
 
-  click_pixel(f.window.panels().canvas, {20, 33});
+  click_pixel(f.window.bench().stage.canvas(), {20, 33});
 
-  QVERIFY(f.window.session().cross_hair() == (PixelIndex{20, 33}));
+  QVERIFY(f.window.bench().session.cross_hair() == (PixelIndex{20, 33}));
   QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, kPatience);
 }
 
 void MainWindowTest::shiftClick_focusesAtThePixel() {
   WindowFixture f;
   f.openSmall();
-  const double truth = f.window.session().scene()->truth->field.view({4, 4}).disparity.at(20, 33);
+  const double truth =
+      f.window.bench().session.scene()->truth->field.view({4, 4}).disparity.at(20, 33);
 
-  click_pixel(f.window.panels().canvas, {20, 33}, Qt::ShiftModifier);
+  click_pixel(f.window.bench().stage.canvas(), {20, 33}, Qt::ShiftModifier);
 
-  QCOMPARE(f.window.session().focus_px(), truth);
+  QCOMPARE(f.window.bench().session.focus_px(), truth);
 }
 
 void MainWindowTest::valuesAtTheCursor_areRead() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* canvas = f.window.panels().canvas;
+  auto* canvas = f.window.bench().stage.canvas();
 
   QTest::mouseMove(canvas, canvas->positionOf({20, 33}).toPoint());
 
-  const auto text = [&f] { return f.window.panels().values->text(); };
+  const auto text = [&f] { return f.window.findChild<ValueBar*>()->text(); };
   QTRY_VERIFY2_WITH_TIMEOUT(text().contains("x 33 y 20"), qPrintable(text()), kPatience);
   QVERIFY2(text().contains("truth") && text().contains("EPI_L"), qPrintable(text()));
 }
@@ -221,31 +226,32 @@ void MainWindowTest::heldTab_flips() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* canvas = f.window.panels().canvas;
+  auto* canvas = f.window.bench().stage.canvas();
   canvas->setFocus();
-  QTRY_VERIFY_WITH_TIMEOUT(!f.window.overlay().picture().isNull(), kPatience);
-  const QImage before = f.window.overlay().picture();
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  const QImage before = f.window.bench().overlay.picture();
 
   QTest::keyPress(canvas, Qt::Key_Tab);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.overlay().picture() != before, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
   QTest::keyRelease(canvas, Qt::Key_Tab);
 
-  QCOMPARE(f.window.overlay().picture(), before);
+  QCOMPARE(f.window.bench().overlay.picture(), before);
 }
 
 void MainWindowTest::exportedResult_readsBack() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  const EstimateEntry& shown = *f.window.session().shown();
+  const EstimateEntry& shown = *f.window.bench().session.shown();
   const QString path = f.path("résult 1.h5");
 
-  f.window.exporter().exportResult(shown.id, path);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), kPatience);
+  export_result(f.window.bench(), shown, path);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<MessageBar*>("messageBar")->text().contains(path),
+                           kPatience);
 
   const Estimate read = io::read_result(path.toStdString(), {9, 9});
   QCOMPARE(read.method, std::string("epi_l"));
-  QCOMPARE(read.source_hash, f.window.session().light_field()->sample_hash());
+  QCOMPARE(read.source_hash, f.window.bench().session.light_field()->sample_hash());
   const auto& written = shown.estimate->field.disparity;
   QCOMPARE(read.field.disparity.size(), written.size());
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -258,16 +264,17 @@ void MainWindowTest::exportedResult_readsBack() {
 void MainWindowTest::exportedMap_marksInvalidPixels() {
   WindowFixture f;
   f.openSmall();
-  const Scene& scene = *f.window.session().scene();
+  const Scene& scene = *f.window.bench().session.scene();
   auto estimate = std::make_shared<Estimate>();
   estimate->method = "theirs";
   estimate->field.disparity = scene.truth->field.disparity.clone();
   estimate->field.disparity.view({4, 4}).at(2, 3) = std::numeric_limits<float>::quiet_NaN();
-  const int id =
-      f.window.session().add_estimate(estimate, {-1, 1}, f.window.session().generation());
+  const int id = f.window.bench().session.add_estimate(estimate, {-1, 1},
+                                                       f.window.bench().session.generation());
 
-  f.window.exporter().exportResult(id, f.path("map.pfm"));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains("map.pfm"), kPatience);
+  export_result(f.window.bench(), *f.window.bench().session.find_estimate(id), f.path("map.pfm"));
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.window.findChild<MessageBar*>("messageBar")->text().contains("map.pfm"), kPatience);
 
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
@@ -278,7 +285,7 @@ void MainWindowTest::hugeTruth_leavesTheLayoutAlone() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  const int width = f.window.panels().canvas->width();
+  const int width = f.window.bench().stage.canvas()->width();
   auto scene = std::make_shared<Scene>(
       scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress()));
   auto truth = std::make_shared<GroundTruth>();
@@ -286,15 +293,15 @@ void MainWindowTest::hugeTruth_leavesTheLayoutAlone() {
   truth->field.disparity.view({4, 4}).at(0, 0) = 1e30F;
   scene->truth = truth;
 
-  f.window.session().open(scene, "edge");
-  f.window.overlay().setQuantity(render::Quantity::Truth);
+  f.window.bench().session.open(scene, "edge");
+  f.window.bench().overlay.setQuantity(render::Quantity::Truth);
   f.trigger("tab.compare");
 
   const auto* focus = f.window.findChild<QDoubleSpinBox*>("overlay.focusSpin");
   QVERIFY(focus->maximum() <= 100);
   const auto* max = f.window.findChild<QLabel*>("statistics.max");
   QTRY_VERIFY2_WITH_TIMEOUT(max->text().startsWith("1e"), qPrintable(max->text()), kPatience);
-  QCOMPARE(f.window.panels().canvas->width(), width);
+  QCOMPARE(f.window.bench().stage.canvas()->width(), width);
 }
 
 void MainWindowTest::unknownSuffix_isNotWritten() {
@@ -302,19 +309,19 @@ void MainWindowTest::unknownSuffix_isNotWritten() {
   f.openSmall();
   f.runAndWait();
 
-  f.window.exporter().exportResult(f.window.session().shown()->id, f.path("result.jpg"));
+  export_result(f.window.bench(), *f.window.bench().session.shown(), f.path("result.jpg"));
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QVERIFY2(messages->text().contains(".pfm"), qPrintable(messages->text()));
   QCOMPARE(messages->severity(), Severity::Warning);
-  QCOMPARE(f.window.jobs().count(), 0);
+  QCOMPARE(f.window.bench().jobs.count(), 0);
 }
 
 void MainWindowTest::chosenForm_namesTheFile() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  f.window.exporter().exportShownDialog();
+  f.window.bench().commands.trigger("file.export");
   auto* dialog = f.window.findChild<QFileDialog*>();
   const QStringList forms = dialog->nameFilters();
 
@@ -329,12 +336,13 @@ void MainWindowTest::savedPicture_isTheShownOne() {
   WindowFixture f;
   f.openSmall();
 
-  f.window.exporter().savePicture(f.path("view.png"));
+  save_picture(f.window.bench(), f.path("view.png"));
   QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("view.png")), kPatience);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 
   const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
-  QCOMPARE(saved, f.window.panels().canvas->picture().convertToFormat(QImage::Format_RGB888));
+  QCOMPARE(saved,
+           f.window.bench().stage.canvas()->picture().convertToFormat(QImage::Format_RGB888));
 }
 
 void MainWindowTest::failedExport_isTold() {
@@ -342,9 +350,9 @@ void MainWindowTest::failedExport_isTold() {
   f.openSmall();
   const QString path = f.path("no/such/folder/view.png");
 
-  f.window.exporter().savePicture(path);
+  save_picture(f.window.bench(), path);
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(path), qPrintable(messages->text()),
                             kPatience);
   QCOMPARE(messages->severity(), Severity::Error);
@@ -353,28 +361,28 @@ void MainWindowTest::failedExport_isTold() {
 void MainWindowTest::brokenFile_isToldAndKeepsTheScene() {
   WindowFixture f;
   f.openSmall();
-  const auto scene = f.window.session().scene();
+  const auto scene = f.window.bench().session.scene();
   QFile broken(f.path("broken.h5"));
   QVERIFY(broken.open(QIODevice::WriteOnly));
   broken.write("this is no HDF5 file");
   broken.close();
 
-  f.window.open(broken.fileName());
+  f.window.bench().opener.open(broken.fileName());
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
                             kPatience);
   QVERIFY(messages->isVisible());
-  QCOMPARE(f.window.session().scene(), scene);
-  QCOMPARE(f.window.panels().canvas->state(), ViewCanvas::State::Picture);
+  QCOMPARE(f.window.bench().session.scene(), scene);
+  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
 }
 
 void MainWindowTest::brokenFile_withoutScene_isDrawnAsError() {
   WindowFixture f;
 
-  f.window.open("/no/such/place");
+  f.window.bench().opener.open("/no/such/place");
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Failed,
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Failed,
                             kPatience);
 }
 
@@ -389,7 +397,7 @@ void MainWindowTest::droppedFile_isOpened() {
   QVERIFY(enter.isAccepted());
   QCoreApplication::sendEvent(&f.window, &drop);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().scene() != nullptr, kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kPatience);
 }
 
 void MainWindowTest::openedResult_isListed() {
@@ -397,13 +405,14 @@ void MainWindowTest::openedResult_isListed() {
   f.openSmall();
   f.runAndWait();
   const QString path = f.path("result.h5");
-  f.window.exporter().exportResult(f.window.session().shown()->id, path);
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().messages->text().contains(path), kPatience);
+  export_result(f.window.bench(), *f.window.bench().session.shown(), path);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<MessageBar*>("messageBar")->text().contains(path),
+                           kPatience);
 
-  f.window.opener().openResult(path);
+  f.window.bench().results.open(path);
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, kPatience);
-  QCOMPARE(f.window.session().estimates()[1].name, std::string("EPI_L 2"));
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kPatience);
+  QCOMPARE(f.window.bench().session.estimates()[1].name, std::string("EPI_L 2"));
 }
 
 // It has the signature of HDF5, and ends there.
@@ -419,7 +428,7 @@ void MainWindowTest::brokenFile_ofTheDialog_isTold() {
 
   emit dialog->fileSelected(file.fileName());
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
                             kPatience);
   QCOMPARE(messages->severity(), Severity::Error);
@@ -430,15 +439,15 @@ void MainWindowTest::resultOfOtherSamples_isOpenedWithAWarning() {
   f.openSmall();
   f.runAndWait();
   Estimate foreign;
-  foreign.field.disparity = f.window.session().shown()->estimate->field.disparity.clone();
+  foreign.field.disparity = f.window.bench().session.shown()->estimate->field.disparity.clone();
   foreign.method = "epi_l";
-  foreign.source_hash = f.window.session().light_field()->sample_hash() + 1;
+  foreign.source_hash = f.window.bench().session.light_field()->sample_hash() + 1;
   io::write_result(f.path("foreign.h5").toStdString(), foreign, Progress());
 
-  f.window.opener().openResult(f.path("foreign.h5"));
+  f.window.bench().results.open(f.path("foreign.h5"));
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.session().estimates().size(), 2U, kPatience);
-  const MessageBar* messages = f.window.panels().messages;
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kPatience);
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("other samples"),
                             qPrintable(messages->text()), kPatience);
   QCOMPARE(messages->severity(), Severity::Warning);
@@ -449,12 +458,12 @@ void MainWindowTest::lightField_isNoResult() {
   WindowFixture f;
   f.openSmall();
 
-  f.window.opener().openResult(f.path("edge/lf.h5"));
+  f.window.bench().results.open(f.path("edge/lf.h5"));
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("no estimated disparity"),
                             qPrintable(messages->text()), kPatience);
-  QVERIFY(f.window.session().estimates().empty());
+  QVERIFY(f.window.bench().session.estimates().empty());
 }
 
 void MainWindowTest::copiedMetrics_areTold() {
@@ -465,7 +474,7 @@ void MainWindowTest::copiedMetrics_areTold() {
 
   f.click("metrics.copyLatex");
 
-  const QString text = f.window.panels().messages->text();
+  const QString text = f.window.findChild<MessageBar*>("messageBar")->text();
   QVERIFY2(text.contains("Copied") && text.contains("LaTeX"), qPrintable(text));
   QVERIFY(QGuiApplication::clipboard()->text().startsWith("\\begin{tabular}"));
 }
@@ -486,49 +495,49 @@ void MainWindowTest::resultOfAnotherLightField_isRefused() {
   f.openSmall();
   io::write_pfm(f.path("other.pfm").toStdString(), Image<float>(50, 40));
 
-  f.window.opener().openResult(f.path("other.pfm"));
+  f.window.bench().results.open(f.path("other.pfm"));
 
-  const MessageBar* messages = f.window.panels().messages;
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
   QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("40×50"), qPrintable(messages->text()),
                             kPatience);
-  QVERIFY(f.window.session().estimates().empty());
+  QVERIFY(f.window.bench().session.estimates().empty());
 }
 
 void MainWindowTest::escape_cancelsTheRun() {
   WindowFixture f;
   f.openSmall();
-  auto* canvas = f.window.panels().canvas;
+  auto* canvas = f.window.bench().stage.canvas();
   canvas->setFocus();
   f.window.activateWindow();
   // However quick the machine is, this one is still running and keeps the next one waiting.
-  f.window.jobs().start<int>(
+  f.window.bench().jobs.start<int>(
       Lane::Estimate, "endless",
       [](const Progress& progress) -> int {
         while (true) progress.check();
       },
       [](int) {});
-  f.window.actions().find("estimate.run")->trigger();
-  QCOMPARE(f.window.jobs().count(), 2);
+  f.window.bench().commands.find("estimate.run")->trigger();
+  QCOMPARE(f.window.bench().jobs.count(), 2);
 
   QTest::keyClick(canvas, Qt::Key_Escape);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 1, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 1, kPatience);
   QTest::keyClick(canvas, Qt::Key_Escape);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 
-  QVERIFY(f.window.session().estimates().empty());
-  QVERIFY(f.window.panels().messages->text().isEmpty());
+  QVERIFY(f.window.bench().session.estimates().empty());
+  QVERIFY(f.window.findChild<MessageBar*>("messageBar")->text().isEmpty());
 }
 
 void MainWindowTest::anotherScene_dropsResults() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  const auto former = f.window.session().generation();
+  const auto former = f.window.bench().session.generation();
 
-  f.window.open(f.writeScene("slant", WindowFixture::smallOptions()));
+  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.session().generation() > former, kPatience);
-  QVERIFY(f.window.session().estimates().empty());
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.generation() > former, kPatience);
+  QVERIFY(f.window.bench().session.estimates().empty());
   QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(),
                             0, kPatience);
 }
@@ -537,9 +546,10 @@ void MainWindowTest::closedScene_leavesTheEmptyWindow() {
   WindowFixture f;
   f.openSmall();
 
-  f.window.actions().find("file.close")->trigger();
+  f.window.bench().commands.find("file.close")->trigger();
 
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.panels().canvas->state(), ViewCanvas::State::Empty, kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Empty,
+                            kPatience);
   QCOMPARE(f.window.windowTitle(), QString("Episcope"));
 }
 
@@ -547,7 +557,7 @@ void MainWindowTest::copiedCommand_opensTheSameFile() {
   WindowFixture f;
   f.openSmall();
 
-  f.window.actions().find("estimate.copy_command")->trigger();
+  f.window.bench().commands.find("estimate.copy_command")->trigger();
 
   const QString text = QGuiApplication::clipboard()->text();
   QVERIFY2(text.startsWith("episcope-cli estimate epi_l "), qPrintable(text));
@@ -558,16 +568,16 @@ void MainWindowTest::recentFiles_areRemembered() {
   WindowFixture f;
   f.openSmall();
 
-  QCOMPARE(f.window.opener().recentInputs(), QStringList(f.path("edge/lf.h5")));
-  f.window.opener().forgetRecentInputs();
-  QVERIFY(f.window.opener().recentInputs().isEmpty());
+  QCOMPARE(recent_inputs(), QStringList(f.path("edge/lf.h5")));
+  forget_recent();
+  QVERIFY(recent_inputs().isEmpty());
 }
 
 void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* tabs = f.window.panels().tabs->tabBar();
+  auto* tabs = f.window.findChild<QTabWidget*>()->tabBar();
   QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
   QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, kPatience);
@@ -586,29 +596,29 @@ void MainWindowTest::compareTab_showsTheMainMetricsWithoutScrolling() {
 void MainWindowTest::largerWindow_givesItsRoomToTheView() {
   WindowFixture f;
   f.openSmall();
-  const int side = f.window.panels().info->width();
-  const int tabs = f.window.panels().tabs->width();
-  const int view = f.window.panels().canvas->width();
+  const int side = f.window.findChild<InfoPanel*>()->width();
+  const int tabs = f.window.findChild<QTabWidget*>()->width();
+  const int view = f.window.bench().stage.canvas()->width();
 
   f.window.resize(2560, 1440);
 
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.panels().canvas->width() > view + 1000, kPatience);
-  QCOMPARE(f.window.panels().info->width(), side);
-  QCOMPARE(f.window.panels().tabs->width(), tabs);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().stage.canvas()->width() > view + 1000, kPatience);
+  QCOMPARE(f.window.findChild<InfoPanel*>()->width(), side);
+  QCOMPARE(f.window.findChild<QTabWidget*>()->width(), tabs);
 }
 
 void MainWindowTest::smallWindow_showsEveryButton() {
   WindowFixture f;
   f.openSmall();
-  f.window.panels().overlay_bar->setFocusRange({-30, 30});  // wide numbers
-  for (int job = 0; job < 10; ++job) f.window.panels().jobs->addJob(100 + job, "EPI_L");
+  f.window.bench().stage.overlayBar()->setFocusRange({-30, 30});  // wide numbers
+  for (int job = 0; job < 10; ++job) f.window.findChild<JobPanel*>()->addJob(100 + job, "EPI_L");
   f.window.resize(1280, 800);
   QCoreApplication::processEvents();
 
   QVERIFY2(f.window.minimumSizeHint().height() <= 800,
            qPrintable(QString::number(f.window.minimumSizeHint().height())));
   QVERIFY2(f.window.size() == QSize(1280, 800), qPrintable(QString::number(f.window.width())));
-  const QToolBar* bar = f.window.panels().tool_bar;
+  const QToolBar* bar = f.window.findChild<QToolBar*>();
   for (QAction* action : bar->actions()) {
     const QWidget* button = bar->widgetForAction(action);
     QVERIFY2(button && button->isVisible(), qPrintable(action->objectName()));

@@ -2,10 +2,12 @@
 // The window that ships, painted in with the mouse until it is killed. After each stroke it says
 // how many steps the document has and what it looks like.
 // Usage: paint_in_a_window_until_killed <folder of journals> <light field> <folder of settings>
-#include "app/gui/frame/commands.h"
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
 #include "tests/patience.h"
@@ -23,14 +25,14 @@ using namespace episcope;
 namespace {
 
 void paint(MainWindow& window, int number) {
-  ViewCanvas* canvas = window.panels().canvas;
+  ViewCanvas* canvas = window.bench().stage.canvas();
   const auto at = [&](int i) {
     return canvas->positionOf({10 + (number * 13 + i * 5) % 70, 10 + (number * 29 + i * 7) % 70})
         .toPoint();
   };
-  if (number % 7 == 0) window.actions().find("annotate.add_label")->trigger();
+  if (number % 7 == 0) window.bench().commands.find("annotate.add_label")->trigger();
   if (number % 5 == 0) {
-    window.session().set_view({number % 9, number % 4});
+    window.bench().session.set_view({number % 9, number % 4});
     QCoreApplication::processEvents();
   }
   const auto button = number % 4 == 3 ? Qt::RightButton : Qt::LeftButton;
@@ -46,15 +48,15 @@ int main(int argc, char** argv) {
   if (argc != 4) return 2;
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, argv[3]);
   MainWindow window;
-  window.document().setJournalFolder(argv[1]);
+  window.bench().document.setJournalFolder(argv[1]);
   window.show();
-  window.open(argv[2]);
-  if (!QTest::qWaitFor([&] { return window.document().document(); }, kPatience)) return 3;
-  window.annotate().setAnnotating(true);
+  window.bench().opener.open(argv[2]);
+  if (!QTest::qWaitFor([&] { return window.bench().document.document(); }, kPatience)) return 3;
+  window.findChild<AnnotateController*>()->setAnnotating(true);
   for (int number = 0;; ++number) {
     paint(window, number);
     QCoreApplication::processEvents();
-    const AnnotationDocument& document = *window.document().document();
+    const AnnotationDocument& document = *window.bench().document.document();
     std::printf("%zu %s\n", document.history().applied_count(), digest_of(document).constData());
     std::fflush(stdout);
   }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What a killed window had painted is offered by the next one.
+#include "app/gui/annotate/label_controller.h"
 #include "app/gui/annotate/recovery_controller.h"
 
-#include "app/gui/frame/commands.h"
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/session/session.h"
 #include "tests/app/gui/document_digest.h"
@@ -35,8 +36,9 @@ struct Painted {
 // Lets the real window paint and kills it in the midst; gives what it told last.
 Painted paint_and_kill(WindowFixture& f, const QString& light_field) {
   QProcess program;
-  program.start(PAINTING_PROGRAM, {QString::fromStdString(f.window.document().journalFolder()),
-                                   light_field, f.path("settings of the dead")});
+  program.start(PAINTING_PROGRAM,
+                {QString::fromStdString(f.window.bench().document.journalFolder()), light_field,
+                 f.path("settings of the dead")});
   QByteArray told;
   int lines = 0;
   while (lines < kStrokes && (program.canReadLine() || program.waitForReadyRead(kPatience))) {
@@ -55,7 +57,7 @@ Painted paint_and_kill(WindowFixture& f, const QString& light_field) {
 }
 
 QPushButton* button(const WindowFixture& f, const char* name) {
-  return f.window.panels().recovery->findChild<QPushButton*>(name);
+  return f.window.findChild<MessageBar*>("recoveryBar")->findChild<QPushButton*>(name);
 }
 
 }  // namespace
@@ -78,93 +80,95 @@ void RecoveryTest::killedWindow_losesAtMostTheStrokeInProgress() {
   QVERIFY(painted.steps >= kStrokes);
   QCOMPARE(painted.digest.size(), 40);
 
-  f.window.offerRecovery();
-  QTRY_VERIFY(f.window.panels().recovery->isVisible());
-  QVERIFY(f.window.panels().recovery->text().contains("lf") ||
-          f.window.panels().recovery->text().contains("edge"));
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
+  QVERIFY(f.window.findChild<MessageBar*>("recoveryBar")->text().contains("lf") ||
+          f.window.findChild<MessageBar*>("recoveryBar")->text().contains("edge"));
   button(f, "message.action")->click();
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
-  const AnnotationDocument& document = *f.window.document().document();
+  const AnnotationDocument& document = *f.window.bench().document.document();
   const std::size_t steps = document.history().applied_count();
   QVERIFY2(steps == painted.steps || steps == painted.steps + 1 || steps == painted.steps + 2,
            qPrintable(QString("%1 of %2 steps").arg(steps).arg(painted.steps)));
   // A step that was not told any more was on its way when the window died.
-  while (document.history().applied_count() > painted.steps) f.window.document().undo();
+  while (document.history().applied_count() > painted.steps) f.window.bench().document.undo();
   QCOMPARE(digest_of(document), painted.digest);
-  QVERIFY(f.window.annotate().isAnnotating());
-  QVERIFY(!f.window.panels().recovery->isVisible());
+  QVERIFY(find<AnnotateController>(f.window).isAnnotating());
+  QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
   // It can be undone, and a journal of its own has taken the place of the one that was left.
-  f.window.actions().find("annotate.undo")->trigger();
+  f.window.bench().commands.find("annotate.undo")->trigger();
   QCOMPARE(document.history().applied_count(), painted.steps - 1);
-  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
-  f.window.document().discardChanges();
+  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
+  f.window.bench().document.discardChanges();
 }
 
 void RecoveryTest::discardedJournal_isGone() {
   WindowFixture f;
   f.openSmall();
-  (void)paint_and_kill(f, QString::fromStdString(f.window.session().input()));
-  f.window.offerRecovery();
-  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+  (void)paint_and_kill(f, QString::fromStdString(f.window.bench().session.input()));
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
 
   button(f, "message.other")->click();
 
-  QVERIFY(!f.window.panels().recovery->isVisible());
-  QVERIFY(left_journals(f.window.document().journalFolder()).empty());
+  QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
+  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
   QVERIFY(!f.window.isWindowModified());
 }
 
 void RecoveryTest::whatWasPaintedAtAFocusPlane_comesBackThere() {
   WindowFixture f;
   auto dying = std::make_unique<WindowFixture>();
-  dying->window.document().setJournalFolder(f.window.document().journalFolder());
-  dying->window.open(f.writeScene("edge", WindowFixture::smallOptions()));
-  QTRY_VERIFY_WITH_TIMEOUT(dying->window.document().document(), kPatience);
-  dying->window.opener().reopenAt(0.5, nullptr);
-  QTRY_COMPARE_WITH_TIMEOUT(dying->window.session().scene()->convention.focus_px, 0.5, kPatience);
-  QTRY_VERIFY(dying->window.document().document());
+  dying->window.bench().document.setJournalFolder(f.window.bench().document.journalFolder());
+  dying->window.bench().opener.open(f.writeScene("edge", WindowFixture::smallOptions()));
+  QTRY_VERIFY_WITH_TIMEOUT(dying->window.bench().document.document(), kPatience);
+  dying->window.bench().opener.reopenAt(0.5, nullptr);
+  QTRY_COMPARE_WITH_TIMEOUT(dying->window.bench().session.scene()->convention.focus_px, 0.5,
+                            kPatience);
+  QTRY_VERIFY(dying->window.bench().document.document());
   dying->trigger("annotate.mode");
   dying->drag({40, 20}, {40, 60});
   dying.reset();  // nobody decided about the changes
 
-  f.window.offerRecovery();
-  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
   button(f, "message.action")->click();
 
   QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
-  QCOMPARE(f.window.session().scene()->convention.focus_px, 0.5);
+  QCOMPARE(f.window.bench().session.scene()->convention.focus_px, 0.5);
   QCOMPARE(f.document().scribbles().label_at({4, 4}, {40, 41}), 1);
-  f.window.document().discardChanges();
+  f.window.bench().document.discardChanges();
 }
 
 void RecoveryTest::whatWasPaintedMeanwhile_isNotLost() {
   WindowFixture f;
   f.openSmall();
-  const Painted painted = paint_and_kill(f, QString::fromStdString(f.window.session().input()));
-  QTRY_VERIFY(f.window.document().document());
-  f.window.annotate().addLabel();
-  f.window.offerRecovery();
-  QTRY_VERIFY(f.window.panels().recovery->isVisible());
+  const Painted painted =
+      paint_and_kill(f, QString::fromStdString(f.window.bench().session.input()));
+  QTRY_VERIFY(f.window.bench().document.document());
+  find<LabelController>(f.window).add();
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
 
   button(f, "message.action")->click();
   auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
   QVERIFY(box);
-  QCOMPARE(f.window.document().document()->labels().labels().size(), std::size_t{1});
+  QCOMPARE(f.window.bench().document.document()->labels().labels().size(), std::size_t{1});
   box->button(QMessageBox::Save)->click();
 
-  QTRY_VERIFY(f.window.document().document()->history().count() >= painted.steps);
-  f.window.document().discardChanges();
+  QTRY_VERIFY(f.window.bench().document.document()->history().count() >= painted.steps);
+  f.window.bench().document.discardChanges();
 }
 
 void RecoveryTest::withoutAJournal_nothingIsOffered() {
   WindowFixture f;
   f.openSmall();
 
-  f.window.offerRecovery();
+  f.window.bench().frame.start();
   QTest::qWait(50);
 
-  QVERIFY(!f.window.panels().recovery->isVisible());
+  QVERIFY(!f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
 }
 
 }  // namespace episcope::in_recovery_test

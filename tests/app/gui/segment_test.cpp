@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Segments in the window that ships, from what is painted with the mouse.
+#include "app/gui/frame/cancels.h"
 #include "app/gui/segment/segment_controller.h"
+#include "app/gui/segment/segmentation_export.h"
 
-#include "app/gui/frame/commands.h"
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/compare/picture_export.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/overlay.h"
 #include "engine/io/archive/write_scene.h"
@@ -26,7 +28,7 @@ class Segmenting : public Annotating {
  public:
   explicit Segmenting(const std::string& id = "objects") : Annotating(id) {}
 
-  SegmentPanel& panel() { return *window.panels().segment; }
+  SegmentPanel& panel() { return *window.findChild<SegmentPanel*>(); }
 };
 
 }  // namespace
@@ -54,8 +56,8 @@ void SegmentTest::live_labelsTheViewAndShowsIt() {
   f.key(Qt::Key_L);
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
 
-  QCOMPARE(f.window.overlay().quantity(), Quantity::Segmentation);
-  QTRY_VERIFY(!f.window.overlay().picture().isNull());
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Segmentation);
+  QTRY_VERIFY(!f.window.bench().overlay.picture().isNull());
   QVERIFY2(f.accuracy() > 0.75, qPrintable(QString::number(f.accuracy())));
   QVERIFY(f.segment().labeler().input()->disparity);
   QVERIFY2(f.panel().state().startsWith("idle"), qPrintable(f.panel().state()));
@@ -88,7 +90,7 @@ void SegmentTest::view_thatIsGoneTo_isLabeledToo() {
   f.trigger("segment.live");
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
 
-  f.window.session().set_view({0, 2});
+  f.window.bench().session.set_view({0, 2});
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
 
   QVERIFY2(f.accuracy() > 0.75, qPrintable(QString::number(f.accuracy())));
@@ -109,7 +111,7 @@ void SegmentTest::withoutLive_aStrokeOutdatesTheLabels() {
 
 void SegmentTest::oneLabel_isAHintAndNoError() {
   Segmenting f("edge");
-  QSignalSpy failed(&f.window.jobs(), &Jobs::failed);
+  QSignalSpy failed(&f.window.bench().jobs, &Jobs::failed);
   f.trigger("annotate.add_label");
   f.drag({40, 20}, {40, 60});
 
@@ -132,15 +134,16 @@ void SegmentTest::overlays_areDrawn() {
   for (const char* id : {"segment.probability", "segment.uncertainty", "segment.edges",
                          "segment.wrong", "segment.show"}) {
     f.trigger(id);
-    QTRY_VERIFY2(f.window.overlay().isUpToDate() && !f.window.overlay().picture().isNull() &&
-                     f.window.overlay().picture() != last,
+    QTRY_VERIFY2(f.window.bench().overlay.isUpToDate() &&
+                     !f.window.bench().overlay.picture().isNull() &&
+                     f.window.bench().overlay.picture() != last,
                  id);
-    last = f.window.overlay().picture();
+    last = f.window.bench().overlay.picture();
   }
   f.key(Qt::Key_S);
-  QCOMPARE(f.window.overlay().quantity(), Quantity::View);
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::View);
   f.key(Qt::Key_P);
-  QCOMPARE(f.window.overlay().quantity(), Quantity::Probability);
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Probability);
 }
 
 void SegmentTest::recolouredLabel_isSeenAtOnce() {
@@ -150,11 +153,11 @@ void SegmentTest::recolouredLabel_isSeenAtOnce() {
   const auto labels = f.segment().labeler().labeling(f.view())->labels.view(f.view());
   const int id = labels.at(0, 0);
 
-  f.window.document().edit([id](AnnotationDocument& document) {
+  f.window.bench().document.edit([id](AnnotationDocument& document) {
     document.recolor_label(id, {1, 2, 3});
   });
 
-  QTRY_COMPARE(f.window.overlay().picture().pixelColor(0, 0), QColor(1, 2, 3));
+  QTRY_COMPARE(f.window.bench().overlay.picture().pixelColor(0, 0), QColor(1, 2, 3));
   QVERIFY(f.segment().labeler().is_up_to_date(f.view()));
 }
 
@@ -165,7 +168,7 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   QTRY_VERIFY(f.panel().note().startsWith("right:"));
   const QString before = f.panel().note();
   // All that is there is the thing in the middle.
-  Scene other = *f.window.session().scene();
+  Scene other = *f.window.bench().session.scene();
   auto truth = std::make_shared<GroundTruth>();
   truth->labels = other.truth->labels.clone();
   const ViewIndex view = f.view();
@@ -177,19 +180,19 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   const auto labels = f.segment().labeler().labeling(view)->labels.view(view);
   const auto right = std::count(labels.data, labels.data + labels.size(), middle);
 
-  QSignalSpy failed(&f.window.jobs(), &Jobs::failed);
-  f.window.annotationFiles().compareWith(f.path("other/lf.h5"));
+  QSignalSpy failed(&f.window.bench().jobs, &Jobs::failed);
+  find<AnnotationFiles>(f.window).compareWith(f.path("other/lf.h5"));
   QTRY_COMPARE(failed.size(), 1);
   QCOMPARE(f.panel().note(), before);
 
-  f.window.annotationFiles().compareWith(f.path("other/labels.h5"));
+  find<AnnotationFiles>(f.window).compareWith(f.path("other/labels.h5"));
   QTRY_VERIFY(f.panel().note() != before);
 
   const QString share = QString::number(
       100.0 * static_cast<double>(right) / static_cast<double>(labels.size()), 'f', 1);
   QVERIFY2(f.panel().note().contains(share), qPrintable(f.panel().note() + " " + share));
-  QVERIFY(f.window.overlay().isAvailable(Quantity::Labels));
-  QVERIFY(f.window.overlay().isAvailable(Quantity::WrongLabels));
+  QVERIFY(f.window.bench().overlay.isAvailable(Quantity::Labels));
+  QVERIFY(f.window.bench().overlay.isAvailable(Quantity::WrongLabels));
 }
 
 void SegmentTest::allViews_areExportedAndReadAgain() {
@@ -198,15 +201,15 @@ void SegmentTest::allViews_areExportedAndReadAgain() {
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
 
   f.trigger("segment.all");
-  QCOMPARE(f.window.jobs().count(Lane::Label), 1);
-  QTRY_COMPARE_WITH_TIMEOUT(f.window.jobs().count(), 0, kPatience);
+  QCOMPARE(f.window.bench().jobs.count(Lane::Label), 1);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
   const LabelingPtr all = f.segment().labeler().labeling({0, 0});
   QVERIFY(all && all->labels.grid().count() == 81);
   QTRY_VERIFY(f.panel().note().contains("consistent"));
-  QSignalSpy written(&f.window.exporter(), &ExportController::written);
-  f.window.exporter().exportSegmentation(f.path("out.h5"));
-  f.window.exporter().exportSegmentation(f.path("out.png"));
-  QTRY_COMPARE_WITH_TIMEOUT(written.size(), 2, kPatience);
+  export_segmentation(f.window.bench(), find<SegmentController>(f.window), f.path("out.h5"));
+  export_segmentation(f.window.bench(), find<SegmentController>(f.window), f.path("out.png"));
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("out.png")), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 
   const io::LabelingFile file(f.path("out.h5").toStdString());
   QVERIFY(file.grid() == (GridShape{9, 9}));
@@ -224,10 +227,10 @@ void SegmentTest::otherScene_dropsEverything() {
   f.openSmall("edge");
 
   QTRY_VERIFY_WITH_TIMEOUT(!f.segment().labeler().labeling({4, 4}), kPatience);
-  QVERIFY(!f.window.session().segmentation() || !f.window.session().segmentation()->labeling);
-  f.window.opener().closeScene();
+  QVERIFY(!f.segment().segmentation());
+  f.window.bench().opener.close();
   QTRY_VERIFY(!f.segment().labeler().has_input());
-  QVERIFY(!f.window.actions().find("segment.update")->isEnabled());
+  QVERIFY(!f.window.bench().commands.find("segment.update")->isEnabled());
 }
 
 void SegmentTest::escape_endsALabeling() {
@@ -235,7 +238,7 @@ void SegmentTest::escape_endsALabeling() {
   f.trigger("segment.update");
   QVERIFY(f.segment().labeler().is_running());
 
-  f.window.escape();
+  f.window.bench().cancels.cancel();
 
   QVERIFY(!f.segment().labeler().is_running());
 }

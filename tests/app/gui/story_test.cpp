@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The way of a user, by mouse and keys: opens a light field, adds labels, paints, undoes across
 // views, carries to all views, segments, saves, and finds the same in another window.
+#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
-#include "app/gui/stage/overlay.h"
-#include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/segment/segment_controller.h"
+#include "app/gui/stage/overlay.h"
 #include "engine/evaluation/metrics/label_accuracy.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -33,15 +33,16 @@ const QColor kColor(12, 200, 96);
 class User : public WindowFixture {
  public:
   void openFolder(const QString& folder) {
-    window.open(folder);  // as named in the command line
-    QTRY_VERIFY2_WITH_TIMEOUT(window.document().document(),
-                              qPrintable(window.panels().messages->text()), kScenePatience);
-    QTRY_COMPARE_WITH_TIMEOUT(window.jobs().count(), 0, kScenePatience);
+    window.bench().opener.open(folder);  // as named in the command line
+    QTRY_VERIFY2_WITH_TIMEOUT(window.bench().document.document(),
+                              qPrintable(window.findChild<MessageBar*>("messageBar")->text()),
+                              kScenePatience);
+    QTRY_COMPARE_WITH_TIMEOUT(window.bench().jobs.count(), 0, kScenePatience);
     key(Qt::Key_B);
   }
   int addLabel(const QString& name, const QColor& color) {
     click("labels.add");
-    auto* tree = window.panels().labels->findChild<QTreeWidget*>("labels.tree");
+    auto* tree = window.findChild<LabelPalette*>()->findChild<QTreeWidget*>("labels.tree");
     key(Qt::Key_F2);
     type(tree->viewport()->findChild<QLineEdit*>(), name);
     // Renaming filled the rows again; the first column is the colour.
@@ -56,13 +57,13 @@ class User : public WindowFixture {
   }
   /// A pixel at these parts of the height and the width.
   PixelIndex pixel(double y, double x) {
-    const LightField& light_field = *window.session().light_field();
+    const LightField& light_field = *window.bench().session.light_field();
     return {static_cast<int>(y * light_field.height()), static_cast<int>(x * light_field.width())};
   }
   void paint(double y, double x0, double x1) { drag(pixel(y, x0), pixel(y, x1)); }
   int painted(double y, double x) { return document().scribbles().label_at(view(), pixel(y, x)); }
   ImageView<const std::int32_t> segments() {
-    return window.segment().labeler().labeling(view())->labels.view(view());
+    return find<SegmentController>(window).labeler().labeling(view())->labels.view(view());
   }
 
  private:
@@ -153,14 +154,15 @@ void StoryTest::whatIsPaintedAndSaved_isFoundAgain() {
 
   // Carried to all views by the truth: there is no estimate.
   user.key(Qt::Key_C);
-  QTRY_VERIFY_WITH_TIMEOUT(
-      user.window.scribbles().carried() && !user.window.scribbles().isCarrying(), kScenePatience);
-  QVERIFY(user.window.scribbles().carried()->painted_views().size() > 70);
+  QTRY_VERIFY_WITH_TIMEOUT(find<ScribbleController>(user.window).carried() &&
+                               !find<ScribbleController>(user.window).isCarrying(),
+                           kScenePatience);
+  QVERIFY(find<ScribbleController>(user.window).carried()->painted_views().size() > 70);
 
   // Segmented live, again after a stroke, and once more by hand.
   user.key(Qt::Key_Home);
   user.segment(Qt::Key_L);
-  QCOMPARE(user.window.overlay().quantity(), render::Quantity::Segmentation);
+  QCOMPARE(user.window.bench().overlay.quantity(), render::Quantity::Segmentation);
   user.key(Qt::Key_X);
   user.paint(0.2, 0.1, 0.3);
   QCOMPARE(user.painted(0.2, 0.2), wall);

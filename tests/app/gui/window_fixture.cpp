@@ -33,8 +33,8 @@ const Scene& rendered(const std::string& id, const scenes::RenderOptions& option
 WindowFixture::WindowFixture() {
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, folder_.filePath("settings"));
   QSettings().clear();
-  window.opener().setCacheFolder({});
-  window.document().setJournalFolder(folder_.filePath("journals").toStdString());
+  window.bench().opener.setCacheFolder({});
+  window.bench().document.setJournalFolder(folder_.filePath("journals").toStdString());
   window.resize(1280, 800);
   window.show();
 }
@@ -55,34 +55,36 @@ QString WindowFixture::writeScene(const std::string& id,
 }
 
 void WindowFixture::openScene(const std::string& id, const scenes::RenderOptions& options) {
-  window.open(writeScene(id, options));
-  // The session tells the window of its scene one turn later.
-  QTRY_VERIFY_WITH_TIMEOUT(window.actions().find("estimate.run")->isEnabled(), kScenePatience);
+  const auto before = window.bench().session.scene();
+  window.bench().opener.open(writeScene(id, options));
+  QTRY_VERIFY_WITH_TIMEOUT(window.bench().session.scene() != before, kScenePatience);
+  QCoreApplication::processEvents();  // the session tells the window of its scene one turn later
 }
 
 void WindowFixture::openSmall(const std::string& id) {
   openScene(id, smallOptions());
-  QTRY_COMPARE_WITH_TIMEOUT(window.panels().canvas->picture().size(), QSize(96, 96), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(window.bench().stage.canvas()->picture().size(), QSize(96, 96),
+                            kPatience);
 }
 
 void WindowFixture::runAndWait() {
-  const std::size_t before = window.session().estimates().size();
+  const std::size_t before = window.bench().session.estimates().size();
   auto* run = window.findChild<QAbstractButton*>("method.run");
   QVERIFY(run);
   QTRY_VERIFY_WITH_TIMEOUT(run->isEnabled(), kPatience);
   QTest::mouseClick(run, Qt::LeftButton);
-  QTRY_COMPARE_WITH_TIMEOUT(window.session().estimates().size(), before + 1, kScenePatience);
+  QTRY_COMPARE_WITH_TIMEOUT(window.bench().session.estimates().size(), before + 1, kScenePatience);
 }
 
 bool WindowFixture::isSegmented() {
-  const LiveLabeler& labeler = window.segment().labeler();
+  const LiveLabeler& labeler = find<SegmentController>(window).labeler();
   const LabelingPtr labeling = labeler.labeling(view());
   return labeling && !labeling->is_draft && labeler.is_up_to_date(view()) &&
-         !labeler.is_running() && window.jobs().count() == 0;
+         !labeler.is_running() && window.bench().jobs.count() == 0;
 }
 
 void WindowFixture::trigger(const char* id) {
-  QAction* action = window.actions().find(id);
+  QAction* action = window.bench().commands.find(id);
   QVERIFY2(action && action->isEnabled(), id);
   action->trigger();
 }

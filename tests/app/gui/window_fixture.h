@@ -2,7 +2,14 @@
 #pragma once
 
 #include "app/gui/document/document_controller.h"
+#include "app/gui/document/label_choice.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
 #include "app/gui/main_window.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "engine/scenes/builtin.h"
 #include "tests/patience.h"
@@ -12,6 +19,14 @@
 #include <QTemporaryDir>
 
 namespace episcope {
+
+/// The only object of a class in a window: a panel, or the controller of a feature.
+template <class T>
+[[nodiscard]] T& find(const QWidget& window) {
+  T* found = window.findChild<T*>();
+  if (!found) qFatal("the window has no %s", T::staticMetaObject.className());
+  return *found;
+}
 
 /// The window that ships, with settings and cache in a folder of their own, and small light fields
 /// to open.
@@ -31,12 +46,12 @@ class WindowFixture {
   /// Clicks Run and waits for the result.
   void runAndWait();
 
-  [[nodiscard]] AnnotationDocument& document() { return *window.document().document(); }
-  [[nodiscard]] ViewIndex view() { return window.session().view(); }
+  [[nodiscard]] AnnotationDocument& document() { return *window.bench().document.document(); }
+  [[nodiscard]] ViewIndex view() { return window.bench().session.view(); }
   /// Whether the view has its final labels, and nothing is on its way that would give others.
   [[nodiscard]] bool isSegmented();
 
-  [[nodiscard]] ViewCanvas* canvas() const { return window.panels().canvas; }
+  [[nodiscard]] ViewCanvas* canvas() const { return window.bench().stage.canvas(); }
   /// Runs a command, which must be enabled.
   void trigger(const char* id);
   /// Types a key with the focus on the view.

@@ -4,7 +4,6 @@
 #include <QPainter>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 namespace episcope {
@@ -12,63 +11,46 @@ namespace {
 
 constexpr double kMinSize = 1;
 constexpr double kMaxSize = 100;
-constexpr double kSmallRing =
-    9;  // logical pixels, below which the middle is marked around the ring
+constexpr double kSmallRing = 9;  // logical pixels, below which ticks point at the ring
+constexpr QColor kShadow(0, 0, 0, 170);
 
 }  // namespace
 
-void BrushTool::setTool(AnnotationTool tool) {
-  if (tool == tool_) return;
+void StrokeTool::setErasing(bool erases) {
+  if (erases == is_eraser_) return;
   end();
-  tool_ = tool;
+  is_eraser_ = erases;
   emit changed();
 }
 
-void BrushTool::setBrushSize(double diameter_px) {
+void StrokeTool::setBrushSize(double diameter_px) {
   brush_px_ = std::clamp(diameter_px, kMinSize, kMaxSize);
   emit changed();
 }
 
-void BrushTool::setEraserSize(double diameter_px) {
+void StrokeTool::setEraserSize(double diameter_px) {
   eraser_px_ = std::clamp(diameter_px, kMinSize, kMaxSize);
   emit changed();
 }
 
-void BrushTool::setColor(const QColor& color) {
+void StrokeTool::setColor(const QColor& color) {
   color_ = color;
   emit changed();
 }
 
-bool BrushTool::erases() const {
-  return tool_ == AnnotationTool::Eraser || erases_by_button_;
-}
-
-void BrushTool::press(QPointF image, Qt::MouseButton button, Qt::KeyboardModifiers modifiers) {
+void StrokeTool::press(const ToolPress& press) {
   end();
-  erases_by_button_ = button == Qt::RightButton;
-  const StrokeStart start{image, erases(), modifiers.testFlag(Qt::ShiftModifier)};
-  if (tool_ == AnnotationTool::Pick) {
-    erases_by_button_ = false;
-    emit pickRequested(image);
-  } else if (tool_ == AnnotationTool::Fill) {
-    erases_by_button_ = false;
-    emit fillRequested(start);
-  } else {
-    is_stroking_ = true;
-    emit changed();
-    emit strokeStarted(start);
-  }
+  erases_by_button_ = press.button == Qt::RightButton;
+  is_stroking_ = true;
+  emit changed();
+  emit strokeStarted({press.at, erases(), press.modifiers.testFlag(Qt::ShiftModifier)});
 }
 
-void BrushTool::drag(QPointF image) {
+void StrokeTool::drag(QPointF image) {
   if (is_stroking_) emit strokeExtended(image);
 }
 
-void BrushTool::release() {
-  end();
-}
-
-bool BrushTool::end() {
+bool StrokeTool::end() {
   if (!std::exchange(is_stroking_, false)) return false;
   erases_by_button_ = false;
   emit strokeFinished();
@@ -76,7 +58,7 @@ bool BrushTool::end() {
   return true;
 }
 
-bool BrushTool::cancel() {
+bool StrokeTool::cancel() {
   if (!std::exchange(is_stroking_, false)) return false;
   erases_by_button_ = false;
   emit strokeCancelled();
@@ -84,49 +66,39 @@ bool BrushTool::cancel() {
   return true;
 }
 
-std::optional<double> BrushTool::ringDiameter() const {
-  if (erases()) return eraser_px_;
-  return tool_ == AnnotationTool::Brush ? std::optional(brush_px_) : std::nullopt;
-}
-
-QRectF BrushTool::ringRect(QPointF center, double scale) const {
-  const double reach =
-      std::max(ringDiameter().value_or(0) * scale / 2, kSmallRing) + 2 * kRingMargin;
+QRectF StrokeTool::markRect(QPointF center, double scale) const {
+  const double reach = std::max(ringDiameter() * scale / 2, kSmallRing) + 2 * kRingMargin;
   return {center.x() - reach, center.y() - reach, 2 * reach, 2 * reach};
 }
 
-void BrushTool::paintRing(QPainter& painter, QPointF center, double scale) const {
-  const auto diameter_px = ringDiameter();
-  if (!diameter_px) return;
-  const double radius = *diameter_px * scale / 2;
+void StrokeTool::paintMark(QPainter& painter, QPointF center, double scale) const {
+  const double radius = ringDiameter() * scale / 2;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   painter.setBrush(Qt::NoBrush);
-  QPen pen(Qt::white, 1.2, erases() ? Qt::DashLine : Qt::SolidLine);
-  painter.setPen(QPen(QColor(0, 0, 0, 170), 3));
+  painter.setPen(QPen(kShadow, 3));
   painter.drawEllipse(center, radius, radius);
-  painter.setPen(pen);
+  painter.setPen(QPen(Qt::white, 1.2, erases() ? Qt::DashLine : Qt::SolidLine));
   painter.drawEllipse(center, radius, radius);
   if (radius < kSmallRing / 2) {
-    // A tiny ring is hard to find: four ticks point at it.
-    for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
-      const QLineF tick(center + way * (radius + 3), center + way * (radius + 3 + kSmallRing));
-      painter.setPen(QPen(QColor(0, 0, 0, 170), 3));
-      painter.drawLine(tick);
-      painter.setPen(QPen(Qt::white, 1.2));
-      painter.drawLine(tick);
-    }
+    paintTicks(painter, center, radius);
   } else if (!erases() && color_.isValid()) {
-    painter.setPen(QPen(QColor(0, 0, 0, 170), 1));
+    painter.setPen(QPen(kShadow, 1));
     painter.setBrush(color_);
     painter.drawEllipse(center, 3, 3);
   }
   painter.restore();
 }
 
-QCursor BrushTool::cursor() const {
-  if (ringDiameter()) return Qt::BlankCursor;
-  return tool_ == AnnotationTool::Pick ? Qt::PointingHandCursor : Qt::CrossCursor;
+// A tiny ring is hard to find: four ticks point at it.
+void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) const {
+  for (const QPointF& way : {QPointF(1, 0), QPointF(-1, 0), QPointF(0, 1), QPointF(0, -1)}) {
+    const QLineF tick(center + way * (radius + 3), center + way * (radius + 3 + kSmallRing));
+    painter.setPen(QPen(kShadow, 3));
+    painter.drawLine(tick);
+    painter.setPen(QPen(Qt::white, 1.2));
+    painter.drawLine(tick);
+  }
 }
 
 }  // namespace episcope

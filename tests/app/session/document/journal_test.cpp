@@ -24,8 +24,8 @@ constexpr int kWidth = 70;
 const JournalOwner kOwner{"scene", "demo", 42, -0.5};
 
 bool same(const AnnotationDocument& a, const AnnotationDocument& b) {
-  const History& ours = a.history();
-  const History& theirs = b.history();
+  const History<Edit>& ours = a.history();
+  const History<Edit>& theirs = b.history();
   if (!(a.labels() == b.labels()) || !(a.scribbles() == b.scribbles())) return false;
   if (a.has_unsaved_changes() != b.has_unsaved_changes()) return false;
   if (ours.count() != theirs.count() || ours.applied_count() != theirs.applied_count()) {

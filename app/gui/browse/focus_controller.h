@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/gui/document/document_controller.h"
-#include "app/gui/frame/jobs.h"
-#include "app/gui/opening/scene_opener.h"
-#include "app/session/session.h"
+#include "app/gui/bench/workbench.h"
+#include "engine/core/light_field/estimate.h"
 
 #include <QObject>
+
+#include <vector>
 
 namespace episcope {
 
@@ -16,8 +16,7 @@ class FocusController : public QObject {
   Q_OBJECT
 
  public:
-  FocusController(Session& session, Jobs& jobs, OpenController& opener,
-                  const DocumentController& document, QObject* parent);
+  explicit FocusController(const Workbench& bench);
 
   /// What is in focus gets disparity 0.
   void apply();
@@ -25,10 +24,6 @@ class FocusController : public QObject {
   void undo();
   [[nodiscard]] bool canApply() const;
   [[nodiscard]] bool canUndo() const;
-
- signals:
-  /// A sentence for the user that is no failure.
-  void hint(const QString& sentence);
 
  private:
   /// What is looked at, and the results.
@@ -40,15 +35,14 @@ class FocusController : public QObject {
     std::size_t compared = 0;  ///< or their number if there is none.
   };
 
+  void addCommands();
   void bake(double focus_px);
   [[nodiscard]] Kept kept() const;
   void bringBack(const Kept& kept, double moved_px);
   void moveResults(const Kept& kept, double moved_px);
 
+  Workbench bench_;
   Session& session_;
-  Jobs& jobs_;
-  OpenController& opener_;
-  const DocumentController& document_;
 };
 
 }  // namespace episcope

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/conventions_dialog.h"
+#include "app/gui/browse/conventions_dialog.h"
 
 #include "widgets/controls/elided_label.h"
 #include "widgets/estimate/parameter_form.h"

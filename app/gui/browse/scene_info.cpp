@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/scene_info.h"
+#include "app/gui/browse/scene_info.h"
 
 #include "app/session/scene/scene_range.h"
 #include "widgets/style/number_text.h"

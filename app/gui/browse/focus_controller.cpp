@@ -1,15 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/files/focus_controller.h"
+#include "app/gui/browse/focus_controller.h"
 
+#include "app/gui/document/document_controller.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/scene/scene_range.h"
+#include "app/session/session.h"
 #include "engine/core/light_field/shear.h"
+#include "widgets/compare/overlay_bar.h"
 
 namespace episcope {
 
-FocusController::FocusController(Session& session, Jobs& jobs, OpenController& opener,
-                                 const DocumentController& document, QObject* parent)
-    : QObject(parent), session_(session), jobs_(jobs), opener_(opener), document_(document) {}
+FocusController::FocusController(const Workbench& bench)
+    : QObject(&bench.owner), bench_(bench), session_(bench.session) {
+  addCommands();
+}
+
+void FocusController::addCommands() {
+  QAction* apply =
+      bench_.commands.add({.id = "view.focus_apply",
+                           .menu = Menu::View,
+                           .text = tr("Apply focus plane"),
+                           .tip = tr("Moves every disparity so that what is in focus gets 0; "
+                                     "results and ground truth move along"),
+                           .icon = "apply",
+                           .keys = {tr("Ctrl+Alt+Return")},
+                           .run = [this] { this->apply(); },
+                           .section = section::kFocus,
+                           .enabled = [this] { return canApply(); }});
+  bench_.commands.add({.id = "view.focus_undo",
+                       .menu = Menu::View,
+                       .text = tr("Undo applied focus plane"),
+                       .tip = tr("Goes back to the disparities of the files"),
+                       .run = [this] { undo(); },
+                       .section = section::kFocus,
+                       .enabled = [this] { return canUndo(); }});
+  bench_.stage.overlayBar()->addFocusAction(apply);
+}
 
 bool FocusController::canApply() const {
   return session_.scene() && session_.focus_px() != 0;
@@ -28,17 +59,18 @@ void FocusController::undo() {
 }
 
 void FocusController::bake(double focus_px) {
-  if (jobs_.count(Lane::Estimate) > 0) {
-    emit hint(
+  if (bench_.jobs.count(Lane::Estimate) > 0) {
+    bench_.messages.hint(
         tr("A method is running on the light field as it is: wait for its end, or cancel it."));
     return;
   }
-  if (document_.hasUnsavedChanges()) {
-    emit hint(tr("What is painted belongs to the light field as it is: save or undo it first."));
+  if (bench_.document.hasUnsavedChanges()) {
+    bench_.messages.hint(
+        tr("What is painted belongs to the light field as it is: save or undo it first."));
     return;
   }
   const double moved_px = focus_px - session_.scene()->convention.focus_px;
-  opener_.reopenAt(focus_px, [this, kept = kept(), moved_px] { bringBack(kept, moved_px); });
+  bench_.opener.reopenAt(focus_px, [this, kept = kept(), moved_px] { bringBack(kept, moved_px); });
 }
 
 FocusController::Kept FocusController::kept() const {
@@ -63,7 +95,7 @@ void FocusController::bringBack(const Kept& kept, double moved_px) {
 
 void FocusController::moveResults(const Kept& kept, double moved_px) {
   using Moved = std::vector<FinishedEstimate>;
-  jobs_.start<Moved>(
+  bench_.jobs.start<Moved>(
       Lane::Load, tr("Moving results to the focus plane"),
       [light_field = session_.light_field(), estimates = kept.estimates,
        moved_px](const Progress& progress) {

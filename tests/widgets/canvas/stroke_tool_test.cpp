@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The tool in hand, driven with the mouse on a canvas.
+// The brush and the eraser, driven with the mouse on a canvas.
 #include "widgets/canvas/tools/stroke_tool.h"
 #include "tests/window_test_main.h"
 
@@ -15,9 +15,9 @@
 #include <cmath>
 #include <memory>
 
-namespace episcope::in_brush_tool_test {
+namespace episcope::in_stroke_tool_test {
 
-class BrushToolTest : public QObject {
+class StrokeToolTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -25,7 +25,7 @@ class BrushToolTest : public QObject {
     canvas_ = std::make_unique<ViewCanvas>();
     canvas_->resize(400, 300);
     canvas_->setPicture(test::coordinate_picture(80, 60));
-    tool_ = std::make_unique<BrushTool>();
+    tool_ = std::make_unique<StrokeTool>();
     canvas_->setTool(tool_.get());
     canvas_->show();
     QVERIFY(QTest::qWaitForWindowExposed(canvas_.get()));
@@ -52,7 +52,7 @@ class BrushToolTest : public QObject {
     tool_->setBrushSize(size);
 
     QPainter painter(&plate);
-    tool_->paintRing(painter, {300, 300}, scale);
+    tool_->paintMark(painter, {300, 300}, scale);
     painter.end();
 
     // The white line lies on the circle, to the right, left, above and below.
@@ -74,9 +74,9 @@ class BrushToolTest : public QObject {
 
   void drag_isAStrokeInImageCoordinates() {
     canvas_->setCanvasTransform({4, {40, 30}});
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
-    QSignalSpy points(tool_.get(), &BrushTool::strokeExtended);
-    QSignalSpy ends(tool_.get(), &BrushTool::strokeFinished);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
+    QSignalSpy points(tool_.get(), &StrokeTool::strokeExtended);
+    QSignalSpy ends(tool_.get(), &StrokeTool::strokeFinished);
 
     QTest::mousePress(canvas_.get(), Qt::LeftButton, {}, {200, 150});
     QTest::mouseMove(canvas_.get(), {220, 150});
@@ -91,10 +91,10 @@ class BrushToolTest : public QObject {
   }
 
   void buttonsAndShift_chooseTheInk() {
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
     QTest::mouseClick(canvas_.get(), Qt::RightButton, {}, {200, 150});
     QTest::mouseClick(canvas_.get(), Qt::LeftButton, Qt::ShiftModifier, {200, 150});
-    tool_->setTool(AnnotationTool::Eraser);
+    tool_->setErasing(true);
     QTest::mouseClick(canvas_.get(), Qt::LeftButton, {}, {200, 150});
 
     QCOMPARE(starts.size(), 3);
@@ -105,7 +105,7 @@ class BrushToolTest : public QObject {
   }
 
   void doubleClick_isTwoDabs() {
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
     QSignalSpy centers(canvas_.get(), &ViewCanvas::centerRequested);
 
     QTest::mouseClick(canvas_.get(), Qt::LeftButton, {}, {200, 150});
@@ -118,7 +118,7 @@ class BrushToolTest : public QObject {
   }
 
   void controlClick_movesTheCrossHair() {
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
     QSignalSpy clicks(canvas_.get(), &ViewCanvas::crossHairRequested);
 
     QTest::mouseClick(canvas_.get(), Qt::LeftButton, Qt::ControlModifier, {200, 150});
@@ -128,7 +128,7 @@ class BrushToolTest : public QObject {
   }
 
   void spaceAndMiddle_pan() {
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
     const QPointF before = canvas_->canvasTransform().center;
     QTest::keyPress(canvas_.get(), Qt::Key_Space);
     QTest::mousePress(canvas_.get(), Qt::LeftButton, {}, {200, 150});
@@ -141,7 +141,7 @@ class BrushToolTest : public QObject {
   }
 
   void takenTool_endsTheStroke() {
-    QSignalSpy ends(tool_.get(), &BrushTool::strokeFinished);
+    QSignalSpy ends(tool_.get(), &StrokeTool::strokeFinished);
     QTest::mousePress(canvas_.get(), Qt::LeftButton, {}, {200, 150});
 
     canvas_->setTool(nullptr);
@@ -151,8 +151,8 @@ class BrushToolTest : public QObject {
   }
 
   void pen_drawsBetweenPixelsAndItsOtherEndErases() {
-    QSignalSpy starts(tool_.get(), &BrushTool::strokeStarted);
-    QSignalSpy points(tool_.get(), &BrushTool::strokeExtended);
+    QSignalSpy starts(tool_.get(), &StrokeTool::strokeStarted);
+    QSignalSpy points(tool_.get(), &StrokeTool::strokeExtended);
     canvas_->setCanvasTransform({4, {40, 30}});
 
     pen(QEvent::TabletPress, {200.5, 150.25}, QPointingDevice::PointerType::Pen);
@@ -233,10 +233,10 @@ class BrushToolTest : public QObject {
   }
 
   std::unique_ptr<ViewCanvas> canvas_;
-  std::unique_ptr<BrushTool> tool_;
+  std::unique_ptr<StrokeTool> tool_;
 };
 
-}  // namespace episcope::in_brush_tool_test
+}  // namespace episcope::in_stroke_tool_test
 
-EPISCOPE_WINDOW_TEST(brush_tool_test, BrushToolTest)
-#include "brush_tool_test.moc"
+EPISCOPE_WINDOW_TEST(stroke_tool_test, StrokeToolTest)
+#include "stroke_tool_test.moc"

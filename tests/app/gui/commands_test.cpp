@@ -26,9 +26,9 @@
 
 #include <tuple>
 
-namespace episcope::in_action_table_test {
+namespace episcope::in_commands_test {
 
-class ActionTableTest : public QObject {
+class CommandsTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -48,20 +48,20 @@ class ActionTableTest : public QObject {
   void defaults_comeBack();
 };
 
-void ActionTableTest::ids_areUnique() {
+void CommandsTest::ids_areUnique() {
   WindowFixture f;
   QSet<QString> ids;
-  for (const Command& command : f.window.actions().commands()) {
+  for (const Command& command : f.window.bench().commands.all()) {
     QVERIFY2(!ids.contains(command.id), qPrintable(command.id));
     ids.insert(command.id);
   }
   QVERIFY(ids.size() > 30);
 }
 
-void ActionTableTest::keys_areUnique() {
+void CommandsTest::keys_areUnique() {
   WindowFixture f;
   QSet<QString> keys;
-  for (const Command& command : f.window.actions().commands()) {
+  for (const Command& command : f.window.bench().commands.all()) {
     for (const QKeySequence& key : command.keys) {
       QVERIFY2(!key.isEmpty(), qPrintable(command.id));
       QVERIFY2(!keys.contains(key.toString()), qPrintable(command.id + " " + key.toString()));
@@ -70,17 +70,17 @@ void ActionTableTest::keys_areUnique() {
   }
 }
 
-void ActionTableTest::everyCommand_hasTextAndTip() {
+void CommandsTest::everyCommand_hasTextAndTip() {
   WindowFixture f;
-  for (const Command& command : f.window.actions().commands()) {
+  for (const Command& command : f.window.bench().commands.all()) {
     QVERIFY2(!command.text.isEmpty() && !command.tip.isEmpty(), qPrintable(command.id));
-    const QAction* action = f.window.actions().find(command.id);
+    const QAction* action = f.window.bench().commands.find(command.id);
     QVERIFY2(action->toolTip().startsWith(command.tip), qPrintable(command.id));
     if (!command.icon.isEmpty()) QVERIFY2(!action->icon().isNull(), qPrintable(command.id));
   }
 }
 
-void ActionTableTest::everyCommand_isInAMenu() {
+void CommandsTest::everyCommand_isInAMenu() {
   WindowFixture f;
   QSet<QAction*> in_menus;
   for (const QMenu* menu : f.window.menuBar()->findChildren<QMenu*>()) {
@@ -92,29 +92,29 @@ void ActionTableTest::everyCommand_isInAMenu() {
     letters.insert(menu->text()[1]);
   }
   QCOMPARE(letters.size(), f.window.menuBar()->actions().size());
-  for (const Command& command : f.window.actions().commands()) {
-    QVERIFY2(in_menus.contains(f.window.actions().find(command.id)), qPrintable(command.id));
+  for (const Command& command : f.window.bench().commands.all()) {
+    QVERIFY2(in_menus.contains(f.window.bench().commands.find(command.id)), qPrintable(command.id));
   }
 }
 
-void ActionTableTest::everyCommandWithKeys_isInTheShortcutWindow() {
+void CommandsTest::everyCommandWithKeys_isInTheShortcutWindow() {
   WindowFixture f;
 
-  f.window.actions().find("help.keys")->trigger();
+  f.window.bench().commands.find("help.keys")->trigger();
 
   const auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
   QVERIFY(dialog && dialog->isVisible());
   const auto* tree = dialog->findChild<QTreeWidget*>();
-  for (const Command& command : f.window.actions().commands()) {
+  for (const Command& command : f.window.bench().commands.all()) {
     if (command.keys.isEmpty()) continue;
     const auto rows = tree->findItems(command.tip, Qt::MatchExactly | Qt::MatchRecursive, 1);
     QVERIFY2(rows.size() == 1, qPrintable(command.id));
   }
 }
 
-void ActionTableTest::listOfKeys_isSearched() {
+void CommandsTest::listOfKeys_isSearched() {
   WindowFixture f;
-  f.window.actions().find("help.keys")->trigger();
+  f.window.bench().commands.find("help.keys")->trigger();
   const auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
   auto* tree = dialog->findChild<QTreeWidget*>("keys.tree");
 
@@ -127,27 +127,29 @@ void ActionTableTest::listOfKeys_isSearched() {
   QCOMPARE(rows, 1);
 }
 
-void ActionTableTest::chosenColours_areAppliedAndRemembered() {
+void CommandsTest::chosenColours_areAppliedAndRemembered() {
   const QPalette before = QApplication::palette();
   WindowFixture f;
-  QVERIFY(f.window.actions().find("theme.system")->isChecked());
+  QVERIFY(f.window.bench().commands.find("theme.system")->isChecked());
 
   f.trigger("theme.dark");
 
   QVERIFY(theme::is_dark(QApplication::palette()));
-  QTRY_VERIFY_WITH_TIMEOUT(theme::is_dark(f.window.panels().method->palette()), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(theme::is_dark(f.window.findChild<MethodPanel*>()->palette()),
+                           kPatience);
   QCOMPARE(remembered_theme(), QString("dark"));
   f.trigger("theme.light");
-  QTRY_VERIFY_WITH_TIMEOUT(!theme::is_dark(f.window.panels().method->palette()), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!theme::is_dark(f.window.findChild<MethodPanel*>()->palette()),
+                           kPatience);
   f.trigger("theme.system");
   QCOMPARE(QApplication::palette().color(QPalette::Window), before.color(QPalette::Window));
   QVERIFY(!apply_theme("blue"));
 }
 
-void ActionTableTest::palette_findsAndRunsACommand() {
+void CommandsTest::palette_findsAndRunsACommand() {
   WindowFixture f;
   f.openSmall();
-  f.window.actions().find("help.palette")->trigger();
+  f.window.bench().commands.find("help.palette")->trigger();
   auto* edit = f.window.findChild<QLineEdit*>("command_palette.edit");
   auto* list = f.window.findChild<QListWidget*>("command_palette.list");
   const int all = list->count();
@@ -160,7 +162,7 @@ void ActionTableTest::palette_findsAndRunsACommand() {
   QVERIFY(all > 1);
   QTest::keyClick(edit, Qt::Key_Return);
 
-  auto* canvas = f.window.panels().canvas;
+  auto* canvas = f.window.bench().stage.canvas();
   QTRY_COMPARE_WITH_TIMEOUT(canvas->canvasTransform().scale, 1 / canvas->devicePixelRatioF(),
                             kPatience);
 }
@@ -169,10 +171,10 @@ namespace {
 
 // The window of keys with the row of a command chosen.
 QWidget* choose(WindowFixture& f, const QString& id) {
-  f.window.actions().find("help.keys")->trigger();
+  f.window.bench().commands.find("help.keys")->trigger();
   auto* dialog = f.window.findChild<QWidget*>("shortcut_window");
   auto* tree = dialog->findChild<QTreeWidget*>("keys.tree");
-  const QString tip = f.window.actions().find(id)->statusTip();
+  const QString tip = f.window.bench().commands.find(id)->statusTip();
   tree->setCurrentItem(tree->findItems(tip, Qt::MatchExactly | Qt::MatchRecursive, 1).front());
   return dialog;
 }
@@ -189,7 +191,7 @@ void click(QWidget* dialog, const char* name) {
 
 }  // namespace
 
-void ActionTableTest::changedKey_worksIsShownAndRemembered() {
+void CommandsTest::changedKey_worksIsShownAndRemembered() {
   WindowFixture f;
   f.openSmall();
   QWidget* dialog = choose(f, "view.fit");
@@ -197,19 +199,19 @@ void ActionTableTest::changedKey_worksIsShownAndRemembered() {
   click(dialog, "keys.set");
   dialog->hide();
 
-  const QAction* action = f.window.actions().find("view.fit");
+  const QAction* action = f.window.bench().commands.find("view.fit");
   QCOMPARE(action->shortcut(), QKeySequence("Ctrl+Alt+J"));
   QVERIFY2(action->toolTip().contains("Ctrl+Alt+J"), qPrintable(action->toolTip()));
-  auto* canvas = f.window.panels().canvas;
+  auto* canvas = f.window.bench().stage.canvas();
   canvas->zoomIn();
   f.window.activateWindow();
   QTest::keyClick(canvas, Qt::Key_J, Qt::ControlModifier | Qt::AltModifier);
   QTRY_VERIFY_WITH_TIMEOUT(canvas->isFitted(), kPatience);
   MainWindow next;
-  QCOMPARE(next.actions().find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
+  QCOMPARE(next.bench().commands.find("view.fit")->shortcut(), QKeySequence("Ctrl+Alt+J"));
 }
 
-void ActionTableTest::keysOfTheView_areThoseOfTheTable_data() {
+void CommandsTest::keysOfTheView_areThoseOfTheTable_data() {
   QTest::addColumn<QString>("id");
   QTest::addColumn<bool>("in_grid");
   for (const char* id :
@@ -223,15 +225,16 @@ void ActionTableTest::keysOfTheView_areThoseOfTheTable_data() {
 }
 
 // A command of the view is heard by the key it has now, and no longer by the one it had.
-void ActionTableTest::keysOfTheView_areThoseOfTheTable() {
+void CommandsTest::keysOfTheView_areThoseOfTheTable() {
   QFETCH(QString, id);
   QFETCH(bool, in_grid);
   WindowFixture f;
   f.openSmall();
-  f.window.session().set_view({3, 3});
-  ActionTable& table = f.window.actions();
-  const Panels& panels = f.window.panels();
-  QWidget* focused = in_grid ? static_cast<QWidget*>(panels.view_grid->cells()) : panels.canvas;
+  f.window.bench().session.set_view({3, 3});
+  Commands& table = f.window.bench().commands;
+  ViewCanvas* canvas = f.canvas();
+  auto& grid = find<ViewGrid>(f.window);
+  QWidget* focused = in_grid ? static_cast<QWidget*>(grid.cells()) : canvas;
   focused->setFocus();
   f.window.activateWindow();
   QTRY_VERIFY_WITH_TIMEOUT(focused->hasFocus(), kPatience);
@@ -241,13 +244,13 @@ void ActionTableTest::keysOfTheView_areThoseOfTheTable() {
     QTest::keyClick(focused, key.key(), key.keyboardModifiers());
   };
   const auto place = [&] {
-    return std::tuple(f.window.session().view(), panels.canvas->canvasTransform().scale,
-                      panels.view_grid->isPlaying());
+    return std::tuple(f.window.bench().session.view(), canvas->canvasTransform().scale,
+                      grid.isPlaying());
   };
 
   press(own);
   QCOMPARE(ran.size(), 1);
-  panels.view_grid->setPlaying(false);
+  grid.setPlaying(false);
 
   table.setKeys(id, {QKeySequence("Ctrl+Alt+J")});
   QVERIFY(table.find(id)->toolTip().contains("Ctrl+Alt+J"));
@@ -259,9 +262,9 @@ void ActionTableTest::keysOfTheView_areThoseOfTheTable() {
   QCOMPARE(ran.size(), 2);
 }
 
-void ActionTableTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
+void CommandsTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
   WindowFixture f;
-  const ActionTable& table = f.window.actions();
+  const Commands& table = f.window.bench().commands;
   QWidget* dialog = choose(f, "view.fit");
 
   press(dialog, QKeySequence("G"));
@@ -274,20 +277,20 @@ void ActionTableTest::keyOfAnotherCommand_isNamedAndTakenOnlyWhenAsked() {
   QVERIFY(table.find("compare.tiles")->shortcut().isEmpty());
 }
 
-void ActionTableTest::emptyCanvas_namesTheKeyThatOpens() {
+void CommandsTest::emptyCanvas_namesTheKeyThatOpens() {
   WindowFixture f;
-  const auto drawn = [&f] { return f.window.panels().canvas->grab().toImage(); };
+  const auto drawn = [&f] { return f.window.bench().stage.canvas()->grab().toImage(); };
   const QImage own = drawn();
 
-  f.window.actions().setKeys("file.open", {QKeySequence("Ctrl+Alt+J")});
+  f.window.bench().commands.setKeys("file.open", {QKeySequence("Ctrl+Alt+J")});
   QVERIFY(drawn() != own);
-  f.window.actions().resetKeys("file.open");
+  f.window.bench().commands.resetKeys("file.open");
   QCOMPARE(drawn(), own);
 }
 
-void ActionTableTest::defaults_comeBack() {
+void CommandsTest::defaults_comeBack() {
   WindowFixture f;
-  const ActionTable& table = f.window.actions();
+  const Commands& table = f.window.bench().commands;
   QWidget* dialog = choose(f, "view.fit");
   press(dialog, QKeySequence("G"));
   click(dialog, "keys.set");
@@ -300,7 +303,7 @@ void ActionTableTest::defaults_comeBack() {
   QVERIFY(!QSettings().contains("keys/view.fit"));
 }
 
-}  // namespace episcope::in_action_table_test
+}  // namespace episcope::in_commands_test
 
-EPISCOPE_WINDOW_TEST(action_table_test, ActionTableTest)
-#include "action_table_test.moc"
+EPISCOPE_WINDOW_TEST(commands_test, CommandsTest)
+#include "commands_test.moc"

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+
+namespace episcope {
+
+/// Walking through views and EPIs, the focus plane, the values of a pixel, and what is known of the
+/// light field.
+void add_browsing(const Workbench& bench);
+
+}  // namespace episcope

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/browse/info_controller.h"
+
+#include "app/gui/browse/conventions_dialog.h"
+#include "app/gui/browse/scene_info.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/opening/remembered_conventions.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
+#include "engine/io/open/reader.h"
+#include "widgets/browse/info_panel.h"
+#include "widgets/style/theme.h"
+
+#include <QAction>
+
+#include <exception>
+#include <string>
+#include <vector>
+
+namespace episcope {
+namespace {
+
+// The options that a reader of the input knows; of one that nobody reads, all but the focus plane.
+std::vector<ParameterDescription> options_of(const QString& input, const std::string& reader_id) {
+  const io::Reader* reader = io::reader_named(reader_id);
+  try {
+    if (!reader) reader = io::find_reader(input.toStdString(), {}).reader;
+  } catch (const std::exception&) {
+    reader = nullptr;  // it could not be opened either
+  }
+  std::vector<ParameterDescription> options = io::open_schema().descriptions();
+  std::erase_if(options, [reader](const ParameterDescription& option) {
+    return option.key == Reading::kFocus || (reader && !reader->has_option(option.key));
+  });
+  return options;
+}
+
+}  // namespace
+
+InfoController::InfoController(const Workbench& bench)
+    : QObject(&bench.owner), bench_(bench), panel_(new InfoPanel(&bench.frame)) {
+  panel_->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
+  bench.frame.addToColumn(panel_, true);
+  QAction* conventions = bench.commands.add(
+      {.id = "file.conventions",
+       .menu = Menu::File,
+       .text = tr("Conventions…"),
+       .tip = tr("Overrules the order of views, the units or the names that were found"),
+       .keys = {tr("Ctrl+Shift+R")},
+       .run = [this] { askForConventions(); },
+       .section = section::kOpen,
+       .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
+  panel_->setConventionsAction(conventions);
+  connect(&bench.stage, &Stage::previewChanged, this, &InfoController::show);
+  connect(&bench.opener, &SceneOpener::changed, &bench.commands, &Commands::refresh);
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene)) show();
+  });
+  show();
+}
+
+void InfoController::show() {
+  if (const auto& scene = bench_.session.scene()) {
+    const SceneInfo info = describe(*scene);
+    panel_->setInfo(info.title, info.rows, info.warnings);
+  } else {
+    panel_->setInfo(bench_.stage.isPreviewing() ? tr("Opening …") : tr("Nothing is open"), {}, {});
+  }
+}
+
+void InfoController::askForConventions() {
+  SceneOpener& opener = bench_.opener;
+  const QString input = opener.reopenable();
+  if (input.isEmpty()) return;
+  const std::string reader =
+      opener.hasFailed() ? std::string() : bench_.session.light_field()->info().reading.reader;
+  auto* dialog = new ConventionsDialog(input, options_of(input, reader),
+                                       remembered_conventions(input), &bench_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [dialog, input, &opener] {
+    // Something else may have been opened meanwhile, by a drop.
+    if (opener.reopenable() == input) opener.reopenWith(dialog->given());
+  });
+  dialog->open();
+}
+
+}  // namespace episcope

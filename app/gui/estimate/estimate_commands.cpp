@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/estimate/result_export.h"
+#include "app/gui/frame/cancels.h"
+#include "app/gui/frame/commands.h"
+#include "widgets/estimate/method_panel.h"
+
+namespace episcope {
+namespace {
+
+// Sections of the menu.
+constexpr int kRun = 0;
+constexpr int kResults = 1;
+
+}  // namespace
+
+void EstimateController::addCommands() {
+  const auto has_scene = [this] { return session_.scene() != nullptr; };
+  bench_.commands.add({.id = "estimate.run",
+                       .menu = Menu::Estimate,
+                       .text = tr("Run"),
+                       .tip = tr("Runs the chosen method with the parameters of the form"),
+                       .icon = "run",
+                       .keys = {Qt::Key_F5, tr("Ctrl+Return")},
+                       .run = [this] { run(); },
+                       .section = kRun,
+                       .enabled = has_scene});
+  QAction* cancel = bench_.commands.add({.id = "estimate.cancel",
+                                         .menu = Menu::Estimate,
+                                         .text = tr("Cancel"),
+                                         .tip = tr("Cancels the current gesture, mode or job"),
+                                         .icon = "stop",
+                                         .keys = {Qt::Key_Escape},
+                                         .run = [&cancels = bench_.cancels] { cancels.cancel(); },
+                                         .section = kRun});
+  QAction* copy = bench_.commands.add(
+      {.id = "estimate.copy_command",
+       .menu = Menu::Estimate,
+       .text = tr("Copy as command"),
+       .tip = tr("Copies the command line that runs the method with the parameters of the form"),
+       .icon = "copy",
+       .keys = {tr("Ctrl+Shift+C")},
+       .run = [this] { copyCommand(); },
+       .section = kRun,
+       .enabled = has_scene});
+  method_->followTips(cancel, copy);
+  addResultCommands();
+}
+
+void EstimateController::addResultCommands() {
+  const auto has_result = [this] { return session_.shown() != nullptr; };
+  bench_.commands.add({.id = "estimate.next",
+                       .menu = Menu::Estimate,
+                       .text = tr("Next result"),
+                       .tip = tr("Shows the next result of the list"),
+                       .keys = {tr("Ctrl+PgDown")},
+                       .run = [this] { showNeighbour(1); },
+                       .section = kResults,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "estimate.previous",
+                       .menu = Menu::Estimate,
+                       .text = tr("Previous result"),
+                       .tip = tr("Shows the previous result of the list"),
+                       .keys = {tr("Ctrl+PgUp")},
+                       .run = [this] { showNeighbour(-1); },
+                       .section = kResults,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "estimate.remove",
+                       .menu = Menu::Estimate,
+                       .text = tr("Remove result"),
+                       .tip = tr("Removes the shown result from the list"),
+                       .icon = "trash",
+                       .keys = {tr("Ctrl+Delete")},
+                       .run = [this] { removeShown(); },
+                       .section = kResults,
+                       .enabled = has_result});
+  bench_.commands.add({.id = "file.export",
+                       .menu = Menu::File,
+                       .text = tr("Export result…"),
+                       .tip = tr("Writes the shown result: HDF5, PFM, TIFF or PLY"),
+                       .icon = "export",
+                       .keys = {tr("Ctrl+E")},
+                       .run = [this] { ask_to_export(bench_, *session_.shown()); },
+                       .section = section::kExport,
+                       .bar = BarSection::Files,
+                       .enabled = has_result});
+}
+
+}  // namespace episcope

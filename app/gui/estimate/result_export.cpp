@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/result_export.h"
+
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/messages.h"
+#include "app/session/save/save_result.h"
+#include "app/session/session.h"
+
+#include <QCoreApplication>
+
+namespace episcope {
+namespace {
+
+struct Text {
+  Q_DECLARE_TR_FUNCTIONS(episcope::ResultExport)
+};
+
+}  // namespace
+
+void ask_to_export(const Workbench& bench, const EstimateEntry& entry) {
+  const std::string& scene = bench.session.light_field()->info().name;
+  ask_where_to_save(
+      &bench.window,
+      {.name = "export_result",
+       .title = Text::tr("Export %1").arg(QString::fromStdString(entry.name)),
+       .filter = Text::tr("Result, all views (*.h5);;Map of this view (*.pfm);;Map of this view "
+                          "(*.tiff);;Point cloud of this view (*.ply)"),
+       .proposal = QString::fromStdString(scene + "_" + entry.estimate->method + ".h5")},
+      [bench, id = entry.id](const QString& path) {
+        if (const auto* found = bench.session.find_estimate(id)) export_result(bench, *found, path);
+      });
+}
+
+void export_result(const Workbench& bench, const EstimateEntry& entry, const QString& path) {
+  if (!has_suffix(path, {"h5", "pfm", "tiff", "ply"}, bench.messages)) return;
+  const std::filesystem::path file = path.toStdString();
+  const EstimatePtr result = entry.estimate;
+  const auto form = map_form_of(file);
+  if (form == MapForm::Result) {
+    write_in_background(bench.jobs, bench.messages, path,
+                        [file, result, input = bench.session.input()](const Progress& progress) {
+                          save_result(file, *result, input, progress);
+                        });
+    return;
+  }
+  const ViewIndex view = bench.session.view();
+  if (!result->contains(view)) {
+    bench.messages.hint(Text::tr("%1 has no map of this view: go to the centre view (Home) first.")
+                            .arg(QString::fromStdString(entry.name)));
+    return;
+  }
+  write_in_background(bench.jobs, bench.messages, path,
+                      [file, result, view, light_field = bench.session.light_field(),
+                       is_cloud = form == MapForm::PointCloud](const Progress&) {
+                        is_cloud
+                            ? save_point_cloud(file, *light_field, view, result->field.view(view))
+                            : save_map(file, result->field.view(view));
+                      });
+}
+
+}  // namespace episcope

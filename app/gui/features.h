@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+
+#include <span>
+
+namespace episcope {
+
+/// Every feature of the window, in the order in which they put their widgets and commands.
+[[nodiscard]] std::span<const Feature> features();
+
+}  // namespace episcope

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/file_controller.h"
+
+#include "app/gui/document/document_controller.h"
+#include "app/gui/files/recent_inputs.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/opening/result_opener.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
+#include "widgets/canvas/view_canvas.h"
+
+#include <QAction>
+#include <QDropEvent>
+#include <QMenu>
+#include <QMimeData>
+#include <QUrl>
+
+namespace episcope {
+
+FileController::FileController(const Workbench& bench)
+    : QObject(&bench.owner), bench_(bench), recent_menu_(new QMenu(&bench.window)) {
+  addOpenCommands();
+  addLeaveCommands();
+  fillRecentMenu();
+  bench.window.setAcceptDrops(true);
+  bench.window.installEventFilter(this);
+  connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
+    if (!is_builtin(input)) remember_recent(input);
+    fillRecentMenu();
+  });
+  connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
+  connect(&bench.document, &DocumentController::unsavedChanged, &bench.window,
+          &QWidget::setWindowModified);
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene)) showTitle();
+  });
+  showTitle();
+  showInvitation();
+}
+
+void FileController::addOpenCommands() {
+  const auto add = [this](const QString& id, const QString& text, const QString& tip,
+                          const QList<QKeySequence>& keys, void (FileController::*run)()) {
+    return Command{.id = id,
+                   .menu = Menu::File,
+                   .text = text,
+                   .tip = tip,
+                   .keys = keys,
+                   .run = [this, run] { (this->*run)(); },
+                   .section = section::kOpen};
+  };
+  Command open = add("file.open", tr("Open file…"), tr("Opens a light field or a result"),
+                     {QKeySequence::Open}, &FileController::askForFile);
+  open.icon = "open";
+  open.bar = BarSection::Files;
+  bench_.commands.add(std::move(open));
+  Command folder =
+      add("file.open_folder", tr("Open folder…"),
+          tr("Opens a folder: a scene of the archive, a benchmark scene, an image grid"),
+          {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
+  folder.icon = "open";
+  bench_.commands.add(std::move(folder));
+  Command result =
+      add("file.open_result", tr("Open result…"), tr("Adds a result from a file to the results"),
+          {tr("Ctrl+R")}, &FileController::askForResult);
+  result.enabled = [this] { return bench_.session.scene() != nullptr; };
+  bench_.commands.add(std::move(result));
+  bench_.commands.add({.id = "file.recent",
+                       .menu = Menu::File,
+                       .text = tr("Open recent"),
+                       .tip = tr("Opens what was open before"),
+                       .section = section::kOpen,
+                       .enabled = [] { return !recent_inputs().isEmpty(); },
+                       .submenu = recent_menu_});
+  bench_.commands.add({.id = "file.demo",
+                       .menu = Menu::File,
+                       .text = tr("Open demo"),
+                       .tip = tr("Opens the built-in demo scene"),
+                       .run = [this] { bench_.opener.open("demo"); },
+                       .section = section::kOpen});
+}
+
+void FileController::addLeaveCommands() {
+  bench_.commands.add({.id = "file.close",
+                       .menu = Menu::File,
+                       .text = tr("Close"),
+                       .tip = tr("Closes the light field"),
+                       .keys = {tr("Ctrl+W")},
+                       .run = [this] { bench_.opener.close(); },
+                       .section = section::kLeave,
+                       .enabled = [this] { return bench_.session.scene() != nullptr; }});
+  bench_.commands.add({.id = "file.quit",
+                       .menu = Menu::File,
+                       .text = tr("Quit"),
+                       .tip = tr("Quits Episcope"),
+                       .keys = {tr("Ctrl+Q")},
+                       .run = [this] { bench_.window.close(); },
+                       .section = section::kLeave});
+}
+
+void FileController::askForFile() {
+  ask_for_file(&bench_.window,
+               {.name = "open_file",
+                .title = tr("Open a light field"),
+                .filter = tr("Light fields and results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All "
+                             "files (*)")},
+               [this](const QString& path) { openAny(path); });
+}
+
+void FileController::askForFolder() {
+  ask_for_folder(&bench_.window,
+                 {.name = "open_folder", .title = tr("Open a folder that holds a light field")},
+                 [this](const QString& path) { bench_.opener.open(path); });
+}
+
+void FileController::askForResult() {
+  ask_for_file(&bench_.window,
+               {.name = "open_result",
+                .title = tr("Open a result"),
+                .filter = tr("Results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All files (*)")},
+               [this](const QString& path) {
+                 bench_.session.scene() ? bench_.results.open(path) : bench_.opener.open(path);
+               });
+}
+
+void FileController::openAny(const QString& path) {
+  if (bench_.session.scene() && is_result(path)) {
+    bench_.results.open(path);
+  } else {
+    bench_.opener.open(path);  // says what is wrong with a result that nothing is open for
+  }
+}
+
+void FileController::fillRecentMenu() {
+  recent_menu_->clear();
+  for (const QString& input : recent_inputs()) {
+    recent_menu_->addAction(input, this, [this, input] { bench_.opener.open(input); });
+  }
+  if (!recent_menu_->isEmpty()) {
+    recent_menu_->addSeparator();
+    recent_menu_->addAction(tr("Forget all"), this, [this] {
+      forget_recent();
+      fillRecentMenu();
+    });
+  }
+  bench_.commands.refresh();
+}
+
+void FileController::showTitle() {
+  const LightFieldPtr light_field = bench_.session.light_field();
+  bench_.window.setWindowTitle(
+      light_field ? tr("%1[*] — Episcope").arg(QString::fromStdString(light_field->info().name))
+                  : QStringLiteral("Episcope"));
+}
+
+void FileController::showInvitation() {
+  const QString key = bench_.commands.keyText("file.open");
+  bench_.stage.canvas()->setEmptyHint(
+      key.isEmpty() ? tr("Open a light field, or drop a file or a folder here.")
+                    : tr("Open a light field with %1, or drop a file or a folder here.").arg(key));
+}
+
+bool FileController::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() != QEvent::DragEnter && event->type() != QEvent::Drop) {
+    return QObject::eventFilter(watched, event);
+  }
+  auto* drop = static_cast<QDropEvent*>(event);
+  const QList<QUrl> urls = drop->mimeData()->urls();
+  if (urls.isEmpty() || !urls.front().isLocalFile()) return false;
+  drop->acceptProposedAction();
+  if (event->type() == QEvent::Drop) openAny(urls.front().toLocalFile());
+  return true;
+}
+
+}  // namespace episcope

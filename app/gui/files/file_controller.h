@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+
+#include <QObject>
+
+class QMenu;
+
+namespace episcope {
+
+/// Opens light fields and results that the user chooses or drops, lists the recent ones, and names
+/// the window after what is open.
+class FileController : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit FileController(const Workbench& bench);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void addOpenCommands();
+  void addLeaveCommands();
+  void askForFile();
+  void askForFolder();
+  void askForResult();
+  /// A result is added to the open light field; anything else is opened.
+  void openAny(const QString& path);
+  void fillRecentMenu();
+  void showTitle();
+  void showInvitation();
+
+  Workbench bench_;
+  QMenu* recent_menu_;
+};
+
+}  // namespace episcope

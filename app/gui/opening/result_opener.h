@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QObject>
+#include <QString>
+
+namespace episcope {
+
+class Jobs;
+class Messages;
+class Session;
+
+/// Whether a path names a result. False for what cannot be read: opening it tells what is wrong.
+[[nodiscard]] bool is_result(const QString& path);
+
+/// Adds result files, and maps from elsewhere, to the results of the open light field, in the
+/// background. The user is told of results that may be of another light field.
+class ResultOpener : public QObject {
+  Q_OBJECT
+
+ public:
+  ResultOpener(Session& session, Jobs& jobs, Messages& messages, QObject* parent);
+
+  /// Precondition: a light field is open.
+  void open(const QString& path);
+
+ private:
+  Session& session_;
+  Jobs& jobs_;
+  Messages& messages_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/picture/map_choice.h"
+
+#include <optional>
+
+namespace episcope {
+
+/// Gives the overlay the maps of a subject that the session does not hold.
+class MapProvider {
+ public:
+  virtual ~MapProvider() = default;
+
+  /// Whether a quantity can be shown now, in some view.
+  [[nodiscard]] virtual bool has_map(render::Quantity quantity) const = 0;
+  /// What the map of a view is made from; nothing if there is no such map.
+  [[nodiscard]] virtual std::optional<MapSource> map_source(render::Quantity quantity,
+                                                            ViewIndex view) const = 0;
+};
+
+}  // namespace episcope

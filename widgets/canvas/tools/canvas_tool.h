@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <QCursor>
+#include <QObject>
+#include <QPointF>
+#include <QRectF>
+
+class QPainter;
+
+namespace episcope {
+
+/// A press of a button over the picture. Places are in image coordinates, see CanvasTransform.
+struct ToolPress {
+  QPointF at;
+  Qt::MouseButton button = Qt::LeftButton;  ///< Left or right.
+  Qt::KeyboardModifiers modifiers;
+};
+
+/// A tool that the mouse of a ViewCanvas is given to: it is handed whatever is not zoom or pan, and
+/// tells its host by signals of its own what the user wants. A gesture lasts from a press to the
+/// release, or until it is ended or cancelled.
+class CanvasTool : public QObject {
+  Q_OBJECT
+
+ public:
+  using QObject::QObject;
+
+  virtual void press(const ToolPress& press) = 0;
+  virtual void drag(QPointF /*image*/) {}
+  void release() { end(); }
+  /// Ends the gesture, as a release would, or takes it back; what the hand goes on to do until the
+  /// release is ignored. Returns whether there was one.
+  virtual bool end() { return false; }
+  virtual bool cancel() { return false; }
+  /// Ctrl+Shift+wheel, in notches.
+  virtual void step(double /*steps*/) {}
+
+  [[nodiscard]] virtual QCursor cursor() const = 0;
+  /// What the tool draws around the cursor, with margin, at `scale` logical pixels an image pixel;
+  /// empty = nothing. `center` is in widget coordinates.
+  [[nodiscard]] virtual QRectF markRect(QPointF /*center*/, double /*scale*/) const { return {}; }
+  virtual void paintMark(QPainter& /*painter*/, QPointF /*center*/, double /*scale*/) const {}
+
+ signals:
+  /// Cursor or mark look different now.
+  void changed();
+};
+
+}  // namespace episcope
