@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -11,8 +10,8 @@ namespace episcope {
 
 /// A step that a user made on a document of any kind.
 template <class E>
-concept EditOfDocument = std::movable<E> && requires(const E& edit) {
-  { edit.byte_size() } -> std::convertible_to<std::size_t>;  // memory that it takes
+concept EditOfDocument = requires(const E& edit, std::size_t bytes) {
+  bytes = edit.byte_size();  // memory that it takes
 };
 
 /// Edits of a document that can be undone and redone, oldest first, bounded in bytes: the oldest

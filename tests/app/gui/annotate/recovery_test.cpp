@@ -8,7 +8,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/session/session.h"
-#include "tests/app/gui/document_digest.h"
+#include "tests/app/gui/annotate/document_digest.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"

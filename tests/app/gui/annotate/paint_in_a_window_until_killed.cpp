@@ -9,7 +9,7 @@
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
-#include "tests/app/gui/document_digest.h"
+#include "tests/app/gui/annotate/document_digest.h"
 #include "tests/patience.h"
 #include "widgets/canvas/view_canvas.h"
 

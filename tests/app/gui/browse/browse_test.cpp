@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/epi_pane.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/view_canvas.h"
+
+namespace episcope::in_browse_test {
+
+namespace {
+
+void click_pixel(ViewCanvas* canvas, PixelIndex pixel, Qt::KeyboardModifiers keys = {}) {
+  QTest::mouseClick(canvas, Qt::LeftButton, keys, canvas->positionOf(pixel).toPoint());
+}
+
+}  // namespace
+
+class BrowseTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void arrows_changeTheView();
+  void click_movesTheCrossHairAndTheEpis();
+  void shiftClick_focusesAtThePixel();
+  void valuesAtTheCursor_areRead();
+};
+
+void BrowseTest::arrows_changeTheView() {
+  WindowFixture f;
+  f.openSmall();
+  auto* canvas = f.window.bench().stage.canvas();
+  const Session& session = f.window.bench().session;
+  canvas->setFocus();
+  f.window.activateWindow();
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->hasFocus(), kPatience);
+  const QImage before = canvas->picture();
+
+  QTest::keyClick(canvas, Qt::Key_Right);
+  QVERIFY(session.view() == (ViewIndex{4, 5}));
+  QTest::keyClick(canvas, Qt::Key_Up);
+  QVERIFY(session.view() == (ViewIndex{3, 5}));
+  QTRY_VERIFY_WITH_TIMEOUT(canvas->picture() != before, kPatience);
+  QTest::keyClick(canvas, Qt::Key_Left, Qt::ShiftModifier);
+  QVERIFY(session.view() == (ViewIndex{3, 0}));
+  QTest::keyClick(canvas, Qt::Key_Home);
+
+  QVERIFY(session.view() == (ViewIndex{4, 4}));
+}
+
+void BrowseTest::click_movesTheCrossHairAndTheEpis() {
+  WindowFixture f;
+  f.openSmall();
+  auto* epi = f.window.bench().stage.horizontalEpi();
+  const QImage before = epi->grab().toImage();
+
+  click_pixel(f.window.bench().stage.canvas(), {20, 33});
+
+  QVERIFY(f.window.bench().session.cross_hair() == (PixelIndex{20, 33}));
+  QTRY_VERIFY_WITH_TIMEOUT(epi->grab().toImage() != before, kPatience);
+}
+
+void BrowseTest::shiftClick_focusesAtThePixel() {
+  WindowFixture f;
+  f.openSmall();
+  const double truth =
+      f.window.bench().session.scene()->truth->field.view({4, 4}).disparity.at(20, 33);
+
+  click_pixel(f.window.bench().stage.canvas(), {20, 33}, Qt::ShiftModifier);
+
+  QCOMPARE(f.window.bench().session.focus_px(), truth);
+}
+
+void BrowseTest::valuesAtTheCursor_areRead() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* canvas = f.window.bench().stage.canvas();
+
+  QTest::mouseMove(canvas, canvas->positionOf({20, 33}).toPoint());
+
+  const auto text = [&f] { return f.window.findChild<ValueBar*>()->text(); };
+  QTRY_VERIFY2_WITH_TIMEOUT(text().contains("x 33 y 20"), qPrintable(text()), kPatience);
+  QVERIFY2(text().contains("truth") && text().contains("EPI_L"), qPrintable(text()));
+}
+
+}  // namespace episcope::in_browse_test
+
+EPISCOPE_WINDOW_TEST(browse_test, BrowseTest)
+#include "browse_test.moc"

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare/picture_export.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QGuiApplication>
+#include <QLabel>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QTableWidget>
+#include <QToolBar>
+
+namespace episcope::in_window_overlay_test {
+
+namespace {
+
+void click_action(MainWindow& window, const QString& id) {
+  QWidget* button =
+      window.findChild<QToolBar*>()->widgetForAction(window.bench().commands.find(id));
+  QVERIFY2(button && button->isEnabled(), qPrintable(id));
+  QTest::mouseClick(button, Qt::LeftButton);
+}
+
+}  // namespace
+
+class OverlayTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void errorOverlay_isOneClickAway();
+  void heldTab_flips();
+  void hugeTruth_leavesTheLayoutAlone();
+  void savedPicture_isTheShownOne();
+  void failedExport_isTold();
+  void copiedMetrics_areTold();
+  void compareTab_showsTheMainMetricsWithoutScrolling();
+};
+
+void OverlayTest::errorOverlay_isOneClickAway() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  const QImage before = f.window.bench().overlay.picture();
+  const QImage canvas_before = f.window.bench().stage.canvas()->grab().toImage();
+
+  click_action(f.window, "overlay.error");
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
+  QVERIFY(f.window.bench().stage.canvas()->grab().toImage() != canvas_before);
+  QVERIFY(f.window.bench().commands.find("overlay.error")->isChecked());
+}
+
+void OverlayTest::heldTab_flips() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* canvas = f.window.bench().stage.canvas();
+  canvas->setFocus();
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  const QImage before = f.window.bench().overlay.picture();
+
+  QTest::keyPress(canvas, Qt::Key_Tab);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
+  QTest::keyRelease(canvas, Qt::Key_Tab);
+
+  QCOMPARE(f.window.bench().overlay.picture(), before);
+}
+
+void OverlayTest::hugeTruth_leavesTheLayoutAlone() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const int width = f.window.bench().stage.canvas()->width();
+  auto scene = std::make_shared<Scene>(
+      scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress()));
+  auto truth = std::make_shared<GroundTruth>();
+  truth->field.disparity = scene->truth->field.disparity.clone();
+  truth->field.disparity.view({4, 4}).at(0, 0) = 1e30F;
+  scene->truth = truth;
+
+  f.window.bench().session.open(scene, "edge");
+  f.window.bench().overlay.setQuantity(render::Quantity::Truth);
+  f.trigger("tab.compare");
+
+  const auto* focus = f.window.findChild<QDoubleSpinBox*>("overlay.focusSpin");
+  QVERIFY(focus->maximum() <= 100);
+  const auto* max = f.window.findChild<QLabel*>("statistics.max");
+  QTRY_VERIFY2_WITH_TIMEOUT(max->text().startsWith("1e"), qPrintable(max->text()), kPatience);
+  QCOMPARE(f.window.bench().stage.canvas()->width(), width);
+}
+
+void OverlayTest::savedPicture_isTheShownOne() {
+  WindowFixture f;
+  f.openSmall();
+
+  save_picture(f.window.bench(), f.path("view.png"));
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("view.png")), kPatience);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+
+  const QImage saved = QImage(f.path("view.png")).convertToFormat(QImage::Format_RGB888);
+  QCOMPARE(saved,
+           f.window.bench().stage.canvas()->picture().convertToFormat(QImage::Format_RGB888));
+}
+
+void OverlayTest::failedExport_isTold() {
+  WindowFixture f;
+  f.openSmall();
+  const QString path = f.path("no/such/folder/view.png");
+
+  save_picture(f.window.bench(), path);
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains(path), qPrintable(messages->text()),
+                            kPatience);
+  QCOMPARE(messages->severity(), Severity::Error);
+}
+
+void OverlayTest::copiedMetrics_areTold() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.trigger("tab.compare");
+
+  f.click("metrics.copyLatex");
+
+  const QString text = f.window.findChild<MessageBar*>("messageBar")->text();
+  QVERIFY2(text.contains("Copied") && text.contains("LaTeX"), qPrintable(text));
+  QVERIFY(QGuiApplication::clipboard()->text().startsWith("\\begin{tabular}"));
+}
+
+void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  auto* tabs = f.window.findChild<QTabWidget*>()->tabBar();
+  QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
+  const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
+  QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, kPatience);
+
+  const QStringList wanted = {"Result",        "2013\nMSE×100", "2016\nMSE×100", "2016\nbad .07",
+                              "2016\nbad .03", "2016\nbad .01", "2016\nQ25"};
+  for (int column = 0; column < wanted.size(); ++column) {
+    QCOMPARE(table->horizontalHeaderItem(column)->text(), wanted[column]);
+    QVERIFY(!table->horizontalHeaderItem(column)->toolTip().isEmpty());
+  }
+  const int end = table->columnViewportPosition(6) + table->columnWidth(6);
+  QVERIFY2(end <= table->viewport()->width(),
+           qPrintable(QString("%1 > %2").arg(end).arg(table->viewport()->width())));
+}
+
+}  // namespace episcope::in_window_overlay_test
+
+EPISCOPE_WINDOW_TEST(window_overlay_test, OverlayTest)
+#include "window_overlay_test.moc"

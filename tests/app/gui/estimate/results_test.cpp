@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/result_export.h"
+#include "app/gui/opening/result_opener.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/result_file.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QAction>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QGuiApplication>
+#include <QRegularExpression>
+#include <QTreeWidget>
+
+#include <cmath>
+#include <limits>
+
+namespace episcope::in_results_test {
+
+class ResultsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void run_listsItsResultWithItsError();
+  void exportedResult_readsBack();
+  void exportedMap_marksInvalidPixels();
+  void unknownSuffix_isNotWritten();
+  void chosenForm_namesTheFile();
+  void openedResult_isListed();
+  void resultOfAnotherLightField_isRefused();
+  void resultOfOtherSamples_isOpenedWithAWarning();
+  void lightField_isNoResult();
+  void copiedCommand_opensTheSameFile();
+};
+
+void ResultsTest::run_listsItsResultWithItsError() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.runAndWait();
+
+  const auto* tree = f.window.findChild<QTreeWidget*>("results.tree");
+  QCOMPARE(tree->topLevelItemCount(), 1);
+  const auto row_text = [tree] {
+    QString text;
+    for (int i = 0; i < tree->columnCount(); ++i) text += tree->topLevelItem(0)->text(i) + '|';
+    return text;
+  };
+  QTRY_VERIFY2_WITH_TIMEOUT(row_text().contains(QRegularExpression("\\d+\\.\\d\\d\\|.*s\\|")),
+                            qPrintable(row_text()), kPatience);
+  QCOMPARE(f.window.bench().overlay.quantity(), render::Quantity::Disparity);
+}
+
+void ResultsTest::exportedResult_readsBack() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const EstimateEntry& shown = *f.window.bench().session.shown();
+  const QString path = f.path("résult 1.h5");
+
+  export_result(f.window.bench(), shown, path);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<MessageBar*>("messageBar")->text().contains(path),
+                           kPatience);
+
+  const Estimate read = io::read_result(path.toStdString(), {9, 9});
+  QCOMPARE(read.method, std::string("epi_l"));
+  QCOMPARE(read.source_hash, f.window.bench().session.light_field()->sample_hash());
+  const auto& written = shown.estimate->field.disparity;
+  QCOMPARE(read.field.disparity.size(), written.size());
+  for (std::size_t i = 0; i < written.size(); ++i) {
+    const bool is_valid =
+        shown.estimate->field.valid.empty() || shown.estimate->field.valid.data()[i] != 0;
+    if (is_valid) QCOMPARE(read.field.disparity.data()[i], written.data()[i]);
+  }
+}
+
+void ResultsTest::exportedMap_marksInvalidPixels() {
+  WindowFixture f;
+  f.openSmall();
+  const Scene& scene = *f.window.bench().session.scene();
+  auto estimate = std::make_shared<Estimate>();
+  estimate->method = "theirs";
+  estimate->field.disparity = scene.truth->field.disparity.clone();
+  estimate->field.disparity.view({4, 4}).at(2, 3) = std::numeric_limits<float>::quiet_NaN();
+  const int id = f.window.bench().session.add_estimate(estimate, {-1, 1},
+                                                       f.window.bench().session.generation());
+
+  export_result(f.window.bench(), *f.window.bench().session.find_estimate(id), f.path("map.pfm"));
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.window.findChild<MessageBar*>("messageBar")->text().contains("map.pfm"), kPatience);
+
+  const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
+  QVERIFY(std::isnan(map.at(2, 3)));
+  QCOMPARE(map.at(9, 9), scene.truth->field.view({4, 4}).disparity.at(9, 9));
+}
+
+void ResultsTest::unknownSuffix_isNotWritten() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+
+  export_result(f.window.bench(), *f.window.bench().session.shown(), f.path("result.jpg"));
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QVERIFY2(messages->text().contains(".pfm"), qPrintable(messages->text()));
+  QCOMPARE(messages->severity(), Severity::Warning);
+  QCOMPARE(f.window.bench().jobs.count(), 0);
+}
+
+void ResultsTest::chosenForm_namesTheFile() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  f.window.bench().commands.trigger("file.export");
+  auto* dialog = f.window.findChild<QFileDialog*>();
+  const QStringList forms = dialog->nameFilters();
+
+  emit dialog->filterSelected(forms[1]);
+
+  QVERIFY2(forms[1].contains("*.pfm"), qPrintable(forms[1]));
+  QCOMPARE(QFileInfo(dialog->selectedFiles().value(0)).suffix(), QString("pfm"));
+  QCOMPARE(dialog->defaultSuffix(), QString("pfm"));
+}
+
+void ResultsTest::openedResult_isListed() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const QString path = f.path("result.h5");
+  export_result(f.window.bench(), *f.window.bench().session.shown(), path);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<MessageBar*>("messageBar")->text().contains(path),
+                           kPatience);
+
+  f.window.bench().results.open(path);
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kPatience);
+  QCOMPARE(f.window.bench().session.estimates()[1].name, std::string("EPI_L 2"));
+}
+
+void ResultsTest::resultOfAnotherLightField_isRefused() {
+  WindowFixture f;
+  f.openSmall();
+  io::write_pfm(f.path("other.pfm").toStdString(), Image<float>(50, 40));
+
+  f.window.bench().results.open(f.path("other.pfm"));
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("40×50"), qPrintable(messages->text()),
+                            kPatience);
+  QVERIFY(f.window.bench().session.estimates().empty());
+}
+
+void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  Estimate foreign;
+  foreign.field.disparity = f.window.bench().session.shown()->estimate->field.disparity.clone();
+  foreign.method = "epi_l";
+  foreign.source_hash = f.window.bench().session.light_field()->sample_hash() + 1;
+  io::write_result(f.path("foreign.h5").toStdString(), foreign, Progress());
+
+  f.window.bench().results.open(f.path("foreign.h5"));
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kPatience);
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("other samples"),
+                            qPrintable(messages->text()), kPatience);
+  QCOMPARE(messages->severity(), Severity::Warning);
+}
+
+// Its true depth would be taken for disparity.
+void ResultsTest::lightField_isNoResult() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.bench().results.open(f.path("edge/lf.h5"));
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("no estimated disparity"),
+                            qPrintable(messages->text()), kPatience);
+  QVERIFY(f.window.bench().session.estimates().empty());
+}
+
+void ResultsTest::copiedCommand_opensTheSameFile() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.bench().commands.find("estimate.copy_command")->trigger();
+
+  const QString text = QGuiApplication::clipboard()->text();
+  QVERIFY2(text.startsWith("episcope-cli estimate epi_l "), qPrintable(text));
+  QVERIFY2(text.contains(f.path("edge/lf.h5")), qPrintable(text));
+}
+
+}  // namespace episcope::in_results_test
+
+EPISCOPE_WINDOW_TEST(results_test, ResultsTest)
+#include "results_test.moc"

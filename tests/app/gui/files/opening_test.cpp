@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/files/recent_inputs.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QAction>
+#include <QDragEnterEvent>
+#include <QDropEvent>
+#include <QFile>
+#include <QFileDialog>
+#include <QMimeData>
+#include <QTreeWidget>
+#include <QUrl>
+
+namespace episcope::in_opening_test {
+
+class OpeningTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void openedFile_isShown();
+  void builtinScene_isEstimatedAtOnce();
+  void brokenFile_isToldAndKeepsTheScene();
+  void brokenFile_withoutScene_isDrawnAsError();
+  void brokenFile_ofTheDialog_isTold();
+  void droppedFile_isOpened();
+  void anotherScene_dropsResults();
+  void closedScene_leavesTheEmptyWindow();
+  void recentFiles_areRemembered();
+};
+
+void OpeningTest::openedFile_isShown() {
+  WindowFixture f;
+  f.openSmall();
+
+  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
+  QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
+}
+
+void OpeningTest::builtinScene_isEstimatedAtOnce() {
+  WindowFixture f;
+
+  f.window.bench().opener.open("demo:fronto");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
+}
+
+void OpeningTest::brokenFile_isToldAndKeepsTheScene() {
+  WindowFixture f;
+  f.openSmall();
+  const auto scene = f.window.bench().session.scene();
+  QFile broken(f.path("broken.h5"));
+  QVERIFY(broken.open(QIODevice::WriteOnly));
+  broken.write("this is no HDF5 file");
+  broken.close();
+
+  f.window.bench().opener.open(broken.fileName());
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
+                            kPatience);
+  QVERIFY(messages->isVisible());
+  QCOMPARE(f.window.bench().session.scene(), scene);
+  QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
+}
+
+void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
+  WindowFixture f;
+
+  f.window.bench().opener.open("/no/such/place");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Failed,
+                            kPatience);
+}
+
+// It has the signature of HDF5, and ends there.
+void OpeningTest::brokenFile_ofTheDialog_isTold() {
+  WindowFixture f;
+  f.openSmall();
+  QFile file(f.path("broken.h5"));
+  QVERIFY(file.open(QIODevice::WriteOnly));
+  file.write(QByteArray("\x89HDF\r\n\x1a\n").append(QByteArray(200, '\0')));
+  file.close();
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>();
+
+  emit dialog->fileSelected(file.fileName());
+
+  const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("broken.h5"), qPrintable(messages->text()),
+                            kPatience);
+  QCOMPARE(messages->severity(), Severity::Error);
+}
+
+void OpeningTest::droppedFile_isOpened() {
+  WindowFixture f;
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(f.writeScene("slant", WindowFixture::smallOptions()))});
+  QDragEnterEvent enter({200, 200}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(QPointF(200, 200), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+
+  QCoreApplication::sendEvent(&f.window, &enter);
+  QVERIFY(enter.isAccepted());
+  QCoreApplication::sendEvent(&f.window, &drop);
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kPatience);
+}
+
+void OpeningTest::anotherScene_dropsResults() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const auto former = f.window.bench().session.generation();
+
+  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.generation() > former, kPatience);
+  QVERIFY(f.window.bench().session.estimates().empty());
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.findChild<QTreeWidget*>("results.tree")->topLevelItemCount(),
+                            0, kPatience);
+}
+
+void OpeningTest::closedScene_leavesTheEmptyWindow() {
+  WindowFixture f;
+  f.openSmall();
+
+  f.window.bench().commands.find("file.close")->trigger();
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Empty,
+                            kPatience);
+  QCOMPARE(f.window.windowTitle(), QString("Episcope"));
+}
+
+void OpeningTest::recentFiles_areRemembered() {
+  WindowFixture f;
+  f.openSmall();
+
+  QCOMPARE(recent_inputs(), QStringList(f.path("edge/lf.h5")));
+  forget_recent();
+  QVERIFY(recent_inputs().isEmpty());
+}
+
+}  // namespace episcope::in_opening_test
+
+EPISCOPE_WINDOW_TEST(opening_test, OpeningTest)
+#include "opening_test.moc"
