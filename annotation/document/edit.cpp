@@ -60,7 +60,7 @@ ViewEdit difference(ViewIndex view, ImageView<const std::uint8_t> before,
   }
   edit.runs.shrink_to_fit();
   for (const LabelRun& run : edit.runs) {
-    edit.rect.include(PixelSpan{run.y, run.x, run.x + run.length});
+    edit.rect.include(PixelRect{run.y, run.x, run.y + 1, run.x + run.length});
   }
   return edit;
 }

@@ -46,7 +46,7 @@ PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const In
     } else {
       std::fill(row + span.x0, row + span.x1, ink.label);
     }
-    dirty.include(span);
+    dirty.include(span.rect());
   }
   touched.rect.include(dirty);
   return dirty;

@@ -4,8 +4,9 @@
 #include "annotation/document/exchange.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "engine/io/labels/scribble_pictures.h"
+#include "engine/io/labels/true_labels.h"
 #include "widgets/annotate/annotation_bar.h"
 
 #include <QDir>

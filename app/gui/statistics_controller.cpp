@@ -15,11 +15,9 @@
 namespace episcope {
 namespace {
 
-using render::PixelRegion;
-
 constexpr int kBars = 96;
 
-std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRegion& region) {
+std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRect& region) {
   if (!evaluation) return std::nullopt;
   const Image<std::uint8_t>& judged = evaluation->judged;
   Image<std::uint8_t> mask(judged.height(), judged.width());
@@ -58,7 +56,7 @@ void StatisticsController::begin() {
   }
   const bool has_wall = panels_.wall->isVisibleTo(panels_.viewer) && panels_.wall->active();
   const QRect seen = (has_wall ? panels_.wall->active() : panels_.canvas)->visiblePixels();
-  const PixelRegion region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
+  const PixelRect region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const bool is_same = map_ == overlay_.map() && region == region_ && statistics_;
   map_ = overlay_.map();
   region_ = region;

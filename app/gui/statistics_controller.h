@@ -45,7 +45,7 @@ class StatisticsController : public QObject {
   Panels panels_;
   LatestJob job_;
   QuantityMapPtr map_;  // what the statistics are of
-  render::PixelRegion region_;
+  PixelRect region_;
   MapChoice choice_;
   std::optional<render::RegionStatistics> statistics_;
   bool wants_range_ = false;

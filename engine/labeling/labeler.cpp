@@ -8,7 +8,7 @@
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/forest.h"
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 
 #include <algorithm>
 #include <cmath>

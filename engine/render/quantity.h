@@ -21,7 +21,7 @@ enum class Quantity : std::uint8_t {
   SignedError,
   AbsoluteError,
   BadPixels,
-  Labels,
+  TrueLabels,
   Segmentation,  ///< Labels learnt from scribbles.
   Probability,   ///< Of one label.
   Uncertainty,   ///< How undecided labels are.

@@ -22,12 +22,12 @@ struct TextTable {
 [[nodiscard]] std::string table_to_latex(const TextTable& table);
 
 /// The same on its side: the first column becomes the header.
-[[nodiscard]] TextTable turned(const TextTable& table);
+[[nodiscard]] TextTable transposed(const TextTable& table);
 
 /// A number with so many digits after the point: 0.25 with 3 is "0.250".
 [[nodiscard]] std::string fixed_text(double value, int digits);
 
 /// Letters of a UTF-8 text.
-[[nodiscard]] std::size_t letters_in(const std::string& text);
+[[nodiscard]] std::size_t character_count(const std::string& text);
 
 }  // namespace episcope

@@ -2,7 +2,7 @@
 #include "engine/disparity/common/denoise.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ void raise_row(const float* r, double power, int width, float* raised) {
 }
 
 // Denoises every view of `estimate` in place; returns the largest relative gap.
-double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float least_weight,
+double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float min_weight,
                      Estimate& estimate, const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
@@ -38,9 +38,9 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
     return [&, solver = TvL2Solver(lf.height(), lf.width()),
             weights = Image<float>(lf.height(), lf.width())](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
-      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
+      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, min_weight},
                         weights);
-      const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
+      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       gaps[i] = solver
                     .solve({map, weights, edges, parameters.lambda},
@@ -87,7 +87,7 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
   for (int y = 0; y < confidence.height; ++y) {
     float* w = weights.row(y);
     raise_row(confidence.row(y), weight.power, confidence.width, w);
-    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.least);
+    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.minimum);
   }
 }
 
@@ -98,10 +98,9 @@ std::string gap_note(double largest) {
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float least_weight) {
+             const Progress& progress, float min_weight) {
   progress.step("denoising");
-  estimate.notes.push_back(
-      gap_note(denoise_views(lf, parameters, least_weight, estimate, progress)));
+  estimate.notes.push_back(gap_note(denoise_views(lf, parameters, min_weight, estimate, progress)));
 }
 
 }  // namespace episcope

@@ -26,11 +26,11 @@ struct DenoiseParameters {
 };
 [[nodiscard]] Schema<DenoiseParameters> denoise_schema();
 
-/// The weight of data w = max(r^power, least), from confidence r. No pixel is given up entirely:
+/// The weight of data w = max(r^power, minimum), from confidence r. No pixel is given up entirely:
 /// the solution stays unique.
 struct DataWeight {
   double power = 2;
-  float least = 0.01F;
+  float minimum = 0.01F;
 };
 void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Image<float>& weights);
 
@@ -43,7 +43,7 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// p = 0 and β = 0 give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float least_weight = DataWeight{}.least);
+             const Progress& progress, float min_weight = DataWeight{}.minimum);
 
 /// A note of the largest relative duality gap of some solutions.
 [[nodiscard]] std::string gap_note(double largest);

@@ -2,7 +2,7 @@
 #include "engine/disparity/common/global_labeling.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/lifted/lifted_labeling.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
@@ -76,7 +76,7 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress) {
-  const Image<float> g = edge_weights(light_field, data.view, parameters.edge_strength);
+  const Image<float> g = smoothness_weights(light_field, data.view, parameters.edge_strength);
   const double step = data.labels[1] - data.labels[0];
   const LiftedProblem problem{data.cost, g, parameters.smoothness * data.scale * step};
   progress.step("labeling");

@@ -4,7 +4,7 @@
 namespace episcope {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Schema<RunOptions> run_schema() {
               {"Views", "Views to estimate; by default all, if the method can"})
       .choice("device", &RunOptions::device, {"Device", "Where to compute"})
       .integer("threads", &RunOptions::threads,
-               {"Threads", "Threads to use; 0 = as many as there are"}, {0, kMostThreads});
+               {"Threads", "Threads to use; 0 = as many as there are"}, {0, kMaxThreads});
   return schema;
 }
 

@@ -2,8 +2,8 @@
 #include "engine/disparity/epi/epi_c.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
-#include "engine/disparity/epi/visibility.h"
+#include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/epi/replace_occluded.h"
 #include "engine/solvers/ordering/ordering_terms.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr float kViolation = -0.05F;
 // Less than that of EPI_S: what the views contradict is to follow its neighbours entirely.
-constexpr float kLeastWeight = 0.001F;
+constexpr float kMinWeight = 0.001F;
 constexpr std::array<ViewIndex, 4> kWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
 
 ViewIndex neighbour(ViewIndex view, ViewIndex way) {
@@ -59,7 +59,8 @@ class ViewStep {
     pull_from_neighbours(view, progress);
     majorise(view);
     const DenoiseParameters& parameters = work_.parameters.denoising;
-    const Image<float> edges = edge_weights(work_.light_field, view, parameters.edge_strength);
+    const Image<float> edges =
+        smoothness_weights(work_.light_field, view, parameters.edge_strength);
     return solver_
         .solve({observed_, weights_, edges, parameters.lambda},
                {parameters.stop.max_iterations, parameters.stop.gap}, progress, work_.u.view(view))
@@ -85,7 +86,7 @@ class ViewStep {
   // ½ w (u − f)² and the majoriser as one weighted observation.
   void majorise(ViewIndex view) {
     fill_data_weights(work_.confidence.view(view),
-                      {work_.parameters.denoising.weight_power, kLeastWeight}, weights_);
+                      {work_.parameters.denoising.weight_power, kMinWeight}, weights_);
     const float* const f = work_.f.view(view).data;
     const float* const u = work_.u.view(view).data;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
@@ -161,14 +162,15 @@ void keep_center(Estimate& estimate, ViewIndex center) {
 
 }  // namespace
 
-double order_views(const LightField& lf, const EpiCParameters& parameters,
-                   const ViewStack<float>& observed, Estimate& estimate, const Progress& progress) {
+double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
+                             const ViewStack<float>& observed, Estimate& estimate,
+                             const Progress& progress) {
   const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
   double gap = 0;
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
-  if (sweeps > 0) give_way(work.u, work.confidence, progress.part(0, 0.02));
+  if (sweeps > 0) replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
@@ -226,14 +228,15 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
       estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
   if (parameters.line_check.is_on && !progress.finish_requested()) {
     progress.step("checking lines");
-    lower_confidence(lf, estimate, progress.part(0.08, 0.13));
+    reduce_confidence(lf, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
-  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kLeastWeight);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight);
   ViewStack<float>& u = estimate.field.disparity;
   const double before = ordering_violations(u, progress.part(0.25, 0.26));
   if (parameters.sweeps > 0) {
-    const double gap = order_views(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
+    const double gap =
+        denoise_with_ordering(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
     if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98));

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/disparity/common/denoise.h"
-#include "engine/disparity/epi/data_trust.h"
 #include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/line_check.h"
 
 namespace episcope {
 
@@ -29,8 +29,8 @@ struct EpiCParameters {
 ///   Σ λ g |∇u| + ½ w (u − f)² + Σ ψ(D u),   ψ(a) = μ₊ max(a, 0) + μ₋ max(−a, 0),
 /// smoothed within ε (OrderingPenalty): what violates the ordering costs μ₋ a pixel, what it allows
 /// a tenth. f and g are as in EPI_S; w as well, but from a coherence lowered where the views
-/// contradict the estimate (lower_confidence), unless `check_lines` is off. Before the first sweep
-/// rays that other views see through give way (give_way).
+/// contradict the estimate (reduce_confidence), unless `check_lines` is off. Before the first sweep
+/// rays that other views see through give way (replace_occluded).
 ///
 /// Solved by block descent: views are coloured like a chequerboard, so that all neighbours of a
 /// view have the other colour; in turn one colour stays and each view of the other minimises its
@@ -57,8 +57,9 @@ struct EpiCParameters {
 /// `observed` with weights from `estimate.confidence`; both cover all views. Returns the largest
 /// relative duality gap of the last sweep, 0 without sweeps. At `progress.finish_requested()` views
 /// that are not reached stay as they are. Throws Cancelled.
-double order_views(const LightField& light_field, const EpiCParameters& parameters,
-                   const ViewStack<float>& observed, Estimate& estimate, const Progress& progress);
+double denoise_with_ordering(const LightField& light_field, const EpiCParameters& parameters,
+                             const ViewStack<float>& observed, Estimate& estimate,
+                             const Progress& progress);
 
 /// Share in [0, 1] of the lines to neighbouring views, within the image, that violate the ordering:
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.

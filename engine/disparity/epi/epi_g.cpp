@@ -14,7 +14,7 @@ namespace episcope {
 namespace {
 
 // No pixel is given up entirely when it is placed between labels.
-constexpr float kLeastWeight = 0.01F;
+constexpr float kMinWeight = 0.01F;
 
 // One direction's disparities and weights of the view.
 struct Direction {
@@ -66,7 +66,7 @@ class DirectionalData {
 
   // The mean of the directions that agree with the label.
   [[nodiscard]] Placement place(int y, int x, float label, float step) const {
-    float sum = kLeastWeight * label, weight = kLeastWeight;
+    float sum = kMinWeight * label, weight = kMinWeight;
     for (const Direction& direction : directions_) {
       const float d = direction.disparity.at(y, x);
       if (std::fabs(d - label) > step) continue;
@@ -106,8 +106,8 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   if (parameters.line_check.is_on) {
     progress.step("checking lines");
     const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
-    lower_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
-    lower_confidence(views, directions.vertical, progress.part(0.085, 0.1));
+    reduce_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
+    reduce_confidence(views, directions.vertical, progress.part(0.085, 0.1));
   }
   const ViewIndex view = lf.center();
   Estimate estimate;

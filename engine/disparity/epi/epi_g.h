@@ -2,8 +2,8 @@
 #pragma once
 
 #include "engine/disparity/common/global_labeling.h"
-#include "engine/disparity/epi/data_trust.h"
 #include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/line_check.h"
 
 namespace episcope {
 
@@ -22,7 +22,7 @@ struct EpiGParameters {
 /// EPI_G: a globally optimal labeling of the centre view on what its horizontal and vertical EPIs
 /// say (EPI_L before merging): ρ(x, l) = r_h^p min(|l − d_h|, κ) + r_v^p min(|l − d_v|, κ), labels
 /// equidistant over the range (label_globally). r is lowered where the views contradict the
-/// direction's estimate (lower_confidence), unless `check_lines` is off, and λ counts in means of
+/// direction's estimate (reduce_confidence), unless `check_lines` is off, and λ counts in means of
 /// r^p over both directions, so that weak texture and noise are not smoothed away. Between labels,
 /// a pixel goes to the mean of those of d_h and d_v, weighted by r^p, that lie within one label of
 /// the solution. Confidence is the larger coherence.

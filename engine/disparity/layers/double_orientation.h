@@ -11,9 +11,9 @@ namespace episcope {
 
 /// Where two disparities are looked for.
 struct DoubleSearch {
-  Interval accepted;            ///< Of each of the two, px per view step.
-  double least_distance = 0.2;  ///< Between the two: nearer ones cannot be told apart.
-  int every_tile = 1;  ///< measure_double_layers: only one of so many tiles, for a rough look.
+  Interval accepted;          ///< Of each of the two, px per view step.
+  double min_distance = 0.2;  ///< Between the two: nearer ones cannot be told apart.
+  int tile_stride = 1;  ///< measure_double_layers: only one of so many tiles, for a rough look.
 };
 
 /// Two superimposed orientations on the epipolar plane images of transparent or reflecting
@@ -57,8 +57,8 @@ class DoubleOrientation {
                                   const float* far, const float* confidence)>;
 
   /// Views that a grid axis must have.
-  static constexpr int kLeastViews = 3;
-  static constexpr int kMostViews = 32;
+  static constexpr int kMinViews = 3;
+  static constexpr int kMaxViews = 32;
 
   /// Throws InvalidInput if the grid has too few or too many views in that direction.
   DoubleOrientation(const LightField& light_field, Direction direction, const TensorScales& scales,

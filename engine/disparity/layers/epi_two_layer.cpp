@@ -2,11 +2,11 @@
 #include "engine/disparity/layers/epi_two_layer.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
 #include "engine/disparity/layers/layer_range.h"
-#include "engine/solvers/simplex/segmentation.h"
+#include "engine/solvers/simplex/binary_segmentation.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -85,8 +85,8 @@ void ViewSolver::find_region(const LayeredView& view) {
     space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
     space_.weight.data()[i] = fit + kOneLayer;
   }
-  segment(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
-          {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
+  segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
+                 {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
 }
 
 // Of either layer's data.
@@ -152,7 +152,7 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
   if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
   find_region(view);
   find_weights(view);
-  const Image<float> edges = edge_weights(lf_, index, parameters_.edge_strength);
+  const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
   double gap = 0;
   // The background last: outside the region it is what both layers hold.
   if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {

@@ -36,7 +36,7 @@ struct EpiTwoLayerParameters {
 ///    for two.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
 ///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
-///    (`segment`): a blank wall in the noise of a camera is not two walls.
+///    (`segment_binary`): a blank wall in the noise of a camera is not two walls.
 /// 4. Foreground and background of each view by TvL2Solver: in the region near and far with weights
 ///    c^p, outside the single estimate with weights r^p in both. The surface is an area, not a
 ///    texture: it is smoothed `layer_smoothness` times as much, ignores image edges and may jump

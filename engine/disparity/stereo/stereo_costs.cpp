@@ -19,7 +19,7 @@ constexpr int kProbedRows = 24;
 constexpr int kProbedLabels = 64;
 // ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
-constexpr double kLeastCap = 0.015;
+constexpr double kMinCap = 0.015;
 // The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
 // more for what is not noise in it. One channel leaves half of that.
 constexpr double kResidualOfNoise = 2.8;
@@ -126,7 +126,7 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
     costs.matching.noise =
         noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
     if (parameters.epsilon == 0) {
-      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kLeastCap, kUncapped);
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }
   }
   if (parameters.aggregation > 0) {

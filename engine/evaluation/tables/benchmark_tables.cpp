@@ -2,7 +2,7 @@
 #include "engine/evaluation/tables/benchmark_tables.h"
 
 #include "engine/core/text/join.h"
-#include "engine/evaluation/tables/place_of.h"
+#include "engine/evaluation/tables/find_or_append.h"
 
 #include <algorithm>
 #include <map>
@@ -107,7 +107,7 @@ Speed speed_of(const std::vector<BenchmarkResult>& results, const std::string& e
 void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results, Protocol protocol) {
   std::vector<std::string> keys;
   for (const BenchmarkResult& result : results) {
-    for (const auto& [key, value] : metrics_of(result, protocol)) place_of(keys, key);
+    for (const auto& [key, value] : metrics_of(result, protocol)) find_or_append(keys, key);
   }
   constexpr int exact_digits = 6;
   for (const auto& key : keys) {
@@ -129,14 +129,14 @@ ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol p
                          const std::string& key) {
   ScoreMatrix matrix;
   for (const BenchmarkResult& result : results) {
-    place_of(matrix.entries, result.entry);
-    place_of(matrix.scenes, result.scene);
+    find_or_append(matrix.entries, result.entry);
+    find_or_append(matrix.scenes, result.scene);
   }
   matrix.scores.assign(matrix.entries.size(),
                        std::vector<std::optional<double>>(matrix.scenes.size()));
   for (const BenchmarkResult& result : results) {
-    matrix.scores[place_of(matrix.entries, result.entry)][place_of(matrix.scenes, result.scene)] =
-        find_metric(metrics_of(result, protocol), key);
+    matrix.scores[find_or_append(matrix.entries, result.entry)][find_or_append(
+        matrix.scenes, result.scene)] = find_metric(metrics_of(result, protocol), key);
   }
   return matrix;
 }

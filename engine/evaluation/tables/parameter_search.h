@@ -10,7 +10,7 @@
 namespace episcope {
 
 /// Points of a search at most, of any method.
-inline constexpr std::size_t kMostSearchPoints = 60;
+inline constexpr std::size_t kMaxSearchPoints = 60;
 
 /// The points that a search tries: the product of `ParameterDescription::searched`, in the order of
 /// the parameters, the last one running fastest. The first point is the default, whether or not it

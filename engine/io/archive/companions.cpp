@@ -22,7 +22,7 @@ constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
 constexpr const char* kProbabilities = "Probabilities";
 
 constexpr std::array kKnownFiles{
-    KnownFile{"edge_weights.h5", CompanionKind::EdgeWeights, kEdgeWeights},
+    KnownFile{"edge_weights.h5", CompanionKind::EdgeProbabilities, kEdgeWeights},
     KnownFile{"feature_single_view_probabilities.h5", CompanionKind::ImageProbabilities,
               kProbabilities},
     KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities, kProbabilities},
@@ -89,8 +89,8 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
   return found;
 }
 
-ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scene& scene,
-                                   const Progress& progress) {
+ViewStack<float> read_edge_probabilities(const std::filesystem::path& path, const Scene& scene,
+                                         const Progress& progress) {
   const Hdf5Input file(path);
   const LightField& field = *scene.light_field;
   const Hdf5Shape shape = file.dataset(kEdgeWeights).shape;
@@ -112,8 +112,8 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
   return weights;
 }
 
-void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
-                        const Scene& scene, const Progress& progress) {
+void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
+                              const Scene& scene, const Progress& progress) {
   progress.check();
   const LightField& field = *scene.light_field;
   const Hdf5Shape shape{

@@ -20,14 +20,15 @@ namespace episcope::io {
 
 /// Edge weights in [0, 1] of all views in the house order, `[v][u][y][x]`, or `[v][u][y][x][2]` if
 /// the file has one weight per direction. Throws IoError, also if they do not fit; Cancelled.
-[[nodiscard]] ViewStack<float> read_edge_weights(const std::filesystem::path& path,
-                                                 const Scene& scene, const Progress& progress);
+[[nodiscard]] ViewStack<float> read_edge_probabilities(const std::filesystem::path& path,
+                                                       const Scene& scene,
+                                                       const Progress& progress);
 
 /// Writes edge weights of all views as EDGE_WEIGHTS in the order of views that the files of `scene`
 /// have, so that they may lie beside them. Atomic. Throws IoError, also if they do not fit the
 /// light field; Cancelled.
-void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
-                        const Scene& scene, const Progress& progress);
+void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
+                              const Scene& scene, const Progress& progress);
 
 /// Label probabilities of an archive file, read one view at a time: for all views they take
 /// gigabytes.

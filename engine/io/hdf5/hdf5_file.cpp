@@ -136,7 +136,7 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   if (!has_hdf5_signature(path)) {
     throw IoError(path, "this is not an HDF5 file, whatever its name says; choose another file");
   }
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -149,18 +149,18 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
 }
 
 Hdf5Input::~Hdf5Input() {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 bool Hdf5Input::has(const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   return path_exists(file_, name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Listing root = list_group(file_, "/");
   std::vector<std::string> names = root.datasets;
   for (const std::string& group : root.groups) {
@@ -182,7 +182,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all" : held) + "; choose another file");
   }
-  const Hdf5Session session;
+  const Hdf5Lock session;
   if (is_group(file_, name)) {
     throw IoError(path_, name +
                              " is a group in this file, but must be a dataset; store the samples "
@@ -205,7 +205,7 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
 
 template <class T>
 void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const hid_t id = open_dataset(name);
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);
   const Hdf5Handle memory(memory_space(block), H5Sclose);
@@ -227,7 +227,7 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) cons
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
 
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();
 }
 
@@ -237,7 +237,7 @@ std::optional<double> Hdf5Input::number(const std::string& object, const std::st
 }
 
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
@@ -252,7 +252,7 @@ std::vector<double> Hdf5Input::numbers(const std::string& object, const std::str
 
 std::optional<std::string> Hdf5Input::text(const std::string& object,
                                            const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);

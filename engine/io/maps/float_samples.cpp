@@ -8,8 +8,8 @@
 namespace episcope::io {
 namespace {
 
-constexpr float kMostOfUnitRange = 1.5F;
-constexpr float kMostOfBytes = 255.5F;
+constexpr float kMaxUnitSample = 1.5F;
+constexpr float kMaxByteSample = 255.5F;
 
 ViewStack<float>* floats_of(LightField::Samples& samples) {
   auto* stack = std::get_if<ViewStack<float>>(&samples);
@@ -25,8 +25,8 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
   std::for_each(stack->data(), stack->data() + stack->size(), [&](float sample) {
     if (std::isfinite(sample)) largest = std::max(largest, sample);
   });
-  if (largest <= kMostOfUnitRange) return;
-  const int divisor = largest > kMostOfBytes ? 65535 : 255;
+  if (largest <= kMaxUnitSample) return;
+  const int divisor = largest > kMaxByteSample ? 65535 : 255;
   std::transform(stack->data(), stack->data() + stack->size(), stack->data(),
                  [&](float sample) { return sample / static_cast<float>(divisor); });
   report.warnings.push_back("Float samples of the views should lie in 0 … 1, but reach up to " +
@@ -34,7 +34,7 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
                             std::to_string(divisor) + ".");
 }
 
-void zero_odd_samples(LightField::Samples& samples, ConventionReport& report) {
+void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report) {
   ViewStack<float>* stack = floats_of(samples);
   if (stack == nullptr) return;
   std::size_t odd = 0;

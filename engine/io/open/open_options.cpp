@@ -4,7 +4,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr double kMostFocus_px = 1000;
+constexpr double kMaxFocus_px = 1000;
 
 }  // namespace
 
@@ -40,7 +40,7 @@ Schema<OpenOptions> open_schema() {
               {"Snake", "Every second row of an image grid runs from right to left"})
       .real(Reading::kFocus, &O::focus_px,
             {"Focus plane", "Focus plane to bake in: what has this disparity gets 0", "px"},
-            {-kMostFocus_px, kMostFocus_px});
+            {-kMaxFocus_px, kMaxFocus_px});
   return schema;
 }
 

@@ -36,9 +36,9 @@ class StrokeDistances {
   static constexpr float kStep = 0.0015F;
 
   /// By how much the pixel is farther from the strokes of a label than from the nearest ones of
-  /// all, at most kMost; 0 for labels without a stroke in the view.
+  /// all, at most kMaxExcess; 0 for labels without a stroke in the view.
   [[nodiscard]] float excess(int y, int x, int label) const;
-  static constexpr float kMost = 12;
+  static constexpr float kMaxExcess = 12;
 
   /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
   /// exp(−strength·excess), and makes them sum to 1 again.

@@ -49,7 +49,7 @@ cv::Ptr<cv::ml::RTrees> grow(const cv::Ptr<cv::ml::TrainData>& data, const Fores
                              std::uint64_t seed) {
   const auto trees = cv::ml::RTrees::create();
   trees->setMaxDepth(options.depth);
-  trees->setMinSampleCount(options.least_samples);
+  trees->setMinSampleCount(options.min_samples);
   trees->setCalculateVarImportance(false);
   trees->setTermCriteria({cv::TermCriteria::MAX_ITER, kForestTreesPerBlock, 0});
   // OpenCV draws from the generator of the calling thread.
@@ -83,7 +83,7 @@ class Forest::Trainer {
   void grow_block(int block) {
     std::mt19937 random(static_cast<unsigned>(options_.seed) * 7919U +
                         static_cast<unsigned>(block));
-    const auto data = draw(samples_, of_label_, options_.samples_a_label, random);
+    const auto data = draw(samples_, of_label_, options_.samples_per_label, random);
     const auto trees = grow(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
     const std::vector<int>& roots = trees->getRoots();
     for (int i = 0; i < kForestTreesPerBlock; ++i) {

@@ -16,11 +16,11 @@ namespace episcope {
 /// edges. Accuracy without λ, with λ = 1, 16, 32, 64: still life 92.4, 93.1, 95.2, 95.8, 96.7 %,
 /// demo 91.0, 91.4, 92.6, 93.6, 92.6 %. Under independent mistakes of single rays λ = 1 is right.
 struct RayLabelingParameters {
-  double smoothness = 32;     ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
-  double floor = 0.1;         ///< Least probability taken for possible, in (0, 1].
-  double gap = 2e-3;          ///< Relative duality gap at which label_view stops, > 0,
-  double gap_of_many = 1e-2;  ///< and label_rays in each view.
-  int max_iterations = 300;   ///< In each view.
+  double smoothness = 32;       ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
+  double floor = 0.1;           ///< Least probability taken for possible, in (0, 1].
+  double gap = 2e-3;            ///< Relative duality gap at which label_view stops, > 0,
+  double gap_all_views = 1e-2;  ///< and label_rays in each view.
+  int max_iterations = 300;     ///< In each view.
 };
 
 /// What is known of the rays; borrowed for the call.
@@ -30,7 +30,7 @@ struct RayLabelingInput {
   /// Without joining it is quicker with them: a view begins where the one beside it ended.
   const DisparityField* disparity = nullptr;
   /// Probability of an edge in [0, 1] of (at least) those views
-  /// (engine/labeling/rays/boundary_weights.h); null or empty = no edges known.
+  /// (engine/labeling/rays/edge_probability.h); null or empty = no edges known.
   const ViewStack<float>* edges = nullptr;
   /// Samples of those views; only looked at where views are joined, to tell which rays see the
   /// same. Null = the disparities are trusted.

@@ -17,7 +17,7 @@ struct ViewProblems {
 };
 
 /// Solves the problems of all views that have probabilities, to a gap of
-/// `parameters.gap_of_many`, in chains along rows of the grid: each view begins where the one
+/// `parameters.gap_all_views`, in chains along rows of the grid: each view begins where the one
 /// beside it ended, moved along the disparities, if there are any. Labels are layers of the
 /// probabilities, 0 … L − 1. Throws Cancelled.
 [[nodiscard]] RayLabeling solve_views(const ViewProblems& problems, const Progress& progress);
@@ -27,6 +27,6 @@ struct ViewProblems {
                                      const Progress& progress);
 
 /// Replaces layers by their ids.
-void name_labels(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
+void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
 
 }  // namespace episcope

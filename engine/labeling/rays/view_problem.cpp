@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/rays/view_problem.h"
 
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/rays/ray_targets.h"
 
 namespace episcope {

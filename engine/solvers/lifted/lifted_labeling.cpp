@@ -32,8 +32,8 @@ void check_problem(const LiftedProblem& problem) {
   if (cost.empty() || cost.height < 1 || cost.width < 1 || cost.layers < 1) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
-  if (cost.layers > kLiftedMostLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kLiftedMostLayers) +
+  if (cost.layers > kMaxLiftedLayers) {
+    throw InvalidInput("a labeling takes at most " + std::to_string(kMaxLiftedLayers) +
                        " labels, not " + std::to_string(cost.layers));
   }
   check_boundaries(problem.g, problem.smoothness, cost.height, cost.width);

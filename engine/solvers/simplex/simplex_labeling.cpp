@@ -22,7 +22,7 @@ namespace {
 
 constexpr float kRelaxation = 1.9F;
 // Levels are halved down to this side; iterations on each below the finest.
-constexpr int kLeastSide = 16;
+constexpr int kMinSide = 16;
 constexpr int kCoarseIterations = 30;
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
@@ -110,7 +110,7 @@ SimplexSolver::State::State(int height, int layers, int width, Isa isa)
       moves{kernel.move_primal, kernel.move_dual},
       sweep(height, layers, width),
       rounded(height, width) {
-  while (std::min(height, width) >= 2 * kLeastSide) {
+  while (std::min(height, width) >= 2 * kMinSide) {
     height = (height + 1) / 2;
     width = (width + 1) / 2;
     coarse.emplace_back(height, layers, width);
@@ -214,8 +214,8 @@ SimplexSolver::SimplexSolver(int height, int layers, int width, Isa isa) {
   if (height < 1 || layers < 1 || width < 1) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
-  if (layers > kSimplexMostLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kSimplexMostLayers) +
+  if (layers > kMaxSimplexLayers) {
+    throw InvalidInput("a labeling takes at most " + std::to_string(kMaxSimplexLayers) +
                        " labels, not " + std::to_string(layers));
   }
   state_ = std::make_unique<State>(height, layers, width, isa);

@@ -15,7 +15,7 @@
 namespace episcope {
 namespace {
 
-constexpr float kLeastWeight = 1e-4F;
+constexpr float kMinWeight = 1e-4F;
 // Iterations on each level below the finest, and between two fits of the penalty.
 constexpr int kCoarseIterations = 20;
 constexpr int kPenaltyEvery = 10;
@@ -87,10 +87,10 @@ void TvL2Solver::State::load(const TvL2Problem& problem) {
     const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
     for (int x = 0; x < level.width; ++x) {
       const bool known = std::isfinite(f[x]);
-      const float weight = !known ? kLeastWeight : w != nullptr ? w[x] : 1.0F;
+      const float weight = !known ? kMinWeight : w != nullptr ? w[x] : 1.0F;
       level.f[at + x] = known ? f[x] : 0.0F;
-      level.c[at + x] = std::max(weight, kLeastWeight) * inverse_lambda;
-      level.g[at + x] = g != nullptr ? std::max(g[x], kLeastWeight) : 1.0F;
+      level.c[at + x] = std::max(weight, kMinWeight) * inverse_lambda;
+      level.g[at + x] = g != nullptr ? std::max(g[x], kMinWeight) : 1.0F;
     }
   }
   centre();

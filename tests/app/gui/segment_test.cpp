@@ -8,7 +8,7 @@
 #include "app/gui/open_controller.h"
 #include "app/gui/overlay_controller.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/annotate/segment_panel.h"
@@ -188,7 +188,7 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   const QString share = QString::number(
       100.0 * static_cast<double>(right) / static_cast<double>(labels.size()), 'f', 1);
   QVERIFY2(f.panel().note().contains(share), qPrintable(f.panel().note() + " " + share));
-  QVERIFY(f.window.overlay().isAvailable(Quantity::Labels));
+  QVERIFY(f.window.overlay().isAvailable(Quantity::TrueLabels));
   QVERIFY(f.window.overlay().isAvailable(Quantity::WrongLabels));
 }
 
@@ -208,7 +208,7 @@ void SegmentTest::allViews_areExportedAndReadAgain() {
   f.window.exporter().exportSegmentation(f.path("out.png"));
   QTRY_COMPARE_WITH_TIMEOUT(written.size(), 2, kPatience);
 
-  const io::LabelingFile file(f.path("out.h5").toStdString());
+  const io::SegmentationFile file(f.path("out.h5").toStdString());
   QVERIFY(file.grid() == (GridShape{9, 9}));
   QVERIFY(file.has_probabilities());
   const Image<std::int32_t> read = file.labels({8, 1});

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/labeling/consistency.h"
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/rays/label_costs.h"
 #include "engine/labeling/rays/ray_colors.h"
 #include "engine/scenes/builtin.h"

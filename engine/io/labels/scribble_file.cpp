@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
@@ -95,20 +95,6 @@ Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progres
   Scribbles stored = read_unmoved(Hdf5Input(path), scene, progress);
   const double focus_px = scene.convention.focus_px;
   return focus_px == 0 ? std::move(stored) : sheared(stored, scene.light_field->center(), focus_px);
-}
-
-ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scene,
-                                         const Progress& progress) {
-  const Hdf5Input file(path);
-  auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape_of(scene), progress);
-  if (scene.convention.raised_labels) {
-    std::for_each(labels.data(), labels.data() + labels.size(),
-                  [](std::int32_t& label) { ++label; });
-  }
-  reverse_views(labels, scene.light_field->grid(), flip_of(scene.convention));
-  const double focus_px = scene.convention.focus_px;
-  return focus_px == 0 ? std::move(labels)
-                       : sheared(labels, scene.light_field->center(), focus_px, progress);
 }
 
 void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,

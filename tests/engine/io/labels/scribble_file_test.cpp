@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/labels/scribble_pictures.h"
+#include "engine/io/labels/true_labels.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -12,7 +13,7 @@
 
 #include <fstream>
 
-namespace episcope::in_label_file_test {
+namespace episcope::in_scribble_file_test {
 
 using namespace episcope::test;
 
@@ -58,7 +59,7 @@ std::size_t count_files(const std::filesystem::path& folder) {
 
 }  // namespace
 
-class LabelFileTest : public QObject {
+class ScribbleFileTest : public QObject {
   Q_OBJECT
 
  private:
@@ -336,7 +337,7 @@ class LabelFileTest : public QObject {
   }
 };
 
-}  // namespace episcope::in_label_file_test
+}  // namespace episcope::in_scribble_file_test
 
-EPISCOPE_TEST(label_file_test, LabelFileTest)
-#include "label_file_test.moc"
+EPISCOPE_TEST(scribble_file_test, ScribbleFileTest)
+#include "scribble_file_test.moc"

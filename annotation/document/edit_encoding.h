@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/document/byte_code.h"
+#include "annotation/document/byte_stream.h"
 #include "annotation/document/edit.h"
 
 namespace episcope {

@@ -18,11 +18,6 @@ namespace episcope::io {
 [[nodiscard]] Scribbles read_scribbles(const std::filesystem::path& path, const Scene& scene,
                                        const Progress& progress);
 
-/// Reads GT_LABELS likewise, to compare with.
-[[nodiscard]] ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path,
-                                                       const Scene& scene,
-                                                       const Progress& progress);
-
 /// Writes scribbles as the archive keeps them, with names and colours in attributes
 /// that others pass over. All else that the file holds stays as it is, above all GT_LABELS, and at
 /// a focus plane its scribbles where the moved views do not reach. Atomic. Throws IoError, also if

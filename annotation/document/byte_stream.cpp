@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/byte_code.h"
+#include "annotation/document/byte_stream.h"
 
 #include "engine/core/error.h"
 

@@ -33,11 +33,11 @@ namespace episcope {
 /// 2.79, 0.92; objects with noise of 5/255 0.89, 0.59.
 /// The estimate must cover the centre view. Memory: 4 bytes a ray of the light field. Throws
 /// Cancelled.
-void lower_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
+void reduce_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
 
 /// The same with views packed before (pack_views), for several estimates of one light field.
-void lower_confidence(const ViewStack<std::uint32_t>& packed_views, Estimate& estimate,
-                      const Progress& progress);
+void reduce_confidence(const ViewStack<std::uint32_t>& packed_views, Estimate& estimate,
+                       const Progress& progress);
 
 /// Whether a method lowers confidence so.
 struct LineCheck {

@@ -18,7 +18,7 @@ namespace episcope {
 /// away that some views have lost (MSE×100 of bars at 160 px 3.6, with it 2.4).
 /// Both stacks have one shape and cover all views; `disparity` is finite. Memory: 4 bytes a ray.
 /// Returns the number of rays changed. Throws Cancelled.
-long give_way(ViewStack<float>& disparity, const ViewStack<float>& confidence,
-              const Progress& progress);
+long replace_occluded(ViewStack<float>& disparity, const ViewStack<float>& confidence,
+                      const Progress& progress);
 
 }  // namespace episcope

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/edit_code.h"
+#include "annotation/document/edit_encoding.h"
 
 #include "engine/core/error.h"
 
@@ -63,7 +63,7 @@ ViewEdit read_view(ByteReader& in) {
     run.length = static_cast<std::uint16_t>(in.number(kMaxPlace));
     run.before = in.byte();
     run.after = in.byte();
-    edit.rect.include(PixelSpan{run.y, run.x, run.x + run.length});
+    edit.rect.include(PixelRect{run.y, run.x, run.y + 1, run.x + run.length});
     edit.runs.push_back(run);
   }
   return edit;
