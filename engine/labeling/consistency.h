@@ -26,14 +26,13 @@ struct LabelConsistency {
 };
 
 /// Follows each ray of each view to every other view in the same row or column of the camera grid,
-/// along the lines of the horizontal and vertical EPI that it lies in, to the nearest pixel there,
-/// and compares the labels. Whether the point is seen there is told by the disparities
+/// along the lines of the horizontal and vertical EPI through it, to the nearest pixel there, and
+/// compares the labels. Disparities tell whether the point is visible there
 /// (engine/labeling/rays/ray_targets.h). The nearest pixel of a ray that arrives at the boundary of
-/// an object may belong to the neighbour: exact labels of a rendered scene reach 99 to 99.9 %.
-/// Views without disparity are left out. Takes (v + u − 2)·rays steps, 0.4 s for 9×9×512×512.
+/// an object may belong to the neighbour, so exact labels do not quite reach 1. Views without
+/// disparity are left out. Takes (v + u − 2)·rays steps.
 /// Source: the measure of [WSG13], the fraction of rays whose label equals the label at the warped
-/// position, occlusion-checked. Throws InvalidInput unless sizes agree,
-/// Cancelled.
+/// position, occlusion-checked. Throws InvalidInput unless sizes agree, Cancelled.
 [[nodiscard]] LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
                                                  const DisparityField& disparity,
                                                  const Progress& progress);

@@ -38,9 +38,9 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
 /// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
 ///
-/// The paper has w = g = 1 ("just performs a TV-L2 denoising"); the weights are ours, measured
-/// against truth: they keep jumps at image edges and let doubtful pixels follow their neighbours.
-/// p = 0 and β = 0 give the plain method.
+/// The paper has w = g = 1 ("just performs a TV-L2 denoising"). The weights are an addition: they
+/// preserve jumps at image edges and let doubtful pixels follow their neighbours. p = 0 and β = 0
+/// give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
              const Progress& progress, float min_weight = DataWeight{}.minimum);

@@ -66,9 +66,9 @@ class MatchingCostRows {
 /// a pixel on both axes), whatever the truth is.
 /// Memory: height · width · labels · 4 bytes. Throws InvalidInput as MatchingCostRows, Cancelled.
 ///
-/// The paper's equations do not say what becomes of samples beyond the image. They are skipped and
-/// the rest renormalised: repeating the border instead made ST_AV half as bad again. Division by n
-/// keeps later weights independent of the number of views.
+/// The paper's equations leave open what happens to samples outside the image. They are skipped and
+/// the remaining ones renormalised; repeating the border would pull estimates towards it. Division
+/// by n keeps later weights independent of the number of views.
 /// Reference: the paper, equations (3) and (4).
 [[nodiscard]] Volume<float> matching_costs(const LightField& light_field, ViewIndex reference,
                                            const MatchingCost& cost,

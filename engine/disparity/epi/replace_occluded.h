@@ -6,18 +6,18 @@
 
 namespace episcope {
 
-/// Lets rays give way that other views see through. In an opaque scene the line of a visible point
-/// meets the same point or something nearer in any other view; a ray whose line meets, in at least
-/// two of up to 16 views (four to each side in its row and column of the grid), something farther
-/// by more than 0.1 px whose confidence is no less than its own, takes the median of what is met
-/// there. All rays are judged by the disparities before the call, so their order is of no
-/// importance.
+/// Replaces the disparity of rays that other views see through. In an opaque scene the line of a
+/// visible point meets, in any other view, the same point or something nearer. A ray whose line
+/// meets something farther by more than 0.1 px, of at least its own confidence, in at least two of
+/// up to 16 views (four on each side in its row and column of the grid) takes the median of the
+/// disparities met there. All rays are judged by the disparities before the call, so the order of
+/// processing does not matter.
 ///
-/// It moves an edge that all views show with the background's motion, where no step of a descent
-/// view by view lowers the number of violations. Without regard to confidence it eats thin bars
-/// away that some views have lost (MSE×100 of bars at 160 px 3.6, with it 2.4).
-/// Both stacks have one shape and cover all views; `disparity` is finite. Memory: 4 bytes a ray.
-/// Returns the number of rays changed. Throws Cancelled.
+/// This moves an edge that all views show with the motion of the background, where no step of a
+/// view-by-view descent would lower the number of violations. Confidence must count: otherwise thin
+/// bars that some views have lost are eaten away.
+/// Both stacks have the same shape and cover all views; `disparity` is finite. Memory: 4 bytes per
+/// ray. Returns the number of rays changed. Throws Cancelled.
 long replace_occluded(ViewStack<float>& disparity, const ViewStack<float>& confidence,
                       const Progress& progress);
 

@@ -45,7 +45,7 @@ struct EpiTwoLayerParameters {
 /// where `layers` is 1. `field` is the foreground; confidence is c in the region, r outside.
 ///
 /// [Ano13] gives the model and its null vector; how it decides and smooths was not recovered, so
-/// steps 2 to 4 are ours, measured against truth.
+/// steps 2 to 4 are this program's own.
 /// Throws InvalidInput if no axis of the grid has three views.
 [[nodiscard]] Estimate estimate_epi_two_layer(const LightField& light_field,
                                               const EpiTwoLayerParameters& parameters,

@@ -43,7 +43,7 @@ struct TensorExtent {
 /// 4Jxs²)) and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
 /// Source: Bigün and Granlund 1987 [BG87]; Wanner and Goldluecke 2012 [WG12].
 ///
-/// Where we depart from it, each measured against truth (tests/accuracy):
+/// Departures from it, each of which lowers the error on scenes with known truth:
 /// - The EPI is sheared to several disparities and the most coherent answer kept. Each view is
 ///   integrated in coordinates of its own, so all views get estimates at whole pixels.
 /// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture

@@ -19,8 +19,8 @@ struct EdgeParameters {
 /// channels. Views that `disparity` (which may be empty) does not hold, and pixels where it is
 /// invalid, go by the image alone. Throws InvalidInput on a wrong size, Cancelled.
 ///
-/// The archive does not tell how its own weights were made; this is the exponential that the plan
-/// gives for J_st, with disparity added.
+/// The archive does not say how its own weights were computed; this is the usual exponential of the
+/// gradient, with disparity added.
 [[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                                             const DisparityField& disparity,
                                             const EdgeParameters& parameters);

@@ -10,11 +10,9 @@
 
 namespace episcope {
 
-/// Defaults were chosen on three scenes with scribbles (a rendered still life, `demo`, `objects`;
-/// forest with estimated disparity, centre view): a forest is mistaken in whole regions, sure of
-/// itself, so λ must be large and the floor high, and boundaries lie where image and disparity have
-/// edges. Accuracy without λ, with λ = 1, 16, 32, 64: still life 92.4, 93.1, 95.2, 95.8, 96.7 %,
-/// demo 91.0, 91.4, 92.6, 93.6, 92.6 %. Under independent mistakes of single rays λ = 1 is right.
+/// The defaults suit a forest: it errs with confidence in whole regions, so λ must be large and the
+/// floor high, and boundaries lie where image and disparity have edges (tests/accuracy/tuning.md).
+/// For independent errors of single rays λ = 1 is appropriate.
 struct RayLabelingParameters {
   double smoothness = 32;       ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
   double floor = 0.1;           ///< Least probability taken for possible, in (0, 1].
