@@ -107,7 +107,7 @@ void AnnotationDocument::mark_saved() {
 
 void AnnotationDocument::require_idle() const {
   if (is_editing_) {
-    throw InvalidInput("an edit is under way; end or revert it before the next step");
+    throw InvalidInput("an edit is in progress; commit or revert it first");
   }
 }
 

@@ -29,7 +29,7 @@ void put_view(const ViewScribbles& painted, ScribbleLayer& layer, std::set<int>&
   for (const std::int32_t id : painted.labels) {
     if (id < 0 || id > LabelSet::kMaxId) {
       throw InvalidInput("the scribbles hold the label " + std::to_string(id) +
-                         ", but labels go from 1 to 255");
+                         ", but labels range from 1 to 255");
     }
     *out++ = static_cast<std::uint8_t>(id);
     if (id != last && id != 0) ids.insert(last = id);

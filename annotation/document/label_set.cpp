@@ -9,14 +9,14 @@ namespace episcope {
 namespace {
 
 void require_name(const std::string& name) {
-  if (name.empty()) throw InvalidInput("a label needs a name; type one");
+  if (name.empty()) throw InvalidInput("a label needs a name; enter one");
   if (name.size() > LabelSet::kMaxNameBytes) {
-    throw InvalidInput("the name of a label takes " + std::to_string(name.size()) +
+    throw InvalidInput("the name of a label has " + std::to_string(name.size()) +
                        " bytes, but at most " + std::to_string(LabelSet::kMaxNameBytes) +
-                       " are kept; choose a shorter one");
+                       " are allowed; choose a shorter one");
   }
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; })) {
-    throw InvalidInput("the name of a label holds a line break or control character; remove it");
+    throw InvalidInput("the name of a label contains a line break or control character; remove it");
   }
 }
 
@@ -56,10 +56,10 @@ void LabelSet::insert(LabelInfo label) {
   require_name(label.name);
   if (label.id < 1 || label.id > kMaxId) {
     throw InvalidInput("the label id " + std::to_string(label.id) +
-                       " is out of range; ids go from 1 to 255");
+                       " is out of range; ids range from 1 to 255");
   }
   if (contains(label.id)) {
-    throw InvalidInput("the label id " + std::to_string(label.id) + " is taken already");
+    throw InvalidInput("the label id " + std::to_string(label.id) + " is already in use");
   }
   reserve_ids(label.id);
   labels_.insert(std::ranges::lower_bound(labels_, label.id, {}, &LabelInfo::id), std::move(label));

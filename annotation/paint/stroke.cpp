@@ -10,7 +10,7 @@ namespace episcope {
 Ink ink_of(const PaintStyle& style) {
   if (style.label < 1 || style.label > LabelSet::kMaxId) {
     throw InvalidInput("the label id " + std::to_string(style.label) +
-                       " is out of range; ids go from 1 to 255");
+                       " is out of range; ids range from 1 to 255");
   }
   const auto label = static_cast<std::uint8_t>(style.label);
   Ink ink;

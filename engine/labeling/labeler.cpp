@@ -44,8 +44,8 @@ void require_views(ViewRectangle views, GridShape grid) {
     return;
   }
   throw InvalidInput("views " + view_text(views.first) + " to " + view_text(last) +
-                     " were asked for, but there are " + std::to_string(grid.v) + "×" +
-                     std::to_string(grid.u) + "; they count from 0");
+                     " were requested, but there are " + std::to_string(grid.v) + "×" +
+                     std::to_string(grid.u) + " views, counted from 0");
 }
 
 /// Rows of probabilities `[x][label]` into bytes `[label][x]`.
@@ -284,23 +284,25 @@ Names<FeatureSet> names_of(FeatureSet) {
 
 Schema<LabelerParameters> labeler_schema() {
   return Schema<LabelerParameters>()
-      .choice(
-          "features", &LabelerParameters::features,
-          {"Features", "What the forest sees of a pixel: the image alone, or disparity as well"})
+      .choice("features", &LabelerParameters::features,
+              {"Features",
+               "Features that the forest uses: of the image alone, or of disparity as well"})
       .choice("regularizer", &LabelerParameters::regularizer,
               {"Smoothing",
                "How labels are made consistent: not at all, view by view, or along "
                "the rays of all views"})
       .real("smoothness", &LabelerParameters::smoothness,
-            {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
+            {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
             {0, 200})
       .real("nearness", &LabelerParameters::nearness,
-            {"Nearness", "How much it counts to be near strokes of a label, along surfaces"},
+            {"Nearness",
+             "Influence of the distance to the strokes of a label, measured along surfaces"},
             {0, 5})
-      .integer("trees", &LabelerParameters::trees, {"Trees", "Trees of the forest"}, {4, 500})
-      .integer("depth", &LabelerParameters::depth, {"Depth", "Depth of a tree at most"}, {1, 25})
+      .integer("trees", &LabelerParameters::trees, {"Trees", "Number of trees of the forest"},
+               {4, 500})
+      .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
-               {"Seed", "Of the random numbers that the forest is grown with"}, {0, 1000000});
+               {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
 }
 
 bool uses_disparity(const LabelerParameters& parameters) {
@@ -329,8 +331,8 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   const Regularizer regularizer = parameters.regularizer;
   if (info_of(regularizer).joins_views && !state_->disparity) {
     throw InvalidInput(
-        "labels that agree along rays need the disparity of all views; estimate it first, or "
-        "smooth each view alone");
+        "labels that are consistent along rays need the disparity of all views; estimate it first, "
+        "or smooth each view alone");
   }
   state_->use({uses_disparity(parameters)});
 

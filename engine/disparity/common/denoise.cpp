@@ -56,11 +56,10 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
 Schema<StopParameters> stop_schema() {
   return Schema<StopParameters>()
       .integer("max_iterations", &StopParameters::max_iterations,
-               {"Iterations", "At most so many of the denoising, at full resolution"},
-               {1, 2000, true})
+               {"Iterations", "Maximum denoising iterations, at full resolution"}, {1, 2000, true})
       .real("gap", &StopParameters::gap,
             {"Stop at gap",
-             "The denoising stops early once the duality gap is this share of the energy"},
+             "Denoising stops once the duality gap falls below this fraction of the energy"},
             {1e-6, 0.1, true});
 }
 
@@ -68,17 +67,18 @@ Schema<DenoiseParameters> denoise_schema() {
   using P = DenoiseParameters;
   return Schema<P>()
       .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation: larger is smoother"}, {0.001, 10, true})
+            {"Smoothing λ", "Weight of the total variation; larger values are smoother"},
+            {0.001, 10, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in confidence",
-             "Data is weighted by confidence^p; 0 trusts every pixel alike, as in the paper"},
+            {"Confidence exponent p",
+             "The data term is weighted by confidence^p; 0 weights all pixels equally, as in the "
+             "paper"},
             {0, 16})
-      .real(
-          "edge_strength", &P::edge_strength,
-          {"Edge strength β",
-           "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
-           "in the paper"},
-          {0, 100})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
+             "edges, as in the paper"},
+            {0, 100})
       .part(&P::stop, stop_schema());
 }
 

@@ -50,26 +50,26 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
   return Schema<P>()
       .real("smoothness", &P::smoothness,
             {"Smoothness λ",
-             "Weight of the total variation of the labeling, per px of disparity and in units of "
-             "the data: costs over their mean, estimates over their mean trust; it depends on "
-             "neither the number of labels nor the contrast"},
+             "Weight of the total variation per px of disparity, relative to the mean matching "
+             "cost (stereo) or confidence weight (EPI_G), so that it depends on neither the number "
+             "of labels nor the contrast"},
             {0, 100})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
-             "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, "
-             "as in the paper"},
+             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
+             "edges, as in the paper"},
             {0, 100})
       .real("settling", &P::settling,
             {"Settling",
-             "Smoothing (TV-L2) that places disparities between labels afterwards, in label "
-             "steps; 0 keeps the labels, as in the paper"},
+             "Strength of the TV-L2 smoothing that places disparities between labels afterwards, "
+             "in label steps; 0 keeps the labels, as in the paper"},
             {0, 20})
-      .integer("max_iterations", &P::max_iterations, {"Iterations", "At most so many"},
+      .integer("max_iterations", &P::max_iterations, {"Iterations", "Maximum iterations"},
                {1, 10000, true})
       .real("gap", &P::gap,
             {"Stop at gap",
-             "The labeling stops once its energy is proven to be within this share of the least "
-             "possible"},
+             "The labeling stops once its energy is proven to be within this fraction of the "
+             "minimum"},
             {1e-6, 0.1, true});
 }
 

@@ -203,17 +203,18 @@ Schema<EpiCParameters> epi_c_schema() {
   using P = EpiCParameters;
   return Schema<P>()
       .real("fall", &P::fall,
-            {"Ordering μ₋", "Cost of a line that ends at something farther, which cannot be"},
+            {"Ordering μ₋",
+             "Cost of a line that meets something farther, which violates the ordering"},
             {0.001, 1, true})
       .real("rise", &P::rise,
             {"Occlusion μ₊",
-             "Cost of a line that ends at something nearer, which hides its point; at most μ₋"},
+             "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
             {0, 1})
       .real("softness", &P::softness,
-            {"Softness", "Differences along a line below this cost less than their share", "px"},
+            {"Softness", "Differences along a line below this are penalised quadratically", "px"},
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
-               {"Sweeps", "Times that every view is fitted to its neighbours; 0 = not at all"},
+               {"Sweeps", "Number of times every view is fitted to its neighbours; 0 = off"},
                {0, 50})
       .part(&P::line_check, line_check_schema())
       .part(&P::denoising, denoise_schema())

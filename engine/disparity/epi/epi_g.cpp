@@ -86,12 +86,14 @@ Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
-      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
+               {2, 512, true})
       .real("truncation", &P::truncation,
-            {"Truncation κ", "An estimate that is further off is an outlier", "px"},
+            {"Truncation κ", "Estimates farther than this from the label are treated as outliers",
+             "px"},
             {0.01, 5, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16})
+            {"Coherence exponent p", "The data term is weighted by coherence^p"}, {0, 16})
       .part(&P::line_check, line_check_schema())
       .part(&P::tensor, epi_l_schema())
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
@@ -130,7 +132,7 @@ Estimator epi_g_estimator() {
   return make_estimator<EpiGParameters>(
       {.id = "epi_g",
        .name = "EPI_G",
-       .summary = "Globally optimal labeling of what the epipolar plane images say",
+       .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
        .revision = 3},

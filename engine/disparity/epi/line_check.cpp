@@ -182,8 +182,8 @@ Schema<LineCheck> line_check_schema() {
   return Schema<LineCheck>().flag(
       "check_lines", &LineCheck::is_on,
       {"Check lines",
-       "Trust estimates less where the other views show another colour along the line, or "
-       "where the texture is a neighbour's"});
+       "Reduce the confidence of estimates where other views show a different colour along the "
+       "line, or where the texture belongs to a neighbouring pixel"});
 }
 
 void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {

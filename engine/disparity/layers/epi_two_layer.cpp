@@ -215,32 +215,36 @@ Schema<EpiTwoLayerParameters> layers_schema() {
   return Schema<P>()
       .real("decision", &P::decision,
             {"Decision",
-             "Two layers where the misfit of one orientation is more than this share "
-             "of the misfits of one and of two"},
+             "Two layers are assumed where the misfit of one orientation exceeds this fraction of "
+             "the misfits of one and of two orientations together"},
             {0.01, 0.99})
       .real("region_smoothness", &P::region_smoothness,
             {"Region smoothness",
-             "Weight of the length of the border between one layer and two; regions narrower than "
-             "twice this are dropped",
+             "Weight of the length of the boundary between one layer and two; regions narrower "
+             "than twice this are dropped",
              "px"},
             {0.1, 100, true})
       .real("least_distance", &P::least_distance,
-            {"Least distance", "Two layers nearer to each other are one", "px"}, {0.05, 2})
+            {"Minimum distance", "Two layers closer to each other than this are treated as one",
+             "px"},
+            {0.05, 2})
       .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation of both layers: larger is smoother"},
+            {"Smoothing λ",
+             "Weight of the total variation of both layers; larger values are smoother"},
             {0.001, 10, true})
       .real("layer_smoothness", &P::layer_smoothness,
-            {"Surface smoothness", "How many times as smooth the foreground of two layers is"},
+            {"Foreground smoothness",
+             "Factor by which the foreground of two layers is smoothed more strongly"},
             {1, 20, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in coherence",
-             "Data is weighted by coherence^p, that of two layers by their confidence^p; 0 trusts "
-             "every pixel alike"},
+            {"Coherence exponent p",
+             "The data term is weighted by coherence^p, for two layers by their confidence^p; 0 "
+             "weights all pixels equally"},
             {0, 16})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
-             "Outside two layers the variation is weighted by exp(−β·|gradient of the view|); 0 "
-             "ignores image edges"},
+             "Outside two-layer regions the total variation is weighted by exp(−β·|gradient of the "
+             "view|); 0 ignores image edges"},
             {0, 100});
 }
 
@@ -251,14 +255,17 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
   return layers_schema()
       .real("double_inner_scale", &P::double_inner_scale,
             {"Inner scale, two layers",
-             "Gaussian smoothing of the samples before second derivatives are taken", "px"},
+             "Standard deviation of the Gaussian applied to the samples before second derivatives",
+             "px"},
             {0, 2})
       .real("double_outer_scale", &P::double_outer_scale,
             {"Outer scale, two layers",
-             "Gaussian window over which two orientations are averaged, along the EPI", "px"},
+             "Standard deviation of the Gaussian window over which two orientations are averaged, "
+             "along the EPI",
+             "px"},
             {0, 3})
       .real("double_contrast", &P::double_contrast,
-            {"Contrast limit, two layers", "Second derivatives above it count less", "1/255"},
+            {"Contrast limit, two layers", "Second derivatives above this are attenuated", "1/255"},
             {0.1, 255, true})
       .part(&P::stop, stop_schema())
       .part(&P::tensor, epi_l_schema())
@@ -298,7 +305,7 @@ Estimator epi_two_layer_estimator() {
       {.id = "epi_two_layer",
        .name = "EPI_TWO_LAYER",
        .summary = "Two superimposed orientations on epipolar plane images: transparent and "
-                  "reflecting surfaces",
+                  "reflective surfaces",
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,

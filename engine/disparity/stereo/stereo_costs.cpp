@@ -83,30 +83,32 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
   return Schema<P>()
       .choice("profile", &P::profile,
               {"Profile",
-               "tuned: as set here; paper: as published, which overrides cap, interpolation, "
-               "aggregation and whatever else the paper does not have, and counts a fifth of the "
-               "smoothness of a global labeling"})
-      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+               "tuned: the settings given here; paper: the method as published, which overrides "
+               "the cap, interpolation, aggregation and whatever else the paper does not have, and "
+               "applies a fifth of the smoothness of a global labeling"})
+      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
+               {2, 512, true})
       .real("epsilon", &P::epsilon,
             {"Cap ε",
-             "No view adds more than this to the cost, so that those that see something else do "
-             "not decide; 0 takes it from the noise of the light field, 2 is no cap"},
+             "Maximum cost that one view contributes, so that views in which the point is occluded "
+             "do not dominate; 0 derives it from the noise of the light field, 2 disables the cap"},
             {0, kUncapped})
       .choice("interpolation", &P::interpolation,
-              {"Interpolation", "How views are sampled between pixels"})
+              {"Interpolation", "How views are interpolated between pixels"})
       .integer("aggregation", &P::aggregation,
                {"Aggregation",
-                "Radius of the window in which neighbours of like colour share their costs "
-                "(guided filter); 0 = none",
+                "Radius of the guided filter that averages the costs of neighbours of similar "
+                "colour; 0 = off",
                 "px"},
                {0, 8})
       .interval("range", &P::range,
                 {"Disparity range",
-                 "Disparities searched; auto takes what the files promise or finds it from the "
-                 "light field",
+                 "Range of disparities to search; auto takes it from the files or estimates it "
+                 "from the light field",
                  "px"},
                 {-20, 20})
-      .view("view", &P::view, {"View", "Row and column of the view to estimate; auto = centre"})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = centre view"})
       .completed_by([views](P& p) { apply_profile(views, p); });
 }
 

@@ -68,7 +68,7 @@ Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::matching, stereo_cost_schema(views))
       .choice("refinement", &P::refinement,
-              {"Refinement", "How the disparity is placed between labels"})
+              {"Refinement", "How the disparity is interpolated between labels"})
       .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
       .search("aggregation", {0, 2})
       .completed_by([](P& p) {

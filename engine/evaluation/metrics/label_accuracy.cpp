@@ -49,8 +49,9 @@ LabelAccuracy judge_labels(ImageView<const std::int32_t> labels,
                            ImageView<const std::int32_t> truth) {
   if (labels.height != truth.height || labels.width != truth.width) {
     throw InvalidInput("labels of " + std::to_string(labels.width) + "×" +
-                       std::to_string(labels.height) + " px cannot be judged by true ones of " +
-                       std::to_string(truth.width) + "×" + std::to_string(truth.height) + " px");
+                       std::to_string(labels.height) +
+                       " px cannot be compared with true labels of " + std::to_string(truth.width) +
+                       "×" + std::to_string(truth.height) + " px");
   }
   LabelAccuracy accuracy;
   for (int y = 0; y < truth.height; ++y) {

@@ -33,12 +33,12 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
     gaps.push_back(matrix.scenes[scene] + " (" + joined(lacking, ", ") + ")");
   }
   const std::size_t total = ranking.scenes.size() + ranking.missing.size();
-  const std::string left_out = "Left out for a gap: " + joined(gaps, ", ") + ".";
+  const std::string left_out = "Left out because of missing scores: " + joined(gaps, ", ") + ".";
   if (ranking.scenes.empty()) {
-    return "No scene has a score of every entry, so nobody is ranked. " + left_out;
+    return "No scene has a score for every entry, so there is no ranking. " + left_out;
   }
   return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
-         std::to_string(total) + " scenes, those that every ranked entry has. " + left_out;
+         std::to_string(total) + " scenes, those with scores for every ranked entry. " + left_out;
 }
 
 bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
@@ -172,9 +172,9 @@ TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) 
 TitledTable overview_table(const std::vector<BenchmarkResult>& results) {
   const ScoreMatrix matrix = score_matrix(results, Protocol::Vmv2013, "mse_100");
   const Ranking ranking = rank_entries(matrix, kScoreDigits);
-  TitledTable titled{"Algorithms ranked by average accuracy, as figure 8 (MSE × 100)",
-                     "Speed is that of this machine: fast is less than 5 s, medium up to a minute, "
-                     "slow more; seconds are the mean over the scenes.",
+  TitledTable titled{"Algorithms ranked by average accuracy, as in figure 8 (MSE × 100)",
+                     "Speed was measured on this machine: fast is under 5 s, medium up to a "
+                     "minute, slow above; seconds are the mean over the scenes.",
                      {{"algorithm", "rank", "accuracy", "speed", "seconds", "all views"}, {}},
                      {}};
   if (const std::string note = gap_note(matrix, ranking); !note.empty()) titled.note += " " + note;
@@ -196,7 +196,7 @@ std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& re
     const char* key;
   };
   constexpr Choice choices[] = {
-      {"Mean squared error × 100 of the centre view, as figure 7 (vmv2013)", Protocol::Vmv2013,
+      {"Mean squared error × 100 of the centre view, as in figure 7 (vmv2013)", Protocol::Vmv2013,
        "mse_100"},
       {"Transparent scenes, foreground: mean squared error × 100 (vmv2013)", Protocol::Vmv2013,
        "mse_100_foreground"},

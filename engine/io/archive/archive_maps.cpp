@@ -17,12 +17,12 @@ bool is_one_view(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldS
   if (dataset.shape.size() != 2 && dataset.shape.size() != 4) {
     throw IoError(file.path(), what + std::to_string(dataset.shape.size()) + " axes (" +
                                    shape_text(dataset.shape) + "), but " + expected +
-                                   " is expected; store it so");
+                                   " is expected; store it in this form");
   }
   if (dataset.shape == view || dataset.shape == single) return true;
   if (dataset.shape == all) return false;
   throw IoError(file.path(), what + "the shape " + shape_text(dataset.shape) + ", but " + expected +
-                                 " is expected to fit the light field; store it so");
+                                 " is expected to fit the light field; store it in this form");
 }
 
 }  // namespace

@@ -59,11 +59,13 @@ void require_fit(const std::filesystem::path& path, const std::string& dataset,
   const bool fits =
       is_weights ? shape == plain || shape == directed : label_axis(shape, field).has_value();
   if (fits) return;
-  throw IoError(path, "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
-                          shape_text(plain) +
-                          (is_weights ? " is expected to fit the light field; store it so"
-                                      : " or one view with one more axis of labels is expected; "
-                                        "store it so"));
+  throw IoError(
+      path,
+      "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
+          shape_text(plain) +
+          (is_weights
+               ? " is expected to fit the light field; store it in this form"
+               : " or one view with one more axis of labels is expected; store it in this form"));
 }
 
 }  // namespace
@@ -83,7 +85,7 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
     } catch (const IoError& error) {
       // A companion that cannot be read must not keep the light field from opening.
       report.warnings.push_back(std::string("The file of ") + companion_name(known.kind) +
-                                " is left out: " + error.what() + ".");
+                                " is ignored: " + error.what() + ".");
     }
   }
   return found;

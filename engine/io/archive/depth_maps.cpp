@@ -69,7 +69,7 @@ void warn_of_gaps(const std::string& name, std::size_t valid, std::size_t total,
   std::snprintf(share, sizeof share, "%.3g %%",
                 100 * static_cast<double>(total - valid) / static_cast<double>(total));
   report.warnings.push_back(name + " holds no depth at " + share +
-                            " of its pixels (masked, zero, negative or NaN); they are left out.");
+                            " of its pixels (masked, zero, negative or NaN); they are ignored.");
 }
 
 }  // namespace

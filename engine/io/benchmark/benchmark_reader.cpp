@@ -36,9 +36,9 @@ int count_views(const fs::path& folder) {
 GridShape square_grid(const fs::path& folder, int count) {
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   if (count > 0 && side * side == count) return {side, side};
-  throw IoError(folder, "there is no " + std::string(kBenchmarkConfig) + " and the " +
-                            std::to_string(count) +
-                            " files input_Cam*.png form no square grid; add the missing files");
+  throw IoError(
+      folder, "there is no " + std::string(kBenchmarkConfig) + " and the " + std::to_string(count) +
+                  " files input_Cam*.png do not form a square grid; add the missing files");
 }
 
 /// Views by their index, row by row from the top left.
@@ -52,7 +52,7 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
       throw IoError(folder / kBenchmarkConfig,
                     "num_cams_x and num_cams_y are " + std::to_string(grid.u) + " and " +
-                        std::to_string(grid.v) + ", which cannot be; correct this file");
+                        std::to_string(grid.v) + ", which is not possible; correct this file");
     }
   } else {
     grid = square_grid(folder, count);
@@ -63,7 +63,7 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
     if (!fs::exists(views.files.back())) {
       throw IoError(views.files.back(), "this view is missing: " + std::to_string(count) + " of " +
                                             std::to_string(grid.count()) +
-                                            " files input_Cam*.png are there; add it");
+                                            " files input_Cam*.png were found; add it");
     }
   }
   return views;
@@ -88,7 +88,7 @@ void compare_size(const ConfigFile& config, Size size, ConventionReport& report)
     if (!stated || *stated == length) return;
     std::ostringstream text;
     text << key << " of " << kBenchmarkConfig << " is " << *stated << ", but the views have "
-         << length << " px; the size of the views is taken.";
+         << length << " px; the size of the views is used.";
     report.warnings.push_back(text.str());
   };
   compare("image_resolution_x_px", size.width);
@@ -114,7 +114,7 @@ CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size si
   }
   if (found == 0) return {};
   const std::string left_out =
-      "The camera of " + (folder / kBenchmarkConfig).string() + " is left out: ";
+      "The camera of " + (folder / kBenchmarkConfig).string() + " is ignored: ";
   if (!missing.empty()) {
     report.warnings.push_back(left_out + missing + " is missing; add it.");
     return {};
@@ -298,7 +298,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   assemble({std::move(samples),
             std::move(truth),
             std::move(info),
-            {{}, "folders of the benchmark are in order"}},
+            {{}, "benchmark folders store views in canonical order"}},
            options, scene, progress);
   return scene;
 }

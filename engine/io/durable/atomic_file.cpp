@@ -63,7 +63,7 @@ AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
     throw IoError(named_, "this is a folder; name a file in it");
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw IoError(named_, "this is no ordinary file and is not written over; choose another name");
+    throw IoError(named_, "this is not a regular file and is not overwritten; choose another name");
   }
   require_space(named_, folder_of(target_), bytes);
   temporary_ = folder_of(target_) / temporary_name(target_);

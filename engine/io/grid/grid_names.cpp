@@ -176,7 +176,7 @@ Group group_by_pattern(const std::vector<fs::path>& images, const std::string& t
   const bool has_index = text.find("{index}") != std::string::npos;
   if (has_both == has_index) {
     throw InvalidInput("the pattern '" + text +
-                       "' must hold {row} and {col}, or {index}, as in view_{row}_{col}.png");
+                       "' must contain {row} and {col}, or {index}, as in view_{row}_{col}.png");
   }
   const Pattern pattern(text);
   Group group{text, {}};
@@ -243,7 +243,7 @@ ViewFiles index_grid(const fs::path& folder, Group group, std::size_t images) {
       gap = "; the number " + std::to_string(expected) + " is missing";
     }
   }
-  throw IoError(folder, "the images form no square grid (" + tried(group, images) + gap +
+  throw IoError(folder, "the images do not form a square grid (" + tried(group, images) + gap +
                             "); add the missing views or name a pattern with {row} and {col}");
 }
 
@@ -270,12 +270,13 @@ NamedGrid name_grid(const fs::path& folder, const std::string& pattern, bool sna
     if (group.files.empty()) group = largest_group(images);
   }
   if (group.files.size() < 2 || group.files.front().numbers.empty()) {
-    throw IoError(folder, "the images form no grid of views: " +
-                              (pattern.empty() ? std::to_string(images.size()) +
-                                                     " images are there, and the names tell no row "
-                                                     "and column"
-                                               : tried(group, images.size())) +
-                              "; name a pattern such as view_{row}_{col}.png");
+    throw IoError(
+        folder,
+        "the images do not form a grid of views: " +
+            (pattern.empty() ? std::to_string(images.size()) +
+                                   " images were found, and their names give no row and column"
+                             : tried(group, images.size())) +
+            "; name a pattern such as view_{row}_{col}.png");
   }
   NamedGrid grid;
   grid.pattern = group.pattern;

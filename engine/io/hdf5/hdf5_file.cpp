@@ -134,7 +134,7 @@ bool has_hdf5_signature(const std::filesystem::path& path) {
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   require_readable_file(path);
   if (!has_hdf5_signature(path)) {
-    throw IoError(path, "this is not an HDF5 file, whatever its name says; choose another file");
+    throw IoError(path, "this is not an HDF5 file, despite its name; choose another file");
   }
   const Hdf5Lock session;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -142,9 +142,9 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (file_ < 0) {
-    throw IoError(path, "the HDF5 file is cut short or damaged (" +
+    throw IoError(path, "the HDF5 file is truncated or damaged (" +
                             std::to_string(std::filesystem::file_size(path)) +
-                            " bytes are there); copy or download it again");
+                            " bytes are present); copy or download it again");
   }
 }
 
@@ -214,9 +214,9 @@ void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) co
   const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
   const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
   if (!select_block(space, block) || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
-    throw IoError(path_, "the dataset " + name +
-                             " cannot be read: the file is cut short or damaged; copy or download "
-                             "it again");
+    throw IoError(
+        path_, "the dataset " + name +
+                   " cannot be read: the file is truncated or damaged; copy or download it again");
   }
 }
 

@@ -36,8 +36,8 @@ std::unique_ptr<Hdf5Input> open_former(const fs::path& path, const Scene& scene)
   auto former = std::make_unique<Hdf5Input>(path);
   if (former->has("LF")) {
     throw IoError(path,
-                  "this file holds a light field and is not written over; save scribbles "
-                  "beside it, for example as labels.h5");
+                  "this file holds a light field and is not overwritten; save scribbles beside it, "
+                  "for example as labels.h5");
   }
   const auto owner = former->text("/", kOwner);
   const std::string name = owner_name(scene);

@@ -71,7 +71,9 @@ void write_provenance(Hdf5Output& file, const StoredSegmentation& labeling) {
 
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress) {
-  if (labeling.labels.empty()) throw InvalidInput("a segmentation without labels");
+  if (labeling.labels.empty()) {
+    throw InvalidInput("a segmentation without labels cannot be written");
+  }
   progress.check();
   AtomicFile target(path, file_bytes(labeling, static_cast<bool>(probabilities)));
   Hdf5Output file(target);

@@ -42,8 +42,9 @@ DisparityField center_field(const fs::path& path, const Image<float>& map, GridS
 Image<float> read_float_tiff(const fs::path& path) {
   AnyImage decoded = decode_image(path);
   if (auto* map = std::get_if<Image<float>>(&decoded)) return std::move(*map);
-  throw IoError(path, "this picture has " + describe_image(decoded) +
-                          ", but a disparity map needs 32-bit float samples; export it so");
+  throw IoError(path,
+                "this picture has " + describe_image(decoded) +
+                    ", but a disparity map needs 32-bit float samples; export it in that format");
 }
 
 /// The one dataset of an HDF5 file that can be a disparity map.
@@ -60,8 +61,8 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
     if (map.name == "disparity" || map.name == "DISPARITY") return map;
   }
   throw IoError(file.path(), "one dataset of float samples with 2 or 4 axes is expected, but " +
-                                 (maps.empty() ? "none is there"
-                                               : std::to_string(maps.size()) + " are there (" +
+                                 (maps.empty() ? "none was found"
+                                               : std::to_string(maps.size()) + " were found (" +
                                                      joined(maps, ", ", &Hdf5Dataset::name) + ")") +
                                  "; store the disparity alone");
 }
@@ -95,8 +96,8 @@ fs::path submitted_map(const fs::path& folder, const std::string& scene) {
   const fs::path maps = folder / "disp_maps";
   if (!fs::is_directory(maps)) {
     throw IoError(folder,
-                  "this folder holds no disp_maps as a submission to the 2016 benchmark "
-                  "does; name a result file");
+                  "this folder has no disp_maps, unlike a submission to the 2016 benchmark; name a "
+                  "result file");
   }
   if (!scene.empty() && fs::exists(maps / (scene + ".pfm"))) return maps / (scene + ".pfm");
   std::vector<fs::path> found;
@@ -145,7 +146,7 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
     return read_hdf5_map(path, grid);
   }
   throw IoError(path,
-                "this is no disparity map: a result file, another HDF5 file, a PFM or a float "
+                "this is not a disparity map: a result file, another HDF5 file, a PFM or a float "
                 "TIFF is expected; choose another file");
 }
 

@@ -62,7 +62,7 @@ Header read_header(const std::filesystem::path& path, std::istream& in) {
   if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
     throw IoError(path, "the header of the PFM file says " + std::to_string(header.width) + "×" +
                             std::to_string(header.height) + " px and scale " +
-                            std::to_string(header.scale) + ", which cannot be; write it again");
+                            std::to_string(header.scale) + ", which is not valid; write it again");
   }
   return header;
 }
@@ -87,9 +87,9 @@ Image<float> read_pfm(const std::filesystem::path& path) {
   for (int y = header.height - 1; y >= 0; --y) {
     float* row = image.row(y);
     if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
-      throw IoError(path, "the PFM file is cut short: " + std::to_string(header.height - 1 - y) +
+      throw IoError(path, "the PFM file is truncated: " + std::to_string(header.height - 1 - y) +
                               " of " + std::to_string(header.height) +
-                              " rows are there; copy or write it again");
+                              " rows are present; copy or write it again");
     }
     if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
     if (scale != 1) {

@@ -50,7 +50,7 @@ struct Checked {
 std::string poor_truth(const WarpErrors& errors) {
   if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
-  return "The truth hardly explains the views: warped by it they differ by " +
+  return "The truth hardly explains the views: warped by it, they differ by " +
          fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
          (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
          fixed_text(std::max(worse.forward, worse.reversed), 2) + " and unwarped by " +
@@ -120,9 +120,9 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
     finding.flip = chosen_flip(choice);
     finding.order = flip_text(finding.flip) + ", as chosen by hand";
     if (checked.is_decided && !(finding.flip == checked.flip)) {
-      finding.check = "the check speaks for \"" + flip_text(checked.flip) + "\": " + checked.text;
+      finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
       finding.warnings.push_back("The order of views was chosen by hand (" +
-                                 flip_text(finding.flip) + "), but the check speaks for \"" +
+                                 flip_text(finding.flip) + "), but the check favours \"" +
                                  flip_text(checked.flip) + "\".");
     }
     return finding;

@@ -36,11 +36,11 @@ std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const Light
     }
   }
   if (found.empty()) {
-    throw InvalidInput("nothing is painted yet; paint strokes of two labels at least");
+    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
   }
   if (found.size() == 1) {
     throw InvalidInput("only label " + std::to_string(*found.begin()) +
-                       " is painted; paint a second one, so that there is something to tell apart");
+                       " is painted; paint a second one as well");
   }
   return {found.begin(), found.end()};
 }

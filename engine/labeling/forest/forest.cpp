@@ -64,7 +64,7 @@ void check(const ForestSamples& samples) {
   if (samples.label_count < 2 || std::ranges::count(counts, 0) > 0 ||
       samples.features.size() !=
           static_cast<std::size_t>(samples.count()) * samples.feature_count) {
-    throw InvalidInput("a forest needs samples of two labels at least, but got " +
+    throw InvalidInput("a forest needs samples of at least two labels, but got " +
                        std::to_string(samples.count()) + " samples of " +
                        std::to_string(samples.label_count) + " labels");
   }

@@ -178,7 +178,7 @@ LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOpt
 double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels) {
   check_problem(problem);
   if (labels.height != problem.cost.height || labels.width != problem.cost.width) {
-    throw InvalidInput("the energy of a labeling needs labels of the size of the costs");
+    throw InvalidInput("the labels and the costs of a labeling must have the same size");
   }
   const PairLimits limits(labels.height, labels.width, problem.smoothness, problem.g);
   double sum = 0;

@@ -11,7 +11,7 @@ TvL2Result segment_binary(TvL2Solver& solver, const BinarySegmentationProblem& p
   const TvL2Result result = solver.solve(
       {problem.score, problem.weight, problem.border, problem.lambda}, options, progress, scratch);
   if (region.height != scratch.height || region.width != scratch.width || region.channels != 1) {
-    throw InvalidInput("a segmentation needs a region as large as its score");
+    throw InvalidInput("the region and the score of a segmentation must have the same size");
   }
   for (int y = 0; y < region.height; ++y) {
     const float* const from = scratch.row(y);

@@ -27,7 +27,7 @@ void check_boundaries(ImageView<const float> g, double smoothness, int height, i
                        std::to_string(height) + " pixels, not " + std::to_string(g.width) + " by " +
                        std::to_string(g.height));
   }
-  if (!(smoothness >= 0)) throw InvalidInput("a labeling needs a smoothness of at least 0");
+  if (!(smoothness >= 0)) throw InvalidInput("the smoothness of a labeling must not be negative");
 }
 
 double labeling_gap(double energy, double bound) {

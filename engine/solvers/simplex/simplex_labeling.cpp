@@ -44,7 +44,8 @@ void check_moves(ImageView<const std::int32_t> from, const LayeredShape& shape, 
                           [&](std::int32_t at) { return at >= -1 && at < pixels; })) {
     return;
   }
-  throw InvalidInput("a labeling begins from pixels of an image of the size of the costs");
+  throw InvalidInput(
+      "the pixels that a labeling starts from must form an image of the size of the costs");
 }
 
 // A jump changes the layers of both labels, each weighted by half of λ.
@@ -229,7 +230,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   const LayeredShape& shape = state.sweep.shape();
   check_problem(problem, state.sweep.height(), shape.steps, shape.width);
   if (labels.height != state.sweep.height() || labels.width != shape.width) {
-    throw InvalidInput("a labeling needs an image of labels of the size of the costs");
+    throw InvalidInput("the label image of a labeling must have the size of the costs");
   }
   check_moves(options.from_last, shape, state.sweep.height());
   SimplexResult result;
