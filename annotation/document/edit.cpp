@@ -14,7 +14,7 @@ std::size_t bytes_of(const LabelSet& labels) {
 }
 
 /// The first column from `x` on where the labels differ; `end` if there is none. Most of a view is
-/// bare: whole words of it are compared at once.
+/// unpainted: whole words are compared at once.
 int first_change(const std::uint8_t* before, const std::uint8_t* after, int x, int end) {
   using Word = std::uint64_t;
   constexpr int kWord = sizeof(Word);

@@ -21,7 +21,7 @@ void require_fitting(const ViewScribbles& painted, const ScribbleLayer& layer) {
   }
 }
 
-/// Copies a view and notes its ids.
+/// Copies a view and collects its ids.
 void put_view(const ViewScribbles& painted, ScribbleLayer& layer, std::set<int>& ids) {
   require_fitting(painted, layer);
   std::uint8_t* out = layer.writable_view(painted.view).data;

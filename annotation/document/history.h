@@ -8,16 +8,16 @@
 
 namespace episcope {
 
-/// Edits that can be undone and redone, oldest first, bounded in bytes: the oldest are forgotten,
-/// so that an edit larger than the bound cannot be undone.
+/// Edits that can be undone and redone, oldest first, limited in bytes: the oldest are dropped, so
+/// an edit larger than the limit cannot be undone.
 class History {
  public:
   explicit History(std::size_t max_bytes) : max_bytes_(max_bytes) {}
 
-  /// A number for the state of the document: every edit leads to a new one, undoing and redoing
-  /// lead back to the same.
+  /// A number that identifies the state of the document: every edit leads to a new one, undo and
+  /// redo return to previous ones.
   [[nodiscard]] std::uint64_t state() const;
-  /// Notes an edit just made; edits that were undone can no longer be redone.
+  /// Adds an edit that was just made; undone edits can no longer be redone.
   void push(Edit edit);
 
   /// Edits that are kept, of which the first `applied_count` are in effect.
@@ -27,7 +27,7 @@ class History {
   /// The state after the first `index` edits.
   [[nodiscard]] std::uint64_t state_after(std::size_t index) const;
 
-  /// The edit that `undo` would take back; null if there is none. Likewise `redo`.
+  /// The edit that `undo` would revert; null if there is none. Likewise for `redo`.
   [[nodiscard]] const Edit* next_undo() const;
   [[nodiscard]] const Edit* next_redo() const;
   /// Counts the last edit as not in effect. Precondition: `next_undo()`.

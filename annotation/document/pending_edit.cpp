@@ -22,7 +22,7 @@ PendingEdit::~PendingEdit() {
 PendingEdit::Touched& PendingEdit::touch(ViewIndex view) {
   const auto [place, is_new] = touched_.try_emplace({view.v, view.u});
   if (is_new) {
-    // The whole view, once: a copy of a megabyte takes less than finding out what will be painted.
+    // The whole view, once: copying a megabyte is cheaper than determining what will be painted.
     const ImageView<const std::uint8_t> now = document_->scribbles_.view(view);
     place->second.before =
         Image<std::uint8_t>(document_->scribbles_.height(), document_->scribbles_.width());

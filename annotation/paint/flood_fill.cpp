@@ -12,8 +12,8 @@
 namespace episcope {
 namespace {
 
-/// Which pixels a fill may pass, 1 or 0; rows are found out when the fill comes to them. Pixels
-/// that were taken pass no more.
+/// Which pixels a fill may pass, 1 or 0; rows are computed when the fill reaches them. Pixels
+/// already taken no longer pass.
 template <class OpenRow>
 class OpenPixels {
  public:

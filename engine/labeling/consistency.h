@@ -8,18 +8,17 @@
 
 namespace episcope {
 
-/// How far labels of many views agree along the rays.
+/// How consistent the labels of many views are along the rays.
 struct LabelConsistency {
   std::int64_t agreeing = 0;  ///< Pairs of a ray and another view where the labels are equal,
   std::int64_t visible = 0;   ///< of those where the ray's point is seen there,
   std::int64_t pairs = 0;     ///< of all.
 
-  /// What is asked for: the share of rays whose label is the one found where the ray goes, in [0,
-  /// 1].
+  /// The measure itself: the fraction of visible pairs with equal labels, in [0, 1].
   [[nodiscard]] double share() const {
     return visible > 0 ? static_cast<double>(agreeing) / static_cast<double>(visible) : 1;
   }
-  /// How many could be checked, in [0, 1].
+  /// The fraction of pairs that could be checked, in [0, 1].
   [[nodiscard]] double checked() const {
     return pairs > 0 ? static_cast<double>(visible) / static_cast<double>(pairs) : 0;
   }

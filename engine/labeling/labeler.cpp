@@ -20,11 +20,11 @@ namespace {
 
 using Features = std::shared_ptr<const PixelFeatures>;
 
-// Up to so many views asked for at once are worked on one after the other, each by all threads, and
-// their features kept: somebody is painting. More are worked on side by side.
+// Up to this many requested views are processed one after the other, each by all threads, and their
+// features are kept: the user is painting. More are processed in parallel.
 constexpr std::size_t kKeptViews = 9;
 
-// Of a single view: half the iterations for the same share of right pixels.
+// For a single view: half the iterations give the same accuracy.
 constexpr double kLiveGap = 5e-3;
 
 // A jump of one px in disparity beside one of Lab/100.
@@ -68,7 +68,7 @@ Image<float> plane(VolumeView<const float> features, int layer, float unit) {
   return image;
 }
 
-/// What a way along a surface must not cross: edges of colour, and of disparity if that is known.
+/// What a path along a surface must not cross: edges of colour, and of disparity if that is known.
 std::vector<Image<float>> guide_planes(VolumeView<const float> features, PixelFeatureSet set) {
   std::vector<Image<float>> planes;
   for (int c = 0; c < 3; ++c) planes.push_back(plane(features, kWiderSurfaceLayer + c, 1));
@@ -109,7 +109,7 @@ bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
-/// A forest and what it was grown from.
+/// A forest and what it was trained on.
 struct Grown {
   ForestSamples samples;
   ForestOptions options;
@@ -178,7 +178,7 @@ struct Labeler::State {
     return samples;
   }
 
-  /// The forest of these strokes, grown only if it would be another one than the last.
+  /// The forest for these strokes, trained only if it would differ from the last one.
   [[nodiscard]] const Forest& train(const Scribbles& scribbles,
                                     const std::vector<std::int32_t>& ids,
                                     const LabelerParameters& parameters, const Progress& progress) {
@@ -239,7 +239,7 @@ struct Labeler::State {
     const Regularizer regularizer = learned.parameters.regularizer;
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
-    // Where rays of other views agree, two of them tell nearly as much as all.
+    // Where rays of other views agree, two of them are nearly as informative as all.
     if (own.grid.count() == 1 && info_of(regularizer).joins_views) views = neighbours(own.first);
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
@@ -342,7 +342,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
-  // Nobody paints: what follows needs the memory.
+  // Not painting: the following steps need the memory.
   if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
   if (regularizer == Regularizer::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};

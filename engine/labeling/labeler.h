@@ -17,8 +17,8 @@
 
 namespace episcope {
 
-/// What the forest sees of a pixel: the three sets of the archive. Which disparity is meant is up
-/// to the caller; here all but Image take it as a feature.
+/// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
+/// to the caller; here all but Image use it as a feature.
 enum class FeatureSet { Image, ImageEstimate, ImageTruth };
 [[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
 
@@ -35,7 +35,7 @@ struct LabelerParameters {
 
 [[nodiscard]] Schema<LabelerParameters> labeler_schema();
 
-/// Whether a set of features has disparity among them.
+/// Whether the set of features includes disparity.
 [[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 
 /// A segmentation of a rectangle of views.
@@ -63,12 +63,12 @@ struct Labeling {
 /// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighting by distance is an addition;
 /// what it gains is in tests/accuracy/tuning.md.
 ///
-/// Not thread-safe: a call must wait for the one under way, or cancel it.
+/// Not thread-safe: a call must wait for the one in progress, or cancel it.
 class Labeler {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
-  /// Stages as `progress` tells them: the first is left out if the forest is still that of the last
-  /// call.
+  /// Stages as reported by `progress`; the first is skipped if the forest can be reused from the
+  /// last call.
   static constexpr const char* kTrainingStep = "training the forest";
   static constexpr const char* kLabelingStep = "labeling pixels";
 

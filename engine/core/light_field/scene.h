@@ -13,7 +13,7 @@
 
 namespace episcope {
 
-/// Which conversion to the house convention a reader made, and how it was checked.
+/// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
   std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
   std::string order;        ///< "as stored", "u reversed (file h axis)", …

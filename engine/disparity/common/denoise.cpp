@@ -13,7 +13,7 @@
 namespace episcope {
 namespace {
 
-// r^power. Whole powers are multiplied out, which is vectorised: std::pow took a tenth of the time.
+// r^power. Integer powers are multiplied out, which is vectorised; std::pow is slow.
 void raise_row(const float* r, double power, int width, float* raised) {
   const int whole = static_cast<int>(power);
   if (whole != power) {

@@ -26,8 +26,8 @@ struct DenoiseParameters {
 };
 [[nodiscard]] Schema<DenoiseParameters> denoise_schema();
 
-/// The weight of data w = max(r^power, minimum), from confidence r. No pixel is given up entirely:
-/// the solution stays unique.
+/// The data weight w = max(r^power, minimum) of a pixel of confidence r. No pixel gets weight 0,
+/// which keeps the solution unique.
 struct DataWeight {
   double power = 2;
   float minimum = 0.01F;
@@ -45,7 +45,7 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
              const Progress& progress, float min_weight = DataWeight{}.minimum);
 
-/// A note of the largest relative duality gap of some solutions.
+/// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);
 
 }  // namespace episcope

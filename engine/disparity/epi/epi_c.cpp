@@ -17,7 +17,7 @@ namespace episcope {
 namespace {
 
 constexpr float kViolation = -0.05F;
-// Less than that of EPI_S: what the views contradict is to follow its neighbours entirely.
+// Less than in EPI_S: pixels that the views contradict should follow their neighbours entirely.
 constexpr float kMinWeight = 0.001F;
 constexpr std::array<ViewIndex, 4> kWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
 
@@ -43,7 +43,7 @@ struct Work {
   }
 };
 
-// Improves one view after the other; one for each thread.
+// Improves one view after the other; one per thread.
 class ViewStep {
  public:
   explicit ViewStep(const Work& work)

@@ -34,7 +34,7 @@ StructureTensor::Sink store_into(const Maps& maps, int v) {
   };
 }
 
-// The hardware does not foresee steps of a whole image row.
+// The hardware does not prefetch across steps of a whole image row.
 void prefetch_run(const ViewStack<float>& stack, ViewIndex view, PixelIndex begin, int count) {
   constexpr int kRowsAhead = 4;
   constexpr int kCacheLine = 64 / sizeof(float);

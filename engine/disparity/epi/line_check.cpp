@@ -18,7 +18,7 @@ namespace {
 
 using PackedViews = ViewStack<std::uint32_t>;
 
-// The least difference that is told from rounding and resampling.
+// The smallest difference distinguishable from rounding and resampling.
 constexpr float kMinDifference = 1.0F / 255;
 constexpr int kTextureRadius = 2;
 constexpr float kTextureGain = 4;
@@ -50,7 +50,7 @@ ResidualRow around(const PackedViews& views, ViewIndex view) {
   return row;
 }
 
-// Computes rows of residuals of one view after the other; one for each thread.
+// Computes rows of residuals of one view after the other; one per thread.
 class Residuals {
  public:
   Residuals(const PackedViews& views, const ViewStack<float>& disparity)

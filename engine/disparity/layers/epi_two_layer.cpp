@@ -192,7 +192,8 @@ void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, 
   estimate.notes = notes_of(gaps, layered.layers);
 }
 
-// Overshoot that the tensors left in, and the foreground as the one map of those who know but one.
+// Overshoot that the tensors left in, and the foreground as the single map for methods with one
+// layer.
 void clamp_layers(Estimate& estimate, const Progress& progress) {
   const auto low = static_cast<float>(estimate.range.min);
   const auto high = static_cast<float>(estimate.range.max);

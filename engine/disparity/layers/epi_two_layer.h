@@ -25,7 +25,7 @@ struct EpiTwoLayerParameters {
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();
 
-/// EPI_TWO_LAYER: a transparent or reflecting surface and what is seen through it.
+/// EPI_TWO_LAYER: a transparent or reflective surface and the background seen through it.
 ///
 /// 1. The single orientation d of every ray and its coherence r (EPI_L), and the double orientation
 ///    near ≥ far with its confidence c (DoubleOrientation), on horizontal and vertical EPIs; where

@@ -14,7 +14,7 @@ namespace {
 
 // Tiles looked at: one of so many.
 constexpr int kTileStride = 3;
-// What leaves no doubt, and how many such pixels, of all looked at, are no accident.
+// Thresholds for an unambiguous pixel, and the fraction of such pixels that is not accidental.
 constexpr float kSureShare = 0.35F;
 constexpr float kSureConfidence = 0.6F;
 constexpr double kEnough = 0.01;

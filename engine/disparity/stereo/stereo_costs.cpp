@@ -31,7 +31,7 @@ struct Residuals {
   double median = 0, lower_quartile = 0;
 };
 
-// The cross-hair tells as much of noise as all views.
+// The cross-hair tells as much about noise as all views.
 Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
   const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
   const std::vector<float> labels = equidistant_labels(
@@ -56,7 +56,7 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   return residuals;
 }
 
-// What interpolation takes away of it need not be put back where the view is smoother.
+// Where the view is smoother, the noise that interpolation removes need not be added back.
 std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
                                               const Progress& progress) {
   const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;

@@ -61,7 +61,7 @@ struct StereoCosts {
 /// For the notes of an estimate: which cap was used.
 [[nodiscard]] std::string cap_note(const StereoCosts& costs);
 
-/// The costs of some rows, aggregated. Not thread-safe: one object for each thread.
+/// The costs of some rows, aggregated. Not thread-safe: use one object per thread.
 class StereoCostRows {
  public:
   StereoCostRows(const LightField& light_field, const StereoCosts& costs);

@@ -11,7 +11,7 @@
 namespace episcope {
 namespace {
 
-// No pixel is given up entirely when it is placed between labels.
+// No pixel gets weight 0 when it is placed between labels.
 constexpr float kMinWeight = 0.01F;
 
 // The mean cost of each pixel over the labels.

@@ -159,7 +159,7 @@ void StructureTensor::State::use_slot(float* slot) {
   std::fill_n(slot, 4 * plane, 0.0F);
 }
 
-// The hardware does not foresee steps of a whole image row.
+// The hardware does not prefetch across steps of a whole image row.
 void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const {
   constexpr int kRowsAhead = 12;
   constexpr int kCacheLine = 64;

@@ -53,7 +53,7 @@ struct TensorExtent {
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
 /// out right.
 ///
-/// Not thread-safe: one object for each thread. Takes 2 to 10 MB.
+/// Not thread-safe: use one object per thread. Takes 2 to 10 MB.
 class StructureTensor {
  public:
   enum class Direction { Horizontal, Vertical };
@@ -82,7 +82,7 @@ class StructureTensor {
 
 /// Merges `count` estimates of one direction into those of the other: where both agree within
 /// 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence becomes the
-/// larger of the two. Source: winner-takes-all as in [WG12], weights measured to be better.
+/// larger of the two. Source: winner-takes-all as in [WG12], here weighted.
 void merge_orientations(const float* disparity, const float* coherence, int count, int power,
                         float* to_disparity, float* to_coherence);
 

@@ -7,7 +7,7 @@
 
 namespace episcope {
 
-/// Where the value stands in the list; it joins the list at the end if it is not there yet.
+/// The index of the value in the list, to which it is appended if it is not there yet.
 template <class T>
 std::size_t find_or_append(std::vector<T>& list, const T& value) {
   const auto found = std::find(list.begin(), list.end(), value);

@@ -83,7 +83,7 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
       require_fit(path, known.dataset, shape, field);
       found.push_back({known.kind, path, shape_text(shape)});
     } catch (const IoError& error) {
-      // A companion that cannot be read must not keep the light field from opening.
+      // An unreadable companion must not prevent the light field from opening.
       report.warnings.push_back(std::string("The file of ") + companion_name(known.kind) +
                                 " is ignored: " + error.what() + ".");
     }

@@ -73,7 +73,7 @@ std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
          (1 << 16);
 }
 
-/// In the house order, on the views as they are stored.
+/// In canonical order, on the views as they are stored.
 Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
   StoredScribbles stored =
       read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);

@@ -16,7 +16,7 @@
 
 namespace episcope::io {
 
-/// What a segmentation file says besides its probabilities.
+/// The content of a segmentation file except its probabilities.
 struct StoredSegmentation {
   ViewStack<std::int32_t> labels;
   std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
@@ -29,7 +29,7 @@ struct StoredSegmentation {
 /// StoredSegmentation::infos.
 using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
 
-/// Writes a segmentation in the house order of views: `LABELS` int32 [v][u][y][x],
+/// Writes a segmentation in canonical order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
 /// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`.

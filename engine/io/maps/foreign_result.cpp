@@ -56,7 +56,7 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
     maps.push_back(dataset);
   }
   if (maps.size() == 1) return maps.front();
-  // Several float datasets are no riddle where one bears the name of what is wanted.
+  // Several float datasets are not ambiguous if one has the expected name.
   for (const Hdf5Dataset& map : maps) {
     if (map.name == "disparity" || map.name == "DISPARITY") return map;
   }

@@ -108,7 +108,7 @@ class Forest::Trainer {
     forest.votes_.assign(static_cast<std::size_t>(leaf_count) * forest.pitch_, 0.F);
   }
 
-  /// Leads all samples down a tree.
+  /// Passes all samples down a tree.
   void count_votes(Forest& forest, int tree) const {
     const int end = tree + 1 < forest.tree_count()
                         ? forest.roots_[static_cast<std::size_t>(tree) + 1]

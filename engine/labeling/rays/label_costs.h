@@ -19,7 +19,7 @@ using CostTable = std::array<float, 256>;
 void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
                 VolumeView<float> costs);
 
-/// Which rays of a scene point are asked.
+/// Which rays of a scene point contribute.
 enum class TrackViews {
   All,   ///< Those of all views.
   Near,  ///< Those of the nearest 5×5 views.

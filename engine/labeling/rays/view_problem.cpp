@@ -7,7 +7,7 @@
 namespace episcope {
 namespace {
 
-// A look at the gap takes as long as half an iteration, and 30 iterations are enough.
+// A check of the gap costs half an iteration, and 30 iterations are enough.
 constexpr int kCheckEvery = 5;
 
 }  // namespace

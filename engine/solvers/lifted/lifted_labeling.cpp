@@ -129,7 +129,7 @@ LiftedResult cheapest_labels(const LiftedProblem& problem) {
   return result;
 }
 
-// How far the solver has come, as far as can be told between two looks at the gap; and by the gap,
+// How far the solver has come, as far as can be told between two checks of the gap; and by the gap,
 // which falls about geometrically.
 double share_by_iterations(int iterations) {
   return std::min(0.7, 1 - std::exp2(-iterations / 6.0));

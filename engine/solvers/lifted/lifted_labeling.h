@@ -30,7 +30,7 @@ struct LiftedProblem {
 struct LiftedOptions {
   int max_iterations = 1000;
   double gap = 1e-3;     ///< Stop once E(u) − D ≤ gap·|E(u)|.
-  int check_every = 10;  ///< Iterations between two looks at the gap.
+  int check_every = 10;  ///< Iterations between two checks of the gap.
 };
 
 struct LiftedResult {
@@ -56,8 +56,8 @@ struct LiftedResult {
 /// iterations (tests/accuracy/tuning.md). φ starts as the step at the cheapest label, p as 0. Step
 /// sizes follow from Λ alone, so the scale of the costs does not matter.
 ///
-/// Takes 5 floats for each pixel and label besides the costs. The result depends neither on the
-/// number of threads nor on constants added to all costs of a pixel (up to rounding).
+/// Takes 5 floats per pixel and label besides the costs. The result depends neither on the number
+/// of threads nor on constants added to all costs of a pixel (up to rounding).
 /// Stops at `progress.finish_requested()` with the best labeling so far. Throws InvalidInput on
 /// wrong shapes, a negative Λ or more than 512 labels, Cancelled on a stop request.
 [[nodiscard]] LiftedResult solve_lifted_labeling(const LiftedProblem& problem,

@@ -26,10 +26,10 @@ struct SimplexProblem {
 struct SimplexOptions {
   int max_iterations = 300;
   double gap = 1e-3;     ///< Stop once the primal energy is within this share of the bound.
-  int check_every = 10;  ///< Iterations between two looks at the gap.
-  /// `[y][x]`: begin where the last call ended, for an image like that one. Each pixel takes over
-  /// from the pixel y'·width + x' of the last image that is named here, where −1 from the one at
-  /// its own place. Empty = begin anew. Ignored in the first call.
+  int check_every = 10;  ///< Iterations between two checks of the gap.
+  /// `[y][x]`: start from the result of the last call, for a similar image. Each pixel starts from
+  /// the pixel y'·width + x' of the last image given here, where −1 from the one at its own place.
+  /// Empty = start afresh. Ignored in the first call.
   ImageView<const std::int32_t> from_last;
 };
 
@@ -72,7 +72,7 @@ class SimplexSolver {
 
   /// Writes the labeling `[y][x]`, 0 … L − 1. Ends after the next iteration at
   /// `progress.finish_requested()`. Throws InvalidInput on a wrong shape or a negative λ, Cancelled
-  /// on a stop request (asked for at least once an iteration).
+  /// on a stop request (checked at least once per iteration).
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
 

@@ -371,7 +371,7 @@ class BuiltinTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(scenes::render_builtin("demo", small_options({9, 9}), progress),
                              Cancelled);
 
-    // A report a thread may be under way when the stop comes.
+    // A report a thread may be in progress when the stop comes.
     QVERIFY(reports < 3 + progress.threads() + 1);
   }
 };

@@ -62,7 +62,7 @@ double sample(const ImageView<const float>& image, double y, double x, int c,
   return sum;
 }
 
-// Equations (3) and (4), word by word, in the axes of the house.
+// Equations (3) and (4), word by word, in canonical axes.
 double defined_cost(const ViewStack<float>& views, ViewIndex reference, const MatchingCost& cost,
                     double label, int y, int x) {
   double sum = 0;

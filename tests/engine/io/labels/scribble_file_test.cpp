@@ -199,7 +199,7 @@ class ScribbleFileTest : public QObject {
     std::uint8_t more[3] = {};
     file.read("more/data", {{0}, {3}}, more);
     QCOMPARE(int{more[2]}, 3);
-    // In the order of the file: view (0, 3) of the house is its (0, 1) if reversed.
+    // In the order of the file: the canonical view (0, 3) is its (0, 1) if reversed.
     std::vector<std::int32_t> view(kHeight * kWidth);
     file.read("SCRIBBLES", {{0, is_reversed ? 1U : 3U, 0, 0}, {1, 1, kHeight, kWidth}},
               view.data());

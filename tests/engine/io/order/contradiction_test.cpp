@@ -231,8 +231,7 @@ class ContradictionTest : public QObject {
     const Scene read = open(path("lf.h5"));
 
     QVERIFY(read.companions.empty());
-    QVERIFY2(warns(read, "The file of edge weights is ignored"),
-             describe(read.convention).c_str());
+    QVERIFY2(warns(read, "The file of edge weights is ignored"), describe(read.convention).c_str());
     QVERIFY(warns(read, "The file of probabilities (depth) is ignored"));
   }
 
