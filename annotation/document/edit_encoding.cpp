@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -85,7 +87,7 @@ Edit read_edit(ByteReader& in) {
   Edit edit;
   const std::uint8_t kind = in.byte();
   if (kind > static_cast<std::uint8_t>(EditKind::Import)) {
-    throw InvalidInput("there is no edit of kind " + std::to_string(kind));
+    throw InvalidInput(fmt::format("there is no edit of kind {}", kind));
   }
   edit.kind = static_cast<EditKind>(kind);
   for (auto left = in.number(in.rest()); left > 0; --left) edit.views.push_back(read_view(in));

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -33,7 +35,7 @@ PendingEdit::Touched& PendingEdit::touch(ViewIndex view) {
 
 PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const Ink& ink) {
   if (ink.label != 0 && !document_->labels_.contains(ink.label)) {
-    throw InvalidInput("there is no label " + std::to_string(ink.label) + " to paint with");
+    throw InvalidInput(fmt::format("there is no label {} to paint with", ink.label));
   }
   PixelRect dirty;
   if (region.empty() && document_->scribbles_.view(view).empty()) return dirty;

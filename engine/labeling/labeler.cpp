@@ -10,6 +10,8 @@
 #include "engine/labeling/forest/forest.h"
 #include "engine/labeling/rays/edge_probability.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -43,9 +45,9 @@ void require_views(ViewRectangle views, GridShape grid) {
   if (views.grid.v > 0 && views.grid.u > 0 && grid.contains(views.first) && grid.contains(last)) {
     return;
   }
-  throw InvalidInput("views " + view_text(views.first) + " to " + view_text(last) +
-                     " were requested, but there are " + std::to_string(grid.v) + "×" +
-                     std::to_string(grid.u) + " views, counted from 0");
+  throw InvalidInput(
+      fmt::format("views {} to {} were requested, but there are {}×{} views, counted from 0",
+                  view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
 /// Rows of probabilities `[x][label]` into bytes `[label][x]`.

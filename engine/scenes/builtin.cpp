@@ -8,6 +8,8 @@
 #include "engine/scenes/recipes/recipes.h"
 #include "engine/scenes/recipes/scribble.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -42,8 +44,9 @@ void check(const RenderOptions& options) {
   require_range("noise", options.noise_sigma, 0, 255);
   require_range("disparity scale", options.disparity_scale, 1e-3, 100);
   if (options.channels != 1 && options.channels != 3) {
-    throw InvalidInput("cannot render a built-in scene with " + std::to_string(options.channels) +
-                       " channels: it must be 1 (grey) or 3 (RGB)");
+    throw InvalidInput(fmt::format(
+        "cannot render a built-in scene with {} channels: it must be 1 (grey) or 3 (RGB)",
+        options.channels));
   }
 }
 

@@ -3,8 +3,9 @@
 
 #include "engine/core/text/join.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace episcope {
 namespace {
@@ -50,9 +51,7 @@ std::size_t character_count(const std::string& text) {
 }
 
 std::string fixed_text(double value, int digits) {
-  char text[400];  // room for the largest double
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
 TextTable transposed(const TextTable& table) {

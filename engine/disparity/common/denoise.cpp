@@ -5,9 +5,10 @@
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace episcope {
@@ -92,9 +93,7 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
 }
 
 std::string gap_note(double largest) {
-  char text[80];
-  std::snprintf(text, sizeof text, "largest relative duality gap %.1e", largest);
-  return text;
+  return fmt::format("largest relative duality gap {:.1e}", largest);
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,

@@ -6,19 +6,18 @@
 #include "engine/solvers/lifted/lifted_labeling.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 namespace episcope {
 namespace {
 
 std::string labeling_note(const LiftedResult& result) {
-  char text[160];
-  std::snprintf(text, sizeof text, "global labeling: energy %.6g, gap %.1e after %d iterations%s",
-                result.energy, result.relative_gap(), result.iterations,
-                result.converged ? "" : " (ended early)");
-  return text;
+  return fmt::format("global labeling: energy {:.6g}, gap {:.1e} after {} iterations{}",
+                     result.energy, result.relative_gap(), result.iterations,
+                     result.converged ? "" : " (ended early)");
 }
 
 void settle(const GlobalLabelingData& data, const Image<int>& labels, ImageView<const float> g,

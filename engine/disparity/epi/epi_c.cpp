@@ -7,9 +7,10 @@
 #include "engine/solvers/ordering/ordering_terms.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -123,12 +124,6 @@ double improve(const Work& work, const std::vector<ViewIndex>& views, const Prog
   return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());
 }
 
-std::string text_of(const char* format, double first, double second) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, first, second);
-  return text;
-}
-
 // Lines from one view that stay within the image, and those that violate the ordering.
 struct LineCount {
   long violations = 0, lines = 0;
@@ -174,8 +169,8 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
-      progress.step("ordering, sweep " + std::to_string(i / 2 + 1) + " of " +
-                    std::to_string(sweeps) + (i > 0 ? text_of(", gap %.1e", gap, 0) : ""));
+      progress.step(fmt::format("ordering, sweep {} of {}{}", i / 2 + 1, sweeps,
+                                i > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
     }
     const double other =
         improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
@@ -241,8 +236,8 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
     if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98));
-  estimate.notes.push_back(text_of("ordering violated by %.3f %% of the lines, %.3f %% before",
-                                   100 * after, 100 * before));
+  estimate.notes.push_back(fmt::format(
+      "ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after, 100 * before));
   if (views == ViewSelection::Center) keep_center(estimate, lf.center());
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;

@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -104,8 +106,9 @@ void clear(DoubleLayers& layers, const Progress& progress) {
 
 void require_double_grid(const LightField& lf) {
   if (std::max(lf.grid().u, lf.grid().v) >= DoubleOrientation::kMinViews) return;
-  throw InvalidInput("two layers need at least 3 views in a row or column, but the grid is " +
-                     std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u));
+  throw InvalidInput(
+      fmt::format("two layers need at least 3 views in a row or column, but the grid is {}×{}",
+                  lf.grid().v, lf.grid().u));
 }
 
 DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& scales,

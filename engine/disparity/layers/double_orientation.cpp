@@ -7,6 +7,8 @@
 #include "engine/disparity/layers/double_orientation_kernel.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,8 +107,8 @@ std::vector<float> integration_weights(int rows, int first, int last, double sig
 int views_along(const LightField& lf, Direction direction) {
   const int views = direction == Direction::Horizontal ? lf.grid().u : lf.grid().v;
   if (views < DoubleOrientation::kMinViews || views > DoubleOrientation::kMaxViews) {
-    throw InvalidInput("two orientations need 3 to 32 views along an EPI, but the grid has " +
-                       std::to_string(views));
+    throw InvalidInput(fmt::format(
+        "two orientations need 3 to 32 views along an EPI, but the grid has {}", views));
   }
   return views;
 }

@@ -8,8 +8,9 @@
 #include "engine/disparity/layers/layer_range.h"
 #include "engine/solvers/simplex/binary_segmentation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 namespace episcope {
@@ -166,10 +167,9 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
 std::vector<std::string> notes_of(const std::vector<double>& gaps,
                                   const ViewStack<std::uint8_t>& layers) {
   const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
-  char share[80];
-  std::snprintf(share, sizeof share, "two layers in %.1f %% of the pixels",
-                100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size()));
-  return {share, gap_note(*std::max_element(gaps.begin(), gaps.end()))};
+  const double share = 100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size());
+  return {fmt::format("two layers in {:.1f} % of the pixels", share),
+          gap_note(*std::max_element(gaps.begin(), gaps.end()))};
 }
 
 // Replaces the raw maps in `estimate` by the results.

@@ -6,8 +6,9 @@
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/local_noise.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 namespace episcope {
@@ -182,9 +183,7 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
 
 std::string cap_note(const StereoCosts& costs) {
   if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
-  char text[60];
-  std::snprintf(text, sizeof text, "matching cost capped at ε = %.3f", costs.matching.cap);
-  return text;
+  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
 }
 
 }  // namespace episcope

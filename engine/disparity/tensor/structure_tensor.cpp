@@ -6,6 +6,8 @@
 #include "engine/disparity/tensor/sample_planes.h"
 #include "engine/disparity/tensor/structure_tensor_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,8 +45,8 @@ int views_along(const LightField& lf, StructureTensor::Direction direction) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
   const int views = horizontal ? lf.grid().u : lf.grid().v;
   if (views < 2 || views > kMaxViews) {
-    throw InvalidInput("the structure tensor needs 2 to 32 views along an EPI, but the grid has " +
-                       std::to_string(views));
+    throw InvalidInput(fmt::format(
+        "the structure tensor needs 2 to 32 views along an EPI, but the grid has {}", views));
   }
   return views;
 }

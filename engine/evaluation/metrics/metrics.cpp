@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/evaluation/metrics/region_metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +14,7 @@ namespace episcope {
 namespace {
 
 std::string size_text(const ImageView<const float>& image) {
-  return std::to_string(image.width) + "×" + std::to_string(image.height);
+  return fmt::format("{}×{}", image.width, image.height);
 }
 
 /// The smallest, that is farthest, true disparity: what a missing estimate counts as.
@@ -204,8 +206,8 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
   for (const auto* field :
        {&estimate.foreground, &estimate.background, &truth.foreground, &truth.background}) {
     if (!field->contains(view)) {
-      throw InvalidInput("view " + std::to_string(view.v) + "," + std::to_string(view.u) +
-                         " does not have two layers in both estimate and truth");
+      throw InvalidInput(fmt::format(
+          "view {},{} does not have two layers in both estimate and truth", view.v, view.u));
     }
   }
   const std::map<std::string, Image<std::uint8_t>> no_regions;

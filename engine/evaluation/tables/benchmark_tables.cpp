@@ -4,6 +4,8 @@
 #include "engine/core/text/join.h"
 #include "engine/evaluation/tables/find_or_append.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 
@@ -37,8 +39,9 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
   if (ranking.scenes.empty()) {
     return "No scene has a score for every entry, so there is no ranking. " + left_out;
   }
-  return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
-         std::to_string(total) + " scenes, those with scores for every ranked entry. " + left_out;
+  return fmt::format(
+      "Averages and ranks are over {} of {} scenes, those with scores for every ranked entry. {}",
+      ranking.scenes.size(), total, left_out);
 }
 
 bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
@@ -78,7 +81,7 @@ std::vector<std::string> own_averages(const ScoreMatrix& matrix,
       sum += score.value_or(0);
       count += score ? 1 : 0;
     }
-    cells.push_back(fixed_text(sum / count, kScoreDigits) + " (" + std::to_string(count) + ")");
+    cells.push_back(fmt::format("{} ({})", fixed_text(sum / count, kScoreDigits), count));
   }
   return cells;
 }

@@ -13,6 +13,8 @@
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,9 +44,9 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
   for (std::size_t axis = 0; axis < shape.size(); ++axis) {
     const auto stated = file.number("/", names[axis]);
     if (!stated || *stated == static_cast<double>(shape[axis])) continue;
-    report.warnings.push_back("The attribute " + std::string(names[axis]) + " says " +
-                              whole(*stated) + ", but LF has " + std::to_string(shape[axis]) +
-                              " along that axis; the shape of LF is used.");
+    report.warnings.push_back(fmt::format(
+        "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
+        names[axis], whole(*stated), shape[axis]));
   }
 }
 
@@ -52,10 +54,9 @@ Layout layout_of(const Hdf5Input& file) {
   const Hdf5Dataset dataset = file.dataset(kLightField);
   const Hdf5Shape& shape = dataset.shape;
   if (shape.size() != 4 && shape.size() != 5) {
-    throw IoError(file.path(),
-                  "the dataset LF has " + std::to_string(shape.size()) + " axes (" +
-                      shape_text(shape) +
-                      "), but v × h × y × x × channels is expected; store it in this form");
+    throw IoError(file.path(), fmt::format("the dataset LF has {} axes ({}), but v × h × y × x × "
+                                           "channels is expected; store it in this form",
+                                           shape.size(), shape_text(shape)));
   }
   if (dataset.type == Hdf5Type::Other) {
     throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
@@ -74,9 +75,9 @@ Layout layout_of(const Hdf5Input& file) {
   }
   if (channels != 1 && channels != 3 && channels != 4) {
     throw IoError(file.path(),
-                  "the dataset LF has the shape " + shape_text(shape) + " and so " +
-                      std::to_string(channels) +
-                      " channels, but 1 (grey) or 3 (RGB) are expected; store it in this form");
+                  fmt::format("the dataset LF has the shape {} and so {} channels, but 1 (grey) or "
+                              "3 (RGB) are expected; store it in this form",
+                              shape_text(shape), channels));
   }
   const auto length = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
   return {{{length(0), length(1)}, length(2), length(3)},

@@ -6,7 +6,9 @@
 #include "engine/io/durable/system_error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
+
 #include <atomic>
 #include <cerrno>
 #include <string>
@@ -19,8 +21,7 @@ namespace fs = std::filesystem;
 std::string temporary_name(const fs::path& target) {
   static std::atomic<unsigned> next{0};
   std::string name = target.filename().string().substr(0, 200);
-  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" + std::to_string(next++) +
-         ".part";
+  return fmt::format("{}.{}-{}.part", name.insert(0, 1, '.'), ::getpid(), next++);
 }
 
 fs::path folder_of(const fs::path& target) {

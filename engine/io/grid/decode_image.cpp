@@ -5,6 +5,7 @@
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/png_check.h"
 
+#include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -73,8 +74,8 @@ std::string describe_image(const AnyImage& image) {
   constexpr const char* types[] = {"8 bit", "16 bit", "float"};
   return std::visit(
       [&](const auto& one) {
-        return std::to_string(one.width()) + "×" + std::to_string(one.height()) + " px, " +
-               (one.channels() == 1 ? "grey" : "RGB") + ", " + types[image.index()];
+        return fmt::format("{}×{} px, {}, {}", one.width(), one.height(),
+                           one.channels() == 1 ? "grey" : "RGB", types[image.index()]);
       },
       image);
 }

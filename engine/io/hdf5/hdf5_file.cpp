@@ -7,6 +7,8 @@
 #include "engine/io/hdf5/hdf5_block.h"
 #include "engine/io/hdf5/hdf5_handle.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -142,9 +144,9 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (file_ < 0) {
-    throw IoError(path, "the HDF5 file is truncated or damaged (" +
-                            std::to_string(std::filesystem::file_size(path)) +
-                            " bytes are present); copy or download it again");
+    throw IoError(path, fmt::format("the HDF5 file is truncated or damaged ({} bytes are present); "
+                                    "copy or download it again",
+                                    std::filesystem::file_size(path)));
   }
 }
 

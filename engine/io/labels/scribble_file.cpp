@@ -5,6 +5,8 @@
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/scribble_dataset.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 
@@ -54,12 +56,10 @@ void require_fitting(const fs::path& path, const Scribbles& scribbles, const Fie
         labels.width() == shape.width) {
       continue;
     }
-    throw IoError(path, "scribbles of " + std::to_string(labels.height()) + "×" +
-                            std::to_string(labels.width()) + " px on view (" + view_text(view) +
-                            ") do not fit the light field of " + std::to_string(shape.grid.v) +
-                            "×" + std::to_string(shape.grid.u) + " views of " +
-                            std::to_string(shape.height) + "×" + std::to_string(shape.width) +
-                            " px; open the one that they belong to");
+    throw IoError(path, fmt::format("scribbles of {}×{} px on view ({}) do not fit the light field "
+                                    "of {}×{} views of {}×{} px; open the one that they belong to",
+                                    labels.height(), labels.width(), view_text(view), shape.grid.v,
+                                    shape.grid.u, shape.height, shape.width));
   }
 }
 

@@ -9,6 +9,8 @@
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/maps/pfm.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +31,9 @@ std::string suffix_of(const fs::path& path) {
 
 DisparityField center_field(const fs::path& path, const Image<float>& map, GridShape grid) {
   if (map.channels() != 1) {
-    throw IoError(path, "this map has " + std::to_string(map.channels()) +
-                            " channels, but a disparity map has 1; export it again");
+    throw IoError(
+        path, fmt::format("this map has {} channels, but a disparity map has 1; export it again",
+                          map.channels()));
   }
   DisparityField field;
   field.disparity = ViewStack<float>({1, 1}, map.height(), map.width(), 1, grid.center());
@@ -60,11 +63,13 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
   for (const Hdf5Dataset& map : maps) {
     if (map.name == "disparity" || map.name == "DISPARITY") return map;
   }
-  throw IoError(file.path(), "one dataset of float samples with 2 or 4 axes is expected, but " +
-                                 (maps.empty() ? "none was found"
-                                               : std::to_string(maps.size()) + " were found (" +
-                                                     joined(maps, ", ", &Hdf5Dataset::name) + ")") +
-                                 "; store the disparity alone");
+  const std::string found = maps.empty() ? "none was found"
+                                         : fmt::format("{} were found ({})", maps.size(),
+                                                       joined(maps, ", ", &Hdf5Dataset::name));
+  throw IoError(file.path(),
+                fmt::format("one dataset of float samples with 2 or 4 axes is expected, but {}; "
+                            "store the disparity alone",
+                            found));
 }
 
 DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
@@ -78,10 +83,9 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
     throw IoError(path, "the dataset " + map.name + " is empty; export it again");
   }
   if (!is_single && !(stored == grid)) {
-    throw IoError(path, "the dataset " + map.name + " has the shape " + shape_text(map.shape) +
-                            ", but the light field has " + std::to_string(grid.v) + "×" +
-                            std::to_string(grid.u) +
-                            " views; name the light field that it belongs to");
+    throw IoError(path, fmt::format("the dataset {} has the shape {}, but the light field has "
+                                    "{}×{} views; name the light field that it belongs to",
+                                    map.name, shape_text(map.shape), grid.v, grid.u));
   }
   DisparityField field;
   field.disparity = ViewStack<float>(stored, length(rank - 2), length(rank - 1), 1,
@@ -105,8 +109,8 @@ fs::path submitted_map(const fs::path& folder, const std::string& scene) {
     if (suffix_of(entry.path()) == ".pfm") found.push_back(entry.path());
   }
   if (found.size() == 1 && scene.empty()) return found.front();
-  throw IoError(maps, "there is no map " + (scene.empty() ? "<scene>" : scene) + ".pfm among the " +
-                          std::to_string(found.size()) + " here; name the scene");
+  throw IoError(maps, fmt::format("there is no map {}.pfm among the {} here; name the scene",
+                                  scene.empty() ? "<scene>" : scene, found.size()));
 }
 
 double read_seconds(const fs::path& path) {

@@ -5,8 +5,9 @@
 #include "engine/io/order/epi_slopes.h"
 #include "engine/io/order/warp_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace episcope::io {
 namespace {
@@ -80,10 +81,11 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
   if (!checked.is_decided) return checked;
   const bool must_differ = slopes.value < 0;
   if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
-  checked.text = "checked by the slopes of horizontal and vertical EPIs: correlation " +
-                 fixed_text(slopes.value, 2) + " as stored at " + std::to_string(slopes.points) +
-                 " points, " +
-                 (must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  checked.text = fmt::format(
+      "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
+      "points, {}",
+      fixed_text(slopes.value, 2), slopes.points,
+      must_differ ? "so exactly one axis is reversed" : "so both axes agree");
   return checked;
 }
 

@@ -6,6 +6,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/labeling/forest/flat_tree.h"
 
+#include <fmt/format.h>
 #include <opencv2/ml.hpp>
 
 #include <algorithm>
@@ -64,9 +65,9 @@ void check(const ForestSamples& samples) {
   if (samples.label_count < 2 || std::ranges::count(counts, 0) > 0 ||
       samples.features.size() !=
           static_cast<std::size_t>(samples.count()) * samples.feature_count) {
-    throw InvalidInput("a forest needs samples of at least two labels, but got " +
-                       std::to_string(samples.count()) + " samples of " +
-                       std::to_string(samples.label_count) + " labels");
+    throw InvalidInput(fmt::format(
+        "a forest needs samples of at least two labels, but got {} samples of {} labels",
+        samples.count(), samples.label_count));
   }
 }
 

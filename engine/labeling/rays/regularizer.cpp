@@ -6,6 +6,8 @@
 #include "engine/labeling/rays/ray_smoothing.h"
 #include "engine/labeling/rays/view_smoothing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <iterator>
@@ -37,9 +39,9 @@ void check_maps(const ViewStack<T>& maps, const LabelProbabilities& p, const cha
       covers(maps.grid(), maps.first(), p)) {
     return;
   }
-  throw InvalidInput("labels of " + std::to_string(p.grid.count()) + " views of " +
-                     std::to_string(view.width()) + "×" + std::to_string(view.height()) +
-                     " px need " + what + " of the same size in each of these views");
+  throw InvalidInput(
+      fmt::format("labels of {} views of {}×{} px need {} of the same size in each of these views",
+                  p.grid.count(), view.width(), view.height(), what));
 }
 
 void check_samples(const RayLabelingInput& input) {

@@ -7,6 +7,8 @@
 #include "engine/solvers/lifted/lifted_labeling_kernel.h"
 #include "engine/solvers/simplex/pair_labels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,8 +35,8 @@ void check_problem(const LiftedProblem& problem) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
   if (cost.layers > kMaxLiftedLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kMaxLiftedLayers) +
-                       " labels, not " + std::to_string(cost.layers));
+    throw InvalidInput(
+        fmt::format("a labeling takes at most {} labels, not {}", kMaxLiftedLayers, cost.layers));
   }
   check_boundaries(problem.g, problem.smoothness, cost.height, cost.width);
 }

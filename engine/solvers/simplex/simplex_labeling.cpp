@@ -8,6 +8,8 @@
 #include "engine/solvers/simplex/pair_labels.h"
 #include "engine/solvers/simplex/simplex_labeling_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,10 +30,9 @@ constexpr int kCoarseIterations = 30;
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
   if (cost.empty() || cost.height != height || cost.layers != layers || cost.width != width) {
-    throw InvalidInput("a labeling needs costs of " + std::to_string(layers) + " labels for " +
-                       std::to_string(width) + " by " + std::to_string(height) + " pixels, not " +
-                       std::to_string(cost.layers) + " for " + std::to_string(cost.width) + " by " +
-                       std::to_string(cost.height));
+    throw InvalidInput(
+        fmt::format("a labeling needs costs of {} labels for {} by {} pixels, not {} for {} by {}",
+                    layers, width, height, cost.layers, cost.width, cost.height));
   }
   check_boundaries(problem.g, problem.smoothness, height, width);
 }
@@ -216,8 +217,8 @@ SimplexSolver::SimplexSolver(int height, int layers, int width, Isa isa) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
   if (layers > kMaxSimplexLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kMaxSimplexLayers) +
-                       " labels, not " + std::to_string(layers));
+    throw InvalidInput(
+        fmt::format("a labeling takes at most {} labels, not {}", kMaxSimplexLayers, layers));
   }
   state_ = std::make_unique<State>(height, layers, width, isa);
 }

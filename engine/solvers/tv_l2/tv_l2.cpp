@@ -6,6 +6,8 @@
 #include "engine/solvers/tv_l2/tv_l2_grid.h"
 #include "engine/solvers/tv_l2/tv_l2_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,10 +39,8 @@ constexpr float kPenaltySpread = 16.0F;
 template <class T>
 void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
   if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
-    throw InvalidInput(std::string("TV-L2 needs ") + what + " as one channel of " +
-                       std::to_string(width) + " by " + std::to_string(height) + ", not " +
-                       std::to_string(image.channels) + " of " + std::to_string(image.width) +
-                       " by " + std::to_string(image.height));
+    throw InvalidInput(fmt::format("TV-L2 needs {} as one channel of {} by {}, not {} of {} by {}",
+                                   what, width, height, image.channels, image.width, image.height));
   }
 }
 
@@ -198,8 +198,8 @@ void TvL2Solver::State::copy_to(ImageView<float> u) const {
 
 TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
   if (height < 1 || width < 1) {
-    throw InvalidInput("TV-L2 needs an image of at least one pixel, not " + std::to_string(width) +
-                       " by " + std::to_string(height));
+    throw InvalidInput(
+        fmt::format("TV-L2 needs an image of at least one pixel, not {} by {}", width, height));
   }
   state_ = std::make_unique<State>(height, width, isa);
 }
