@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// While it lives, no file can grow beyond `bytes`: for a writer the same as a disk that fills up.
+/// While it exists, no file can grow beyond `bytes`: for a writer the same as a disk that fills up.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -85,7 +85,7 @@ std::vector<Writer> all_writers() {
            [=](const fs::path& path) { io::write_benchmark_folder(path, *scene, Progress(1)); }}};
 }
 
-/// Builds something broken in an empty folder and returns what to open.
+/// Creates a broken input in an empty folder and returns what to open.
 using Break = std::function<fs::path(const fs::path& folder)>;
 
 fs::path archive_with(const fs::path& folder, const RawArchive& form) {
@@ -438,7 +438,7 @@ class BadInputTest : public QObject {
 
     QCOMPARE(files_in(folder()), std::size_t{is_folder ? 0U : 1U});
     if (!is_folder) QCOMPARE(fs::file_size(folder() / "out"), std::uintmax_t{3});
-    // The libraries beneath must have got over it.
+    // The libraries beneath must still work.
     writer.write(folder() / "again");
     QVERIFY(fs::exists(folder() / "again"));
   }

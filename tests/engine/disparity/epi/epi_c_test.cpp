@@ -299,7 +299,7 @@ void EpiCTest::finishing_givesWhatThereIs_data() {
                             << "ordering, sweep 2";
 }
 
-// Whoever asks for the result so far does not wait for further stages.
+// A request for the result so far does not wait for further stages.
 void EpiCTest::finishing_givesWhatThereIs() {
   QFETCH(QString, stage);
   QFETCH(QString, next);

@@ -33,7 +33,7 @@ Estimate uneven_estimate(const LightField& lf) {
   return estimate;
 }
 
-// The header word by word, one pixel after the other.
+// The formulas of the header, literally, pixel by pixel.
 class Definition {
  public:
   Definition(const LightField& lf, const ViewStack<float>& disparity)

@@ -47,7 +47,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QTest::newRow("in order") << false;
     QTest::newRow("h reversed") << true;
   }
-  // What it is needed for is as with it: the order of views and the units.
+  // Everything that needs it is unchanged: the order of views and the units.
   void truthNotNeeded_isNotRead() {
     QFETCH(bool, is_reversed);
     const Scene scene = plane_scene();

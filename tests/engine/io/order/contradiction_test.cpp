@@ -19,8 +19,7 @@ using namespace episcope::test;
 
 namespace fs = std::filesystem;
 
-/// Files that say less than they seem to, or one thing here and another there: told, never
-/// believed.
+/// Files that are incomplete or contradict themselves: reported, never trusted.
 class ContradictionTest : public QObject {
   Q_OBJECT
 
