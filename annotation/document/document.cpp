@@ -4,6 +4,8 @@
 #include "annotation/document/pending_edit.h"
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace episcope {
@@ -107,7 +109,7 @@ void AnnotationDocument::mark_saved() {
 
 void AnnotationDocument::require_idle() const {
   if (is_editing_) {
-    throw InvalidInput("an edit is under way; end or revert it before the next step");
+    throw InvalidInput("an edit is in progress; commit or revert it first");
   }
 }
 
@@ -117,11 +119,9 @@ void AnnotationDocument::require_fitting(const Edit& edit) const {
         scribbles_.grid().contains(part.view) &&
         std::ranges::all_of(part.runs, [&](const LabelRun& run) { return fits(run, scribbles_); });
     if (!is_sound) {
-      throw InvalidInput("an edit of view (" + view_text(part.view) + ") does not fit " +
-                         std::to_string(scribbles_.grid().v) + "×" +
-                         std::to_string(scribbles_.grid().u) + " views of " +
-                         std::to_string(scribbles_.height()) + "×" +
-                         std::to_string(scribbles_.width()) + " px");
+      throw InvalidInput(fmt::format("an edit of view ({}) does not fit {}×{} views of {}×{} px",
+                                     view_text(part.view), scribbles_.grid().v, scribbles_.grid().u,
+                                     scribbles_.height(), scribbles_.width()));
     }
   }
 }

@@ -13,7 +13,7 @@
 
 namespace episcope {
 
-/// What a step of the history changed, so that a window redraws that and shows the view.
+/// What a step of the history changed, so that a window can redraw it and show the view.
 struct DocumentChange {
   struct Part {
     ViewIndex view;
@@ -31,9 +31,9 @@ struct DocumentEvent {
   const Edit* edit = nullptr;  ///< Null for Saved.
 };
 
-/// What a user paints on a light field: labels, scribbles on every view, and the steps that led
-/// there. Pixels change through PendingEdit and Stroke only, one edit at a time; while one is under
-/// way, every other change throws InvalidInput.
+/// What a user paints on a light field: labels, scribbles on every view, and their history. Pixels
+/// change only through PendingEdit and Stroke, one edit at a time; while one is in progress, every
+/// other change throws InvalidInput.
 class AnnotationDocument {
  public:
   static constexpr std::size_t kHistoryBytes = std::size_t{64} << 20;
@@ -41,7 +41,7 @@ class AnnotationDocument {
   /// Throws InvalidInput as ScribbleLayer does.
   AnnotationDocument(GridShape grid, int height, int width,
                      std::size_t history_bytes = kHistoryBytes);
-  /// A document that begins with what a file held; nothing of that can be undone.
+  /// A document with initial content, as read from a file; that cannot be undone.
   AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
                      std::size_t history_bytes = kHistoryBytes);
 
@@ -49,31 +49,31 @@ class AnnotationDocument {
   [[nodiscard]] const ScribbleLayer& scribbles() const { return scribbles_; }
   [[nodiscard]] const History<Edit>& history() const { return history_; }
 
-  /// Each an edit; a change to the same vanishes. Throw InvalidInput as LabelSet does.
+  /// Each is one edit; a change to the same value is dropped. Throw InvalidInput as LabelSet does.
   int add_label(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
   void rename_label(int id, const std::string& name);
   void recolor_label(int id, Rgb color);
-  /// Also erases what is painted with it, on all views.
+  /// Also erases everything painted with it, on all views.
   void remove_label(int id);
 
-  /// Takes the last edit back, or makes it again; an empty change if there is none.
+  /// Undoes the last edit, or redoes it; an empty change if there is none.
   DocumentChange undo();
   DocumentChange redo();
-  /// Makes an edit that was recorded on a document in the same state. Throws InvalidInput, changing
-  /// nothing, if it does not fit.
+  /// Applies an edit that was recorded on a document in the same state. Throws InvalidInput,
+  /// changing nothing, if it does not fit.
   DocumentChange apply(const Edit& edit);
 
   /// The state of the document, see History.
   [[nodiscard]] std::uint64_t state() const { return history_.state(); }
   [[nodiscard]] std::uint64_t saved_state() const { return saved_state_; }
   [[nodiscard]] bool has_unsaved_changes() const { return state() != saved_state_; }
-  /// Notes that the present state was written to a file.
+  /// Marks the current state as saved.
   void mark_saved();
-  /// Notes that no state of this document is the one in the file.
+  /// Marks every state of this document as unsaved.
   void forget_saved() { saved_state_ = kNoState; }
 
   /// Called after each step, before the call that made it returns; an exception of the observer
-  /// reaches that caller, while the step stands. One observer; an empty function for none.
+  /// reaches that caller, while the step remains. One observer; an empty function for none.
   using Observer = std::function<void(const DocumentEvent&)>;
   void set_observer(Observer observer) { observer_ = std::move(observer); }
 

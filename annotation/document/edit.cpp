@@ -14,7 +14,7 @@ std::size_t bytes_of(const LabelSet& labels) {
 }
 
 /// The first column from `x` on where the labels differ; `end` if there is none. Most of a view is
-/// bare: whole words of it are compared at once.
+/// unpainted: whole words are compared at once.
 int first_change(const std::uint8_t* before, const std::uint8_t* after, int x, int end) {
   using Word = std::uint64_t;
   constexpr int kWord = sizeof(Word);
@@ -60,7 +60,7 @@ ViewEdit difference(ViewIndex view, ImageView<const std::uint8_t> before,
   }
   edit.runs.shrink_to_fit();
   for (const LabelRun& run : edit.runs) {
-    edit.rect.include(PixelSpan{run.y, run.x, run.x + run.length});
+    edit.rect.include(PixelRect{run.y, run.x, run.y + 1, run.x + run.length});
   }
   return edit;
 }

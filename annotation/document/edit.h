@@ -23,7 +23,7 @@ enum class EditKind : std::uint8_t {
   Import
 };
 
-/// Neighbouring pixels of a row that had the same label and got the same label.
+/// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {
   std::uint16_t y = 0;
   std::uint16_t x = 0;
@@ -34,7 +34,7 @@ struct LabelRun {
 };
 
 /// The changed pixels of one view: a masked rectangle, whose mask, old and new labels are kept as
-/// runs, which take a few bytes a row however large the brush is.
+/// runs, which take a few bytes per row however large the brush is.
 struct ViewEdit {
   ViewIndex view;
   PixelRect rect;              ///< Of the changed pixels.
@@ -48,14 +48,14 @@ struct LabelSetEdit {
   friend bool operator==(const LabelSetEdit&, const LabelSetEdit&) = default;
 };
 
-/// One step of the user's: a stroke, a fill, a change of labels, on one view or several.
+/// One step of the user: a stroke, a fill or a change of labels, on one or several views.
 struct Edit {
   EditKind kind = EditKind::Paint;
   std::vector<ViewEdit> views;
   std::optional<LabelSetEdit> labels;
 
   [[nodiscard]] bool empty() const { return views.empty() && !labels; }
-  /// Memory that it takes.
+  /// Memory used, in bytes.
   [[nodiscard]] std::size_t byte_size() const;
   friend bool operator==(const Edit&, const Edit&) = default;
 };
@@ -67,7 +67,7 @@ struct Edit {
 
 enum class EditSide { Before, After };
 
-/// Gives the edited pixels of a view the labels of one side.
+/// Sets the edited pixels of a view to the labels of one side.
 void put_labels(const ViewEdit& edit, EditSide side, ScribbleLayer& layer);
 
 }  // namespace episcope

@@ -4,6 +4,8 @@
 #include "annotation/document/pending_edit.h"
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <set>
@@ -14,22 +16,21 @@ namespace {
 
 void require_fitting(const ViewScribbles& painted, const ScribbleLayer& layer) {
   if (painted.labels.height() != layer.height() || painted.labels.width() != layer.width()) {
-    throw InvalidInput("scribbles of " + std::to_string(painted.labels.height()) + "×" +
-                       std::to_string(painted.labels.width()) + " px do not fit views of " +
-                       std::to_string(layer.height()) + "×" + std::to_string(layer.width()) +
-                       " px");
+    throw InvalidInput(fmt::format("scribbles of {}×{} px do not fit views of {}×{} px",
+                                   painted.labels.height(), painted.labels.width(), layer.height(),
+                                   layer.width()));
   }
 }
 
-/// Copies a view and notes its ids.
+/// Copies a view and collects its ids.
 void put_view(const ViewScribbles& painted, ScribbleLayer& layer, std::set<int>& ids) {
   require_fitting(painted, layer);
   std::uint8_t* out = layer.writable_view(painted.view).data;
   int last = 0;
   for (const std::int32_t id : painted.labels) {
     if (id < 0 || id > LabelSet::kMaxId) {
-      throw InvalidInput("the scribbles hold the label " + std::to_string(id) +
-                         ", but labels go from 1 to 255");
+      throw InvalidInput(
+          fmt::format("the scribbles hold the label {}, but labels range from 1 to 255", id));
     }
     *out++ = static_cast<std::uint8_t>(id);
     if (id != last && id != 0) ids.insert(last = id);
@@ -77,7 +78,7 @@ AnnotationDocument document_from(const Scribbles& scribbles, GridShape grid, int
   for (const LabelInfo& label : scribbles.labels) labels.insert(label);
   for (const int id : ids) {
     if (labels.contains(id)) continue;
-    labels.insert({id, "label " + std::to_string(id), label_color(id)});
+    labels.insert({id, fmt::format("label {}", id), label_color(id)});
   }
   return {std::move(labels), std::move(layer), history_bytes};
 }

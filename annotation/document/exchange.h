@@ -11,16 +11,16 @@ namespace episcope {
 /// Painted views alone, without names and colours.
 [[nodiscard]] Scribbles scribbles_of(const ScribbleLayer& layer);
 
-/// A document that begins with scribbles read from a file. Painted ids without a name get a default
-/// one and a colour of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or
-/// views that do not fit.
+/// A document with the scribbles of a file. Painted ids without a name get a default name and a
+/// colour of the palette. Throws InvalidInput for ids above 255 or below 0, bad names, or views
+/// that do not fit.
 [[nodiscard]] AnnotationDocument document_from(
     const Scribbles& scribbles, GridShape grid, int height, int width,
     std::size_t history_bytes = AnnotationDocument::kHistoryBytes);
 
-/// Adds scribbles of a file to a document, as one edit: labels that it does not have under the same
-/// ids, pixels where nothing is painted. Returns whether that changed anything. Throws InvalidInput
-/// as `document_from`, changing nothing.
+/// Merges the scribbles of a file into a document, as one edit: adds labels whose ids it does not
+/// have, and pixels where nothing is painted. Returns whether that changed anything. Throws
+/// InvalidInput as `document_from`, changing nothing.
 bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles);
 
 }  // namespace episcope

@@ -3,20 +3,22 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace episcope {
 namespace {
 
 void require_name(const std::string& name) {
-  if (name.empty()) throw InvalidInput("a label needs a name; type one");
+  if (name.empty()) throw InvalidInput("a label needs a name; enter one");
   if (name.size() > LabelSet::kMaxNameBytes) {
-    throw InvalidInput("the name of a label takes " + std::to_string(name.size()) +
-                       " bytes, but at most " + std::to_string(LabelSet::kMaxNameBytes) +
-                       " are kept; choose a shorter one");
+    throw InvalidInput(fmt::format(
+        "the name of a label has {} bytes, but at most {} are allowed; choose a shorter one",
+        name.size(), LabelSet::kMaxNameBytes));
   }
   if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < ' '; })) {
-    throw InvalidInput("the name of a label holds a line break or control character; remove it");
+    throw InvalidInput("the name of a label contains a line break or control character; remove it");
   }
 }
 
@@ -30,8 +32,7 @@ const LabelInfo* LabelSet::find(int id) const {
 LabelInfo& LabelSet::known(int id) {
   const LabelInfo* label = find(id);
   if (!label) {
-    throw InvalidInput("there is no label " + std::to_string(id) + " among the " +
-                       std::to_string(labels_.size()) + " labels");
+    throw InvalidInput(fmt::format("there is no label {} among the {} labels", id, labels_.size()));
   }
   return labels_[static_cast<std::size_t>(label - labels_.data())];
 }
@@ -48,18 +49,18 @@ int LabelSet::add(const std::string& name, std::optional<Rgb> color) {
     while (std::ranges::any_of(labels_, is_used)) ++place;
     color = label_color(place);
   }
-  insert({id, name.empty() ? "label " + std::to_string(id) : name, *color});
+  insert({id, name.empty() ? fmt::format("label {}", id) : name, *color});
   return id;
 }
 
 void LabelSet::insert(LabelInfo label) {
   require_name(label.name);
   if (label.id < 1 || label.id > kMaxId) {
-    throw InvalidInput("the label id " + std::to_string(label.id) +
-                       " is out of range; ids go from 1 to 255");
+    throw InvalidInput(
+        fmt::format("the label id {} is out of range; ids range from 1 to 255", label.id));
   }
   if (contains(label.id)) {
-    throw InvalidInput("the label id " + std::to_string(label.id) + " is taken already");
+    throw InvalidInput(fmt::format("the label id {} is already in use", label.id));
   }
   reserve_ids(label.id);
   labels_.insert(std::ranges::lower_bound(labels_, label.id, {}, &LabelInfo::id), std::move(label));

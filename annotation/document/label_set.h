@@ -10,7 +10,7 @@
 namespace episcope {
 
 /// The labels that a user paints with: ids 1 … 255, which never change. Removing a label does not
-/// renumber the others, and its id is not given to another label before all others are used up.
+/// renumber the others, and its id is reused only after all others have been used.
 class LabelSet {
  public:
   static constexpr int kMaxId = 255;
@@ -25,9 +25,9 @@ class LabelSet {
   /// The highest id that was ever given.
   [[nodiscard]] int last_id() const { return last_id_; }
 
-  /// Adds a label under the next id and returns that. An empty name becomes "label <id>"; without a
-  /// colour it gets the first of the palette from its id on that no other label has. Throws
-  /// InvalidInput for a bad name or if all ids are taken.
+  /// Adds a label under the next id and returns the id. An empty name becomes "label <id>"; without
+  /// a colour it gets the first palette colour, starting from its id, that no other label has.
+  /// Throws InvalidInput for a bad name or if all ids are taken.
   int add(const std::string& name = {}, std::optional<Rgb> color = std::nullopt);
   /// Adds a label of a known id, as read from a file. Throws InvalidInput for an id out of range or
   /// taken, or a bad name.
@@ -36,7 +36,7 @@ class LabelSet {
   void rename(int id, const std::string& name);
   void recolor(int id, Rgb color);
   void remove(int id);
-  /// Marks ids up to `id` as given before.
+  /// Marks ids up to `id` as used.
   void reserve_ids(int id);
 
   friend bool operator==(const LabelSet&, const LabelSet&) = default;

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -22,7 +24,7 @@ PendingEdit::~PendingEdit() {
 PendingEdit::Touched& PendingEdit::touch(ViewIndex view) {
   const auto [place, is_new] = touched_.try_emplace({view.v, view.u});
   if (is_new) {
-    // The whole view, once: a copy of a megabyte takes less than finding out what will be painted.
+    // The whole view, once: copying a megabyte is cheaper than determining what will be painted.
     const ImageView<const std::uint8_t> now = document_->scribbles_.view(view);
     place->second.before =
         Image<std::uint8_t>(document_->scribbles_.height(), document_->scribbles_.width());
@@ -33,7 +35,7 @@ PendingEdit::Touched& PendingEdit::touch(ViewIndex view) {
 
 PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const Ink& ink) {
   if (ink.label != 0 && !document_->labels_.contains(ink.label)) {
-    throw InvalidInput("there is no label " + std::to_string(ink.label) + " to paint with");
+    throw InvalidInput(fmt::format("there is no label {} to paint with", ink.label));
   }
   PixelRect dirty;
   if (region.empty() && document_->scribbles_.view(view).empty()) return dirty;
@@ -46,7 +48,7 @@ PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const In
     } else {
       std::fill(row + span.x0, row + span.x1, ink.label);
     }
-    dirty.include(span);
+    dirty.include(span.rect());
   }
   touched.rect.include(dirty);
   return dirty;

@@ -9,18 +9,18 @@
 
 namespace episcope {
 
-/// What is put on pixels, and on which.
+/// The label to paint, and which pixels it may change.
 struct Ink {
   std::uint8_t label = 0;  ///< 0 erases.
-  /// Only pixels that bear this label are changed; none = all.
+  /// Only pixels that have this label are changed; none = all.
   std::optional<std::uint8_t> only_over;
 };
 
-/// An edit under way: what it paints is in the document at once, and is taken back if the edit is
-/// destroyed before `commit`. At most one for each document, which must outlive it.
+/// An edit in progress: what it paints appears in the document at once, and is reverted if the edit
+/// is destroyed before `commit`. At most one per document, which must outlive it.
 class PendingEdit {
  public:
-  /// Throws InvalidInput if another edit is under way.
+  /// Throws InvalidInput if another edit is in progress.
   PendingEdit(AnnotationDocument& document, EditKind kind);
   ~PendingEdit();
   PendingEdit(const PendingEdit&) = delete;
@@ -31,8 +31,8 @@ class PendingEdit {
   PixelRect paint(ViewIndex view, const PixelRegion& region, const Ink& ink);
   void set_labels(LabelSet labels);
 
-  /// Ends the edit and keeps it in the history as one step. One that changed nothing vanishes.
-  /// Returns whether there was a change.
+  /// Ends the edit and adds it to the history as one step, unless it changed nothing. Returns
+  /// whether there was a change.
   bool commit();
 
  private:

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace episcope {
@@ -24,17 +26,18 @@ ScribbleLayer::ScribbleLayer(GridShape grid, int height, int width)
     : grid_(grid), height_(height), width_(width) {
   if (grid.v < 1 || grid.u < 1 || std::min(height, width) < 1 ||
       std::max(height, width) > kMaxExtent) {
-    throw InvalidInput("scribbles cannot be painted on " + std::to_string(grid.v) + "×" +
-                       std::to_string(grid.u) + " views of " + std::to_string(height) + "×" +
-                       std::to_string(width) + " px; views may have 1 to 65535 rows and columns");
+    throw InvalidInput(
+        fmt::format("scribbles cannot be painted on {}×{} views of {}×{} px; views may have 1 to "
+                    "65535 rows and columns",
+                    grid.v, grid.u, height, width));
   }
   views_.resize(static_cast<std::size_t>(grid.count()));
 }
 
 std::size_t ScribbleLayer::place(ViewIndex view) const {
   if (!grid_.contains(view)) {
-    throw InvalidInput("the view (" + view_text(view) + ") lies outside the grid of " +
-                       std::to_string(grid_.v) + "×" + std::to_string(grid_.u) + " views");
+    throw InvalidInput(fmt::format("the view ({}) lies outside the grid of {}×{} views",
+                                   view_text(view), grid_.v, grid_.u));
   }
   return static_cast<std::size_t>(view.v) * grid_.u + view.u;
 }

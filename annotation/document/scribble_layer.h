@@ -9,11 +9,11 @@
 
 namespace episcope {
 
-/// An image of label ids for every view, `[v][u][y][x]`, 0 = none. A view takes memory only once it
-/// is painted.
+/// An image of label ids for every view, `[v][u][y][x]`, 0 = none. Memory for a view is allocated
+/// once it is painted.
 class ScribbleLayer {
  public:
-  /// Views are at most so high and wide, so that places in them fit 16 bits.
+  /// Maximum height and width of views, so that coordinates fit 16 bits.
   static constexpr int kMaxExtent = 65535;
 
   ScribbleLayer() = default;
@@ -33,7 +33,7 @@ class ScribbleLayer {
   [[nodiscard]] int label_at(ViewIndex view, PixelIndex pixel) const;
   /// Views with at least one label, in the order of the grid.
   [[nodiscard]] std::vector<ViewIndex> painted_views() const;
-  /// Bytes that the views take.
+  /// Memory used by the views, in bytes.
   [[nodiscard]] std::size_t byte_size() const;
 
   /// Whether the same pixels have the same labels.

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <string>
@@ -107,8 +109,8 @@ PixelSpan covered_span(const Capsule& capsule, int y, int width) {
 
 void require_sound(const BrushPath& path) {
   if (!(path.diameter_px >= kMinBrush_px && path.diameter_px <= kMaxBrush_px)) {
-    throw InvalidInput("a brush of " + std::to_string(path.diameter_px) +
-                       " px is not possible; choose 1 to 100 px");
+    throw InvalidInput(
+        fmt::format("a brush of {:f} px is not possible; choose 1 to 100 px", path.diameter_px));
   }
   for (const double value : {path.from.y, path.from.x, path.to.y, path.to.x}) {
     if (!std::isfinite(value)) throw InvalidInput("a point of a stroke is not a number");

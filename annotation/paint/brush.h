@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-/// A place on a view in px: the pixel (y, x) covers [x, x + 1) × [y, y + 1), its middle lies at
+/// A position on a view in px: the pixel (y, x) covers [x, x + 1) × [y, y + 1), its centre lies at
 /// (x + 0.5, y + 0.5).
 struct StrokePoint {
   double y = 0;
@@ -22,10 +22,11 @@ struct BrushPath {
 constexpr double kMinBrush_px = 1;
 constexpr double kMaxBrush_px = 100;
 
-/// Pixels of a `height` × `width` view that the brush covers: those whose middle lies within half
-/// the diameter of the segment from → to, and the two that hold its ends, so that the thinnest
-/// brush leaves a mark wherever it is set down. One span a row at most, from top to bottom. Costs
-/// O(rows). Throws InvalidInput for a diameter outside [1, 100] or a point that is not finite.
+/// Pixels of a `height` × `width` view that the brush covers: those whose centre lies within half
+/// the diameter of the segment from → to, and the two that contain its ends, so that even the
+/// thinnest brush leaves a mark wherever it is set down. At most one span per row, from top to
+/// bottom. Complexity O(rows). Throws InvalidInput for a diameter outside [1, 100] or a point that
+/// is not finite.
 [[nodiscard]] PixelRegion covered_pixels(const BrushPath& path, int height, int width);
 
 }  // namespace episcope

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstring>
 #include <string>
@@ -12,8 +14,8 @@
 namespace episcope {
 namespace {
 
-/// Which pixels a fill may pass, 1 or 0; rows are found out when the fill comes to them. Pixels
-/// that were taken pass no more.
+/// Which pixels a fill may pass, 1 or 0; rows are computed when the fill reaches them. Pixels
+/// already taken no longer pass.
 template <class OpenRow>
 class OpenPixels {
  public:
@@ -121,8 +123,8 @@ class GradientRow {
 PixelRegion region_within_edges(ImageView<const float> picture, PixelIndex seed,
                                 double max_gradient) {
   if (!(max_gradient >= 0)) {
-    throw InvalidInput("a fill cannot stop at a gradient of " + std::to_string(max_gradient) +
-                       "; choose 0 or more");
+    throw InvalidInput(
+        fmt::format("a fill cannot stop at a gradient of {:f}; choose 0 or more", max_gradient));
   }
   const auto limit = static_cast<float>(max_gradient * max_gradient);
   GradientRow gradient(picture);

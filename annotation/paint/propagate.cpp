@@ -5,6 +5,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,12 +21,11 @@ int distance2(ViewIndex a, ViewIndex b) {
 
 void require_fitting(const ScribbleLayer& painted, const DisparityField& field) {
   const ViewStack<float>& maps = field.disparity;
-  if (field.empty()) throw InvalidInput("scribbles cannot be carried without a disparity");
+  if (field.empty()) throw InvalidInput("scribbles cannot be propagated without disparity");
   if (maps.height() != painted.height() || maps.width() != painted.width()) {
-    throw InvalidInput("scribbles on views of " + std::to_string(painted.height()) + "×" +
-                       std::to_string(painted.width()) +
-                       " px cannot be carried by a disparity of " + std::to_string(maps.height()) +
-                       "×" + std::to_string(maps.width()) + " px");
+    throw InvalidInput(fmt::format(
+        "scribbles on views of {}×{} px cannot be propagated with a disparity of {}×{} px",
+        painted.height(), painted.width(), maps.height(), maps.width()));
   }
   const ViewIndex last{maps.first().v + maps.grid().v - 1, maps.first().u + maps.grid().u - 1};
   if (!painted.grid().contains(maps.first()) || !painted.grid().contains(last)) {

@@ -3,14 +3,16 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace episcope {
 
 Ink ink_of(const PaintStyle& style) {
   if (style.label < 1 || style.label > LabelSet::kMaxId) {
-    throw InvalidInput("the label id " + std::to_string(style.label) +
-                       " is out of range; ids go from 1 to 255");
+    throw InvalidInput(
+        fmt::format("the label id {} is out of range; ids range from 1 to 255", style.label));
   }
   const auto label = static_cast<std::uint8_t>(style.label);
   Ink ink;

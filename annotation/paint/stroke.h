@@ -8,29 +8,32 @@ namespace episcope {
 
 enum class PaintTool { Brush, Eraser };
 
-/// What the user has chosen to paint with.
+/// The current painting settings.
 struct PaintStyle {
   PaintTool tool = PaintTool::Brush;
   int label = 1;  ///< The current label.
   double diameter_px = 10;
-  /// A brush then paints over bare pixels only, an eraser erases the current label only.
+  /// If set, a brush paints over unpainted pixels only, and an eraser erases the current label
+  /// only.
   bool protects_others = false;
 };
 
-/// Ink and menu entry of a style; also for fills. Throws InvalidInput for a label outside 1 … 255.
+/// Ink and menu entry for these settings; also for fills. Throws InvalidInput for a label outside 1
+/// … 255.
 [[nodiscard]] Ink ink_of(const PaintStyle& style);
 [[nodiscard]] EditKind kind_of(const PaintStyle& style);
 
-/// A stroke of a round brush on one view, under way: what is painted shows in the document at once,
-/// and is taken back if the stroke is destroyed before `commit`.
+/// A stroke of a round brush on one view, in progress: what is painted appears in the document at
+/// once, and is reverted if the stroke is destroyed before `commit`.
 class Stroke {
  public:
   /// Throws InvalidInput for an unknown label, a diameter outside [1, 100], a view outside the
-  /// grid, or if another edit is under way.
+  /// grid, or if another edit is in progress.
   Stroke(AnnotationDocument& document, ViewIndex view, const PaintStyle& style);
 
   /// Sets the brush down, then draws it to each further point. Returns the rectangle to redraw,
-  /// empty if the brush passed outside the view. Throws InvalidInput for a point that is no number.
+  /// empty if the brush passed outside the view. Throws InvalidInput for a point that is not
+  /// finite.
   PixelRect extend(StrokePoint point);
   /// As PendingEdit.
   bool commit() { return edit_.commit(); }

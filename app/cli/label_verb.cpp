@@ -11,7 +11,7 @@
 #include "app/session/labels/segmentation_file.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 
 #include <iomanip>
 #include <iostream>

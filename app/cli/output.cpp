@@ -6,7 +6,7 @@
 #include "app/session/scene/load_scene.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/hdf5/hdf5_file.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 #include "engine/io/maps/result_file.h"
 
 #include <unistd.h>
@@ -36,7 +36,7 @@ bool is_sound_result(const fs::path& path) {
 
 bool is_sound_labeling(const fs::path& path) {
   try {
-    return io::is_labeling_file(path);
+    return io::is_segmentation_file(path);
   } catch (const IoError&) {
     return false;  // damaged
   }

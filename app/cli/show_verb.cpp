@@ -8,7 +8,7 @@
 #include "app/session/run/read_result.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/grid/image_file.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 
 #include <iostream>
 #include <limits>
@@ -61,7 +61,7 @@ void parse_texts(const Texts& texts, Request& request) {
 }
 
 ShownKind kind_of(const Request& request) {
-  if (io::is_labeling_file(request.map.subject)) return ShownKind::Labels;
+  if (io::is_segmentation_file(request.map.subject)) return ShownKind::Labels;
   const bool is_result = !request.map.truth.empty() || names_result(request.map.subject);
   return is_result ? ShownKind::Result : ShownKind::LightField;
 }
@@ -73,7 +73,7 @@ Quantity quantity_of(const std::string& what, ShownKind kind, bool is_behind) {
     return kind == ShownKind::Result ? Quantity::Disparity : Quantity::View;
   }
   const Quantity named = render::find_quantity(what)->quantity;
-  if (named == Quantity::Labels && kind == ShownKind::Labels) return Quantity::Segmentation;
+  if (named == Quantity::TrueLabels && kind == ShownKind::Labels) return Quantity::Segmentation;
   const bool is_true =
       named == Quantity::Truth || (named == Quantity::Disparity && kind == ShownKind::LightField);
   if (is_true) return is_behind ? Quantity::TruthBackground : Quantity::Truth;
@@ -118,7 +118,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
       quantity_of(is_epi ? "view" : request.what, request.map.kind, texts.layer == "background");
   if (request.what.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
-    request.what = render::info_of(is_of_labels ? Quantity::Labels : request.map.quantity).id;
+    request.what = render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
   }
   return true;
 }

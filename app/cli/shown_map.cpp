@@ -9,7 +9,7 @@
 #include "app/session/run/result_source.h"
 #include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 
 #include <memory>
 #include <utility>
@@ -139,7 +139,7 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   loaded.source.labeling = segmentation.labeling;
   loaded.source.label_infos = segmentation.labels;
   if (shown.quantity != Quantity::WrongLabels && !shown.needs_light_field) return;
-  const std::string named = io::LabelingFile(shown.subject).source();
+  const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));
   if (input.empty()) throw missing_source(shown, named);
   take_scene(shown, load_input(input, read, job.progress().part(0, 0.9)), loaded);

@@ -7,14 +7,14 @@
 
 namespace episcope {
 
-/// Base of every failure that a user is told about. The message is a sentence with the numbers in
+/// Base class of every failure reported to the user. The message is a sentence with the numbers in
 /// it: what failed, with which values, what to do.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A stated precondition is broken: a shape, a range, a name, a parameter.
+/// A documented precondition is violated: a shape, a range, a name, a parameter.
 class InvalidInput : public Error {
  public:
   using Error::Error;
@@ -32,7 +32,7 @@ class IoError : public Error {
   std::filesystem::path path_;
 };
 
-/// Something this build or this machine does not have: CUDA, a method, a format.
+/// Something that this build or machine does not provide: CUDA, a method, a format.
 class Unavailable : public Error {
  public:
   using Error::Error;

@@ -41,7 +41,7 @@ LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
                                    const DisparityField& disparity, const Progress& progress) {
   if (labels.empty() || disparity.empty() || labels.height() != disparity.disparity.height() ||
       labels.width() != disparity.disparity.width()) {
-    throw InvalidInput("consistency needs labels and disparities of one size");
+    throw InvalidInput("consistency needs labels and disparities of the same size");
   }
   std::vector<Pair> pairs;
   const GridShape grid = labels.grid();

@@ -8,32 +8,30 @@
 
 namespace episcope {
 
-/// How far labels of many views agree along the rays.
+/// How consistent the labels of many views are along the rays.
 struct LabelConsistency {
   std::int64_t agreeing = 0;  ///< Pairs of a ray and another view where the labels are equal,
   std::int64_t visible = 0;   ///< of those where the ray's point is seen there,
   std::int64_t pairs = 0;     ///< of all.
 
-  /// What is asked for: the share of rays whose label is the one found where the ray goes, in [0,
-  /// 1].
+  /// The measure itself: the fraction of visible pairs with equal labels, in [0, 1].
   [[nodiscard]] double share() const {
     return visible > 0 ? static_cast<double>(agreeing) / static_cast<double>(visible) : 1;
   }
-  /// How many could be checked, in [0, 1].
+  /// The fraction of pairs that could be checked, in [0, 1].
   [[nodiscard]] double checked() const {
     return pairs > 0 ? static_cast<double>(visible) / static_cast<double>(pairs) : 0;
   }
 };
 
 /// Follows each ray of each view to every other view in the same row or column of the camera grid,
-/// along the lines of the horizontal and vertical EPI that it lies in, to the nearest pixel there,
-/// and compares the labels. Whether the point is seen there is told by the disparities
+/// along the lines of the horizontal and vertical EPI through it, to the nearest pixel there, and
+/// compares the labels. Disparities tell whether the point is visible there
 /// (engine/labeling/rays/ray_targets.h). The nearest pixel of a ray that arrives at the boundary of
-/// an object may belong to the neighbour: exact labels of a rendered scene reach 99 to 99.9 %.
-/// Views without disparity are left out. Takes (v + u − 2)·rays steps, 0.4 s for 9×9×512×512.
+/// an object may belong to the neighbour, so exact labels do not quite reach 1. Views without
+/// disparity are left out. Takes (v + u − 2)·rays steps.
 /// Source: the measure of [WSG13], the fraction of rays whose label equals the label at the warped
-/// position, occlusion-checked. Throws InvalidInput unless sizes agree,
-/// Cancelled.
+/// position, occlusion-checked. Throws InvalidInput unless sizes agree, Cancelled.
 [[nodiscard]] LabelConsistency label_consistency(const ViewStack<std::int32_t>& labels,
                                                  const DisparityField& disparity,
                                                  const Progress& progress);

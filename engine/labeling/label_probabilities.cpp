@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -12,8 +14,8 @@ namespace episcope {
 Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
                                          const std::vector<std::int32_t>& ids) {
   if (static_cast<int>(ids.size()) != probabilities.layers) {
-    throw InvalidInput("there are " + std::to_string(ids.size()) + " label ids for " +
-                       std::to_string(probabilities.layers) + " layers of probabilities");
+    throw InvalidInput(fmt::format("there are {} label ids for {} layers of probabilities",
+                                   ids.size(), probabilities.layers));
   }
   Image<std::int32_t> labels(probabilities.height, probabilities.width);
   std::vector<std::uint8_t> best(probabilities.width);

@@ -43,8 +43,8 @@ struct LabelProbabilities {
 [[nodiscard]] Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
                                                        const std::vector<std::int32_t>& ids);
 
-/// How undecided the labels of each pixel are, `[y][x]` in [0, 1]: the entropy of its probabilities
-/// over that of equal ones. 0 with a single label.
+/// Uncertainty of the labels of each pixel, `[y][x]` in [0, 1]: the entropy of its probabilities
+/// relative to that of equal ones. 0 with a single label.
 [[nodiscard]] Image<float> label_uncertainty(VolumeView<const std::uint8_t> probabilities);
 
 }  // namespace episcope

@@ -8,7 +8,9 @@
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/forest.h"
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +22,11 @@ namespace {
 
 using Features = std::shared_ptr<const PixelFeatures>;
 
-// Up to so many views asked for at once are worked on one after the other, each by all threads, and
-// their features kept: somebody is painting. More are worked on side by side.
+// Up to this many requested views are processed one after the other, each by all threads, and their
+// features are kept: the user is painting. More are processed in parallel.
 constexpr std::size_t kKeptViews = 9;
 
-// Of a single view: half the iterations for the same share of right pixels.
+// For a single view: half the iterations give the same accuracy.
 constexpr double kLiveGap = 5e-3;
 
 // A jump of one px in disparity beside one of Lab/100.
@@ -43,9 +45,9 @@ void require_views(ViewRectangle views, GridShape grid) {
   if (views.grid.v > 0 && views.grid.u > 0 && grid.contains(views.first) && grid.contains(last)) {
     return;
   }
-  throw InvalidInput("views " + view_text(views.first) + " to " + view_text(last) +
-                     " were asked for, but there are " + std::to_string(grid.v) + "×" +
-                     std::to_string(grid.u) + "; they count from 0");
+  throw InvalidInput(
+      fmt::format("views {} to {} were requested, but there are {}×{} views, counted from 0",
+                  view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
 /// Rows of probabilities `[x][label]` into bytes `[label][x]`.
@@ -68,7 +70,7 @@ Image<float> plane(VolumeView<const float> features, int layer, float unit) {
   return image;
 }
 
-/// What a way along a surface must not cross: edges of colour, and of disparity if that is known.
+/// What a path along a surface must not cross: edges of colour, and of disparity if that is known.
 std::vector<Image<float>> guide_planes(VolumeView<const float> features, PixelFeatureSet set) {
   std::vector<Image<float>> planes;
   for (int c = 0; c < 3; ++c) planes.push_back(plane(features, kWiderSurfaceLayer + c, 1));
@@ -109,7 +111,7 @@ bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
 }
 
-/// A forest and what it was grown from.
+/// A forest and what it was trained on.
 struct Grown {
   ForestSamples samples;
   ForestOptions options;
@@ -178,7 +180,7 @@ struct Labeler::State {
     return samples;
   }
 
-  /// The forest of these strokes, grown only if it would be another one than the last.
+  /// The forest for these strokes, trained only if it would differ from the last one.
   [[nodiscard]] const Forest& train(const Scribbles& scribbles,
                                     const std::vector<std::int32_t>& ids,
                                     const LabelerParameters& parameters, const Progress& progress) {
@@ -239,7 +241,7 @@ struct Labeler::State {
     const Regularizer regularizer = learned.parameters.regularizer;
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
-    // Where rays of other views agree, two of them tell nearly as much as all.
+    // Where rays of other views agree, two of them are nearly as informative as all.
     if (own.grid.count() == 1 && info_of(regularizer).joins_views) views = neighbours(own.first);
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
@@ -284,23 +286,25 @@ Names<FeatureSet> names_of(FeatureSet) {
 
 Schema<LabelerParameters> labeler_schema() {
   return Schema<LabelerParameters>()
-      .choice(
-          "features", &LabelerParameters::features,
-          {"Features", "What the forest sees of a pixel: the image alone, or disparity as well"})
+      .choice("features", &LabelerParameters::features,
+              {"Features",
+               "Features that the forest uses: of the image alone, or of disparity as well"})
       .choice("regularizer", &LabelerParameters::regularizer,
               {"Smoothing",
                "How labels are made consistent: not at all, view by view, or along "
                "the rays of all views"})
       .real("smoothness", &LabelerParameters::smoothness,
-            {"Smoothness", "Cost of a pixel of boundary between labels, in units of -log p", ""},
+            {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
             {0, 200})
       .real("nearness", &LabelerParameters::nearness,
-            {"Nearness", "How much it counts to be near strokes of a label, along surfaces"},
+            {"Nearness",
+             "Influence of the distance to the strokes of a label, measured along surfaces"},
             {0, 5})
-      .integer("trees", &LabelerParameters::trees, {"Trees", "Trees of the forest"}, {4, 500})
-      .integer("depth", &LabelerParameters::depth, {"Depth", "Depth of a tree at most"}, {1, 25})
+      .integer("trees", &LabelerParameters::trees, {"Trees", "Number of trees of the forest"},
+               {4, 500})
+      .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
       .integer("seed", &LabelerParameters::seed,
-               {"Seed", "Of the random numbers that the forest is grown with"}, {0, 1000000});
+               {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
 }
 
 bool uses_disparity(const LabelerParameters& parameters) {
@@ -329,8 +333,8 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   const Regularizer regularizer = parameters.regularizer;
   if (info_of(regularizer).joins_views && !state_->disparity) {
     throw InvalidInput(
-        "labels that agree along rays need the disparity of all views; estimate it first, or "
-        "smooth each view alone");
+        "labels that are consistent along rays need the disparity of all views; estimate it first, "
+        "or smooth each view alone");
   }
   state_->use({uses_disparity(parameters)});
 
@@ -340,7 +344,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
   state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
-  // Nobody paints: what follows needs the memory.
+  // Not painting: the following steps need the memory.
   if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
   if (regularizer == Regularizer::None || on_draft) {
     const RayLabelingInput input{&labeling.probabilities, nullptr, nullptr, nullptr};

@@ -17,8 +17,8 @@
 
 namespace episcope {
 
-/// What the forest sees of a pixel: the three sets of the archive. Which disparity is meant is up
-/// to the caller; here all but Image take it as a feature.
+/// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
+/// to the caller; here all but Image use it as a feature.
 enum class FeatureSet { Image, ImageEstimate, ImageTruth };
 [[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
 
@@ -35,7 +35,7 @@ struct LabelerParameters {
 
 [[nodiscard]] Schema<LabelerParameters> labeler_schema();
 
-/// Whether a set of features has disparity among them.
+/// Whether the set of features includes disparity.
 [[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 
 /// A segmentation of a rectangle of views.
@@ -49,30 +49,26 @@ struct Labeling {
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
 /// strokes: what does not depend on them, edges and the features of views, is kept between calls
-/// (features of as many views as fit `kKeptBytes`, until many views are asked for at once), and so
-/// is the forest while it would be the same.
+/// (features of as many views as fit into `kKeptBytes`, until many views are requested at once),
+/// and so is the forest while it would be the same.
 ///
 /// A random forest (engine/labeling/forest/forest.h) is trained on the painted pixels of all
-/// painted views, as many of each label; it votes on the pixels of the views asked for by their
-/// features (engine/labeling/features/pixel_features.h). Its votes are weighed by how near the
-/// strokes of each label are along surfaces, exp(−nearness·excess)
-/// (engine/labeling/features/stroke_distance.h), for a forest knows nothing of what lies between a
-/// pixel and a stroke. Labels are then made consistent (engine/labeling/rays/regularizer.h). A
-/// single view asked for with `rayspace` goes by its rays in the views beside it, for somebody
-/// waits; all views by those of all. Centre view, percentage right by two | eight neighbours: still
-/// life 95.83 | 95.83, demo 93.1 | 93.6; processor time with features 3.5 | 6.6 s.
+/// painted views, equally many per label, and votes on the pixels of the requested views by their
+/// features (engine/labeling/features/pixel_features.h). Since a forest knows nothing about what
+/// lies between a pixel and a stroke, its votes are weighted by how near the strokes of each label
+/// are along surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h). Labels
+/// are then made consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single view
+/// uses its rays in neighbouring views only, for a quick answer; all views use those of all.
 ///
-/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighing by distance is ours: centre
-/// view, not regularised, percentage right without | with it, mean of three seeds: still life,
-/// image 91.6 | 91.8, estimate 93.2 | 93.5, truth 93.8 | 95.4; demo 88.8 | 89.6, 87.0 | 90.6,
-/// 87.4 | 91.4.
+/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighting by distance is an addition;
+/// what it gains is in tests/accuracy/tuning.md.
 ///
-/// For one thread at a time; what is asked for while it works must wait or cancel it.
+/// Not thread-safe: a call must wait for the one in progress, or cancel it.
 class Labeler {
  public:
   static constexpr std::size_t kKeptBytes = std::size_t{400} << 20;
-  /// Stages as `progress` tells them: the first is left out if the forest is still that of the last
-  /// call.
+  /// Stages as reported by `progress`; the first is skipped if the forest can be reused from the
+  /// last call.
   static constexpr const char* kTrainingStep = "training the forest";
   static constexpr const char* kLabelingStep = "labeling pixels";
 

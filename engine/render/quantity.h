@@ -9,28 +9,28 @@
 
 namespace episcope::render {
 
-/// What a picture of a view may show.
+/// The quantities that a picture of a view can show.
 enum class Quantity : std::uint8_t {
   View,
   Disparity,
-  Background,  ///< Disparity of what is seen through a surface.
+  Background,  ///< Disparity of the background seen through a surface.
   Layers,      ///< Number of surfaces, 1 or 2.
   Confidence,
   Truth,
-  TruthBackground,  ///< Of transparent scenes: what is seen through the surface.
+  TruthBackground,  ///< Of transparent scenes: the background seen through the surface.
   SignedError,
   AbsoluteError,
   BadPixels,
-  Labels,
+  TrueLabels,
   Segmentation,  ///< Labels learnt from scribbles.
   Probability,   ///< Of one label.
   Uncertainty,   ///< How undecided labels are.
   Edges,         ///< How probable an edge is.
-  WrongLabels,   ///< Where the segmentation is not the truth.
+  WrongLabels,   ///< Where the segmentation differs from the ground truth.
   Difference     ///< Of two disparities.
 };
 
-/// What a quantity is known of.
+/// What a quantity is a property of.
 enum class Subject : std::uint8_t {
   LightField,
   Truth,
@@ -41,7 +41,7 @@ enum class Subject : std::uint8_t {
   Segmentation  ///< Labels learnt from scribbles; Edges need none.
 };
 
-/// Where the ends of the colours come from.
+/// What determines the ends of the colour range.
 enum class RangeRule : std::uint8_t {
   None,       ///< There are no numbers: samples or labels in colours of their own.
   Disparity,  ///< The disparities of the scene, whatever the method.

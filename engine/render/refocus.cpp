@@ -2,6 +2,8 @@
 #include "engine/core/error.h"
 #include "engine/render/shade.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -141,9 +143,8 @@ Image<float> mean_of_views(const ViewStack<T>& stack, const std::vector<Shift>& 
 
 Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px) {
   if (!light_field.grid().contains(view)) {
-    throw InvalidInput("view " + std::to_string(view.v) + "," + std::to_string(view.u) +
-                       " lies outside the grid of " + std::to_string(light_field.grid().v) + "×" +
-                       std::to_string(light_field.grid().u) + " views");
+    throw InvalidInput(fmt::format("view {},{} lies outside the grid of {}×{} views", view.v,
+                                   view.u, light_field.grid().v, light_field.grid().u));
   }
   const auto shifts = shifts_of(light_field.grid(), view, focus_px);
   return std::visit([&](const auto& stack) { return mean_of_views(stack, shifts); },

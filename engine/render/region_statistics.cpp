@@ -13,12 +13,12 @@ constexpr double kAxisQuantile = 0.002;
 constexpr double kRobustQuantile = 0.01;
 constexpr double kAxisRoom = 0.03;  // part of the axis that stays free on each side
 
-PixelRegion clipped(const PixelRegion& region, int height, int width) {
+PixelRect clipped(const PixelRect& region, int height, int width) {
   return {std::max(0, region.y0), std::max(0, region.x0), std::min(height, region.y1),
           std::min(width, region.x1)};
 }
 
-std::vector<float> values_in(const MeasuredMap& map, const PixelRegion& region,
+std::vector<float> values_in(const MeasuredMap& map, const PixelRect& region,
                              std::size_t& invalid) {
   std::vector<float> values;
   const int rows = std::max(0, region.y1 - region.y0);
@@ -55,7 +55,7 @@ Histogram histogram_of(const std::vector<float>& values, Interval axis, int bars
 
 }  // namespace
 
-RegionStatistics region_statistics(const MeasuredMap& map, PixelRegion region, Interval shown,
+RegionStatistics region_statistics(const MeasuredMap& map, PixelRect region, Interval shown,
                                    int bars) {
   region = clipped(region, map.values.height, map.values.width);
   RegionStatistics statistics;

@@ -3,20 +3,12 @@
 
 #include "engine/core/array/image.h"
 #include "engine/core/array/indices.h"
+#include "engine/core/array/pixel_rect.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace episcope::render {
-
-/// Rows [y0, y1) and columns [x0, x1).
-struct PixelRegion {
-  int y0 = 0;
-  int x0 = 0;
-  int y1 = 0;
-  int x1 = 0;
-  friend bool operator==(const PixelRegion&, const PixelRegion&) = default;
-};
 
 /// A map whose numbers are summed up.
 struct MeasuredMap {
@@ -47,7 +39,7 @@ struct RegionStatistics {
 /// quantiles of 0.2 % and 99.8 % and `shown`, with a little room on both sides, so that a few
 /// outliers do not squeeze all else into one bar. Linear in the region; 590 000 pixels take about
 /// 15 ms, so it is for a worker.
-[[nodiscard]] RegionStatistics region_statistics(const MeasuredMap& map, PixelRegion region,
+[[nodiscard]] RegionStatistics region_statistics(const MeasuredMap& map, PixelRect region,
                                                  Interval shown, int bars);
 
 }  // namespace episcope::render

@@ -8,6 +8,8 @@
 #include "engine/scenes/recipes/recipes.h"
 #include "engine/scenes/recipes/scribble.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <utility>
 
@@ -42,8 +44,9 @@ void check(const RenderOptions& options) {
   require_range("noise", options.noise_sigma, 0, 255);
   require_range("disparity scale", options.disparity_scale, 1e-3, 100);
   if (options.channels != 1 && options.channels != 3) {
-    throw InvalidInput("cannot render a built-in scene with " + std::to_string(options.channels) +
-                       " channels: it must be 1 (grey) or 3 (RGB)");
+    throw InvalidInput(fmt::format(
+        "cannot render a built-in scene with {} channels: it must be 1 (grey) or 3 (RGB)",
+        options.channels));
   }
 }
 
@@ -56,11 +59,12 @@ std::span<const Recipe> recipes() {
       {"fronto", "one plane of disparity 0.37 px", fronto_scene, false},
       {"slant", "a plane slanted from -1 px to 1 px", slant_scene, false},
       {"edge", "two planes, -0.5 px and 0.8 px, with a straight vertical edge", edge_scene, false},
-      {"bars", "thin bars of 1, 2, 3 and 5 px before a plane", bars_scene, false},
+      {"bars", "thin bars of 1, 2, 3 and 5 px in front of a plane", bars_scene, false},
       {"objects", "a sphere and a box on the ground, with labels and scribbles", objects_scene,
        true},
-      {"transparent", "a half-transparent pane before a plane, with two truths", transparent_scene,
-       false},
+      {"transparent",
+       "a semi-transparent pane in front of a plane, with ground truth for both layers",
+       transparent_scene, false},
   };
   return all;
 }
@@ -92,7 +96,7 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   }
   scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
   scene.convention.format = "built-in scene";
-  scene.convention.order = "house order";
+  scene.convention.order = "canonical order";
   scene.convention.order_check = "exact by construction";
   scene.convention.units = "exact disparity by eq. 1";
   return scene;

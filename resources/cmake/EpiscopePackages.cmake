@@ -4,6 +4,7 @@ find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs ml)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
 
 if(EPISCOPE_GUI)
   find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)

@@ -7,7 +7,7 @@
 
 namespace episcope::test {
 
-/// Edits of all kinds, the same for the same seed.
+/// Edits of all kinds, reproducible by seed.
 class RandomEdits {
  public:
   explicit RandomEdits(unsigned seed, bool saves = true) : random_(seed), saves_(saves) {}

@@ -75,7 +75,7 @@ double opencv_seconds(const ForestSamples& samples, const Volume<float>& image, 
   const auto forest = cv::ml::RTrees::create();
   const ForestOptions options;
   forest->setMaxDepth(options.depth);
-  forest->setMinSampleCount(options.least_samples);
+  forest->setMinSampleCount(options.min_samples);
   forest->setTermCriteria({cv::TermCriteria::MAX_ITER, trees, 0});
   forest->train(features, cv::ml::ROW_SAMPLE, labels);
   cv::Mat pixels(kRows * kWidth, kFeatures, CV_32F);

@@ -6,9 +6,9 @@
 // labeling have programs of their own (tv_l2_bench, lifted_labeling_bench).
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/matching_cost.h"
-#include "engine/disparity/epi/data_trust.h"
 #include "engine/disparity/epi/epi_l.h"
-#include "engine/disparity/epi/visibility.h"
+#include "engine/disparity/epi/line_check.h"
+#include "engine/disparity/epi/replace_occluded.h"
 #include "engine/disparity/layers/double_orientation.h"
 #include "engine/disparity/stereo/guided_filter.h"
 #include "engine/disparity/tensor/structure_tensor.h"
@@ -197,7 +197,7 @@ void line_residual(benchmark::State& state) {
   estimate.field.disparity = local_estimate().field.disparity.clone();
   estimate.confidence = local_estimate().confidence.clone();
   const Work work{rays() * (3 + 4 + 4 + 4 + 16 * 4 + 8), rays() * 16 * (3 * 5 + 12)};
-  measure(state, work, [&] { lower_confidence(scene(), estimate, Progress()); });
+  measure(state, work, [&] { reduce_confidence(scene(), estimate, Progress()); });
 }
 EPISCOPE_BENCH_KERNEL(line_residual);
 
@@ -208,7 +208,7 @@ void visibility(benchmark::State& state) {
   ViewStack<float> disparity = local_estimate().field.disparity.clone();
   const Work work{rays() * (8 + 4 + 16 * 8), rays() * 16 * 6};
   measure(state, work, [&] {
-    benchmark::DoNotOptimize(give_way(disparity, local_estimate().confidence, Progress()));
+    benchmark::DoNotOptimize(replace_occluded(disparity, local_estimate().confidence, Progress()));
   });
 }
 EPISCOPE_BENCH_KERNEL(visibility);

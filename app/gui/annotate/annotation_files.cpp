@@ -9,8 +9,9 @@
 #include "app/gui/frame/messages.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "engine/io/labels/scribble_pictures.h"
+#include "engine/io/labels/true_labels.h"
 #include "widgets/annotate/annotation_bar.h"
 
 #include <QDir>

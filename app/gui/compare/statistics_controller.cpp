@@ -20,11 +20,9 @@
 namespace episcope {
 namespace {
 
-using render::PixelRegion;
-
 constexpr int kBars = 96;
 
-std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRegion& region) {
+std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRect& region) {
   if (!evaluation) return std::nullopt;
   const Image<std::uint8_t>& judged = evaluation->judged;
   Image<std::uint8_t> mask(judged.height(), judged.width());
@@ -86,7 +84,7 @@ void StatisticsController::begin() {
     return;
   }
   const QRect seen = bench_.stage.pixelsInSight();
-  const PixelRegion region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
+  const PixelRect region{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
   const bool is_same = map_ == overlay_.map() && region == region_ && statistics_;
   map_ = overlay_.map();
   region_ = region;
@@ -102,7 +100,7 @@ void StatisticsController::begin() {
   count(region);
 }
 
-void StatisticsController::count(const PixelRegion& region) {
+void StatisticsController::count(const PixelRect& region) {
   Session& session = bench_.session;
   const bool is_result = session.find_estimate(choice_.estimate) &&
                          choice_.quantity != render::Quantity::Difference &&

@@ -39,7 +39,7 @@ class StatisticsController : public QObject {
   };
   void addCommands();
   void begin();
-  void count(const render::PixelRegion& region);
+  void count(const PixelRect& region);
   void show(const Counted& counted);
   void applyAutomaticRange();
 
@@ -48,7 +48,7 @@ class StatisticsController : public QObject {
   StatisticsPanel* panel_;
   LatestJob job_;
   QuantityMapPtr map_;  // what the statistics are of
-  render::PixelRegion region_;
+  PixelRect region_;
   MapChoice choice_;
   std::optional<render::RegionStatistics> statistics_;
   bool wants_range_ = false;

@@ -148,7 +148,7 @@ MapChoice Overlay::choiceB() const {
   const EstimateEntry* compared = session_.compared();
   if (is_of_results(quantity_) && compared) return {quantity_, compared->id, 0};
   const Quantity other = quantity_ == Quantity::Disparity      ? Quantity::Truth
-                         : quantity_ == Quantity::Segmentation ? Quantity::Labels
+                         : quantity_ == Quantity::Segmentation ? Quantity::TrueLabels
                                                                : Quantity::View;
   return {isAvailable(other) ? other : Quantity::View, 0, 0};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/document/journal_records.h"
 
-#include "annotation/document/edit_code.h"
+#include "annotation/document/edit_encoding.h"
 #include "engine/core/error.h"
 
 #include <bit>

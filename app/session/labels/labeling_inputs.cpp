@@ -45,21 +45,20 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
     require_all_views(estimate->field, lf, name);
     return {field_of(std::move(estimate)), name};
   }
-  const FinishedEstimate finished =
-      run_estimator(lf, {kLabelingEstimator, {}, {}}, progress);
+  const FinishedEstimate finished = run_estimator(lf, {kLabelingEstimator, {}, {}}, progress);
   return {field_of(finished.estimate), kLabelingEstimator};
 }
 
 bool has_edge_weights(const Scene& scene) {
-  return scene.find_companion(CompanionKind::EdgeWeights) != nullptr;
+  return scene.find_companion(CompanionKind::EdgeProbabilities) != nullptr;
 }
 
 std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
                                                           const Progress& progress) {
-  const Companion* file = scene.find_companion(CompanionKind::EdgeWeights);
+  const Companion* file = scene.find_companion(CompanionKind::EdgeProbabilities);
   if (!file) return nullptr;
   return std::make_shared<const ViewStack<float>>(
-      io::read_edge_weights(file->path, scene, progress));
+      io::read_edge_probabilities(file->path, scene, progress));
 }
 
 }  // namespace episcope

@@ -4,7 +4,7 @@
 #include "app/session/run/result_source.h"
 #include "engine/core/error.h"
 #include "engine/io/archive/companions.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ std::vector<LabelInfo> infos_of(const std::vector<std::int32_t>& ids,
   return infos;
 }
 
-ViewIndex checked_view(const io::LabelingFile& file, const std::string& name,
+ViewIndex checked_view(const io::SegmentationFile& file, const std::string& name,
                        std::optional<ViewIndex> asked) {
   const ViewIndex middle = file.grid().center();
   const ViewIndex view =
@@ -57,7 +57,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
                         const std::string& input, StoredProbabilities probabilities,
                         const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
-  io::StoredLabeling stored;
+  io::StoredSegmentation stored;
   stored.labels = labeling.labels.clone();
   stored.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
   stored.parameters = segmentation.parameters;
@@ -67,11 +67,11 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   if (probabilities == StoredProbabilities::All) {
     of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
   }
-  io::write_labeling(path, stored, of_view, progress);
+  io::write_segmentation(path, stored, of_view, progress);
 }
 
 Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked) {
-  const io::LabelingFile file(path);
+  const io::SegmentationFile file(path);
   const ViewIndex view = checked_view(file, path.string(), asked);
   auto labeling = std::make_shared<Labeling>();
   const Image<std::int32_t> labels = file.labels(view);
@@ -89,7 +89,7 @@ Segmentation read_segmentation(const std::filesystem::path& path, std::optional<
 
 LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {
   const auto found = std::ranges::find_if(scene.companions, [](const Companion& companion) {
-    return companion.kind != CompanionKind::EdgeWeights;
+    return companion.kind != CompanionKind::EdgeProbabilities;
   });
   const std::string& name = scene.light_field->info().name;
   if (found == scene.companions.end()) {

@@ -14,7 +14,7 @@ namespace episcope {
 /// Whether probabilities are written with the labels: four bytes for each ray and label.
 enum class StoredProbabilities { None, All };
 
-/// Writes labels with their names and colours, and probabilities, as `io::write_labeling` does.
+/// Writes labels with their names and colours, and probabilities, as `io::write_segmentation` does.
 /// `input` is what opens the light field. Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
                         const std::string& input, StoredProbabilities probabilities,

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/archive/archive_reader.h"
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 
 #include <unistd.h>
 

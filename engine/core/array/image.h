@@ -9,8 +9,8 @@
 
 namespace episcope {
 
-/// A borrowed image: `[y][x][c]` with channels interleaved and contiguous rows `row_stride`
-/// elements apart. Owns nothing; valid as long as what it was borrowed from.
+/// A borrowed image: `[y][x][c]` with interleaved channels and contiguous rows `row_stride`
+/// elements apart. Owns nothing; valid as long as the memory it was borrowed from.
 template <class T>
 struct ImageView {
   T* data = nullptr;

@@ -25,7 +25,7 @@ void* allocate_large(std::size_t bytes) {
   void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  // A hint: where it is refused the memory is as good as any other.
+  // Only a hint: where it is refused, the memory is ordinary.
   if (huge) madvise(memory, rounded, MADV_HUGEPAGE);
 #endif
   return memory;

@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-/// The least multiple of `unit` that is not below `value` ≥ 0.
+/// The smallest multiple of `unit` that is not below `value` ≥ 0.
 template <std::integral T>
 [[nodiscard]] constexpr T round_up(T value, std::type_identity_t<T> unit) {
   return (value + unit - 1) / unit * unit;

@@ -17,7 +17,7 @@ template <class T>
 class ViewStack {
  public:
   ViewStack() = default;
-  /// Elements are left uninitialised: whoever makes a stack writes every element.
+  /// Elements are uninitialised: the caller must write every one.
   ViewStack(GridShape grid, int height, int width, int channels = 1, ViewIndex first = {})
       : grid_(grid),
         first_(first),

@@ -10,9 +10,9 @@
 namespace episcope {
 
 /// A borrowed volume: one value for each pixel and layer (a label, a disparity), `[y][layer][x]`,
-/// contiguous. All layers of an image row lie together, because what is done to a pixel concerns
-/// all its layers: a row of 768 pixels with 64 layers is 192 KiB, and neighbouring layers are one
-/// image row apart, not one image. Valid as long as what it was borrowed from.
+/// contiguous. All layers of an image row are stored together, because operations on a pixel
+/// involve all its layers: a row of 768 pixels with 64 layers is 192 KiB, and neighbouring layers
+/// are one image row apart, not one image. Valid as long as the memory it was borrowed from.
 template <class T>
 struct VolumeView {
   T* data = nullptr;
@@ -42,7 +42,7 @@ template <class T>
 class Volume {
  public:
   Volume() = default;
-  /// Elements are left uninitialised: whoever makes a volume writes every element.
+  /// Elements are uninitialised: the caller must write every one.
   Volume(int height, int layers, int width)
       : height_(height), layers_(layers), width_(width), samples_(make_large<T>(view().size())) {}
 

@@ -7,15 +7,15 @@
 
 namespace episcope {
 
-/// The 64-bit FNV-1a hash (Fowler, Noll and Vo) of all that is added, in that order. It tells
-/// things apart; it does not protect against forgery. Values are stored in files: the same input
+/// The 64-bit FNV-1a hash (Fowler, Noll and Vo) of everything added, in that order. It identifies
+/// data; it does not protect against forgery. Hash values are stored in files: the same input
 /// always gives the same value.
 class Fnv1a {
  public:
   void add(std::string_view bytes) {
     for (const char byte : bytes) add_word(static_cast<unsigned char>(byte));
   }
-  /// Takes a whole word in one step: eight times as fast, and another value than its bytes give.
+  /// Adds a whole word in one step: faster, but the value differs from that of its bytes.
   void add_word(std::uint64_t word) { value_ = (value_ ^ word) * 1099511628211ULL; }
 
   [[nodiscard]] std::uint64_t value() const { return value_; }

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 
@@ -13,8 +15,8 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 void require_positive(double value, const char* name) {
   if (!(value > 0) || !std::isfinite(value)) {
-    throw InvalidInput(std::string("the camera parameter ") + name + " is " +
-                       std::to_string(value) + ", but must be positive");
+    throw InvalidInput(
+        fmt::format("the camera parameter {} is {:f}, but must be positive", name, value));
   }
 }
 

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +14,11 @@ namespace {
 void require_inside(const LightField& light_field, ViewIndex view, int line, int count,
                     const char* axis) {
   if (!light_field.grid().contains(view) || line < 0 || line >= count) {
-    throw InvalidInput("there is no EPI through view (" + std::to_string(view.v) + ", " +
-                       std::to_string(view.u) + ") at " + axis + " " + std::to_string(line) +
-                       ": the light field has " + std::to_string(light_field.grid().v) + "×" +
-                       std::to_string(light_field.grid().u) + " views of " +
-                       std::to_string(light_field.width()) + "×" +
-                       std::to_string(light_field.height()) + " pixels");
+    throw InvalidInput(
+        fmt::format("there is no EPI through view ({}, {}) at {} {}: the light field has {}×{} "
+                    "views of {}×{} pixels",
+                    view.v, view.u, axis, line, light_field.grid().v, light_field.grid().u,
+                    light_field.width(), light_field.height()));
   }
 }
 

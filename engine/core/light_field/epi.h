@@ -7,8 +7,8 @@ namespace episcope {
 
 /// Epipolar plane images (EPIs), gathered as float in [0, 1], with rows along the view axis.
 ///
-/// On an EPI a scene point is a line whose slope dx/du (dy/dv) is −d in house axes: views to the
-/// right see it further left. `focus_px` shears the EPI about the row of `view`: a point of
+/// On an EPI a scene point is a line whose slope dx/du (dy/dv) is −d in canonical axes: views to
+/// the right see it further left. `focus_px` shears the EPI about the row of `view`: a point of
 /// disparity `focus_px` stands upright. Sheared samples are interpolated linearly, clamped at the
 /// border. Source: Bolles, Baker, Marimont 1987 [BBM87]; refocusing by Ng 2006 [Ng06].
 

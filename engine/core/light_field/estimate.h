@@ -13,14 +13,14 @@
 
 namespace episcope {
 
-/// A second and further results of a method that estimates layers (transparent scenes).
+/// Further results of a method that estimates two layers (transparent scenes).
 struct LayeredDisparity {
   DisparityField foreground;
   DisparityField background;
   ViewStack<std::uint8_t> layers;  ///< 1 or 2 surfaces per pixel; 0 = unknown.
 };
 
-/// Where an estimate comes from: all it takes to repeat it.
+/// Where an estimate comes from: everything needed to reproduce it.
 struct Provenance {
   std::string method;             ///< Id as in `episcope-cli methods`; of foreign results any name.
   ParameterSet parameters;        ///< Every parameter of the method with the value used.

@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// What is known to be true of a light field; kept apart from it, so that no estimator can peek.
-/// Every part may be missing. Parts cover all views or the centre view only.
+/// The ground truth of a light field, kept apart from it so that no estimator can see it. Every
+/// part may be missing. Parts cover all views or the centre view only.
 struct GroundTruth {
   DisparityField field;  ///< Disparity; `valid` holds the archive's GT_DEPTH_MASK and finiteness.
   DisparityField foreground;       ///< Of transparent scenes: the surface,

@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/core/hash/fnv1a.h"
 
+#include <fmt/format.h>
+
 #include <cstring>
 #include <limits>
 
@@ -40,8 +42,8 @@ LightField::LightField(Samples samples, LightFieldInfo info)
       },
       samples_);
   if (channels_ != 1 && channels_ != 3) {
-    throw InvalidInput("the light field has " + std::to_string(channels_) +
-                       " channels, but 1 (grey) or 3 (RGB) are expected");
+    throw InvalidInput(fmt::format(
+        "the light field has {} channels, but 1 (grey) or 3 (RGB) are expected", channels_));
   }
 }
 

@@ -64,8 +64,8 @@ class LightField {
   /// A whole view as float, as `read_row`.
   [[nodiscard]] Image<float> view_as_float(ViewIndex index) const;
 
-  /// 64-bit FNV-1a hash of shape and samples, to tell light fields apart in result files. Linear in
-  /// the size (about 0.1 s for 150 MB).
+  /// 64-bit FNV-1a hash of shape and samples, which identifies the light field in result files.
+  /// Linear in the size.
   [[nodiscard]] std::uint64_t sample_hash() const;
 
   [[nodiscard]] const Samples& samples() const { return samples_; }

@@ -8,7 +8,8 @@
 
 namespace episcope {
 
-/// How a light field was read: with its source, what it takes to read the same samples again.
+/// How a light field was read: together with its source, all that is needed to read the same
+/// samples again.
 struct Reading {
   std::string reader;  ///< Id of the reader (engine/io/open); empty = unknown.
   ParameterSet

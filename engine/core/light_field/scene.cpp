@@ -5,7 +5,7 @@ namespace episcope {
 
 const char* companion_name(CompanionKind kind) {
   switch (kind) {
-    case CompanionKind::EdgeWeights:
+    case CompanionKind::EdgeProbabilities:
       return "edge weights";
     case CompanionKind::ImageProbabilities:
       return "probabilities (image)";

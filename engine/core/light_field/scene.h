@@ -13,7 +13,7 @@
 
 namespace episcope {
 
-/// Which conversion to the house convention a reader made, and how it was checked.
+/// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
   std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
   std::string order;        ///< "as stored", "u reversed (file h axis)", …
@@ -42,7 +42,7 @@ struct Scribbles {
 
 /// What large files beside a light field of the archive hold.
 enum class CompanionKind {
-  EdgeWeights,
+  EdgeProbabilities,
   ImageProbabilities,     ///< Of labels, from features of the image,
   DepthProbabilities,     ///< from these and the estimated depth,
   TrueDepthProbabilities  ///< from these and the true depth.
@@ -52,7 +52,7 @@ enum class CompanionKind {
 
 /// A large companion file found beside the light field, read when it is needed.
 struct Companion {
-  CompanionKind kind = CompanionKind::EdgeWeights;
+  CompanionKind kind = CompanionKind::EdgeProbabilities;
   std::filesystem::path path;
   std::string shape;  ///< As stored, e.g. "9×9×512×512".
 };

@@ -103,7 +103,7 @@ void require_in_sight(const LightField& light_field, double focus_px) {
   const double reach = std::abs(focus_px) * std::max(grid.v, grid.u) / 2;
   if (reach < std::min(light_field.height(), light_field.width())) return;  // false for NaN
   std::ostringstream text;
-  text << "a focus plane of " << focus_px << " px moves the outer views out of the picture of "
+  text << "a focus plane of " << focus_px << " px moves the outer views out of the image of "
        << light_field.width() << "×" << light_field.height() << " px; choose a smaller one";
   throw InvalidInput(text.str());
 }

@@ -7,15 +7,15 @@
 
 namespace episcope {
 
-/// Bakes a focus plane in: what had disparity `focus_px` has 0 afterwards, whatever had d has
-/// d − focus_px. View (u, v) is fetched at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the
-/// centre view stays as it is, the others move. Source: refocusing by shear, Ng 2006 [Ng06].
+/// Bakes in a focus plane: disparity d becomes d − focus_px, so that points of disparity `focus_px`
+/// get 0. View (u, v) is sampled at (x − focus_px·(u − u_c), y − focus_px·(v − v_c)): the centre
+/// view stays as it is, the others move. Source: refocusing by shear, Ng 2006 [Ng06].
 ///
 /// A shear by whole pixels is exact. Between pixels, samples are interpolated cubically (Keys 1981,
-/// a = −1/2), so that a baked plane is no blunter than it must be; what leaves the image repeats
-/// its border. All linear in the size.
+/// a = −1/2) to keep the views sharp; outside the image its border is repeated. All functions are
+/// linear in the size.
 
-/// Throws InvalidInput if `focus_px` is not finite or moves a view out of the picture; Cancelled.
+/// Throws InvalidInput if `focus_px` is not finite or moves a view out of the image; Cancelled.
 [[nodiscard]] LightFieldPtr sheared(const LightField& light_field, double focus_px,
                                     const Progress& progress);
 
@@ -30,19 +30,20 @@ namespace episcope {
 /// `ConventionReport::focus_px` adds up. Throws as above.
 [[nodiscard]] Scene sheared(const Scene& scene, double focus_px, const Progress& progress);
 
-/// Labels by whole pixels, with the views; 0 where the view was out of sight. Throws Cancelled.
+/// Labels, moved with the views by whole pixels; 0 outside the original view. Throws Cancelled.
 [[nodiscard]] ViewStack<std::int32_t> sheared(const ViewStack<std::int32_t>& labels,
                                               ViewIndex center, double focus_px,
                                               const Progress& progress);
 [[nodiscard]] Scribbles sheared(const Scribbles& scribbles, ViewIndex center, double focus_px);
 
-/// The way back: what was painted on sheared views, on the views as they were. Where these reach
-/// out of the sheared ones, what was painted `before` stays, unless its label is gone.
+/// The inverse for scribbles: transfers what was painted on sheared views to the original views.
+/// Where these extend beyond the sheared ones, the scribbles `before` are kept, unless their label
+/// is gone.
 [[nodiscard]] Scribbles unsheared(const Scribbles& scribbles, const Scribbles& before,
                                   ViewIndex center, double focus_px);
 
-/// An estimate of the light field before, as one of the light field after, whose centre is `center`
-/// and whose hash is `sample_hash`. A searched range follows; a note tells. Throws Cancelled.
+/// Transfers an estimate to a sheared light field, whose centre is `center` and whose hash is
+/// `sample_hash`. The searched range is shifted; a note says so. Throws Cancelled.
 struct ShearedInto {
   ViewIndex center;
   std::uint64_t sample_hash = 0;

@@ -7,8 +7,8 @@
 
 namespace episcope {
 
-/// While it lives, this thread takes denormal floats for zero, where the processor can. Iterations
-/// decay to denormals in flat areas, which would slow every operation on them down.
+/// While it exists, this thread treats denormal floats as zero, where the processor supports it.
+/// Iterations decay to denormals in flat areas, which would slow down every operation on them.
 class FlushDenormals {
 #if defined(__x86_64__)
  public:

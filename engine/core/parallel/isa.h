@@ -10,8 +10,8 @@ namespace episcope {
 /// wider instruction set and call it everywhere.
 enum class Isa { Baseline, Avx2, Avx512 };
 
-/// The widest set that this machine runs. The environment variable EPISCOPE_ISA (baseline, avx2,
-/// avx512) narrows it, for tests and comparisons.
+/// The widest set that this machine supports. The environment variable EPISCOPE_ISA (baseline,
+/// avx2, avx512) restricts it, for tests and comparisons.
 [[nodiscard]] Isa best_isa();
 
 [[nodiscard]] const char* isa_name(Isa isa);

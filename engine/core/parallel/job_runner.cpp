@@ -28,7 +28,7 @@ struct Job {
   JobRunner::OnProgress on_progress;
 };
 
-// The newest state of a job on its way to the owner: one closure at most is under way.
+// The newest state of a job on its way to the owner: at most one closure is in transit.
 struct Mailbox {
   std::mutex mutex;
   ProgressState state;

@@ -23,13 +23,13 @@ struct Outcome {
 
 using JobId = std::uint64_t;
 
-/// Runs jobs one after the other on a thread of its own. A job is given values and gives back a
-/// value; what it tells comes through `post`, which brings a closure to the owner's thread (window:
-/// a queued call; command line: inline; tests: a deque).
+/// Runs jobs one after the other on a thread of its own. A job receives values and returns a value;
+/// all its messages go through `post`, which hands a closure to the owner's thread (window: a
+/// queued call; command line: inline; tests: a deque).
 ///
-/// All members are for the owner's thread. The destructor requests a stop of every job and waits
-/// for the running one, which ends within 200 ms if it checks its progress as it must; outcomes of
-/// those jobs are not delivered.
+/// All members must be called on the owner's thread. The destructor requests a stop of every job
+/// and waits for the running one, which ends within 200 ms if it checks its progress as required;
+/// outcomes of those jobs are not delivered.
 class JobRunner {
  public:
   using Post = std::function<void(std::function<void()>)>;
@@ -62,7 +62,7 @@ class JobRunner {
   /// ignored.
   void cancel(JobId id);
   /// Asks a running job for the best result so far (Progress::finish_requested); a queued one ends
-  /// after its first look. Unknown ids are ignored.
+  /// at its first check. Unknown ids are ignored.
   void finish(JobId id);
   void cancel_all();
 

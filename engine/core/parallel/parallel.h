@@ -42,10 +42,10 @@ void parallel_for_workers(int count, const Progress& progress, const MakeWorker&
 }
 
 /// Runs `body(i)` for every i in [0, count) on up to `progress.threads()` threads, and reports the
-/// finished share to `progress`. The only way the engine goes parallel. Items are handed out one at
-/// a time, so an item should take between 10 µs and 100 ms: a stop request is honoured between
-/// items. Results must not depend on which thread runs an item.
-/// Throws Cancelled on a stop request, or the first exception of `body`, after all threads ended.
+/// finished fraction to `progress`. The only form of parallelism in the engine. Items are handed
+/// out one at a time, so an item should take between 10 µs and 100 ms: a stop request is honoured
+/// between items. Results must not depend on which thread runs an item. Throws Cancelled on a stop
+/// request, or the first exception of `body`, after all threads ended.
 template <class Body>
 requires std::invocable<const Body&, int>
 void parallel_for(int count, const Progress& progress, const Body& body) {

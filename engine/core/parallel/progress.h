@@ -8,15 +8,15 @@
 
 namespace episcope {
 
-/// What a running computation tells about itself.
+/// What a running computation reports about itself.
 struct ProgressState {
   double fraction = 0;  ///< Of the whole job, in [0, 1], never falling.
   std::string step;     ///< The stage, e.g. "vertical EPIs".
 };
 
-/// The thread between a computation and whoever waits for it: the computation reports how far it is
-/// and learns whether it should stop; the waiting side also says how many threads may be used.
-/// Cheap to copy; copies speak for the same job. All members may be called from any thread.
+/// The link between a computation and whoever waits for it: the computation reports its progress
+/// and learns whether it should stop; the waiting side also limits the number of threads. Cheap to
+/// copy; copies refer to the same job. All members may be called from any thread.
 class Progress {
  public:
   using Listener = std::function<void(const ProgressState&)>;
@@ -28,15 +28,15 @@ class Progress {
   /// As before; a stop of `finish` asks an iterative method for what it has (`finish_requested`).
   Progress(std::stop_token stop, std::stop_token finish, Listener listener, int threads = 0);
 
-  /// Tells that `fraction` in [0, 1] of this part is done. Throttled to 1/1000 of the job.
+  /// Reports that `fraction` in [0, 1] of this part is done. Throttled to 1/1000 of the job.
   void report(double fraction) const;
   /// Names the stage that begins now.
   void step(const std::string& text) const;
   /// Throws Cancelled if a stop was requested.
   void check() const;
   [[nodiscard]] bool stop_requested() const;
-  /// Whether somebody would rather have the best result so far than wait: an iterative method then
-  /// ends its iteration and goes on with what it has, as if it had converged.
+  /// Whether the best result so far is preferred to waiting: an iterative method then ends its
+  /// iteration and continues with what it has, as if it had converged.
   [[nodiscard]] bool finish_requested() const;
   [[nodiscard]] int threads() const;
 
@@ -44,8 +44,8 @@ class Progress {
   [[nodiscard]] Progress part(double begin, double end) const;
   /// This one, for a computation that may use at most `threads` threads; 0 = no fewer than before.
   [[nodiscard]] Progress limited_to(int threads) const;
-  /// This one, for a computation that should stay on the thread that calls it, because many of them
-  /// run side by side.
+  /// This one, for a computation that should stay on the calling thread because many of them run in
+  /// parallel.
   [[nodiscard]] Progress on_one_thread() const { return limited_to(1); }
   /// This one, with "<title>: " before the name of every stage.
   [[nodiscard]] Progress titled(const std::string& title) const;

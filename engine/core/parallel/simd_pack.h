@@ -28,7 +28,7 @@ struct IntegerOf<8> {
 template <class T>
 struct Pack;
 
-/// What `operation` makes of the registers of the packs, part by part.
+/// Applies `operation` to the registers of the packs, part by part.
 template <class Result, class Operation, class... Packs>
 inline Result by_parts(const Operation& operation, const Packs&... packs) {
   Result result;

@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-/// Measures wall-clock time from the moment it is made.
+/// Measures wall-clock time from its construction.
 class Stopwatch {
  public:
   [[nodiscard]] double seconds() const {

@@ -23,7 +23,7 @@ using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAu
 /// Values by key, in the order of the schema.
 using ParameterSet = std::vector<std::pair<std::string, ParameterValue>>;
 
-/// All that a form, a command line or a document needs to know of one parameter.
+/// Everything that a form, a command line or a document needs to know about one parameter.
 struct ParameterDescription {
   std::string key;    ///< As on the command line: `--key VALUE`.
   std::string label;  ///< As in the form.
@@ -51,7 +51,7 @@ struct ParameterDescription {
 void check_parameter(const ParameterDescription& description, const ParameterValue& value);
 
 /// The name in `names` nearest to `name` by edit distance, for "did you mean"; empty if none is
-/// near.
+/// close.
 [[nodiscard]] std::string nearest_name(const std::string& name,
                                        const std::vector<std::string>& names);
 

@@ -13,10 +13,10 @@
 
 namespace episcope {
 
-/// The one description of a parameter struct `P`: keys, labels, help, units, domains; defaults are
-/// those of a value-initialised `P`. The form in the window, the options of the command line, JSON
-/// and validation all come from it. A parameter's range stands here and nowhere else. A struct may
-/// be put together from others that have schemas of their own (`part`). Keys must be distinct.
+/// The single description of a parameter struct `P`: keys, labels, help, units, domains; defaults
+/// are those of a value-initialised `P`. The form in the window, the options of the command line,
+/// JSON and validation are all derived from it. A struct may be composed of others that have
+/// schemas of their own (`part`). Keys must be distinct.
 template <class P>
 class Schema {
  public:
@@ -72,8 +72,8 @@ class Schema {
   }
 
   /// All parameters of a member that is a parameter struct of its own, as `schema` describes and
-  /// completes them. Defaults are those of the member in a value-initialised `P`; the values that a
-  /// search tries are left behind.
+  /// completes them. Defaults are those of the member in a value-initialised `P`; the values for a
+  /// search are dropped.
   template <class Part>
   Schema& part(Part P::*member, const Schema<Part>& schema) {
     for (std::size_t i = 0; i < schema.descriptions_.size(); ++i) {
@@ -92,16 +92,16 @@ class Schema {
     return *this;
   }
 
-  /// What else must hold of parameters: `complete` is called on all that `parse` returns, and may
-  /// change some by others. A part named before is completed before.
+  /// Further constraints: `complete` is called on everything that `parse` returns, and may change
+  /// some parameters depending on others. Parts declared earlier are completed earlier.
   Schema& completed_by(std::function<void(P&)> complete) {
     completions_.push_back(std::move(complete));
     return *this;
   }
 
-  /// Names the values that a search for the best parameters tries for a number or flag (0, 1), in
-  /// place of those named before; the grid of a method is the product over its parameters. Throws
-  /// InvalidInput for an unknown key or a value outside the domain.
+  /// Sets the values that a parameter search tries for a number or flag (0, 1), replacing any set
+  /// before; the grid of a method is the product over its parameters. Throws InvalidInput for an
+  /// unknown key or a value outside the domain.
   Schema& search(const char* key, std::initializer_list<double> values) {
     std::vector<ParameterValue> typed;
     for (const double value : values) typed.push_back(like_default(key, value));

@@ -7,8 +7,8 @@
 
 namespace episcope {
 
-/// The texts that `text_of`, a callable or a member, makes of the items, with `separator` between
-/// them: "a, b, c".
+/// Joins the texts that `text_of`, a callable or a member, returns for the items, with `separator`
+/// between them: "a, b, c".
 template <class Items, class TextOf = std::identity>
 [[nodiscard]] std::string joined(const Items& items, std::string_view separator,
                                  const TextOf& text_of = {}) {

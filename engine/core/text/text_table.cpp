@@ -3,8 +3,9 @@
 
 #include "engine/core/text/join.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace episcope {
 namespace {
@@ -43,19 +44,17 @@ std::string latex_cell(const std::string& text) {
 
 }  // namespace
 
-std::size_t letters_in(const std::string& text) {
+std::size_t character_count(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
     return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
   }));
 }
 
 std::string fixed_text(double value, int digits) {
-  char text[400];  // room for the largest double
-  std::snprintf(text, sizeof text, "%.*f", digits, value);
-  return text;
+  return fmt::format("{:.{}f}", value, digits);
 }
 
-TextTable turned(const TextTable& table) {
+TextTable transposed(const TextTable& table) {
   TextTable result;
   for (std::size_t column = 0; column < table.header.size(); ++column) {
     std::vector<std::string> cells{table.header[column]};
@@ -73,7 +72,7 @@ std::string table_to_text(const TextTable& table) {
   std::vector<std::size_t> widths(table.header.size());
   const auto widen = [&widths](const std::vector<std::string>& cells) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      widths[i] = std::max(widths[i], letters_in(cells[i]));
+      widths[i] = std::max(widths[i], character_count(cells[i]));
     }
   };
   widen(table.header);
@@ -82,7 +81,7 @@ std::string table_to_text(const TextTable& table) {
   const auto write = [&](const std::vector<std::string>& cells) {
     std::string line;
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::string space(widths[i] - letters_in(cells[i]), ' ');
+      const std::string space(widths[i] - character_count(cells[i]), ' ');
       line += (i > 0 ? "  " : "") + (i == 0 ? cells[i] + space : space + cells[i]);
     }
     line.erase(line.find_last_not_of(' ') + 1);
@@ -98,13 +97,13 @@ std::string table_to_narrow_text(const TextTable& table) {
     std::size_t widest = 0;
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = text.find('\n', begin);
-      widest = std::max(widest, letters_in(text.substr(begin, end - begin)));
+      widest = std::max(widest, character_count(text.substr(begin, end - begin)));
       begin = end + 1;
     }
     return widest;
   };
   const std::string upright = table_to_text(table);
-  const std::string lying = table_to_text(turned(table));
+  const std::string lying = table_to_text(transposed(table));
   return width(lying) <= width(upright) ? lying : upright;
 }
 

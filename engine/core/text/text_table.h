@@ -12,22 +12,22 @@ struct TextTable {
   std::vector<std::vector<std::string>> rows;
 };
 
-/// Columns aligned for people: the first to the left, the others to the right.
+/// Aligned columns: the first to the left, the others to the right.
 [[nodiscard]] std::string table_to_text(const TextTable& table);
-/// The same, turned where that makes shorter lines, as it does for a few rows of many columns.
+/// The same, transposed where that makes shorter lines, as for a few rows of many columns.
 [[nodiscard]] std::string table_to_narrow_text(const TextTable& table);
 /// RFC 4180, "." as the decimal point.
 [[nodiscard]] std::string table_to_csv(const TextTable& table);
 /// A `tabular` with rules of booktabs.
 [[nodiscard]] std::string table_to_latex(const TextTable& table);
 
-/// The same on its side: the first column becomes the header.
-[[nodiscard]] TextTable turned(const TextTable& table);
+/// Rows and columns swapped: the first column becomes the header.
+[[nodiscard]] TextTable transposed(const TextTable& table);
 
-/// A number with so many digits after the point: 0.25 with 3 is "0.250".
+/// A number with a fixed number of digits after the point: 0.25 with 3 is "0.250".
 [[nodiscard]] std::string fixed_text(double value, int digits);
 
-/// Letters of a UTF-8 text.
-[[nodiscard]] std::size_t letters_in(const std::string& text);
+/// Number of characters (code points) of a UTF-8 text.
+[[nodiscard]] std::size_t character_count(const std::string& text);
 
 }  // namespace episcope

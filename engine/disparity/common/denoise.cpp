@@ -2,18 +2,19 @@
 #include "engine/disparity/common/denoise.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 namespace episcope {
 namespace {
 
-// r^power. Whole powers are multiplied out, which is vectorised: std::pow took a tenth of the time.
+// r^power. Integer powers are multiplied out, which is vectorised; std::pow is slow.
 void raise_row(const float* r, double power, int width, float* raised) {
   const int whole = static_cast<int>(power);
   if (whole != power) {
@@ -28,7 +29,7 @@ void raise_row(const float* r, double power, int width, float* raised) {
 }
 
 // Denoises every view of `estimate` in place; returns the largest relative gap.
-double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float least_weight,
+double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float min_weight,
                      Estimate& estimate, const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
@@ -38,9 +39,9 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
     return [&, solver = TvL2Solver(lf.height(), lf.width()),
             weights = Image<float>(lf.height(), lf.width())](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
-      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, least_weight},
+      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, min_weight},
                         weights);
-      const Image<float> edges = edge_weights(lf, view, parameters.edge_strength);
+      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       gaps[i] = solver
                     .solve({map, weights, edges, parameters.lambda},
@@ -56,11 +57,10 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
 Schema<StopParameters> stop_schema() {
   return Schema<StopParameters>()
       .integer("max_iterations", &StopParameters::max_iterations,
-               {"Iterations", "At most so many of the denoising, at full resolution"},
-               {1, 2000, true})
+               {"Iterations", "Maximum denoising iterations, at full resolution"}, {1, 2000, true})
       .real("gap", &StopParameters::gap,
             {"Stop at gap",
-             "The denoising stops early once the duality gap is this share of the energy"},
+             "Denoising stops once the duality gap falls below this fraction of the energy"},
             {1e-6, 0.1, true});
 }
 
@@ -68,17 +68,18 @@ Schema<DenoiseParameters> denoise_schema() {
   using P = DenoiseParameters;
   return Schema<P>()
       .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation: larger is smoother"}, {0.001, 10, true})
+            {"Smoothing λ", "Weight of the total variation; larger values are smoother"},
+            {0.001, 10, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in confidence",
-             "Data is weighted by confidence^p; 0 trusts every pixel alike, as in the paper"},
+            {"Confidence exponent p",
+             "The data term is weighted by confidence^p; 0 weights all pixels equally, as in the "
+             "paper"},
             {0, 16})
-      .real(
-          "edge_strength", &P::edge_strength,
-          {"Edge strength β",
-           "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as "
-           "in the paper"},
-          {0, 100})
+      .real("edge_strength", &P::edge_strength,
+            {"Edge strength β",
+             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
+             "edges, as in the paper"},
+            {0, 100})
       .part(&P::stop, stop_schema());
 }
 
@@ -87,21 +88,18 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
   for (int y = 0; y < confidence.height; ++y) {
     float* w = weights.row(y);
     raise_row(confidence.row(y), weight.power, confidence.width, w);
-    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.least);
+    for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.minimum);
   }
 }
 
 std::string gap_note(double largest) {
-  char text[80];
-  std::snprintf(text, sizeof text, "largest relative duality gap %.1e", largest);
-  return text;
+  return fmt::format("largest relative duality gap {:.1e}", largest);
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float least_weight) {
+             const Progress& progress, float min_weight) {
   progress.step("denoising");
-  estimate.notes.push_back(
-      gap_note(denoise_views(lf, parameters, least_weight, estimate, progress)));
+  estimate.notes.push_back(gap_note(denoise_views(lf, parameters, min_weight, estimate, progress)));
 }
 
 }  // namespace episcope

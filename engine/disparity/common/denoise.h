@@ -26,11 +26,11 @@ struct DenoiseParameters {
 };
 [[nodiscard]] Schema<DenoiseParameters> denoise_schema();
 
-/// The weight of data w = max(r^power, least), from confidence r. No pixel is given up entirely:
-/// the solution stays unique.
+/// The data weight w = max(r^power, minimum) of a pixel of confidence r. No pixel gets weight 0,
+/// which keeps the solution unique.
 struct DataWeight {
   double power = 2;
-  float least = 0.01F;
+  float minimum = 0.01F;
 };
 void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Image<float>& weights);
 
@@ -38,14 +38,14 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
 /// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
 ///
-/// The paper has w = g = 1 ("just performs a TV-L2 denoising"); the weights are ours, measured
-/// against truth: they keep jumps at image edges and let doubtful pixels follow their neighbours.
-/// p = 0 and β = 0 give the plain method.
+/// The paper has w = g = 1 ("just performs a TV-L2 denoising"). The weights are an addition: they
+/// preserve jumps at image edges and let doubtful pixels follow their neighbours. p = 0 and β = 0
+/// give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float least_weight = DataWeight{}.least);
+             const Progress& progress, float min_weight = DataWeight{}.minimum);
 
-/// A note of the largest relative duality gap of some solutions.
+/// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);
 
 }  // namespace episcope

@@ -16,7 +16,7 @@ namespace {
 constexpr double kCell = 0.05;
 // Coherence above which an orientation counts: the first that enough pixels reach. Noise lowers
 // coherence long before it spoils orientations: at 10/255, those above 0.6 still end within 0.3 px
-// of the true range. To begin higher would leave out regions that are seen less well than others.
+// of the true range. A higher start would exclude regions that are seen less well than others.
 constexpr std::array<float, 3> kCoherent{0.8F, 0.7F, 0.6F};
 // Share of the pixels that are enough.
 constexpr double kEnough = 0.2;

@@ -13,10 +13,10 @@ namespace episcope {
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 
-/// Finds the range by a coarse, robust pass: the structure tensor on every few rows and columns of
-/// the centre view's EPIs, sheared in whole pixels over ±`limit`, and the span between the first
-/// and the last 0.2 px that hold a small share of the coherent pixels. Under noise fewer pixels are
-/// coherent, and less coherence has to do. A light field without texture gives [−1, 1].
+/// Estimates the range by a coarse, robust pass: the structure tensor on every few rows and columns
+/// of the centre view's EPIs, sheared in whole pixels over ±`limit`, and the span between the first
+/// and the last 0.2 px that hold a small fraction of the coherent pixels. Under noise fewer pixels
+/// are coherent, and the threshold is lowered. A light field without texture gives [−1, 1].
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field, const Progress& progress,
                                             double limit = 5);
 

@@ -10,7 +10,7 @@ namespace episcope {
 
 void require_device(Device device, const EstimatorInfo& info) {
   if (device == Device::Auto || std::ranges::count(info.devices, device) > 0) return;
-  throw Unavailable("this build computes on the CPU only; use --device cpu or auto");
+  throw Unavailable("this build runs on the CPU only; use --device cpu or auto");
 }
 
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,

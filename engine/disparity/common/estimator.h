@@ -14,7 +14,7 @@
 
 namespace episcope {
 
-/// What a list of methods shows.
+/// The description of a method in lists.
 struct EstimatorInfo {
   std::string id;          ///< As on the command line: "epi_l".
   std::string name;        ///< As in the paper: "EPI_L".
@@ -43,7 +43,7 @@ struct Estimator {
       run;
 };
 
-/// Joins a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`
+/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`
 /// returns an Estimate with maps, confidence, range and notes; the rest is filled in here.
 template <class P>
 Estimator make_estimator(

@@ -2,23 +2,22 @@
 #include "engine/disparity/common/global_labeling.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/lifted/lifted_labeling.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 namespace episcope {
 namespace {
 
 std::string labeling_note(const LiftedResult& result) {
-  char text[160];
-  std::snprintf(text, sizeof text, "global labeling: energy %.6g, gap %.1e after %d iterations%s",
-                result.energy, result.relative_gap(), result.iterations,
-                result.converged ? "" : " (ended early)");
-  return text;
+  return fmt::format("global labeling: energy {:.6g}, gap {:.1e} after {} iterations{}",
+                     result.energy, result.relative_gap(), result.iterations,
+                     result.converged ? "" : " (ended early)");
 }
 
 void settle(const GlobalLabelingData& data, const Image<int>& labels, ImageView<const float> g,
@@ -50,33 +49,33 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
   return Schema<P>()
       .real("smoothness", &P::smoothness,
             {"Smoothness λ",
-             "Weight of the total variation of the labeling, per px of disparity and in units of "
-             "the data: costs over their mean, estimates over their mean trust; it depends on "
-             "neither the number of labels nor the contrast"},
+             "Weight of the total variation per px of disparity, relative to the mean matching "
+             "cost (stereo) or confidence weight (EPI_G), so that it depends on neither the number "
+             "of labels nor the contrast"},
             {0, 100})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
-             "The variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, "
-             "as in the paper"},
+             "The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image "
+             "edges, as in the paper"},
             {0, 100})
       .real("settling", &P::settling,
             {"Settling",
-             "Smoothing (TV-L2) that places disparities between labels afterwards, in label "
-             "steps; 0 keeps the labels, as in the paper"},
+             "Strength of the TV-L2 smoothing that places disparities between labels afterwards, "
+             "in label steps; 0 keeps the labels, as in the paper"},
             {0, 20})
-      .integer("max_iterations", &P::max_iterations, {"Iterations", "At most so many"},
+      .integer("max_iterations", &P::max_iterations, {"Iterations", "Maximum iterations"},
                {1, 10000, true})
       .real("gap", &P::gap,
             {"Stop at gap",
-             "The labeling stops once its energy is proven to be within this share of the least "
-             "possible"},
+             "The labeling stops once its energy is proven to be within this fraction of the "
+             "minimum"},
             {1e-6, 0.1, true});
 }
 
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress) {
-  const Image<float> g = edge_weights(light_field, data.view, parameters.edge_strength);
+  const Image<float> g = smoothness_weights(light_field, data.view, parameters.edge_strength);
   const double step = data.labels[1] - data.labels[0];
   const LiftedProblem problem{data.cost, g, parameters.smoothness * data.scale * step};
   progress.step("labeling");

@@ -22,7 +22,7 @@ struct GlobalLabelingParameters {
 };
 [[nodiscard]] Schema<GlobalLabelingParameters> global_labeling_schema();
 
-/// What a pixel with a given label says of its disparity between labels.
+/// The disparity between labels of a pixel with a given label.
 struct Placement {
   float disparity = 0;  ///< Near the label's.
   float weight = 0;     ///< In [0, 1].
@@ -41,9 +41,9 @@ struct GlobalLabelingData {
 /// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view. Its
 /// energy, gap and iterations go to the notes of `estimate`, its map to `estimate.field`.
 ///
-/// Labels quantise (step²/12) and stair-case; so the map is settled between them: TV-L2 of the
-/// placements with their weights, g as before and λ = `settling` label steps, at most one step from
-/// the label. `settling` 0 keeps the labels.
+/// Labels quantise (variance step²/12) and cause staircases; therefore the map is refined between
+/// labels: TV-L2 of the placements with their weights, g as before and λ = `settling` label steps,
+/// at most one step from the label. `settling` 0 keeps the labels.
 /// Throws InvalidInput, Cancelled; ends early at `progress.finish_requested()`.
 /// Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,

@@ -7,10 +7,10 @@
 
 namespace episcope {
 
-/// The variance of noise around each pixel of a view, `[y][x]`, mean over the channels, samples in
-/// [0, 1]: the mean square of second differences a − 2b + c over windows of 5×5 px, over 6, in that
-/// of four directions where it is least, so that edges do not count. An upper bound: fine texture
-/// counts as noise. The outermost pixels take the differences of their neighbours.
+/// The noise variance around each pixel of a view, `[y][x]`, mean over the channels, samples in [0,
+/// 1]: the mean square of second differences a − 2b + c over windows of 5×5 px, divided by 6, in
+/// the direction of four in which it is smallest, so that edges do not count. An upper bound: fine
+/// texture counts as noise. The outermost pixels use the differences of their neighbours.
 /// 0 for views of less than 3×3 px. Throws Cancelled.
 [[nodiscard]] Image<float> local_noise_variance(const LightField& light_field, ViewIndex view,
                                                 const Progress& progress);

@@ -7,6 +7,8 @@
 #include "engine/disparity/common/matching_cost_kernel.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -105,9 +107,9 @@ Names<Interpolation> names_of(Interpolation) {
 
 void check_matching(const LightField& lf, ViewIndex reference) {
   if (!lf.grid().contains(reference)) {
-    throw InvalidInput("there is no view " + view_text(reference) + ": the grid has " +
-                       std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u) +
-                       " views, counted from 0,0");
+    throw InvalidInput(
+        fmt::format("there is no view {}: the grid has {}×{} views, counted from 0,0",
+                    view_text(reference), lf.grid().v, lf.grid().u));
   }
   if (lf.grid().count() == 1) {
     throw InvalidInput("stereo needs at least 2 views, but this light field has only 1");

@@ -36,8 +36,8 @@ struct MatchingCost {
 /// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.
 void check_matching(const LightField& light_field, ViewIndex reference);
 
-/// Computes matching costs for some rows of a reference view, for whoever does not want to hold the
-/// whole volume. Not thread-safe: one object for each thread.
+/// Computes matching costs for some rows of a reference view, for callers that do not hold the
+/// whole volume. Not thread-safe: use one object per thread.
 class MatchingCostRows {
  public:
   /// Throws InvalidInput as `check_matching`, or if there is no label or the cap is not positive.
@@ -47,7 +47,7 @@ class MatchingCostRows {
   MatchingCostRows(MatchingCostRows&&) noexcept;
 
   /// Costs of rows [y, y + costs.height) into `costs` (layers = labels, width = that of a view).
-  /// Throws Cancelled on a stop request (asked for every few milliseconds).
+  /// Throws Cancelled on a stop request (checked every few milliseconds).
   void compute(int y, VolumeView<float> costs, const Progress& progress);
 
  private:
@@ -58,7 +58,7 @@ class MatchingCostRows {
 /// Matching costs of every pixel of view `reference` and every label, `[y][label][x]`:
 /// ρ(x, d) = 1/n Σ min(ε, |I_n(x + d v_n) − I_c(x)|) over the n views whose sample lies within the
 /// image, samples in [0, 1], Euclidean norm over the channels, v_n the way from the reference to
-/// view n (u and v axes of the house: a point moves by −d per step). Labels are disparities, px per
+/// view n (canonical u and v axes: a point moves by −d per step). Labels are disparities, px per
 /// view step. Where no view sees the point at a label, the cost is the largest possible.
 /// With `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
 /// interpolation: what noise it averages away is put back. Otherwise, where noise outweighs
@@ -66,9 +66,9 @@ class MatchingCostRows {
 /// a pixel on both axes), whatever the truth is.
 /// Memory: height · width · labels · 4 bytes. Throws InvalidInput as MatchingCostRows, Cancelled.
 ///
-/// The paper's equations do not say what becomes of samples beyond the image. They are skipped and
-/// the rest renormalised: repeating the border instead made ST_AV half as bad again. Division by n
-/// keeps later weights independent of the number of views.
+/// The paper's equations leave open what happens to samples outside the image. They are skipped and
+/// the remaining ones renormalised; repeating the border would pull estimates towards it. Division
+/// by n keeps later weights independent of the number of views.
 /// Reference: the paper, equations (3) and (4).
 [[nodiscard]] Volume<float> matching_costs(const LightField& light_field, ViewIndex reference,
                                            const MatchingCost& cost,

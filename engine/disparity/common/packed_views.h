@@ -8,9 +8,9 @@
 
 namespace episcope {
 
-/// All views as one word a pixel: three channels of 10 bits, the first lowest, each round(1023·s)
-/// of a sample s in [0, 1]; grey three times. A single gather then fetches a pixel whatever its
-/// type. 4 bytes a ray. Throws Cancelled.
+/// All views with each pixel packed into one word: three channels of 10 bits, the first lowest,
+/// each round(1023·s) of a sample s in [0, 1]; grey three times. A single gather then fetches a
+/// pixel whatever its type. 4 bytes per ray. Throws Cancelled.
 [[nodiscard]] ViewStack<std::uint32_t> pack_views(const LightField& light_field,
                                                   const Progress& progress);
 

@@ -4,7 +4,7 @@
 namespace episcope {
 namespace {
 
-constexpr int kMostThreads = 1024;
+constexpr int kMaxThreads = 1024;
 
 }  // namespace
 
@@ -20,10 +20,10 @@ Schema<RunOptions> run_schema() {
   Schema<RunOptions> schema;
   schema
       .choice("views", &RunOptions::views,
-              {"Views", "Views to estimate; by default all, if the method can"})
-      .choice("device", &RunOptions::device, {"Device", "Where to compute"})
+              {"Views", "Views to estimate; by default all views if the method supports it"})
+      .choice("device", &RunOptions::device, {"Device", "Device to compute on"})
       .integer("threads", &RunOptions::threads,
-               {"Threads", "Threads to use; 0 = as many as there are"}, {0, kMostThreads});
+               {"Threads", "Number of threads; 0 = one per processor"}, {0, kMaxThreads});
   return schema;
 }
 

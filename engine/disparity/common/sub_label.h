@@ -5,13 +5,14 @@
 
 namespace episcope {
 
-/// How a disparity is placed between labels by the costs of its label and the neighbours': not at
-/// all, at the summit of a parabola, or where two lines of equal slope meet (for costs like |·|).
+/// How a disparity is interpolated between labels from the costs of its label and the two
+/// neighbouring labels: not at all, at the vertex of a parabola, or where two lines of equal slope
+/// meet (for costs like |·|).
 enum class Refinement { None, Parabola, Equiangular };
 [[nodiscard]] Names<Refinement> names_of(Refinement);
 
-/// Where the cost is least, in labels from the one in the middle, at most half a label away. 0
-/// where the costs do not bend upwards.
+/// The position of the minimum, in labels from the middle one, at most half a label away. 0 where
+/// the costs are not convex.
 [[nodiscard]] float sub_label_offset(float before, float here, float after, Refinement refinement);
 
 }  // namespace episcope

@@ -2,14 +2,15 @@
 #include "engine/disparity/epi/epi_c.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
-#include "engine/disparity/epi/visibility.h"
+#include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/epi/replace_occluded.h"
 #include "engine/solvers/ordering/ordering_terms.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ namespace episcope {
 namespace {
 
 constexpr float kViolation = -0.05F;
-// Less than that of EPI_S: what the views contradict is to follow its neighbours entirely.
-constexpr float kLeastWeight = 0.001F;
+// Less than in EPI_S: pixels that the views contradict should follow their neighbours entirely.
+constexpr float kMinWeight = 0.001F;
 constexpr std::array<ViewIndex, 4> kWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
 
 ViewIndex neighbour(ViewIndex view, ViewIndex way) {
@@ -43,7 +44,7 @@ struct Work {
   }
 };
 
-// Improves one view after the other; one for each thread.
+// Improves one view after the other; one per thread.
 class ViewStep {
  public:
   explicit ViewStep(const Work& work)
@@ -59,7 +60,8 @@ class ViewStep {
     pull_from_neighbours(view, progress);
     majorise(view);
     const DenoiseParameters& parameters = work_.parameters.denoising;
-    const Image<float> edges = edge_weights(work_.light_field, view, parameters.edge_strength);
+    const Image<float> edges =
+        smoothness_weights(work_.light_field, view, parameters.edge_strength);
     return solver_
         .solve({observed_, weights_, edges, parameters.lambda},
                {parameters.stop.max_iterations, parameters.stop.gap}, progress, work_.u.view(view))
@@ -85,7 +87,7 @@ class ViewStep {
   // ½ w (u − f)² and the majoriser as one weighted observation.
   void majorise(ViewIndex view) {
     fill_data_weights(work_.confidence.view(view),
-                      {work_.parameters.denoising.weight_power, kLeastWeight}, weights_);
+                      {work_.parameters.denoising.weight_power, kMinWeight}, weights_);
     const float* const f = work_.f.view(view).data;
     const float* const u = work_.u.view(view).data;
     for (std::size_t i = 0; i < weights_.size(); ++i) {
@@ -122,12 +124,6 @@ double improve(const Work& work, const std::vector<ViewIndex>& views, const Prog
   return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());
 }
 
-std::string text_of(const char* format, double first, double second) {
-  char text[120];
-  std::snprintf(text, sizeof text, format, first, second);
-  return text;
-}
-
 // Lines from one view that stay within the image, and those that violate the ordering.
 struct LineCount {
   long violations = 0, lines = 0;
@@ -161,19 +157,20 @@ void keep_center(Estimate& estimate, ViewIndex center) {
 
 }  // namespace
 
-double order_views(const LightField& lf, const EpiCParameters& parameters,
-                   const ViewStack<float>& observed, Estimate& estimate, const Progress& progress) {
+double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
+                             const ViewStack<float>& observed, Estimate& estimate,
+                             const Progress& progress) {
   const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
   double gap = 0;
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
-  if (sweeps > 0) give_way(work.u, work.confidence, progress.part(0, 0.02));
+  if (sweeps > 0) replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
-      progress.step("ordering, sweep " + std::to_string(i / 2 + 1) + " of " +
-                    std::to_string(sweeps) + (i > 0 ? text_of(", gap %.1e", gap, 0) : ""));
+      progress.step(fmt::format("ordering, sweep {} of {}{}", i / 2 + 1, sweeps,
+                                i > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
     }
     const double other =
         improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
@@ -201,17 +198,18 @@ Schema<EpiCParameters> epi_c_schema() {
   using P = EpiCParameters;
   return Schema<P>()
       .real("fall", &P::fall,
-            {"Ordering μ₋", "Cost of a line that ends at something farther, which cannot be"},
+            {"Ordering μ₋",
+             "Cost of a line that meets something farther, which violates the ordering"},
             {0.001, 1, true})
       .real("rise", &P::rise,
             {"Occlusion μ₊",
-             "Cost of a line that ends at something nearer, which hides its point; at most μ₋"},
+             "Cost of a line that meets something nearer, which occludes its point; at most μ₋"},
             {0, 1})
       .real("softness", &P::softness,
-            {"Softness", "Differences along a line below this cost less than their share", "px"},
+            {"Softness", "Differences along a line below this are penalised quadratically", "px"},
             {0.005, 0.5, true})
       .integer("sweeps", &P::sweeps,
-               {"Sweeps", "Times that every view is fitted to its neighbours; 0 = not at all"},
+               {"Sweeps", "Number of times every view is fitted to its neighbours; 0 = off"},
                {0, 50})
       .part(&P::line_check, line_check_schema())
       .part(&P::denoising, denoise_schema())
@@ -226,19 +224,20 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
       estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
   if (parameters.line_check.is_on && !progress.finish_requested()) {
     progress.step("checking lines");
-    lower_confidence(lf, estimate, progress.part(0.08, 0.13));
+    reduce_confidence(lf, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
-  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kLeastWeight);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight);
   ViewStack<float>& u = estimate.field.disparity;
   const double before = ordering_violations(u, progress.part(0.25, 0.26));
   if (parameters.sweeps > 0) {
-    const double gap = order_views(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
+    const double gap =
+        denoise_with_ordering(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
     if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98));
-  estimate.notes.push_back(text_of("ordering violated by %.3f %% of the lines, %.3f %% before",
-                                   100 * after, 100 * before));
+  estimate.notes.push_back(fmt::format(
+      "ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after, 100 * before));
   if (views == ViewSelection::Center) keep_center(estimate, lf.center());
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;

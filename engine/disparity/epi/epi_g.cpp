@@ -13,8 +13,8 @@
 namespace episcope {
 namespace {
 
-// No pixel is given up entirely when it is placed between labels.
-constexpr float kLeastWeight = 0.01F;
+// No pixel gets weight 0 when it is placed between labels.
+constexpr float kMinWeight = 0.01F;
 
 // One direction's disparities and weights of the view.
 struct Direction {
@@ -66,7 +66,7 @@ class DirectionalData {
 
   // The mean of the directions that agree with the label.
   [[nodiscard]] Placement place(int y, int x, float label, float step) const {
-    float sum = kLeastWeight * label, weight = kLeastWeight;
+    float sum = kMinWeight * label, weight = kMinWeight;
     for (const Direction& direction : directions_) {
       const float d = direction.disparity.at(y, x);
       if (std::fabs(d - label) > step) continue;
@@ -86,12 +86,14 @@ Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
-      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
+               {2, 512, true})
       .real("truncation", &P::truncation,
-            {"Truncation κ", "An estimate that is further off is an outlier", "px"},
+            {"Truncation κ", "Estimates farther than this from the label are treated as outliers",
+             "px"},
             {0.01, 5, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in coherence", "Data is weighted by coherence^p"}, {0, 16})
+            {"Coherence exponent p", "The data term is weighted by coherence^p"}, {0, 16})
       .part(&P::line_check, line_check_schema())
       .part(&P::tensor, epi_l_schema())
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
@@ -106,8 +108,8 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   if (parameters.line_check.is_on) {
     progress.step("checking lines");
     const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
-    lower_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
-    lower_confidence(views, directions.vertical, progress.part(0.085, 0.1));
+    reduce_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
+    reduce_confidence(views, directions.vertical, progress.part(0.085, 0.1));
   }
   const ViewIndex view = lf.center();
   Estimate estimate;
@@ -130,7 +132,7 @@ Estimator epi_g_estimator() {
   return make_estimator<EpiGParameters>(
       {.id = "epi_g",
        .name = "EPI_G",
-       .summary = "Globally optimal labeling of what the epipolar plane images say",
+       .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
        .revision = 3},

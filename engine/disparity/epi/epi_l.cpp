@@ -34,7 +34,7 @@ StructureTensor::Sink store_into(const Maps& maps, int v) {
   };
 }
 
-// The hardware does not foresee steps of a whole image row.
+// The hardware does not prefetch across steps of a whole image row.
 void prefetch_run(const ViewStack<float>& stack, ViewIndex view, PixelIndex begin, int count) {
   constexpr int kRowsAhead = 4;
   constexpr int kCacheLine = 64 / sizeof(float);
@@ -140,16 +140,21 @@ Schema<EpiLParameters> scales_schema() {
   using P = EpiLParameters;
   return Schema<P>()
       .real("inner_scale", &P::inner_scale,
-            {"Inner scale", "Gaussian smoothing of the samples before derivatives are taken", "px"},
+            {"Inner scale",
+             "Standard deviation of the Gaussian applied to the samples before derivatives", "px"},
             {0, 2})
       .real("outer_scale", &P::outer_scale,
-            {"Outer scale", "Gaussian window over which orientation is averaged, along the EPI",
+            {"Outer scale",
+             "Standard deviation of the Gaussian window over which orientation is averaged, along "
+             "the EPI",
              "px"},
             {0, 2})
       .real("view_scale", &P::view_scale,
-            {"View scale", "The same window along the views", "views"}, {0, 3})
+            {"View scale", "Standard deviation of the same window along the views", "views"},
+            {0, 3})
       .real("cross_scale", &P::cross_scale,
-            {"Cross scale", "The same window across neighbouring EPIs", "px"}, {0, 2});
+            {"Cross scale", "Standard deviation of the same window across neighbouring EPIs", "px"},
+            {0, 2});
 }
 
 }  // namespace
@@ -159,26 +164,27 @@ Schema<EpiLParameters> epi_l_schema() {
   return scales_schema()
       .real("shear_step", &P::shear_step,
             {"Shear step",
-             "Distance of the shears that bring every disparity near to upright before its "
-             "orientation is measured; rounded to half pixels",
+             "Spacing of the shears that bring every line close to upright before its orientation "
+             "is measured; rounded to half pixels",
              "px"},
             {0.5, 1.5})
       .real("contrast", &P::contrast,
             {"Contrast limit",
-             "Gradients above it count less, so that silhouettes do not drown the texture beside "
-             "them; large values switch this off",
+             "Gradients above this are attenuated, so that silhouettes do not drown the texture "
+             "beside them; large values disable this",
              "1/255"},
             {0.1, 255, true})
       .real("noise", &P::noise,
-            {"Noise floor", "Texture weaker than this loses confidence", "1/255"}, {0, 50})
+            {"Noise floor", "Texture with less contrast than this loses confidence", "1/255"},
+            {0, 50})
       .integer("fusion_power", &P::fusion_power,
                {"Fusion power",
                 "Horizontal and vertical estimates are averaged with weights coherence^p"},
                {0, 32})
       .interval("range", &P::range,
                 {"Disparity range",
-                 "Disparities searched; auto takes what the files promise or finds it from the "
-                 "light field",
+                 "Range of disparities to search; auto takes it from the files or estimates it "
+                 "from the light field",
                  "px"},
                 {-20, 20})
       .search("inner_scale", {0.3, 0.5, 0.8, 1.1})
@@ -260,7 +266,7 @@ Estimator epi_l_estimator() {
   return make_estimator<EpiLParameters>(
       {.id = "epi_l",
        .name = "EPI_L",
-       .summary = "Orientation of lines on epipolar plane images (structure tensor), local",
+       .summary = "Local orientation of lines on epipolar plane images (structure tensor)",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
        .revision = 2},

@@ -84,7 +84,7 @@ void residual_row(const ResidualRow& row) {
         count += choose(seen, splat(1), splat(0));
       }
       const Vec mean = sum / greatest(count, splat(1));
-      const IntVec counts = count >= static_cast<float>(row.least_views);
+      const IntVec counts = count >= static_cast<float>(row.min_views);
       best = choose(counts, least(best, mean), best);
     }
     store(row.residual + x, best * (kUnit * kUnit));

@@ -28,7 +28,7 @@ struct ResidualRow {
   float* residual = nullptr;           ///< Written; slack behind.
   LineArm arms[4] = {};
   int arm_count = 0;
-  int least_views = 1;  ///< An arm with fewer views that see the line does not count.
+  int min_views = 1;  ///< An arm with fewer views that see the line does not count.
   int y = 0, height = 0, width = 0;
 };
 

@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -66,7 +68,7 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   parallel_for_workers(lines * tiles, progress, [&] {
     return [&, orientation = DoubleOrientation(lf, direction, measurement.scales,
                                                measurement.search)](int i) mutable {
-      if (i % measurement.search.every_tile != 0) return;
+      if (i % measurement.search.tile_stride != 0) return;
       const int line = (horizontal ? first.v : first.u) + i / tiles;
       const PixelIndex begin{i % tiles / columns * tile.y, i % tiles % columns * tile.x};
       const int first_view = horizontal ? first.u : first.v;
@@ -103,16 +105,17 @@ void clear(DoubleLayers& layers, const Progress& progress) {
 }  // namespace
 
 void require_double_grid(const LightField& lf) {
-  if (std::max(lf.grid().u, lf.grid().v) >= DoubleOrientation::kLeastViews) return;
-  throw InvalidInput("two layers need at least 3 views in a row or column, but the grid is " +
-                     std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u));
+  if (std::max(lf.grid().u, lf.grid().v) >= DoubleOrientation::kMinViews) return;
+  throw InvalidInput(
+      fmt::format("two layers need at least 3 views in a row or column, but the grid is {}×{}",
+                  lf.grid().v, lf.grid().u));
 }
 
 DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& scales,
                                    const DoubleSearch& search, GridShape grid, ViewIndex first,
                                    const Progress& progress) {
-  const bool has_horizontal = lf.grid().u >= DoubleOrientation::kLeastViews;
-  const bool has_vertical = lf.grid().v >= DoubleOrientation::kLeastViews;
+  const bool has_horizontal = lf.grid().u >= DoubleOrientation::kMinViews;
+  const bool has_vertical = lf.grid().v >= DoubleOrientation::kMinViews;
   require_double_grid(lf);
   DoubleLayers layers;
   layers.near = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);

@@ -7,6 +7,8 @@
 #include "engine/disparity/layers/double_orientation_kernel.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -104,9 +106,9 @@ std::vector<float> integration_weights(int rows, int first, int last, double sig
 
 int views_along(const LightField& lf, Direction direction) {
   const int views = direction == Direction::Horizontal ? lf.grid().u : lf.grid().v;
-  if (views < DoubleOrientation::kLeastViews || views > DoubleOrientation::kMostViews) {
-    throw InvalidInput("two orientations need 3 to 32 views along an EPI, but the grid has " +
-                       std::to_string(views));
+  if (views < DoubleOrientation::kMinViews || views > DoubleOrientation::kMaxViews) {
+    throw InvalidInput(fmt::format(
+        "two orientations need 3 to 32 views along an EPI, but the grid has {}", views));
   }
   return views;
 }
@@ -176,7 +178,7 @@ void DoubleOrientation::State::make_filters(const TensorScales& scales) {
 
 // Whole pixels near every mean that two accepted disparities can have.
 void DoubleOrientation::State::choose_steps() {
-  const double half = 0.5 * search.least_distance;
+  const double half = 0.5 * search.min_distance;
   const int first = static_cast<int>(std::ceil(search.accepted.min + half - 0.5));
   const int last = static_cast<int>(std::floor(search.accepted.max - half + 0.5));
   for (int step = first; step <= last; ++step) steps.push_back(step);
@@ -260,7 +262,7 @@ void DoubleOrientation::State::estimate(const Task& task, const Sink& sink) {
       kernel.select(
           block, filters,
           {step, static_cast<float>(kShearReach), static_cast<float>(search.accepted.min),
-           static_cast<float>(search.accepted.max), static_cast<float>(search.least_distance)},
+           static_cast<float>(search.accepted.max), static_cast<float>(search.min_distance)},
           run);
     });
   }

@@ -11,21 +11,21 @@ namespace episcope {
 
 /// Where two disparities are looked for.
 struct DoubleSearch {
-  Interval accepted;            ///< Of each of the two, px per view step.
-  double least_distance = 0.2;  ///< Between the two: nearer ones cannot be told apart.
-  int every_tile = 1;  ///< measure_double_layers: only one of so many tiles, for a rough look.
+  Interval accepted;          ///< Of each of the two, px per view step.
+  double min_distance = 0.2;  ///< Between the two: nearer ones cannot be told apart.
+  int tile_stride = 1;  ///< measure_double_layers: only one of so many tiles, for a rough look.
 };
 
-/// Two superimposed orientations on the epipolar plane images of transparent or reflecting
-/// surfaces: f = f₁(x + ρ₁u) + f₂(x + ρ₂u) satisfies ρ₁ρ₂ f_xx − (ρ₁+ρ₂) f_xu + f_uu = 0 in house
-/// axes, so (ρ₁ρ₂, −(ρ₁+ρ₂), 1) is the null vector of the second-order structure tensor, the
-/// products of (f_xx, f_xu, f_uu) averaged over a window and summed over channels; ρ₁, ρ₂ are the
-/// roots of ρ² − (ρ₁+ρ₂) ρ + ρ₁ρ₂. Confidence is (1 − λ₃/λ₂)·λ₂/(λ₂ + n²) in [0, 1], λ₂ and λ₃ the
-/// middle and smallest eigenvalue, n² the energy of the noise: near 0 for one orientation, whose
-/// roots mean nothing.
+/// Two superimposed orientations on the epipolar plane images of transparent or reflective
+/// surfaces: f = f₁(x + ρ₁u) + f₂(x + ρ₂u) satisfies ρ₁ρ₂ f_xx − (ρ₁+ρ₂) f_xu + f_uu = 0 in
+/// canonical axes, so (ρ₁ρ₂, −(ρ₁+ρ₂), 1) is the null vector of the second-order structure tensor,
+/// the products of (f_xx, f_xu, f_uu) averaged over a window and summed over channels; ρ₁, ρ₂ are
+/// the roots of ρ² − (ρ₁+ρ₂) ρ + ρ₁ρ₂. Confidence is (1 − λ₃/λ₂)·λ₂/(λ₂ + n²) in [0, 1], λ₂ and λ₃
+/// the middle and smallest eigenvalue, n² the energy of the noise: near 0 for one orientation,
+/// whose roots mean nothing.
 /// Source: Aach, Mota, Stuke, Mühlich, Barth 2006 [AMSMB06]; Wanner and Goldluecke 2013 [Ano13].
 ///
-/// Where we depart from it:
+/// Departures from it:
 /// - Derivatives are matched to each other (after Farid and Simoncelli 2004 [FS04], but exact up to
 ///   the sixth order): five taps along views and image, three where the grid has three or four
 ///   views. They are taken where they fit into the grid: the outer views integrate over the
@@ -38,7 +38,7 @@ struct DoubleSearch {
 /// - The smallest eigenvalue is found by Newton's steps from 0 on the characteristic polynomial of
 ///   the tensor divided by its trace, which rise monotonically: stable in float32.
 ///
-/// Not thread-safe: one object for each thread. Takes about 2 MB.
+/// Not thread-safe: use one object per thread. Takes about 2 MB.
 class DoubleOrientation {
  public:
   enum class Direction { Horizontal, Vertical };
@@ -57,8 +57,8 @@ class DoubleOrientation {
                                   const float* far, const float* confidence)>;
 
   /// Views that a grid axis must have.
-  static constexpr int kLeastViews = 3;
-  static constexpr int kMostViews = 32;
+  static constexpr int kMinViews = 3;
+  static constexpr int kMaxViews = 32;
 
   /// Throws InvalidInput if the grid has too few or too many views in that direction.
   DoubleOrientation(const LightField& light_field, Direction direction, const TensorScales& scales,

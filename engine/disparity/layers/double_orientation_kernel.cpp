@@ -172,7 +172,7 @@ struct Answer {
 };
 
 // Below it the tensor, of trace 1, has rank 1 as far as float32 can tell.
-constexpr float kLeastMinors = 1e-5F;
+constexpr float kMinorsFloor = 1e-5F;
 
 // Newton's steps on the characteristic polynomial from 0, which rise monotonically to the smallest
 // of three eigenvalues that are all ≥ 0: no angle, no loss by cancellation in a closed form.
@@ -181,7 +181,7 @@ inline Vec smallest_eigenvalue(Vec minors, Vec determinant) {
   for (int i = 0; i < 5; ++i) {
     const Vec p = ((value - 1.0F) * value + minors) * value - determinant;
     const Vec slope = (3.0F * value - 2.0F) * value + minors;
-    value = greatest(value - p / greatest(slope, splat(kLeastMinors)), Vec{});
+    value = greatest(value - p / greatest(slope, splat(kMinorsFloor)), Vec{});
   }
   return value;
 }
@@ -221,7 +221,7 @@ inline Answer solve(const Vec* products, const SecondOrderFilters& filters) {
   Answer answer;
   answer.mean = mean;
   answer.half_distance = square_root(greatest(discriminant, Vec{}));
-  answer.is_real = is_sound & (discriminant > 0.0F) & (minors > kLeastMinors);
+  answer.is_real = is_sound & (discriminant > 0.0F) & (minors > kMinorsFloor);
   // Two orientations leave the third eigenvalue empty, one leaves the second empty as well.
   const Vec strength = middle * trace;
   answer.confidence = greatest(1.0F - smallest / (middle + 1e-20F), Vec{}) * strength /
@@ -247,7 +247,7 @@ void select(const DoubleBlock& block, const SecondOrderFilters& filters, const D
     const Vec far = answer.mean - answer.half_distance + step;
     const Vec so_far = load(run.confidence + n);
     const IntVec better = answer.is_real & (absolute(answer.mean) <= shear.limit) &
-                          (answer.half_distance >= 0.5F * shear.least_distance) &
+                          (answer.half_distance >= 0.5F * shear.min_distance) &
                           (near <= shear.max) & (far >= shear.min) & (answer.confidence > so_far);
     store(run.near + n, choose(better, near, load(run.near + n)));
     store(run.far + n, choose(better, far, load(run.far + n)));

@@ -43,9 +43,9 @@ struct DoubleBlock {
 /// Disparities near this shear, whole px per view step, are measured.
 struct DoubleShear {
   int step = 0;
-  float limit = 0;           ///< Largest |mean of both disparities − step| accepted.
-  float min = 0, max = 0;    ///< Disparities beyond are not accepted.
-  float least_distance = 0;  ///< Of both disparities.
+  float limit = 0;         ///< Largest |mean of both disparities − step| accepted.
+  float min = 0, max = 0;  ///< Disparities beyond are not accepted.
+  float min_distance = 0;  ///< Of both disparities.
 };
 
 /// One run of lanes of one view, and where the best answer so far is kept.

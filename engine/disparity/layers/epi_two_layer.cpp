@@ -2,14 +2,15 @@
 #include "engine/disparity/layers/epi_two_layer.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
 #include "engine/disparity/layers/layer_range.h"
-#include "engine/solvers/simplex/segmentation.h"
+#include "engine/solvers/simplex/binary_segmentation.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 namespace episcope {
@@ -85,8 +86,8 @@ void ViewSolver::find_region(const LayeredView& view) {
     space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
     space_.weight.data()[i] = fit + kOneLayer;
   }
-  segment(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
-          {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
+  segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
+                 {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
 }
 
 // Of either layer's data.
@@ -152,7 +153,7 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
   if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
   find_region(view);
   find_weights(view);
-  const Image<float> edges = edge_weights(lf_, index, parameters_.edge_strength);
+  const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
   double gap = 0;
   // The background last: outside the region it is what both layers hold.
   if (std::any_of(region_.begin(), region_.end(), [](std::uint8_t m) { return m != 0; })) {
@@ -166,10 +167,9 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
 std::vector<std::string> notes_of(const std::vector<double>& gaps,
                                   const ViewStack<std::uint8_t>& layers) {
   const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
-  char share[80];
-  std::snprintf(share, sizeof share, "two layers in %.1f %% of the pixels",
-                100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size()));
-  return {share, gap_note(*std::max_element(gaps.begin(), gaps.end()))};
+  const double share = 100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size());
+  return {fmt::format("two layers in {:.1f} % of the pixels", share),
+          gap_note(*std::max_element(gaps.begin(), gaps.end()))};
 }
 
 // Replaces the raw maps in `estimate` by the results.
@@ -192,7 +192,8 @@ void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, 
   estimate.notes = notes_of(gaps, layered.layers);
 }
 
-// Overshoot that the tensors left in, and the foreground as the one map of those who know but one.
+// Overshoot that the tensors left in, and the foreground as the single map for methods with one
+// layer.
 void clamp_layers(Estimate& estimate, const Progress& progress) {
   const auto low = static_cast<float>(estimate.range.min);
   const auto high = static_cast<float>(estimate.range.max);
@@ -215,32 +216,36 @@ Schema<EpiTwoLayerParameters> layers_schema() {
   return Schema<P>()
       .real("decision", &P::decision,
             {"Decision",
-             "Two layers where the misfit of one orientation is more than this share "
-             "of the misfits of one and of two"},
+             "Two layers are assumed where the misfit of one orientation exceeds this fraction of "
+             "the misfits of one and of two orientations together"},
             {0.01, 0.99})
       .real("region_smoothness", &P::region_smoothness,
             {"Region smoothness",
-             "Weight of the length of the border between one layer and two; regions narrower than "
-             "twice this are dropped",
+             "Weight of the length of the boundary between one layer and two; regions narrower "
+             "than twice this are dropped",
              "px"},
             {0.1, 100, true})
       .real("least_distance", &P::least_distance,
-            {"Least distance", "Two layers nearer to each other are one", "px"}, {0.05, 2})
+            {"Minimum distance", "Two layers closer to each other than this are treated as one",
+             "px"},
+            {0.05, 2})
       .real("lambda", &P::lambda,
-            {"Smoothing λ", "Weight of the total variation of both layers: larger is smoother"},
+            {"Smoothing λ",
+             "Weight of the total variation of both layers; larger values are smoother"},
             {0.001, 10, true})
       .real("layer_smoothness", &P::layer_smoothness,
-            {"Surface smoothness", "How many times as smooth the foreground of two layers is"},
+            {"Foreground smoothness",
+             "Factor by which the foreground of two layers is smoothed more strongly"},
             {1, 20, true})
       .real("weight_power", &P::weight_power,
-            {"Trust in coherence",
-             "Data is weighted by coherence^p, that of two layers by their confidence^p; 0 trusts "
-             "every pixel alike"},
+            {"Coherence exponent p",
+             "The data term is weighted by coherence^p, for two layers by their confidence^p; 0 "
+             "weights all pixels equally"},
             {0, 16})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
-             "Outside two layers the variation is weighted by exp(−β·|gradient of the view|); 0 "
-             "ignores image edges"},
+             "Outside two-layer regions the total variation is weighted by exp(−β·|gradient of the "
+             "view|); 0 ignores image edges"},
             {0, 100});
 }
 
@@ -251,14 +256,17 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
   return layers_schema()
       .real("double_inner_scale", &P::double_inner_scale,
             {"Inner scale, two layers",
-             "Gaussian smoothing of the samples before second derivatives are taken", "px"},
+             "Standard deviation of the Gaussian applied to the samples before second derivatives",
+             "px"},
             {0, 2})
       .real("double_outer_scale", &P::double_outer_scale,
             {"Outer scale, two layers",
-             "Gaussian window over which two orientations are averaged, along the EPI", "px"},
+             "Standard deviation of the Gaussian window over which two orientations are averaged, "
+             "along the EPI",
+             "px"},
             {0, 3})
       .real("double_contrast", &P::double_contrast,
-            {"Contrast limit, two layers", "Second derivatives above it count less", "1/255"},
+            {"Contrast limit, two layers", "Second derivatives above this are attenuated", "1/255"},
             {0.1, 255, true})
       .part(&P::stop, stop_schema())
       .part(&P::tensor, epi_l_schema())
@@ -298,7 +306,7 @@ Estimator epi_two_layer_estimator() {
       {.id = "epi_two_layer",
        .name = "EPI_TWO_LAYER",
        .summary = "Two superimposed orientations on epipolar plane images: transparent and "
-                  "reflecting surfaces",
+                  "reflective surfaces",
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,

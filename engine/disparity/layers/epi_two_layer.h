@@ -25,7 +25,7 @@ struct EpiTwoLayerParameters {
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();
 
-/// EPI_TWO_LAYER: a transparent or reflecting surface and what is seen through it.
+/// EPI_TWO_LAYER: a transparent or reflective surface and the background seen through it.
 ///
 /// 1. The single orientation d of every ray and its coherence r (EPI_L), and the double orientation
 ///    near ≥ far with its confidence c (DoubleOrientation), on horizontal and vertical EPIs; where
@@ -36,7 +36,7 @@ struct EpiTwoLayerParameters {
 ///    for two.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
 ///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
-///    (`segment`): a blank wall in the noise of a camera is not two walls.
+///    (`segment_binary`): a blank wall in the noise of a camera is not two walls.
 /// 4. Foreground and background of each view by TvL2Solver: in the region near and far with weights
 ///    c^p, outside the single estimate with weights r^p in both. The surface is an area, not a
 ///    texture: it is smoothed `layer_smoothness` times as much, ignores image edges and may jump
@@ -45,7 +45,7 @@ struct EpiTwoLayerParameters {
 /// where `layers` is 1. `field` is the foreground; confidence is c in the region, r outside.
 ///
 /// [Ano13] gives the model and its null vector; how it decides and smooths was not recovered, so
-/// steps 2 to 4 are ours, measured against truth.
+/// steps 2 to 4 are this program's own.
 /// Throws InvalidInput if no axis of the grid has three views.
 [[nodiscard]] Estimate estimate_epi_two_layer(const LightField& light_field,
                                               const EpiTwoLayerParameters& parameters,

@@ -5,9 +5,9 @@
 
 namespace episcope {
 
-/// Misfit of one orientation as share of the misfits of one and of two: (1 − r)/(2 − r − c + 0.03),
-/// in [0, 1), with coherence r of one and confidence c of two. Of two that both fit all but
-/// perfectly neither speaks for two: hence the constant.
+/// Misfit of one orientation as a fraction of the misfits of one and of two: (1 − r)/(2 − r − c +
+/// 0.03), in [0, 1), with coherence r of one and confidence c of two. The constant decides for one
+/// where both fit almost perfectly.
 [[nodiscard]] inline float single_misfit_share(float coherence, float confidence) {
   constexpr float least_misfit = 0.03F;
   return (1 - coherence) / (2 - coherence - confidence + least_misfit);

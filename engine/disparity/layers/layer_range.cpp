@@ -13,8 +13,8 @@ namespace episcope {
 namespace {
 
 // Tiles looked at: one of so many.
-constexpr int kEveryTile = 3;
-// What leaves no doubt, and how many such pixels, of all looked at, are no accident.
+constexpr int kTileStride = 3;
+// Thresholds for an unambiguous pixel, and the fraction of such pixels that is not accidental.
 constexpr float kSureShare = 0.35F;
 constexpr float kSureConfidence = 0.6F;
 constexpr double kEnough = 0.01;
@@ -23,7 +23,7 @@ constexpr double kTail = 0.01;
 constexpr double kMargin = 0.1;
 
 // Farther apart than orientations that are not there come out.
-constexpr double kLeastDistance = 0.3;
+constexpr double kMinDistance = 0.3;
 
 }  // namespace
 
@@ -39,8 +39,8 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
   const Estimate estimate =
       estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6));
   const DoubleLayers layers =
-      measure_double_layers(lf, double_scales, {{-limit, limit}, kLeastDistance, kEveryTile},
-                            {1, 1}, lf.center(), progress.part(0.6, 1));
+      measure_double_layers(lf, double_scales, {{-limit, limit}, kMinDistance, kTileStride}, {1, 1},
+                            lf.center(), progress.part(0.6, 1));
   Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
   spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
   std::vector<float> near, far;
@@ -51,7 +51,7 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
     near.push_back(layers.near.data()[i]);
     far.push_back(layers.far.data()[i]);
   }
-  const double looked_at = static_cast<double>(coherence.size()) / kEveryTile;
+  const double looked_at = static_cast<double>(coherence.size()) / kTileStride;
   if (static_cast<double>(near.size()) < kEnough * looked_at) return single;
   return {std::min(single.min, std::max(-limit, quantile(far, kTail) - kMargin)),
           std::max(single.max, std::min(limit, quantile(near, 1 - kTail) + kMargin))};

@@ -6,10 +6,10 @@
 
 namespace episcope {
 
-/// The disparity range that a method for two layers should search: as `search_range`, but where
-/// the range must be found from the light field, it is widened to the layers of those pixels of the
-/// centre view whose two orientations, looked for on every few tiles over ±`limit`, leave no doubt:
-/// pixels in front of which a second surface lies are coherent for no single disparity.
+/// The disparity range that a method for two layers should search: as `search_range`, but where the
+/// range must be estimated from the light field, it is extended to the layers of those pixels of
+/// the centre view whose two orientations, searched on every few tiles over ±`limit`, are
+/// unambiguous: pixels behind a second surface are not coherent for any single disparity.
 /// Throws as `require_double_grid`, Cancelled.
 [[nodiscard]] Interval search_layer_range(const LightField& light_field,
                                           const EpiLParameters& parameters,

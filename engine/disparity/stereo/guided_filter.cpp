@@ -65,8 +65,8 @@ void GuideImage::find_statistics(int y, double regularization) {
   const int y0 = std::max(0, y - radius_);
   const int y1 = std::min(height_, y + radius_ + 1);
   // Sums down the window's columns: samples, then products.
-  constexpr int kMost = 9;
-  std::array<std::vector<double>, kMost> columns;
+  constexpr int kMaxColumns = 9;
+  std::array<std::vector<double>, kMaxColumns> columns;
   const int products = channels_ == 3 ? kInversePlanes : 1;
   for (int i = 0; i < channels_ + products; ++i) columns[i].assign(width_, 0.0);
   for (int j = y0; j < y1; ++j) {
@@ -83,7 +83,7 @@ void GuideImage::find_statistics(int y, double regularization) {
   for (int x = 0; x < width_; ++x) {
     const int x0 = std::max(0, x - radius_);
     const int x1 = std::min(width_, x + radius_ + 1);
-    std::array<double, kMost> mean{};
+    std::array<double, kMaxColumns> mean{};
     for (int i = 0; i < channels_ + products; ++i) {
       for (int j = x0; j < x1; ++j) mean[i] += columns[i][j];
       mean[i] /= (x1 - x0) * (y1 - y0);

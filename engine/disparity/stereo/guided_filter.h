@@ -11,7 +11,7 @@
 namespace episcope {
 
 /// What the guided filter knows of a view: samples, their means and inverse covariances over
-/// windows of (2·radius + 1)² pixels. Immutable; 48 bytes a pixel (12 for grey views).
+/// windows of (2·radius + 1)² pixels. Immutable; 48 bytes per pixel (12 for grey views).
 class GuideImage {
  public:
   /// `regularization` is added to the variances, samples in [0, 1]: contrast below its root is
@@ -49,9 +49,9 @@ class GuideImage {
 
 /// Filters every layer of a volume by the guided filter (a local affine model of the layer in the
 /// colours of the guide): averages over windows, but not across edges of the guide. Not
-/// thread-safe: one object for each thread.
+/// thread-safe: use one object per thread.
 ///
-/// On matching costs this gathers evidence of neighbours on the same surface.
+/// Applied to matching costs it gathers evidence from neighbours on the same surface.
 /// Reference: He, Sun, Tang 2013 [HST13]; for costs, Rhemann et al. 2011 [RHBRG11].
 class GuidedFilter {
  public:
@@ -60,7 +60,7 @@ class GuidedFilter {
 
   /// Filters in place `values`, rows [y, y + height) of the guide. Where the band is cut from a
   /// taller image, the 2·radius rows next to the cut are not what they were in the whole.
-  /// Throws Cancelled on a stop request (asked for each layer).
+  /// Throws Cancelled on a stop request (checked for each layer).
   void apply(int y, VolumeView<float> values, const Progress& progress);
 
  private:

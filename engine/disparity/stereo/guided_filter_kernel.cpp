@@ -93,7 +93,7 @@ void apply(const GuideRow& row, const GuidedSums& sums, float* out) {
   };
   for (; x + kLanes <= row.width; x += kLanes) store(out + x, filtered());
   if (x == row.width) return;
-  // Whatever follows the row belongs to someone else.
+  // What follows the row belongs to other data.
   const Vec rest = filtered();
   __builtin_memcpy(out + x, &rest, sizeof(float) * (row.width - x));
 }

@@ -6,8 +6,9 @@
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/local_noise.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 
 namespace episcope {
@@ -19,7 +20,7 @@ constexpr int kProbedRows = 24;
 constexpr int kProbedLabels = 64;
 // ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
-constexpr double kLeastCap = 0.015;
+constexpr double kMinCap = 0.015;
 // The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
 // more for what is not noise in it. One channel leaves half of that.
 constexpr double kResidualOfNoise = 2.8;
@@ -31,7 +32,7 @@ struct Residuals {
   double median = 0, lower_quartile = 0;
 };
 
-// The cross-hair tells as much of noise as all views.
+// The cross-hair tells as much about noise as all views.
 Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
   const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
   const std::vector<float> labels = equidistant_labels(
@@ -56,7 +57,7 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   return residuals;
 }
 
-// What interpolation takes away of it need not be put back where the view is smoother.
+// Where the view is smoother, the noise that interpolation removes need not be added back.
 std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
                                               const Progress& progress) {
   const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
@@ -83,30 +84,32 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
   return Schema<P>()
       .choice("profile", &P::profile,
               {"Profile",
-               "tuned: as set here; paper: as published, which overrides cap, interpolation, "
-               "aggregation and whatever else the paper does not have, and counts a fifth of the "
-               "smoothness of a global labeling"})
-      .integer("labels", &P::labels, {"Labels", "Equidistant disparities tried"}, {2, 512, true})
+               "tuned: the settings given here; paper: the method as published, which overrides "
+               "the cap, interpolation, aggregation and whatever else the paper does not have, and "
+               "applies a fifth of the smoothness of a global labeling"})
+      .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
+               {2, 512, true})
       .real("epsilon", &P::epsilon,
             {"Cap ε",
-             "No view adds more than this to the cost, so that those that see something else do "
-             "not decide; 0 takes it from the noise of the light field, 2 is no cap"},
+             "Maximum cost that one view contributes, so that views in which the point is occluded "
+             "do not dominate; 0 derives it from the noise of the light field, 2 disables the cap"},
             {0, kUncapped})
       .choice("interpolation", &P::interpolation,
-              {"Interpolation", "How views are sampled between pixels"})
+              {"Interpolation", "How views are interpolated between pixels"})
       .integer("aggregation", &P::aggregation,
                {"Aggregation",
-                "Radius of the window in which neighbours of like colour share their costs "
-                "(guided filter); 0 = none",
+                "Radius of the guided filter that averages the costs of neighbours of similar "
+                "colour; 0 = off",
                 "px"},
                {0, 8})
       .interval("range", &P::range,
                 {"Disparity range",
-                 "Disparities searched; auto takes what the files promise or finds it from the "
-                 "light field",
+                 "Range of disparities to search; auto takes it from the files or estimates it "
+                 "from the light field",
                  "px"},
                 {-20, 20})
-      .view("view", &P::view, {"View", "Row and column of the view to estimate; auto = centre"})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = centre view"})
       .completed_by([views](P& p) { apply_profile(views, p); });
 }
 
@@ -126,7 +129,7 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
     costs.matching.noise =
         noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
     if (parameters.epsilon == 0) {
-      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kLeastCap, kUncapped);
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }
   }
   if (parameters.aggregation > 0) {
@@ -180,9 +183,7 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
 
 std::string cap_note(const StereoCosts& costs) {
   if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
-  char text[60];
-  std::snprintf(text, sizeof text, "matching cost capped at ε = %.3f", costs.matching.cap);
-  return text;
+  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
 }
 
 }  // namespace episcope

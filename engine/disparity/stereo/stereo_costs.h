@@ -14,12 +14,12 @@ namespace episcope {
 /// A cap ε that no difference of samples in [0, 1] reaches, √3 being the largest: uncapped.
 inline constexpr double kUncapped = 2;
 
-/// Whether a method of multi-view stereo is run as we tuned it or as published.
+/// Whether a method of multi-view stereo runs with tuned settings or as published.
 enum class Profile { Tuned, Paper };
 [[nodiscard]] Names<Profile> names_of(Profile);
 
-/// What every method of multi-view stereo has in common: which labels of which view are compared
-/// with the others, and how.
+/// What all methods of multi-view stereo have in common: which labels of which view are compared
+/// with the other views, and how.
 struct StereoCostParameters {
   Profile profile = Profile::Tuned;
   int labels = 64;
@@ -34,8 +34,8 @@ struct StereoCostParameters {
 /// (bilinear) and aggregation (none).
 [[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);
 
-/// The data term of a view, found out from parameters and light field, before the labels of single
-/// pixels are looked at. Immutable, shared by threads.
+/// The data term of a view, derived from parameters and light field before the labels of single
+/// pixels are examined. Immutable, shared by threads.
 struct StereoCosts {
   ViewIndex view;
   Interval range;                           ///< Searched.
@@ -44,20 +44,16 @@ struct StereoCosts {
   std::shared_ptr<const GuideImage> guide;  ///< For the aggregation; null = none.
 };
 
-/// Prepares the data term. An ε of 0 becomes a multiple of the residual: the median, over some rows
-/// of the view, of the uncapped cost that is left at the best label. It measures noise (of the
-/// sensor, of compression, of interpolation) where most pixels match, whatever the scene is.
+/// Prepares the data term. An ε of 0 is replaced by a multiple of the residual: the median, over
+/// some rows of the view, of the uncapped cost at the best label. Where most pixels match, it
+/// measures the noise (of the sensor, of compression, of interpolation), whatever the scene. A
+/// fixed ε that is best on clean light fields takes nearly all differences for occlusions under
+/// noise.
 ///
-/// Why: ε decides more than anything else, and on clean light fields the best is near 0.015; but
-/// under noise of 5/255 such a cap takes nearly all differences for occlusions, and the error grows
-/// thirty-fold. Measured on the built-in scenes with noise of 0 to 10/255, still_life and cotton.
-///
-/// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h):
-/// at each pixel that of its surroundings (local_noise.h), at most what the residual of the best
-/// quarter of the pixels allows. Error (MSE×100, BadPix(0.07) %) without and with it, ST_AV_S:
-/// still_life 0.51, 11.2; 0.43, 5.3; objects with noise of 5/255 0.26, 8.8; 0.20, 4.1; ST_AV_G:
-/// still_life 0.61, 16.9; 0.46, 4.7; scenes without noise as before. Throws InvalidInput (no such
-/// view, a single view), Cancelled.
+/// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h): at
+/// each pixel that of its surroundings (local_noise.h), at most what the residual of the best
+/// quarter of the pixels allows. Evidence for both: tests/accuracy/tuning.md. Throws InvalidInput
+/// (no such view, a single view), Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,
                                          const Progress& progress);
@@ -65,7 +61,7 @@ struct StereoCosts {
 /// For the notes of an estimate: which cap was used.
 [[nodiscard]] std::string cap_note(const StereoCosts& costs);
 
-/// The costs of some rows, aggregated. Not thread-safe: one object for each thread.
+/// The costs of some rows, aggregated. Not thread-safe: use one object per thread.
 class StereoCostRows {
  public:
   StereoCostRows(const LightField& light_field, const StereoCosts& costs);
@@ -82,8 +78,8 @@ class StereoCostRows {
   Volume<float> band_;
 };
 
-/// Rows of a band that a thread computes at once: many against those it needs beyond the band to
-/// aggregate, few enough to keep every thread busy.
+/// Rows of a band that a thread computes at once: many compared with those it needs beyond the band
+/// for the aggregation, few enough to keep every thread busy.
 [[nodiscard]] int stereo_band_rows(int height);
 
 /// The costs of all rows: height · width · labels · 4 bytes. Throws Cancelled.

@@ -11,8 +11,8 @@
 namespace episcope {
 namespace {
 
-// No pixel is given up entirely when it is placed between labels.
-constexpr float kLeastWeight = 0.01F;
+// No pixel gets weight 0 when it is placed between labels.
+constexpr float kMinWeight = 0.01F;
 
 // The mean cost of each pixel over the labels.
 Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress) {
@@ -91,7 +91,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
       offset = sub_label_offset(costs.at(y, label - 1, x), cost, costs.at(y, label + 1, x),
                                 Refinement::Parabola);
     }
-    return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kLeastWeight)};
+    return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
   };
   const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
   label_globally(lf, {stereo.view, stereo.labels, costs, unit * mean_of(means), place},

@@ -9,7 +9,7 @@
 namespace episcope {
 namespace {
 
-// Mean costs as small as this tell nothing: a twentieth of the step of 8-bit samples.
+// Mean costs this small are meaningless: a twentieth of the step of 8-bit samples.
 constexpr float kFlat = 2e-4F;
 
 // Chooses labels row by row.
@@ -68,7 +68,7 @@ Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::matching, stereo_cost_schema(views))
       .choice("refinement", &P::refinement,
-              {"Refinement", "How the disparity is placed between labels"})
+              {"Refinement", "How the disparity is interpolated between labels"})
       .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
       .search("aggregation", {0, 2})
       .completed_by([](P& p) {
@@ -78,7 +78,7 @@ Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
 
 Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
   using P = StereoSmoothParameters;
-  // Fewer caps than the local methods: smoothing takes what noise they leave.
+  // Fewer caps than for the local methods: smoothing removes the noise that they leave.
   return Schema<P>()
       .part(&P::denoising, denoise_schema())
       .part(&P::local, stereo_local_schema(views))

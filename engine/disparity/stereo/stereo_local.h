@@ -29,8 +29,7 @@ struct StereoSmoothParameters {
 /// (equiangular), by half a label at most. Costs are computed band by band and never held.
 ///
 /// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike
-/// and falls with noise, since noise raises the least cost; as weight of the denoising it did
-/// better than the ratio to the second best label or the curvature. The ε used is in the notes.
+/// and falls with noise, since noise raises the least cost. The ε used is reported in the notes.
 /// Throws InvalidInput as `prepare_stereo`, Cancelled.
 [[nodiscard]] Estimate estimate_stereo_local(const LightField& light_field, MatchedViews views,
                                              const StereoLocalParameters& parameters,

@@ -26,7 +26,7 @@ Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
 Estimator st_av_l_estimator() {
   return stereo_estimator({.id = "st_av_l",
                            .name = "ST_AV_L",
-                           .summary = "Multi-view stereo over all views, local",
+                           .summary = "Local multi-view stereo over all views",
                            .reference = kReference,
                            .revision = 3},
                           MatchedViews::All, stereo_local_schema, estimate_stereo_local);
@@ -35,7 +35,7 @@ Estimator st_av_l_estimator() {
 Estimator st_ch_l_estimator() {
   return stereo_estimator({.id = "st_ch_l",
                            .name = "ST_CH_L",
-                           .summary = "Multi-view stereo over the views of the cross-hair, local",
+                           .summary = "Local multi-view stereo over the views of the cross-hair",
                            .reference = kReference,
                            .revision = 3},
                           MatchedViews::CrossHair, stereo_local_schema, estimate_stereo_local);
@@ -64,7 +64,7 @@ Estimator st_ch_s_estimator() {
 Estimator st_av_g_estimator() {
   return stereo_estimator({.id = "st_av_g",
                            .name = "ST_AV_G",
-                           .summary = "Globally optimal labeling on the matching costs of ST_AV_L",
+                           .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
                            .revision = 3},
@@ -74,7 +74,7 @@ Estimator st_av_g_estimator() {
 Estimator st_ch_g_estimator() {
   return stereo_estimator({.id = "st_ch_g",
                            .name = "ST_CH_G",
-                           .summary = "Globally optimal labeling on the matching costs of ST_CH_L",
+                           .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
                            .revision = 3},

@@ -8,14 +8,14 @@ namespace episcope {
 // Multi-view stereo over all views (ST_AV, equation (3) of the paper) or over those of the row and
 // the column of the estimated view, the cross-hair (ST_CH, equation (4)). All estimate one view.
 
-/// ST_AV_L, ST_CH_L: at every pixel the label of the least matching cost
+/// ST_AV_L, ST_CH_L: at every pixel the label of least matching cost
 /// (engine/disparity/stereo/stereo_local.h).
 ///
-/// The profile `paper` is the method as published: no cap for the cross-hair, ε = 1.0 for all
-/// views, which no pixel of the paper's scenes tells from none, bilinear samples, no refinement.
-/// The default departs from it: ε follows the noise, cubic samples, costs shared among neighbours
-/// of like colour by a guided filter of radius 2, a parabola between labels. On the built-in
-/// scenes, still_life and cotton that divides the error by about five.
+/// The profile `paper` is the method as published: no cap for the cross-hair; for all views ε =
+/// 1.0, which no pixel of the paper's scenes can tell from no cap; bilinear samples, no refinement.
+/// The default departs from it: ε follows the noise, samples are cubic, neighbours of similar
+/// colour share costs through a guided filter of radius 2, and a parabola is fitted between labels.
+/// This reduces the error to about a fifth (tests/accuracy/tuning.md).
 [[nodiscard]] Estimator st_av_l_estimator();
 [[nodiscard]] Estimator st_ch_l_estimator();
 

@@ -8,7 +8,7 @@
 namespace episcope {
 
 /// Reads samples of a light field as float planes in [0, 1], one plane for each channel, whatever
-/// type they are stored in. One object for each thread; valid as long as the light field.
+/// type they are stored in. Use one object per thread; valid as long as the light field.
 class SamplePlanes {
  public:
   explicit SamplePlanes(const LightField& light_field);

@@ -6,6 +6,8 @@
 #include "engine/disparity/tensor/sample_planes.h"
 #include "engine/disparity/tensor/structure_tensor_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,7 +19,7 @@ namespace {
 
 // Lanes that a kernel may read or write beyond what it is asked for.
 constexpr int kSlack = 128;
-constexpr int kMaxRows = 32;
+constexpr int kMaxViews = 32;
 // Of the widest instruction set: rows begin at whole vectors, where strides allow it.
 constexpr int kVectorLanes = 16;
 
@@ -34,17 +36,17 @@ constexpr int kBlockColumns = 4 * kVectorLanes;
 
 // The views are cut into blocks of about equal height.
 int block_height(const LightField& lf) {
-  constexpr int kMostRows = 128;
-  const int blocks = (lf.height() + kMostRows - 1) / kMostRows;
+  constexpr int kMaxBlockRows = 128;
+  const int blocks = (lf.height() + kMaxBlockRows - 1) / kMaxBlockRows;
   return (lf.height() + blocks - 1) / blocks;
 }
 
 int views_along(const LightField& lf, StructureTensor::Direction direction) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
   const int views = horizontal ? lf.grid().u : lf.grid().v;
-  if (views < 2 || views > kMaxRows) {
-    throw InvalidInput("the structure tensor needs 2 to 32 views along an EPI, but the grid has " +
-                       std::to_string(views));
+  if (views < 2 || views > kMaxViews) {
+    throw InvalidInput(fmt::format(
+        "the structure tensor needs 2 to 32 views along an EPI, but the grid has {}", views));
   }
   return views;
 }
@@ -159,7 +161,7 @@ void StructureTensor::State::use_slot(float* slot) {
   std::fill_n(slot, 4 * plane, 0.0F);
 }
 
-// The hardware does not foresee steps of a whole image row.
+// The hardware does not prefetch across steps of a whole image row.
 void StructureTensor::State::prefetch_pixels(ViewIndex view, int y, int x) const {
   constexpr int kRowsAhead = 12;
   constexpr int kCacheLine = 64;

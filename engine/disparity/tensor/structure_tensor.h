@@ -43,7 +43,7 @@ struct TensorExtent {
 /// 4Jxs²)) and coherence r = √((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²), n² the energy of the noise.
 /// Source: Bigün and Granlund 1987 [BG87]; Wanner and Goldluecke 2012 [WG12].
 ///
-/// Where we depart from it, each measured against truth (tests/accuracy):
+/// Departures from it, each of which lowers the error on scenes with known truth:
 /// - The EPI is sheared to several disparities and the most coherent answer kept. Each view is
 ///   integrated in coordinates of its own, so all views get estimates at whole pixels.
 /// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture
@@ -53,7 +53,7 @@ struct TensorExtent {
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
 /// out right.
 ///
-/// Not thread-safe: one object for each thread. Takes 2 to 10 MB.
+/// Not thread-safe: use one object per thread. Takes 2 to 10 MB.
 class StructureTensor {
  public:
   enum class Direction { Horizontal, Vertical };
@@ -82,7 +82,7 @@ class StructureTensor {
 
 /// Merges `count` estimates of one direction into those of the other: where both agree within
 /// 0.3 px their mean weighted by coherence^power, else the more coherent one; coherence becomes the
-/// larger of the two. Source: winner-takes-all as in [WG12], weights measured to be better.
+/// larger of the two. Source: winner-takes-all as in [WG12], here weighted.
 void merge_orientations(const float* disparity, const float* coherence, int count, int power,
                         float* to_disparity, float* to_coherence);
 

@@ -8,7 +8,7 @@ namespace episcope {
 /// Maps of an evaluation, from the very errors that its numbers were computed from. What
 /// `evaluation.judged` leaves out belongs to no map.
 
-/// 1 where the estimate has a value, judged or not: elsewhere it has no error to show.
+/// 1 where the estimate has a value, evaluated or not; elsewhere there is no error to show.
 [[nodiscard]] Image<std::uint8_t> present_mask(const Evaluation& evaluation);
 
 /// |truth − estimate| in px.

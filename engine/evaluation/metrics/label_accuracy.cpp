@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <string>
 
 namespace episcope {
@@ -48,9 +50,9 @@ LabelAccuracy& LabelAccuracy::operator+=(const LabelAccuracy& other) {
 LabelAccuracy judge_labels(ImageView<const std::int32_t> labels,
                            ImageView<const std::int32_t> truth) {
   if (labels.height != truth.height || labels.width != truth.width) {
-    throw InvalidInput("labels of " + std::to_string(labels.width) + "×" +
-                       std::to_string(labels.height) + " px cannot be judged by true ones of " +
-                       std::to_string(truth.width) + "×" + std::to_string(truth.height) + " px");
+    throw InvalidInput(
+        fmt::format("labels of {}×{} px cannot be compared with true labels of {}×{} px",
+                    labels.width, labels.height, truth.width, truth.height));
   }
   LabelAccuracy accuracy;
   for (int y = 0; y < truth.height; ++y) {

@@ -10,13 +10,13 @@
 
 namespace episcope {
 
-/// How often labels agree with the truth.
+/// How often labels agree with the ground truth.
 struct LabelAccuracy {
   /// Pixels by true label and given label.
   std::map<std::pair<std::int32_t, std::int32_t>, std::int64_t> confusion;
 
   [[nodiscard]] std::int64_t judged() const;
-  /// Share of judged pixels labeled rightly, in [0, 1]; empty if none is judged.
+  /// Fraction of the evaluated pixels with the correct label, in [0, 1]; empty if there are none.
   [[nodiscard]] std::optional<double> share() const;
   /// The same among pixels of one true label.
   [[nodiscard]] std::optional<double> share(std::int32_t label) const;

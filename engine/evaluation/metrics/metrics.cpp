@@ -4,6 +4,8 @@
 #include "engine/core/error.h"
 #include "engine/evaluation/metrics/region_metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,7 +14,7 @@ namespace episcope {
 namespace {
 
 std::string size_text(const ImageView<const float>& image) {
-  return std::to_string(image.width) + "×" + std::to_string(image.height);
+  return fmt::format("{}×{}", image.width, image.height);
 }
 
 /// The smallest, that is farthest, true disparity: what a missing estimate counts as.
@@ -177,7 +179,7 @@ Protocol parse_protocol(const std::string& name) {
   for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
     if (name == protocol_name(protocol)) return protocol;
   }
-  throw InvalidInput("there is no protocol '" + name + "': use vmv2013 or benchmark2016");
+  throw InvalidInput("there is no protocol '" + name + "'; use vmv2013 or benchmark2016");
 }
 
 std::optional<double> find_metric(const Metrics& metrics, const std::string& key) {
@@ -193,7 +195,7 @@ Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
   auto evaluation = evaluate_if_any(estimate, truth, regions, options);
   if (evaluation) return std::move(*evaluation);
   throw InvalidInput(
-      "no pixel of the " + size_text(truth.disparity) + " px can be judged by " +
+      "no pixel of the " + size_text(truth.disparity) + " px can be evaluated by " +
       protocol_name(options.protocol) +
       (options.protocol == Protocol::Benchmark2016 ? ", which ignores a border of 15 px" : "") +
       ": the truth has no value there");
@@ -204,8 +206,8 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
   for (const auto* field :
        {&estimate.foreground, &estimate.background, &truth.foreground, &truth.background}) {
     if (!field->contains(view)) {
-      throw InvalidInput("view " + std::to_string(view.v) + "," + std::to_string(view.u) +
-                         " lacks two layers of estimate and truth to compare");
+      throw InvalidInput(fmt::format(
+          "view {},{} does not have two layers in both estimate and truth", view.v, view.u));
     }
   }
   const std::map<std::string, Image<std::uint8_t>> no_regions;

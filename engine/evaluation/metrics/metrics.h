@@ -24,12 +24,12 @@ enum class Protocol {
 /// Throws InvalidInput naming both.
 [[nodiscard]] Protocol parse_protocol(const std::string& name);
 
-/// How judged pixels count where the estimate has no value.
+/// How evaluated pixels count where the estimate has no value.
 enum class InvalidEstimates {
   /// Never an advantage: bad in every percentage, the farthest true disparity for MSE and the error
-  /// map, behind all others in Q25, at the clip for bumpiness, 180° for normals.
+  /// map, last in the order of Q25, at the clip for bumpiness, 180° for normals.
   Bad,
-  /// As the official 2016 tool: good in BadPix, fattening and thinning, left out of all others.
+  /// As in the official 2016 tool: good in BadPix, fattening and thinning, ignored in all others.
   Compatible,
 };
 
@@ -78,11 +78,11 @@ struct Evaluation {
 struct LayeredEvaluation {
   Evaluation foreground;
   Evaluation background;
-  /// Where the truth is one surface: the foreground, as the one map of those who know but one. None
-  /// if there is no such truth.
+  /// Where the truth has one surface: the foreground, as the single map of methods that estimate
+  /// one layer. None if there is no such truth.
   std::optional<Evaluation> single;
-  /// % of the pixels of any truth whose number of layers is right; two where both truths have a
-  /// value. None if the estimate does not tell the number.
+  /// Percentage of the pixels with truth whose number of layers is correct; two where both truths
+  /// have a value. None if the estimate does not state the number.
   std::optional<double> layers_right;
 };
 

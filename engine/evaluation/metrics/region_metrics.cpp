@@ -5,6 +5,8 @@
 #include "engine/evaluation/metrics/bumpiness.h"
 #include "engine/evaluation/metrics/normals.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,10 +44,9 @@ class RegionMetrics {
     const auto& mask = found->second;
     const auto& judged = evaluation_.judged;
     if (mask.height() != judged.height() || mask.width() != judged.width()) {
-      throw InvalidInput("the region mask " + found->first + " is " + std::to_string(mask.width()) +
-                         "×" + std::to_string(mask.height()) + " px, but the truth is " +
-                         std::to_string(judged.width()) + "×" + std::to_string(judged.height()) +
-                         " px");
+      throw InvalidInput(fmt::format("the region mask {} is {}×{} px, but the truth is {}×{} px",
+                                     found->first, mask.width(), mask.height(), judged.width(),
+                                     judged.height()));
     }
     return &mask;
   }

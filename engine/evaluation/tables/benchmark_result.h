@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// What one entry (a method of this build with its default parameters, or a submission from
-/// elsewhere) reached on one scene, judged in the centre view.
+/// The result of one entry (a method of this build with its default parameters, or an external
+/// submission) on one scene, evaluated in the centre view.
 struct BenchmarkResult {
   std::string entry;
   std::string scene;

@@ -2,7 +2,9 @@
 #include "engine/evaluation/tables/benchmark_tables.h"
 
 #include "engine/core/text/join.h"
-#include "engine/evaluation/tables/place_of.h"
+#include "engine/evaluation/tables/find_or_append.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
@@ -33,12 +35,13 @@ std::string gap_note(const ScoreMatrix& matrix, const Ranking& ranking) {
     gaps.push_back(matrix.scenes[scene] + " (" + joined(lacking, ", ") + ")");
   }
   const std::size_t total = ranking.scenes.size() + ranking.missing.size();
-  const std::string left_out = "Left out for a gap: " + joined(gaps, ", ") + ".";
+  const std::string left_out = "Left out because of missing scores: " + joined(gaps, ", ") + ".";
   if (ranking.scenes.empty()) {
-    return "No scene has a score of every entry, so nobody is ranked. " + left_out;
+    return "No scene has a score for every entry, so there is no ranking. " + left_out;
   }
-  return "Averages and ranks are over " + std::to_string(ranking.scenes.size()) + " of " +
-         std::to_string(total) + " scenes, those that every ranked entry has. " + left_out;
+  return fmt::format(
+      "Averages and ranks are over {} of {} scenes, those with scores for every ranked entry. {}",
+      ranking.scenes.size(), total, left_out);
 }
 
 bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
@@ -78,7 +81,7 @@ std::vector<std::string> own_averages(const ScoreMatrix& matrix,
       sum += score.value_or(0);
       count += score ? 1 : 0;
     }
-    cells.push_back(fixed_text(sum / count, kScoreDigits) + " (" + std::to_string(count) + ")");
+    cells.push_back(fmt::format("{} ({})", fixed_text(sum / count, kScoreDigits), count));
   }
   return cells;
 }
@@ -107,7 +110,7 @@ Speed speed_of(const std::vector<BenchmarkResult>& results, const std::string& e
 void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results, Protocol protocol) {
   std::vector<std::string> keys;
   for (const BenchmarkResult& result : results) {
-    for (const auto& [key, value] : metrics_of(result, protocol)) place_of(keys, key);
+    for (const auto& [key, value] : metrics_of(result, protocol)) find_or_append(keys, key);
   }
   constexpr int exact_digits = 6;
   for (const auto& key : keys) {
@@ -129,14 +132,14 @@ ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol p
                          const std::string& key) {
   ScoreMatrix matrix;
   for (const BenchmarkResult& result : results) {
-    place_of(matrix.entries, result.entry);
-    place_of(matrix.scenes, result.scene);
+    find_or_append(matrix.entries, result.entry);
+    find_or_append(matrix.scenes, result.scene);
   }
   matrix.scores.assign(matrix.entries.size(),
                        std::vector<std::optional<double>>(matrix.scenes.size()));
   for (const BenchmarkResult& result : results) {
-    matrix.scores[place_of(matrix.entries, result.entry)][place_of(matrix.scenes, result.scene)] =
-        find_metric(metrics_of(result, protocol), key);
+    matrix.scores[find_or_append(matrix.entries, result.entry)][find_or_append(
+        matrix.scenes, result.scene)] = find_metric(metrics_of(result, protocol), key);
   }
   return matrix;
 }
@@ -172,9 +175,9 @@ TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) 
 TitledTable overview_table(const std::vector<BenchmarkResult>& results) {
   const ScoreMatrix matrix = score_matrix(results, Protocol::Vmv2013, "mse_100");
   const Ranking ranking = rank_entries(matrix, kScoreDigits);
-  TitledTable titled{"Algorithms ranked by average accuracy, as figure 8 (MSE × 100)",
-                     "Speed is that of this machine: fast is less than 5 s, medium up to a minute, "
-                     "slow more; seconds are the mean over the scenes.",
+  TitledTable titled{"Algorithms ranked by average accuracy, as in figure 8 (MSE × 100)",
+                     "Speed was measured on this machine: fast is under 5 s, medium up to a "
+                     "minute, slow above; seconds are the mean over the scenes.",
                      {{"algorithm", "rank", "accuracy", "speed", "seconds", "all views"}, {}},
                      {}};
   if (const std::string note = gap_note(matrix, ranking); !note.empty()) titled.note += " " + note;
@@ -196,7 +199,7 @@ std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& re
     const char* key;
   };
   constexpr Choice choices[] = {
-      {"Mean squared error × 100 of the centre view, as figure 7 (vmv2013)", Protocol::Vmv2013,
+      {"Mean squared error × 100 of the centre view, as in figure 7 (vmv2013)", Protocol::Vmv2013,
        "mse_100"},
       {"Transparent scenes, foreground: mean squared error × 100 (vmv2013)", Protocol::Vmv2013,
        "mse_100_foreground"},

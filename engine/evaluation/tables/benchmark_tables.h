@@ -13,13 +13,13 @@
 
 namespace episcope {
 
-/// Digits after the point that tables show and ties are told by.
+/// Digits after the point in tables; equal digits are a tie.
 inline constexpr int kScoreDigits = 3;
 
 /// A score as tables show it; "–" if there is none.
 [[nodiscard]] std::string score_text(const std::optional<double>& score);
 
-/// A table with what a reader must know of it.
+/// A table with its title and explanations.
 struct TitledTable {
   std::string title;
   std::string note;  ///< Sentences; may be empty.
@@ -31,10 +31,11 @@ struct TitledTable {
 [[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
                                        Protocol protocol, const std::string& key);
 
-/// As figure 7 of the paper: a scene a line, an entry a column, best entry first; then the average
-/// and the rank, and between them, if averages leave scenes out, that of all scenes an entry has
-/// with their number. Gaps are "–"; the note says which scenes the averages leave out and for whom.
-/// The least score of each line is stressed. Entries and scenes without any score are left out.
+/// As figure 7 of the paper: one line per scene, one column per entry, best entry first; then
+/// average and rank, and between them, if averages omit scenes, the average over all scenes that an
+/// entry has, with their number. Gaps are "–"; the note says which scenes the averages omit and
+/// why. The lowest score of each line is highlighted. Entries and scenes without any score are
+/// omitted.
 [[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);
 
 /// As figure 8: rank, algorithm, average MSE × 100, speed class by the mean time of its scenes,
@@ -46,7 +47,8 @@ struct TitledTable {
 [[nodiscard]] std::vector<TitledTable> benchmark_tables(
     const std::vector<BenchmarkResult>& results);
 
-/// A result a line with every metric: "entry", "scene", "protocol.metric", …, for other programs.
+/// One line per result with every metric: "entry", "scene", "protocol.metric", …, for other
+/// programs.
 [[nodiscard]] TextTable results_table(const std::vector<BenchmarkResult>& results);
 
 }  // namespace episcope

@@ -8,7 +8,7 @@ namespace episcope {
 namespace {
 
 // Keeps the logarithm of a perfect score finite: 1e-4 px off.
-constexpr double kLeastError = 1e-6;
+constexpr double kMinError = 1e-6;
 
 std::optional<std::size_t> best_of_scene(const SearchScores& scores, std::size_t scene) {
   std::optional<std::size_t> best;
@@ -25,7 +25,7 @@ std::optional<double> log_error(const std::vector<std::optional<double>>& errors
   double sum = 0;
   for (const std::size_t scene : scenes) {
     if (!errors[scene]) return std::nullopt;
-    sum += std::log(std::max(*errors[scene], kLeastError));
+    sum += std::log(std::max(*errors[scene], kMinError));
   }
   return sum;
 }

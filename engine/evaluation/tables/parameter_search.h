@@ -9,8 +9,8 @@
 
 namespace episcope {
 
-/// Points of a search at most, of any method.
-inline constexpr std::size_t kMostSearchPoints = 60;
+/// Maximum number of points in the search of a method.
+inline constexpr std::size_t kMaxSearchPoints = 60;
 
 /// The points that a search tries: the product of `ParameterDescription::searched`, in the order of
 /// the parameters, the last one running fastest. The first point is the default, whether or not it
@@ -22,15 +22,15 @@ inline constexpr std::size_t kMostSearchPoints = 60;
 /// Errors by `[point][scene]`; empty = not known. Point 0 is the default.
 using SearchScores = std::vector<std::vector<std::optional<double>>>;
 
-/// Which point each protocol takes, by scene. Empty where no point has a score.
+/// The point that each protocol selects, by scene. Empty where no point has a score.
 struct ParameterChoice {
   /// The best of each scene, as in the paper ("we did a parameter search to find the optimum for
   /// all methods on each data set separately" [WMG13]).
   std::vector<std::optional<std::size_t>> per_scene;
   /// One for all scenes, the "second run with equal parameter values" that the paper announces.
   std::optional<std::size_t> equal;
-  /// The same, chosen without the scene that it is judged on: what equal parameters are worth on an
-  /// unknown scene. Empty with less than two scenes.
+  /// The same, chosen without the scene that it is evaluated on: what equal parameters are worth on
+  /// an unknown scene. Empty with fewer than two scenes.
   std::vector<std::optional<std::size_t>> leave_one_out;
 };
 

@@ -24,13 +24,13 @@ struct Ranking {
   std::vector<std::size_t> order;               ///< Entries, best first, those not ranked last.
 };
 
-/// Whether any of the scores of an entry is there.
+/// Whether an entry has any score.
 [[nodiscard]] bool has_score(const std::vector<std::optional<double>>& scores);
 
-/// Ranks by the average over the scenes that all ranked entries have, so that nobody gains by
-/// leaving out a hard scene. Entries without any score are not ranked; a scene without any score is
-/// neither averaged nor missing. Averages that agree when rounded to `digits` share the better
-/// rank, the next one counts on (1, 1, 3), and keep their order.
+/// Ranks by the average over the scenes that all ranked entries have, so that omitting a hard scene
+/// is no advantage. Entries without any score are not ranked; a scene without any score is neither
+/// averaged nor missing. Averages that agree when rounded to `digits` share the better rank, the
+/// next one continues the count (1, 1, 3), and keep their order.
 [[nodiscard]] Ranking rank_entries(const ScoreMatrix& matrix, int digits);
 
 }  // namespace episcope

@@ -2,7 +2,7 @@
 #include "engine/evaluation/tables/search_tables.h"
 
 #include "engine/core/text/join.h"
-#include "engine/evaluation/tables/place_of.h"
+#include "engine/evaluation/tables/find_or_append.h"
 
 #include <algorithm>
 #include <array>
@@ -49,10 +49,11 @@ ScoreMatrix matrix_of(const std::vector<MethodSearch>& searches, Rule rule) {
 TitledTable protocol_table(const std::vector<MethodSearch>& searches) {
   TitledTable titled{
       "Parameter search: average MSE × 100 of the centre view (vmv2013)",
-      "P-opt: the best point of each scene, as in the paper. P-fix: one point for all scenes, the "
-      "least geometric mean of error / best error of the scene. LOSO: P-fix chosen without the "
-      "scene that is judged. The centre view alone is estimated, the disparity range found as in "
-      "any other run, never from the truth. Averages are over the scenes that every method has.",
+      "P-opt: the best point for each scene, as in the paper. P-fix: one point for all scenes, "
+      "which minimises the geometric mean of error / best error of the scene. LOSO (leave one "
+      "scene out): P-fix chosen without the scene being evaluated. Only the centre view is "
+      "estimated; the disparity range is found as in any other run, never from the ground truth. "
+      "Averages are over the scenes that every method has.",
       {{"algorithm", "rank", "P-opt", "P-fix", "LOSO", "default", "points", "P-fix parameters"},
        {}},
       {}};
@@ -93,16 +94,16 @@ std::vector<MethodSearch> gather_searches(const std::vector<SearchResult>& resul
   std::vector<std::string> methods;
   std::vector<std::string> scenes;
   for (const SearchResult& result : results) {
-    place_of(methods, result.method);
-    place_of(scenes, result.scene);
+    find_or_append(methods, result.method);
+    find_or_append(scenes, result.scene);
   }
   std::vector<MethodSearch> searches;
   for (const auto& method : methods) searches.push_back({method, scenes, {}, {}, {}});
   for (const SearchResult& result : results) {
-    MethodSearch& search = searches[place_of(methods, result.method)];
-    const std::size_t point = place_of(search.points, result.point);
+    MethodSearch& search = searches[find_or_append(methods, result.method)];
+    const std::size_t point = find_or_append(search.points, result.point);
     search.scores.resize(search.points.size(), std::vector<std::optional<double>>(scenes.size()));
-    search.scores[point][place_of(scenes, result.scene)] = result.mse_100;
+    search.scores[point][find_or_append(scenes, result.scene)] = result.mse_100;
   }
   for (MethodSearch& search : searches) search.choice = choose_parameters(search.scores);
   return searches;

@@ -81,7 +81,7 @@ void drop_single_layer(ArchiveTruth& truth, ConventionReport& report) {
   const bool lacks_foreground = truth.foreground.empty();
   report.warnings.push_back(
       std::string(lacks_foreground ? "GT_DEPTH_BACKGROUND" : "GT_DEPTH_FOREGROUND") +
-      " is left out, since the other layer, " +
+      " is ignored because the other layer, " +
       (lacks_foreground ? "GT_DEPTH_FOREGROUND" : "GT_DEPTH_BACKGROUND") +
       ", is missing or holds no depth; add it, or store a single layer as GT_DEPTH.");
   truth.foreground = {};
@@ -115,8 +115,8 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
     return truth;
   }
   if (!truth.camera.is_known()) {
-    report.units = "depth left out";
-    report.warnings.push_back(reference.name + " is left out, since " + camera_fault(file) + ".");
+    report.units = "depth ignored";
+    report.warnings.push_back(reference.name + " is ignored because " + camera_fault(file) + ".");
     return truth;
   }
   truth.camera = settle_units(reference, samples, truth.camera, options.units, report);

@@ -9,7 +9,7 @@
 
 namespace episcope::io {
 
-/// What the depth of an archive file comes to, in the stored order of views.
+/// Disparity from the depth of an archive file, in the stored order of views.
 struct ArchiveTruth {
   DisparityField field;
   DisparityField foreground;

@@ -30,8 +30,8 @@ ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape
   std::for_each(found.labels.data(), found.labels.data() + found.labels.size(),
                 [](std::int32_t& label) { ++label; });
   report.warnings.push_back(
-      "Labels begin at 0 in this file and unpainted pixels are marked otherwise: all labels are "
-      "raised by one, so that 0 means unpainted.");
+      "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
+      "are raised by one, so that 0 means unpainted.");
   return found;
 }
 

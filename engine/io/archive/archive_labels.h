@@ -12,7 +12,7 @@ struct ArchiveLabels {
   Scribbles scribbles;
 };
 
-/// Reads GT_LABELS and SCRIBBLES where they are there. Unpainted pixels (0, −1 or 255 in files)
+/// Reads GT_LABELS and SCRIBBLES if present. Unpainted pixels (0, −1 or 255 in files)
 /// become 0. Where 0 is a label and −1 or 255 means "none", labels and scribbles are raised by one,
 /// which `report` tells. Throws IoError, Cancelled.
 [[nodiscard]] ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape,

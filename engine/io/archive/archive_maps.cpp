@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 namespace episcope::io {
 namespace {
 
@@ -15,14 +17,14 @@ bool is_one_view(const Hdf5Input& file, const Hdf5Dataset& dataset, const FieldS
   const std::string expected = shape_text(all) + " or " + shape_text(view);
   const std::string what = "the dataset " + dataset.name + " has ";
   if (dataset.shape.size() != 2 && dataset.shape.size() != 4) {
-    throw IoError(file.path(), what + std::to_string(dataset.shape.size()) + " axes (" +
-                                   shape_text(dataset.shape) + "), but " + expected +
-                                   " is expected; store it so");
+    throw IoError(file.path(),
+                  fmt::format("{}{} axes ({}), but {} is expected; store it in this form", what,
+                              dataset.shape.size(), shape_text(dataset.shape), expected));
   }
   if (dataset.shape == view || dataset.shape == single) return true;
   if (dataset.shape == all) return false;
   throw IoError(file.path(), what + "the shape " + shape_text(dataset.shape) + ", but " + expected +
-                                 " is expected to fit the light field; store it so");
+                                 " is expected to fit the light field; store it in this form");
 }
 
 }  // namespace

@@ -13,6 +13,8 @@
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,9 +44,9 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
   for (std::size_t axis = 0; axis < shape.size(); ++axis) {
     const auto stated = file.number("/", names[axis]);
     if (!stated || *stated == static_cast<double>(shape[axis])) continue;
-    report.warnings.push_back("The attribute " + std::string(names[axis]) + " says " +
-                              whole(*stated) + ", but LF has " + std::to_string(shape[axis]) +
-                              " along that axis; the shape of LF is taken.");
+    report.warnings.push_back(fmt::format(
+        "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
+        names[axis], whole(*stated), shape[axis]));
   }
 }
 
@@ -52,9 +54,9 @@ Layout layout_of(const Hdf5Input& file) {
   const Hdf5Dataset dataset = file.dataset(kLightField);
   const Hdf5Shape& shape = dataset.shape;
   if (shape.size() != 4 && shape.size() != 5) {
-    throw IoError(file.path(), "the dataset LF has " + std::to_string(shape.size()) + " axes (" +
-                                   shape_text(shape) +
-                                   "), but v × h × y × x × channels is expected; store it so");
+    throw IoError(file.path(), fmt::format("the dataset LF has {} axes ({}), but v × h × y × x × "
+                                           "channels is expected; store it in this form",
+                                           shape.size(), shape_text(shape)));
   }
   if (dataset.type == Hdf5Type::Other) {
     throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
@@ -62,7 +64,7 @@ Layout layout_of(const Hdf5Input& file) {
   const auto is_odd = [](std::size_t length) { return length == 0 || length > 100000; };
   if (std::any_of(shape.begin(), shape.end(), is_odd)) {
     throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) +
-                                   ", which is no light field; choose another file");
+                                   ", which is not that of a light field; choose another file");
   }
   const std::size_t channels = shape.size() == 5 ? shape[4] : 1;
   const double stated = file.number("/", "channels").value_or(1);
@@ -72,9 +74,10 @@ Layout layout_of(const Hdf5Input& file) {
                                    "; store it as v × h × y × x × channels");
   }
   if (channels != 1 && channels != 3 && channels != 4) {
-    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) + " and so " +
-                                   std::to_string(channels) +
-                                   " channels, but 1 (grey) or 3 (RGB) are expected; store it so");
+    throw IoError(file.path(),
+                  fmt::format("the dataset LF has the shape {} and so {} channels, but 1 (grey) or "
+                              "3 (RGB) are expected; store it in this form",
+                              shape_text(shape), channels));
   }
   const auto length = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
   return {{{length(0), length(1)}, length(2), length(3)},
@@ -242,7 +245,7 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
   if (file.has("LF")) return path;
   if (file.has("estimate")) {
     throw IoError(path,
-                  "this file holds a disparity result and no light field; open the light field "
+                  "this file holds a disparity result, not a light field; open the light field "
                   "that it belongs to");
   }
   // Labels, depth or a companion: the light field lies beside it.

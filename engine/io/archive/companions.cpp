@@ -22,7 +22,7 @@ constexpr const char* kEdgeWeights = "EDGE_WEIGHTS";
 constexpr const char* kProbabilities = "Probabilities";
 
 constexpr std::array kKnownFiles{
-    KnownFile{"edge_weights.h5", CompanionKind::EdgeWeights, kEdgeWeights},
+    KnownFile{"edge_weights.h5", CompanionKind::EdgeProbabilities, kEdgeWeights},
     KnownFile{"feature_single_view_probabilities.h5", CompanionKind::ImageProbabilities,
               kProbabilities},
     KnownFile{"feature_depth_probabilities.h5", CompanionKind::DepthProbabilities, kProbabilities},
@@ -59,11 +59,13 @@ void require_fit(const std::filesystem::path& path, const std::string& dataset,
   const bool fits =
       is_weights ? shape == plain || shape == directed : label_axis(shape, field).has_value();
   if (fits) return;
-  throw IoError(path, "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
-                          shape_text(plain) +
-                          (is_weights ? " is expected to fit the light field; store it so"
-                                      : " or one view with one more axis of labels is expected; "
-                                        "store it so"));
+  throw IoError(
+      path,
+      "the dataset " + dataset + " has the shape " + shape_text(shape) + ", but " +
+          shape_text(plain) +
+          (is_weights
+               ? " is expected to fit the light field; store it in this form"
+               : " or one view with one more axis of labels is expected; store it in this form"));
 }
 
 }  // namespace
@@ -81,16 +83,16 @@ std::vector<Companion> find_companions(const std::filesystem::path& folder, cons
       require_fit(path, known.dataset, shape, field);
       found.push_back({known.kind, path, shape_text(shape)});
     } catch (const IoError& error) {
-      // A companion that cannot be read must not keep the light field from opening.
+      // An unreadable companion must not prevent the light field from opening.
       report.warnings.push_back(std::string("The file of ") + companion_name(known.kind) +
-                                " is left out: " + error.what() + ".");
+                                " is ignored: " + error.what() + ".");
     }
   }
   return found;
 }
 
-ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scene& scene,
-                                   const Progress& progress) {
+ViewStack<float> read_edge_probabilities(const std::filesystem::path& path, const Scene& scene,
+                                         const Progress& progress) {
   const Hdf5Input file(path);
   const LightField& field = *scene.light_field;
   const Hdf5Shape shape = file.dataset(kEdgeWeights).shape;
@@ -112,8 +114,8 @@ ViewStack<float> read_edge_weights(const std::filesystem::path& path, const Scen
   return weights;
 }
 
-void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
-                        const Scene& scene, const Progress& progress) {
+void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
+                              const Scene& scene, const Progress& progress) {
   progress.check();
   const LightField& field = *scene.light_field;
   const Hdf5Shape shape{

@@ -11,25 +11,27 @@
 
 namespace episcope::io {
 
-/// edge_weights.h5 and the three files of label probabilities in `folder`, as far as they are there
-/// and hold what their names say. One that is damaged or does not fit the light field is left out
+/// edge_weights.h5 and the three files of label probabilities in `folder`, as far as they exist and
+/// hold what their names say. A file that is damaged or does not fit the light field is ignored
 /// with a warning.
 [[nodiscard]] std::vector<Companion> find_companions(const std::filesystem::path& folder,
                                                      const LightField& field,
                                                      ConventionReport& report);
 
-/// Edge weights in [0, 1] of all views in the house order, `[v][u][y][x]`, or `[v][u][y][x][2]` if
-/// the file has one weight per direction. Throws IoError, also if they do not fit; Cancelled.
-[[nodiscard]] ViewStack<float> read_edge_weights(const std::filesystem::path& path,
-                                                 const Scene& scene, const Progress& progress);
+/// Edge probabilities in [0, 1] (dataset EDGE_WEIGHTS) of all views in canonical order,
+/// `[v][u][y][x]`, or `[v][u][y][x][2]` if the file has one per direction. Throws IoError, also if
+/// they do not fit; Cancelled.
+[[nodiscard]] ViewStack<float> read_edge_probabilities(const std::filesystem::path& path,
+                                                       const Scene& scene,
+                                                       const Progress& progress);
 
-/// Writes edge weights of all views as EDGE_WEIGHTS in the order of views that the files of `scene`
-/// have, so that they may lie beside them. Atomic. Throws IoError, also if they do not fit the
-/// light field; Cancelled.
-void write_edge_weights(const std::filesystem::path& path, const ViewStack<float>& weights,
-                        const Scene& scene, const Progress& progress);
+/// Writes edge probabilities of all views as EDGE_WEIGHTS in the order of views of the files of
+/// `scene`, to be stored beside them. Atomic. Throws IoError, also if they do not fit the light
+/// field; Cancelled.
+void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
+                              const Scene& scene, const Progress& progress);
 
-/// Label probabilities of an archive file, read one view at a time: for all views they take
+/// Label probabilities of an archive file, read one view at a time because all views take
 /// gigabytes.
 class ProbabilityFile {
  public:
@@ -43,7 +45,7 @@ class ProbabilityFile {
   [[nodiscard]] int label_count() const;
   /// Views in the file: all, or the centre view only.
   [[nodiscard]] bool contains(ViewIndex view) const;
-  /// `[y][x][label]` of a view in the house order. Precondition: `contains(view)`. Throws IoError.
+  /// `[y][x][label]` of a view in canonical order. Precondition: `contains(view)`. Throws IoError.
   [[nodiscard]] Image<float> view(ViewIndex view) const;
 
  private:

@@ -5,8 +5,9 @@
 #include "engine/io/archive/depth_units.h"
 #include "engine/io/order/warp_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <vector>
 
@@ -65,11 +66,11 @@ void keep_only_valid_view(DisparityField& field, const std::vector<std::size_t>&
 void warn_of_gaps(const std::string& name, std::size_t valid, std::size_t total,
                   ConventionReport& report) {
   if (valid == total) return;
-  char share[32];
-  std::snprintf(share, sizeof share, "%.3g %%",
-                100 * static_cast<double>(total - valid) / static_cast<double>(total));
-  report.warnings.push_back(name + " holds no depth at " + share +
-                            " of its pixels (masked, zero, negative or NaN); they are left out.");
+  const double share = 100 * static_cast<double>(total - valid) / static_cast<double>(total);
+  report.warnings.push_back(fmt::format(
+      "{} holds no depth at {:.3g} % of its pixels (masked, zero, negative or NaN); they are "
+      "ignored.",
+      name, share));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/archive/depth_units.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace episcope::io {
@@ -24,9 +25,7 @@ struct Reading {
 };
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.4g", value);
-  return text;
+  return fmt::format("{:.4g}", value);
 }
 
 /// Depth where d = 0, infinite for a shift of 0.
@@ -98,13 +97,13 @@ UnitsFinding find_units(const DepthFacts& facts, Units choice,
   if (choice != Units::Auto) finding.text += ", as chosen by hand";
   if (std::isfinite(taken.error)) {
     finding.text +=
-        "; views warp onto each other best so (" + number(taken.error) + " grey levels)";
+        "; this warps the views onto each other best (" + number(taken.error) + " grey levels)";
   }
   if (!taken.is_plausible()) {
-    finding.warnings.push_back("The depth gives disparities of " + number(taken.disparity.min) +
-                               " … " + number(taken.disparity.max) +
-                               " px per view step, which is hardly right; check dH, focalLength "
-                               "and shift of the file.");
+    finding.warnings.push_back(
+        "The depth gives disparities of " + number(taken.disparity.min) + " … " +
+        number(taken.disparity.max) +
+        " px per view step, which is implausible; check dH, focalLength and shift of the file.");
   }
   return finding;
 }
@@ -115,9 +114,9 @@ void settle_zero_depth(CameraGrid& camera, ConventionReport& report) {
   if (std::abs(zero - *camera.cam_distance) < 0.01 * *camera.cam_distance) return;
   const std::string by_shift =
       std::isfinite(zero) ? "is zero at depth " + number(zero) : "is zero at no finite depth";
-  report.warnings.push_back("By dH, focalLength and shift disparity " + by_shift +
+  report.warnings.push_back("According to dH, focalLength and shift, disparity " + by_shift +
                             ", but camDistance says " + number(*camera.cam_distance) +
-                            ": camDistance is left out; check these attributes of the file.");
+                            "; camDistance is ignored; check these attributes of the file.");
   camera.cam_distance.reset();
   if (std::isfinite(zero)) camera.cam_distance = zero;
 }

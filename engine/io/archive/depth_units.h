@@ -12,7 +12,7 @@
 
 namespace episcope::io {
 
-/// What is known of depth before its units are.
+/// What is known about the depth before its units are settled.
 struct DepthFacts {
   CameraGrid stored;  ///< dH, focalLength, shift, camDistance as the file has them.
   int width = 0;      ///< xRes.
@@ -25,9 +25,9 @@ struct UnitsFinding {
   std::vector<std::string> warnings;
 };
 
-/// Finds whether dH and shift hold the factor xRes: of the readings that give
-/// |d| < 20 px and, if any does, a depth of zero disparity inside the depth range, the one by which
-/// views warp onto each other best. `warp_error(camera)` is in grey levels.
+/// Determines whether dH and shift include the factor xRes: of the readings that give |d| < 20 px
+/// and, if any does, a depth of zero disparity inside the depth range, the one that warps the views
+/// onto each other best. `warp_error(camera)` is in grey levels.
 [[nodiscard]] UnitsFinding find_units(const DepthFacts& facts, Units choice,
                                       const std::function<double(const CameraGrid&)>& warp_error);
 

@@ -9,6 +9,8 @@
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/open/scene_folder.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <fstream>
@@ -53,10 +55,9 @@ ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewInd
   ViewStack<float> depth({1, 1}, height, width, 1, center);
   const std::uintmax_t bytes = fs::file_size(path);
   if (bytes != depth.size() * sizeof(float)) {
-    throw IoError(path, "the file has " + std::to_string(bytes) + " bytes, but " +
-                            std::to_string(depth.size() * sizeof(float)) + " are expected for " +
-                            std::to_string(width) + "×" + std::to_string(height) +
-                            " float samples; copy it again or remove it");
+    throw IoError(path, fmt::format("the file has {} bytes, but {} are expected for {}×{} float "
+                                    "samples; copy it again or remove it",
+                                    bytes, depth.size() * sizeof(float), width, height));
   }
   std::ifstream in(path, std::ios::binary);
   in.read(reinterpret_cast<char*>(depth.data()), static_cast<std::streamsize>(bytes));
@@ -72,10 +73,10 @@ ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, V
   if (!fs::exists(path)) return {};
   const Image<std::int32_t> numbers = decode_numbers(path);
   if (numbers.height() != height || numbers.width() != width) {
-    throw IoError(path, "the mask has " + std::to_string(numbers.width()) + "×" +
-                            std::to_string(numbers.height()) + " px, but the views have " +
-                            std::to_string(width) + "×" + std::to_string(height) +
-                            " px; remove or replace it");
+    throw IoError(
+        path,
+        fmt::format("the mask has {}×{} px, but the views have {}×{} px; remove or replace it",
+                    numbers.width(), numbers.height(), width, height));
   }
   ViewStack<std::uint8_t> mask({1, 1}, height, width, 1, center);
   std::transform(numbers.begin(), numbers.end(), mask.data(),

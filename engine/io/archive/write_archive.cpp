@@ -163,7 +163,7 @@ bool has_labels(const Scene& scene) {
 }
 
 /// Whether labels.h5 may be written: there is none, or it is ours of the same light field. Labels
-/// that someone else made are never written over; ours then go into the light-field file itself.
+/// of other programs are never overwritten; ours then go into the light-field file itself.
 bool may_write_labels(const std::filesystem::path& labels, const std::filesystem::path& file) {
   if (!std::filesystem::exists(labels)) return true;
   return has_hdf5_signature(labels) &&
@@ -270,7 +270,7 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
   } else {
     target.commit();
   }
-  // Labels of the file that was written over would else be taken for those of the new one.
+  // Otherwise labels of the overwritten file would be taken for those of the new one.
   if (!has_labels(scene) && std::filesystem::exists(beside) && may_write_labels(beside, path)) {
     std::filesystem::remove(beside);
   }

@@ -9,8 +9,8 @@
 namespace episcope::io {
 
 /// Writes a scene in the form of the 2013 archive: the light field and its depth to
-/// `path`, labels and scribbles to `labels.h5` beside it if the scene has them. Rows are in the
-/// house order, which the attribute `convention` states. Atomic for each file.
+/// `path`, labels and scribbles to `labels.h5` beside it if the scene has them. Rows are in
+/// canonical order, which the attribute `convention` states. Atomic for each file.
 /// Throws IoError, Cancelled.
 void write_archive(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 

@@ -12,9 +12,10 @@
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -36,9 +37,9 @@ int count_views(const fs::path& folder) {
 GridShape square_grid(const fs::path& folder, int count) {
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   if (count > 0 && side * side == count) return {side, side};
-  throw IoError(folder, "there is no " + std::string(kBenchmarkConfig) + " and the " +
-                            std::to_string(count) +
-                            " files input_Cam*.png form no square grid; add the missing files");
+  throw IoError(folder, fmt::format("there is no {} and the {} files input_Cam*.png do not form a "
+                                    "square grid; add the missing files",
+                                    kBenchmarkConfig, count));
 }
 
 /// Views by their index, row by row from the top left.
@@ -50,9 +51,11 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
   if (columns && rows) {
     grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
-      throw IoError(folder / kBenchmarkConfig,
-                    "num_cams_x and num_cams_y are " + std::to_string(grid.u) + " and " +
-                        std::to_string(grid.v) + ", which cannot be; correct this file");
+      throw IoError(
+          folder / kBenchmarkConfig,
+          fmt::format(
+              "num_cams_x and num_cams_y are {} and {}, which is not possible; correct this file",
+              grid.u, grid.v));
     }
   } else {
     grid = square_grid(folder, count);
@@ -61,9 +64,10 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
   for (int i = 0; i < grid.count(); ++i) {
     views.files.push_back(folder / view_file_name(i));
     if (!fs::exists(views.files.back())) {
-      throw IoError(views.files.back(), "this view is missing: " + std::to_string(count) + " of " +
-                                            std::to_string(grid.count()) +
-                                            " files input_Cam*.png are there; add it");
+      throw IoError(
+          views.files.back(),
+          fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it",
+                      count, grid.count()));
     }
   }
   return views;
@@ -88,7 +92,7 @@ void compare_size(const ConfigFile& config, Size size, ConventionReport& report)
     if (!stated || *stated == length) return;
     std::ostringstream text;
     text << key << " of " << kBenchmarkConfig << " is " << *stated << ", but the views have "
-         << length << " px; the size of the views is taken.";
+         << length << " px; the size of the views is used.";
     report.warnings.push_back(text.str());
   };
   compare("image_resolution_x_px", size.width);
@@ -114,7 +118,7 @@ CameraGrid read_camera(const fs::path& folder, const ConfigFile& config, Size si
   }
   if (found == 0) return {};
   const std::string left_out =
-      "The camera of " + (folder / kBenchmarkConfig).string() + " is left out: ";
+      "The camera of " + (folder / kBenchmarkConfig).string() + " is ignored: ";
   if (!missing.empty()) {
     report.warnings.push_back(left_out + missing + " is missing; add it.");
     return {};
@@ -134,10 +138,9 @@ Size size_of(const LightField::Samples& samples) {
 template <class T>
 void require_size(const fs::path& path, const Image<T>& map, Size size) {
   if (map.height() == size.height && map.width() == size.width) return;
-  throw IoError(path, "this map has " + std::to_string(map.width()) + "×" +
-                          std::to_string(map.height()) + " px, but the views have " +
-                          std::to_string(size.width) + "×" + std::to_string(size.height) +
-                          " px; remove or replace it");
+  throw IoError(
+      path, fmt::format("this map has {}×{} px, but the views have {}×{} px; remove or replace it",
+                        map.width(), map.height(), size.width, size.height));
 }
 
 /// Copies a map into a view of the field; values that are not finite become invalid.
@@ -263,9 +266,10 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   ConventionReport& report = scene.convention;
   report.format = "2016 benchmark folder";
   if (!config) {
-    report.warnings.push_back("There is no parameters.cfg: the grid of " +
-                              std::to_string(views.grid.v) + "×" + std::to_string(views.grid.u) +
-                              " views was inferred from the number of files.");
+    report.warnings.push_back(
+        fmt::format("There is no parameters.cfg: the grid of {}×{} views was inferred from the "
+                    "number of files.",
+                    views.grid.v, views.grid.u));
   }
   LightFieldInfo info{scene_name(folder),
                       folder.string(),
@@ -298,7 +302,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   assemble({std::move(samples),
             std::move(truth),
             std::move(info),
-            {{}, "folders of the benchmark are in order"}},
+            {{}, "benchmark folders store views in canonical order"}},
            options, scene, progress);
   return scene;
 }

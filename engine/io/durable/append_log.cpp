@@ -23,7 +23,7 @@ bool lock(const FileDescriptor& file) {
 }
 
 IoError not_a_log(const std::filesystem::path& path) {
-  return {path, "this is no log of this program; choose another file"};
+  return {path, "this is not a log of this program; choose another file"};
 }
 
 }  // namespace
@@ -34,7 +34,8 @@ AppendLog::AppendLog(const std::filesystem::path& path, LogFraming framing, LogF
   file_ = FileDescriptor(path, O_RDWR | O_CREAT | O_APPEND);
   if (!file_.ok()) throw write_error(path);
   if (!lock(file_)) {
-    throw IoError(path, "another program is writing it; wait for its end or name another folder");
+    throw IoError(
+        path, "another program is writing it; wait until it has finished or name another folder");
   }
   read_records();
   start_flush(flush, BackgroundFlush::Start::Unflushed);

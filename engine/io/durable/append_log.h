@@ -20,23 +20,24 @@ enum class LogFlush {
   InBackground,  ///< Soon after, so that the caller never waits for a disk.
 };
 
-/// A file that only grows, by whole records. A record is in the file when `append` returns, so that
-/// it outlives the program whatever ends that. While the log is open no other process can hold it,
-/// and the system lets go of it when the program dies.
+/// A file that only grows, by whole records. A record is in the file when `append` returns, and
+/// survives the end of the program, whatever its cause. While the log is open no other process can
+/// hold it; the system releases it when the program ends.
 class AppendLog {
  public:
-  /// Opens the log, or makes an empty one. What follows the last whole record (parse_log) is
-  /// dropped for good. Throws IoError, also if another process holds it or it is no such log.
+  /// Opens the log, or creates an empty one. Anything after the last whole record (parse_log) is
+  /// discarded. Throws IoError, also if another process holds the log or the file is not such a
+  /// log.
   AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush);
-  /// Makes a log of these records, which appears under its name when it is whole; in the place of
-  /// one that may be there only when it is on the disk as well. Throws IoError.
+  /// Creates a log of these records, which appears under its name once it is complete; it replaces
+  /// an existing one only when it is on the disk as well. Throws IoError.
   AppendLog(const std::filesystem::path& path, LogFraming framing, LogFlush flush,
             std::span<const LogRecord> records);
 
   /// The records that were there when it was opened.
   [[nodiscard]] const std::vector<LogRecord>& records() const { return records_; }
-  /// Throws IoError, also if a flush in the background failed before. The log then is as it was,
-  /// and takes no more records if not even that could be had.
+  /// Throws IoError, also if a flush in the background failed before. The log is then as it was
+  /// before the call; if even that failed, it accepts no more records.
   void append(std::span<const std::uint8_t> record);
   void append(std::string_view record);
   /// Waits until all records are on the disk. Throws IoError.

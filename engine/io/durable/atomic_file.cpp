@@ -6,7 +6,9 @@
 #include "engine/io/durable/system_error.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
+
 #include <atomic>
 #include <cerrno>
 #include <string>
@@ -19,8 +21,7 @@ namespace fs = std::filesystem;
 std::string temporary_name(const fs::path& target) {
   static std::atomic<unsigned> next{0};
   std::string name = target.filename().string().substr(0, 200);
-  return name.insert(0, 1, '.') + "." + std::to_string(::getpid()) + "-" + std::to_string(next++) +
-         ".part";
+  return fmt::format("{}.{}-{}.part", name.insert(0, 1, '.'), ::getpid(), next++);
 }
 
 fs::path folder_of(const fs::path& target) {
@@ -63,7 +64,7 @@ AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)
     throw IoError(named_, "this is a folder; name a file in it");
   }
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    throw IoError(named_, "this is no ordinary file and is not written over; choose another name");
+    throw IoError(named_, "this is not a regular file and is not overwritten; choose another name");
   }
   require_space(named_, folder_of(target_), bytes);
   temporary_ = folder_of(target_) / temporary_name(target_);

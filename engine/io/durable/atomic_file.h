@@ -13,8 +13,8 @@ namespace episcope::io {
 class AtomicFile {
  public:
   /// Creates the temporary file. `bytes`: the expected size, to refuse at once what cannot fit.
-  /// Throws IoError if the folder cannot be written to, lacks the space, or if `target` is there
-  /// and is no ordinary file.
+  /// Throws IoError if the folder is not writable or lacks the space, or if `target` exists and is
+  /// not a regular file.
   explicit AtomicFile(const std::filesystem::path& target, std::uintmax_t bytes = 0);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
@@ -26,8 +26,8 @@ class AtomicFile {
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
   /// The temporary file must be closed. Throws IoError that names the target.
   void commit();
-  /// As `commit`, but without a wait for the disk, for a file that is none yet: a loss of power may
-  /// leave it cut short until it is flushed, the end of the program does not.
+  /// As `commit`, but without waiting for the disk, for a file that does not exist yet: a power
+  /// failure may leave it truncated until it is flushed, the end of the program cannot.
   void commit_unflushed();
 
  private:

@@ -10,7 +10,7 @@ namespace episcope::io {
 
 using LogRecord = std::vector<std::uint8_t>;
 
-/// How the records of a log stand in its file.
+/// How the records of a log are stored in its file.
 enum class LogFraming {
   Lines,    ///< Text: a record is a line, and holds no line break.
   Checked,  ///< Binary: a signature, then every record after its length and a checksum.
@@ -28,8 +28,8 @@ struct LogContent {
   std::size_t whole_bytes = 0;  ///< Of the signature and these records.
 };
 
-/// The records up to the first that is cut short or damaged, as the end of the program in the
-/// middle of writing leaves it. Nothing if these are not the bytes of such a log.
+/// The records up to the first that is truncated or damaged, as the end of the program in the
+/// middle of a write leaves it. Nothing if these are not the bytes of such a log.
 [[nodiscard]] std::optional<LogContent> parse_log(LogFraming framing,
                                                   std::span<const std::uint8_t> bytes);
 

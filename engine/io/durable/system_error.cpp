@@ -44,13 +44,13 @@ IoError write_error(const std::filesystem::path& path) {
     return {path, "the disk is full; free some space or choose another folder"};
   }
   if (code == EFBIG) {
-    return {path, "the file would become larger than is allowed here; choose another folder"};
+    return {path, "the file would become larger than allowed here; choose another folder"};
   }
   if (code == ENOENT) {
     return {path, "the folder does not exist; create it or choose another one"};
   }
   if (code == ENOTDIR) {
-    return {path, "a part of this path is a file and no folder; choose another path"};
+    return {path, "part of this path is a file, not a folder; choose another path"};
   }
   const std::string reason = code == 0 ? "unknown reason" : std::strerror(code);
   return {path, "the file cannot be written (" + reason + "); choose another folder"};

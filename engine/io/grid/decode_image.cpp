@@ -5,6 +5,7 @@
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/png_check.h"
 
+#include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -31,8 +32,8 @@ Image<T> copy_rgb(const cv::Mat& decoded) {
 
 [[noreturn]] void refuse(const std::filesystem::path& path) {
   throw IoError(path,
-                "the image cannot be decoded: it is damaged or of another kind than its "
-                "name says; copy or export it again");
+                "the image cannot be decoded: it is damaged or its format does not match its name; "
+                "copy or export it again");
 }
 
 cv::Mat read_mat(const std::filesystem::path& path) {
@@ -57,8 +58,8 @@ AnyImage decode_image(const std::filesystem::path& path) {
   if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);
   if (decoded.depth() == CV_32F) return copy_rgb<float>(decoded);
   throw IoError(path,
-                "the image holds neither 8-bit, 16-bit nor 32-bit float samples; export it "
-                "again in one of these");
+                "the image has neither 8-bit, 16-bit nor 32-bit float samples; export it again in "
+                "one of these formats");
 }
 
 bool is_image_name(const std::filesystem::path& path) {
@@ -73,8 +74,8 @@ std::string describe_image(const AnyImage& image) {
   constexpr const char* types[] = {"8 bit", "16 bit", "float"};
   return std::visit(
       [&](const auto& one) {
-        return std::to_string(one.width()) + "×" + std::to_string(one.height()) + " px, " +
-               (one.channels() == 1 ? "grey" : "RGB") + ", " + types[image.index()];
+        return fmt::format("{}×{} px, {}, {}", one.width(), one.height(),
+                           one.channels() == 1 ? "grey" : "RGB", types[image.index()]);
       },
       image);
 }
@@ -82,7 +83,7 @@ std::string describe_image(const AnyImage& image) {
 Image<std::int32_t> decode_numbers(const std::filesystem::path& path) {
   const AnyImage decoded = decode_image(path);
   if (std::holds_alternative<Image<float>>(decoded)) {
-    throw IoError(path, "whole numbers are expected in this image, but it holds float samples");
+    throw IoError(path, "this image must hold integers, but it holds float samples");
   }
   return std::visit(
       [](const auto& image) {

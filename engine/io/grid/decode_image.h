@@ -10,8 +10,8 @@
 
 namespace episcope::io {
 
-/// A decoded image in the type it was stored in: 1 channel, or 3 in the order RGB. An alpha channel
-/// is left out.
+/// A decoded image in its stored sample type: 1 channel, or 3 in the order RGB. An alpha channel is
+/// dropped.
 using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<float>>;
 
 /// Decodes PNG, JPEG, TIFF, BMP, PPM. Orientation tags are ignored: views are taken as stored.

@@ -5,6 +5,8 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/maps/parse_number.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -176,7 +178,7 @@ Group group_by_pattern(const std::vector<fs::path>& images, const std::string& t
   const bool has_index = text.find("{index}") != std::string::npos;
   if (has_both == has_index) {
     throw InvalidInput("the pattern '" + text +
-                       "' must hold {row} and {col}, or {index}, as in view_{row}_{col}.png");
+                       "' must contain {row} and {col}, or {index}, as in view_{row}_{col}.png");
   }
   const Pattern pattern(text);
   Group group{text, {}};
@@ -193,8 +195,8 @@ Group group_by_pattern(const std::vector<fs::path>& images, const std::string& t
 }
 
 std::string tried(const Group& group, std::size_t images) {
-  return "pattern " + group.pattern + " matches " + std::to_string(group.files.size()) + " of " +
-         std::to_string(images) + " images";
+  return fmt::format("pattern {} matches {} of {} images", group.pattern, group.files.size(),
+                     images);
 }
 
 ViewFiles two_number_grid(const fs::path& folder, const Group& group, std::size_t images) {
@@ -215,10 +217,10 @@ ViewFiles two_number_grid(const fs::path& folder, const Group& group, std::size_
     for (const long column : columns) {
       const auto found = files.find({row, column});
       if (found == files.end()) {
-        throw IoError(folder, "the view of row " + std::to_string(row) + ", column " +
-                                  std::to_string(column) + " is missing (" + tried(group, images) +
-                                  ", a grid of " + std::to_string(rows.size()) + "×" +
-                                  std::to_string(columns.size()) + "); add it or name a pattern");
+        throw IoError(folder,
+                      fmt::format("the view of row {}, column {} is missing ({}, a grid of {}×{}); "
+                                  "add it or name a pattern",
+                                  row, column, tried(group, images), rows.size(), columns.size()));
       }
       views.files.push_back(found->second);
     }
@@ -240,10 +242,10 @@ ViewFiles index_grid(const fs::path& folder, Group group, std::size_t images) {
   for (std::size_t i = 1; i < count && gap.empty(); ++i) {
     const long expected = group.files[i - 1].numbers[0] + 1;
     if (group.files[i].numbers[0] > expected) {
-      gap = "; the number " + std::to_string(expected) + " is missing";
+      gap = fmt::format("; the number {} is missing", expected);
     }
   }
-  throw IoError(folder, "the images form no square grid (" + tried(group, images) + gap +
+  throw IoError(folder, "the images do not form a square grid (" + tried(group, images) + gap +
                             "); add the missing views or name a pattern with {row} and {col}");
 }
 
@@ -270,12 +272,14 @@ NamedGrid name_grid(const fs::path& folder, const std::string& pattern, bool sna
     if (group.files.empty()) group = largest_group(images);
   }
   if (group.files.size() < 2 || group.files.front().numbers.empty()) {
-    throw IoError(folder, "the images form no grid of views: " +
-                              (pattern.empty() ? std::to_string(images.size()) +
-                                                     " images are there, and the names tell no row "
-                                                     "and column"
-                                               : tried(group, images.size())) +
-                              "; name a pattern such as view_{row}_{col}.png");
+    throw IoError(
+        folder,
+        "the images do not form a grid of views: " +
+            (pattern.empty()
+                 ? fmt::format("{} images were found, and their names give no row and column",
+                               images.size())
+                 : tried(group, images.size())) +
+            "; name a pattern such as view_{row}_{col}.png");
   }
   NamedGrid grid;
   grid.pattern = group.pattern;

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
 
+#include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include <string>
@@ -42,8 +43,8 @@ void encode(const std::filesystem::path& path, const char* suffix, const cv::Mat
 template <class T>
 void require_channels(ImageView<const T> image, bool is_allowed, const char* expected) {
   if (image.empty() || !is_allowed) {
-    throw InvalidInput("the picture has " + std::to_string(image.channels) + " channels, but " +
-                       expected + " are expected");
+    throw InvalidInput(
+        fmt::format("the picture has {} channels, but {} are expected", image.channels, expected));
   }
 }
 

@@ -8,6 +8,8 @@
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
+#include <fmt/format.h>
+
 namespace episcope::io {
 namespace {
 
@@ -49,8 +51,8 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
                       : extras.format;
   report.units = "no depth in an image grid";
   if (grid.left_out > 0) {
-    report.warnings.push_back(std::to_string(grid.left_out) +
-                              " images of the folder do not fit the pattern and are left out.");
+    report.warnings.push_back(fmt::format(
+        "{} images of the folder do not match the pattern and are ignored.", grid.left_out));
   }
   const std::filesystem::path& source = extras.source.empty() ? folder : extras.source;
   LightFieldInfo info{scene_name(source),
@@ -71,7 +73,7 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
   assemble({std::move(samples),
             std::move(truth),
             std::move(info),
-            {{}, "rows and columns are as the names say"}},
+            {{}, "rows and columns follow from the names"}},
            options, scene, progress);
   return scene;
 }

@@ -10,8 +10,8 @@
 
 namespace episcope::io {
 
-/// Folders of equally sized images on a grid of views, or with a folder of them called lf, views,
-/// images or rectified.
+/// Folders of equally sized images on a grid of views, or with such a folder inside named lf,
+/// views, images or rectified.
 [[nodiscard]] Reader image_grid_reader();
 
 /// What is known of an image grid from files beside it.

@@ -19,7 +19,7 @@ void store(const std::filesystem::path& path, const AnyImage& decoded, const Any
                     image->width() == view.width && image->channels() == view.channels;
   if (!fits) {
     throw IoError(path, "this view has " + describe_image(decoded) + ", but the centre view has " +
-                            describe_image(center) + "; all views must be alike");
+                            describe_image(center) + "; all views must match");
   }
   std::copy_n(image->data(), image->size(), view.data);
 }

@@ -5,7 +5,7 @@
 
 namespace episcope::io {
 
-/// Whether a file begins as a PNG but is cut short or has a chunk whose checksum is wrong. False
+/// Whether a file begins as a PNG but is truncated or has a chunk whose checksum is wrong. False
 /// for files of other kinds.
 [[nodiscard]] bool is_damaged_png(const std::filesystem::path& path);
 

@@ -43,7 +43,7 @@ herr_t copy_attribute(hid_t object, const char* name, const H5A_info_t*, void* d
 }  // namespace
 
 void Hdf5Output::copy_all(const Hdf5Input& from, const std::vector<std::string>& without) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   Copying copying{from.file_, file_, without};
   hsize_t next = 0;
   require(H5Literate(from.file_, H5_INDEX_NAME, H5_ITER_INC, &next, copy_object, &copying) >= 0);

@@ -7,6 +7,8 @@
 #include "engine/io/hdf5/hdf5_block.h"
 #include "engine/io/hdf5/hdf5_handle.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 
@@ -134,33 +136,33 @@ bool has_hdf5_signature(const std::filesystem::path& path) {
 Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   require_readable_file(path);
   if (!has_hdf5_signature(path)) {
-    throw IoError(path, "this is not an HDF5 file, whatever its name says; choose another file");
+    throw IoError(path, "this is not an HDF5 file, despite its name; choose another file");
   }
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   file_ = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
   if (file_ < 0) {
-    throw IoError(path, "the HDF5 file is cut short or damaged (" +
-                            std::to_string(std::filesystem::file_size(path)) +
-                            " bytes are there); copy or download it again");
+    throw IoError(path, fmt::format("the HDF5 file is truncated or damaged ({} bytes are present); "
+                                    "copy or download it again",
+                                    std::filesystem::file_size(path)));
   }
 }
 
 Hdf5Input::~Hdf5Input() {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 bool Hdf5Input::has(const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   return path_exists(file_, name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Listing root = list_group(file_, "/");
   std::vector<std::string> names = root.datasets;
   for (const std::string& group : root.groups) {
@@ -182,7 +184,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all" : held) + "; choose another file");
   }
-  const Hdf5Session session;
+  const Hdf5Lock session;
   if (is_group(file_, name)) {
     throw IoError(path_, name +
                              " is a group in this file, but must be a dataset; store the samples "
@@ -205,7 +207,7 @@ std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
 
 template <class T>
 void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const hid_t id = open_dataset(name);
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);
   const Hdf5Handle memory(memory_space(block), H5Sclose);
@@ -214,9 +216,9 @@ void Hdf5Input::read(const std::string& name, const Hdf5Block& block, T* out) co
   const bool is_flag = H5Tget_class(stored) == H5T_ENUM && H5Tget_size(stored) == sizeof(T);
   const hid_t type = is_flag ? static_cast<hid_t>(stored) : native_type<T>();
   if (!select_block(space, block) || H5Dread(id, type, memory, space, H5P_DEFAULT, out) < 0) {
-    throw IoError(path_, "the dataset " + name +
-                             " cannot be read: the file is cut short or damaged; copy or download "
-                             "it again");
+    throw IoError(
+        path_, "the dataset " + name +
+                   " cannot be read: the file is truncated or damaged; copy or download it again");
   }
 }
 
@@ -227,7 +229,7 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) cons
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
 
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();
 }
 
@@ -237,7 +239,7 @@ std::optional<double> Hdf5Input::number(const std::string& object, const std::st
 }
 
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
@@ -252,7 +254,7 @@ std::vector<double> Hdf5Input::numbers(const std::string& object, const std::str
 
 std::optional<std::string> Hdf5Input::text(const std::string& object,
                                            const std::string& name) const {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);

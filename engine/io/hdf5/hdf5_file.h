@@ -13,9 +13,9 @@
 
 namespace episcope::io {
 
-/// The only door to HDF5 (with the write driver beneath it). Every call holds one lock for the
-/// whole process, since the library as packaged is not thread-safe; the library's own error
-/// printing is off.
+/// The only access to HDF5 (with the write driver beneath it). Every call holds one lock for the
+/// whole process, since the library as packaged is not thread-safe; the library's own error output
+/// is disabled.
 
 using Hdf5Shape = std::vector<std::size_t>;
 

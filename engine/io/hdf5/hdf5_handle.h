@@ -10,9 +10,9 @@
 namespace episcope::io {
 
 /// Holds the lock of the library for the whole process; it may be held several times by a thread.
-class Hdf5Session {
+class Hdf5Lock {
  public:
-  Hdf5Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+  Hdf5Lock() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
  private:
   static std::recursive_mutex& mutex() {

@@ -12,7 +12,7 @@
 namespace episcope::io {
 
 Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
@@ -22,13 +22,13 @@ Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
 }
 
 Hdf5Output::~Hdf5Output() {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 void Hdf5Output::add_group(const std::string& name) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                          H5Gclose);
   require(group.ok());
@@ -38,7 +38,7 @@ template <class T>
 void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
                              const std::string& axes, const std::string& units) {
   {
-    const Hdf5Session session;
+    const Hdf5Lock session;
     const std::vector<hsize_t> extent(shape.begin(), shape.end());
     const Hdf5Handle space(
         H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
@@ -55,7 +55,7 @@ void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
 
 template <class T>
 void Hdf5Output::write(const std::string& name, const Hdf5Block& block, const T* in) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const hid_t id = datasets_.at(name);
   const Hdf5Handle space(H5Dget_space(id), H5Sclose);
   const Hdf5Handle memory(memory_space(block), H5Sclose);
@@ -94,7 +94,7 @@ void Hdf5Output::set_numbers(const std::string& object, const std::string& name,
 
 void Hdf5Output::set_text(const std::string& object, const std::string& name,
                           const std::string& value) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(type, value.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);
@@ -103,7 +103,7 @@ void Hdf5Output::set_text(const std::string& object, const std::string& name,
 
 void Hdf5Output::set_attribute(const std::string& object, const std::string& name,
                                std::int64_t type, const Hdf5Shape& shape, const void* value) {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Hdf5Handle space(
       extent.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, extent.data(), nullptr),
@@ -115,7 +115,7 @@ void Hdf5Output::set_attribute(const std::string& object, const std::string& nam
 }
 
 void Hdf5Output::close() {
-  const Hdf5Session session;
+  const Hdf5Lock session;
   bool is_done = true;
   for (const auto& [name, id] : datasets_) is_done &= H5Dclose(id) >= 0;
   datasets_.clear();

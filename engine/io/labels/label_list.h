@@ -9,8 +9,8 @@
 
 namespace episcope::io {
 
-/// Names and colours of labels, kept in attributes of a dataset that other readers pass over:
-/// `label_ids`, `label_names` (one a line), `label_colors` (R, G, B each). None if there are no
+/// Names and colours of labels, stored in attributes of a dataset that other readers ignore:
+/// `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each). None if there are no
 /// such attributes or they do not fit together.
 [[nodiscard]] std::vector<LabelInfo> read_label_list(const Hdf5Input& file,
                                                      const std::string& dataset);

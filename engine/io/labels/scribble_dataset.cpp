@@ -5,6 +5,8 @@
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/labels/label_list.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
@@ -47,9 +49,9 @@ ViewIndex stated_view(const Hdf5Input& file, const FieldShape& shape, ViewIndex 
   if (stated.size() != 2) return otherwise;
   const ViewIndex view{static_cast<int>(stated[0]), static_cast<int>(stated[1])};
   if (!shape.grid.contains(view)) {
-    throw IoError(file.path(), "the attribute scribble_view names view (" + std::to_string(view.v) +
-                                   ", " + std::to_string(view.u) +
-                                   "), which the light field does not have; correct it");
+    throw IoError(file.path(), fmt::format("the attribute scribble_view names view ({}, {}), which "
+                                           "the light field does not have; correct it",
+                                           view.v, view.u));
   }
   return view;
 }

@@ -5,8 +5,9 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 #include <regex>
 #include <string>
@@ -19,9 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kRgba = 4;
 
 std::string stem_of(ViewIndex view) {
-  char stem[48];
-  std::snprintf(stem, sizeof stem, "scribbles_%02d_%02d", view.v, view.u);
-  return stem;
+  return fmt::format("scribbles_{:02}_{:02}", view.v, view.u);
 }
 
 std::optional<ViewIndex> view_of(const std::string& name) {
@@ -57,10 +56,11 @@ Image<std::uint8_t> preview(const Image<std::int32_t>& labels,
 ViewScribbles read_picture(const fs::path& path, ViewIndex view, const PixelIndex& size) {
   ViewScribbles one{view, decode_numbers(path)};
   if (one.labels.height() == size.y && one.labels.width() == size.x) return one;
-  throw IoError(path, "the picture has " + std::to_string(one.labels.height()) + "×" +
-                          std::to_string(one.labels.width()) + " px, but views have " +
-                          std::to_string(size.y) + "×" + std::to_string(size.x) +
-                          " px; choose pictures of this light field");
+  throw IoError(
+      path,
+      fmt::format(
+          "the picture has {}×{} px, but views have {}×{} px; choose pictures of this light field",
+          one.labels.height(), one.labels.width(), size.y, size.x));
 }
 
 }  // namespace

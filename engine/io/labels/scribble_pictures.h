@@ -10,7 +10,7 @@ namespace episcope::io {
 
 /// Writes two PNG for each painted view into an existing folder: `scribbles_<v>_<u>.png` holds the
 /// ids (8-bit grey, 16-bit if one is above 255; 0 = unpainted), `scribbles_<v>_<u>_preview.png` the
-/// colours of the labels on a transparent ground. Views are those of the house order, two digits
+/// colours of the labels on a transparent ground. Views are numbered in canonical order, two digits
 /// each. Returns the files written. Each is atomic. Throws IoError.
 std::vector<std::filesystem::path> write_scribble_pictures(const std::filesystem::path& folder,
                                                            const Scribbles& scribbles);

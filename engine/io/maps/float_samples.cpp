@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/maps/float_samples.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,8 +10,8 @@
 namespace episcope::io {
 namespace {
 
-constexpr float kMostOfUnitRange = 1.5F;
-constexpr float kMostOfBytes = 255.5F;
+constexpr float kMaxUnitSample = 1.5F;
+constexpr float kMaxByteSample = 255.5F;
 
 ViewStack<float>* floats_of(LightField::Samples& samples) {
   auto* stack = std::get_if<ViewStack<float>>(&samples);
@@ -25,16 +27,16 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
   std::for_each(stack->data(), stack->data() + stack->size(), [&](float sample) {
     if (std::isfinite(sample)) largest = std::max(largest, sample);
   });
-  if (largest <= kMostOfUnitRange) return;
-  const int divisor = largest > kMostOfBytes ? 65535 : 255;
+  if (largest <= kMaxUnitSample) return;
+  const int divisor = largest > kMaxByteSample ? 65535 : 255;
   std::transform(stack->data(), stack->data() + stack->size(), stack->data(),
                  [&](float sample) { return sample / static_cast<float>(divisor); });
-  report.warnings.push_back("Float samples of the views should lie in 0 … 1, but reach up to " +
-                            std::to_string(std::lround(largest)) + "; they are divided by " +
-                            std::to_string(divisor) + ".");
+  report.warnings.push_back(fmt::format(
+      "Float samples of the views should lie in 0 … 1, but reach up to {}; they are divided by {}.",
+      std::lround(largest), divisor));
 }
 
-void zero_odd_samples(LightField::Samples& samples, ConventionReport& report) {
+void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report) {
   ViewStack<float>* stack = floats_of(samples);
   if (stack == nullptr) return;
   std::size_t odd = 0;
@@ -44,8 +46,9 @@ void zero_odd_samples(LightField::Samples& samples, ConventionReport& report) {
     ++odd;
   });
   if (odd == 0) return;
-  report.warnings.push_back(std::to_string(odd) + " of " + std::to_string(stack->size()) +
-                            " samples of the views are NaN or infinite; they are read as 0.");
+  report.warnings.push_back(
+      fmt::format("{} of {} samples of the views are NaN or infinite; they are read as 0.", odd,
+                  stack->size()));
 }
 
 }  // namespace episcope::io

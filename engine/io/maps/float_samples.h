@@ -13,6 +13,6 @@ void scale_float_samples(LightField::Samples& samples, ConventionReport& report)
 
 /// Turns samples that are NaN or infinite into 0 and tells `report` how many. To be called after
 /// the order of views was checked, which bridges such samples.
-void zero_odd_samples(LightField::Samples& samples, ConventionReport& report);
+void zero_nonfinite_samples(LightField::Samples& samples, ConventionReport& report);
 
 }  // namespace episcope::io

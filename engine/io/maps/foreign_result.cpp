@@ -9,6 +9,8 @@
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/maps/pfm.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,8 +31,9 @@ std::string suffix_of(const fs::path& path) {
 
 DisparityField center_field(const fs::path& path, const Image<float>& map, GridShape grid) {
   if (map.channels() != 1) {
-    throw IoError(path, "this map has " + std::to_string(map.channels()) +
-                            " channels, but a disparity map has 1; export it again");
+    throw IoError(
+        path, fmt::format("this map has {} channels, but a disparity map has 1; export it again",
+                          map.channels()));
   }
   DisparityField field;
   field.disparity = ViewStack<float>({1, 1}, map.height(), map.width(), 1, grid.center());
@@ -42,8 +45,9 @@ DisparityField center_field(const fs::path& path, const Image<float>& map, GridS
 Image<float> read_float_tiff(const fs::path& path) {
   AnyImage decoded = decode_image(path);
   if (auto* map = std::get_if<Image<float>>(&decoded)) return std::move(*map);
-  throw IoError(path, "this picture has " + describe_image(decoded) +
-                          ", but a disparity map needs 32-bit float samples; export it so");
+  throw IoError(path,
+                "this picture has " + describe_image(decoded) +
+                    ", but a disparity map needs 32-bit float samples; export it in that format");
 }
 
 /// The one dataset of an HDF5 file that can be a disparity map.
@@ -55,15 +59,17 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
     maps.push_back(dataset);
   }
   if (maps.size() == 1) return maps.front();
-  // Several float datasets are no riddle where one bears the name of what is wanted.
+  // Several float datasets are not ambiguous if one has the expected name.
   for (const Hdf5Dataset& map : maps) {
     if (map.name == "disparity" || map.name == "DISPARITY") return map;
   }
-  throw IoError(file.path(), "one dataset of float samples with 2 or 4 axes is expected, but " +
-                                 (maps.empty() ? "none is there"
-                                               : std::to_string(maps.size()) + " are there (" +
-                                                     joined(maps, ", ", &Hdf5Dataset::name) + ")") +
-                                 "; store the disparity alone");
+  const std::string found = maps.empty() ? "none was found"
+                                         : fmt::format("{} were found ({})", maps.size(),
+                                                       joined(maps, ", ", &Hdf5Dataset::name));
+  throw IoError(file.path(),
+                fmt::format("one dataset of float samples with 2 or 4 axes is expected, but {}; "
+                            "store the disparity alone",
+                            found));
 }
 
 DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
@@ -77,10 +83,9 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
     throw IoError(path, "the dataset " + map.name + " is empty; export it again");
   }
   if (!is_single && !(stored == grid)) {
-    throw IoError(path, "the dataset " + map.name + " has the shape " + shape_text(map.shape) +
-                            ", but the light field has " + std::to_string(grid.v) + "×" +
-                            std::to_string(grid.u) +
-                            " views; name the light field that it belongs to");
+    throw IoError(path, fmt::format("the dataset {} has the shape {}, but the light field has "
+                                    "{}×{} views; name the light field that it belongs to",
+                                    map.name, shape_text(map.shape), grid.v, grid.u));
   }
   DisparityField field;
   field.disparity = ViewStack<float>(stored, length(rank - 2), length(rank - 1), 1,
@@ -95,8 +100,8 @@ fs::path submitted_map(const fs::path& folder, const std::string& scene) {
   const fs::path maps = folder / "disp_maps";
   if (!fs::is_directory(maps)) {
     throw IoError(folder,
-                  "this folder holds no disp_maps as a submission to the 2016 benchmark "
-                  "does; name a result file");
+                  "this folder has no disp_maps, unlike a submission to the 2016 benchmark; name a "
+                  "result file");
   }
   if (!scene.empty() && fs::exists(maps / (scene + ".pfm"))) return maps / (scene + ".pfm");
   std::vector<fs::path> found;
@@ -104,8 +109,8 @@ fs::path submitted_map(const fs::path& folder, const std::string& scene) {
     if (suffix_of(entry.path()) == ".pfm") found.push_back(entry.path());
   }
   if (found.size() == 1 && scene.empty()) return found.front();
-  throw IoError(maps, "there is no map " + (scene.empty() ? "<scene>" : scene) + ".pfm among the " +
-                          std::to_string(found.size()) + " here; name the scene");
+  throw IoError(maps, fmt::format("there is no map {}.pfm among the {} here; name the scene",
+                                  scene.empty() ? "<scene>" : scene, found.size()));
 }
 
 double read_seconds(const fs::path& path) {
@@ -145,7 +150,7 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
     return read_hdf5_map(path, grid);
   }
   throw IoError(path,
-                "this is no disparity map: a result file, another HDF5 file, a PFM or a float "
+                "this is not a disparity map: a result file, another HDF5 file, a PFM or a float "
                 "TIFF is expected; choose another file");
 }
 

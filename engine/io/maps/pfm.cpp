@@ -5,6 +5,8 @@
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/system_error.h"
 
+#include <fmt/format.h>
+
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -60,9 +62,9 @@ Header read_header(const std::filesystem::path& path, std::istream& in) {
   const bool has_size = header.width > 0 && header.height > 0 && header.width <= kLargestSide &&
                         header.height <= kLargestSide;
   if (!has_size || header.scale == 0 || !std::isfinite(header.scale)) {
-    throw IoError(path, "the header of the PFM file says " + std::to_string(header.width) + "×" +
-                            std::to_string(header.height) + " px and scale " +
-                            std::to_string(header.scale) + ", which cannot be; write it again");
+    throw IoError(path, fmt::format("the header of the PFM file says {}×{} px and scale {:f}, "
+                                    "which is not valid; write it again",
+                                    header.width, header.height, header.scale));
   }
   return header;
 }
@@ -87,9 +89,10 @@ Image<float> read_pfm(const std::filesystem::path& path) {
   for (int y = header.height - 1; y >= 0; --y) {
     float* row = image.row(y);
     if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
-      throw IoError(path, "the PFM file is cut short: " + std::to_string(header.height - 1 - y) +
-                              " of " + std::to_string(header.height) +
-                              " rows are there; copy or write it again");
+      throw IoError(
+          path, fmt::format(
+                    "the PFM file is truncated: {} of {} rows are present; copy or write it again",
+                    header.height - 1 - y, header.height));
     }
     if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
     if (scale != 1) {
@@ -101,12 +104,11 @@ Image<float> read_pfm(const std::filesystem::path& path) {
 
 void write_pfm(const std::filesystem::path& path, ImageView<const float> image) {
   if (image.empty() || (image.channels != 1 && image.channels != 3)) {
-    throw InvalidInput("a PFM file holds 1 or 3 channels, but the map has " +
-                       std::to_string(image.channels));
+    throw InvalidInput(
+        fmt::format("a PFM file holds 1 or 3 channels, but the map has {}", image.channels));
   }
-  const std::string header = std::string(image.channels == 3 ? "PF" : "Pf") + "\n" +
-                             std::to_string(image.width) + " " + std::to_string(image.height) +
-                             "\n-1.0\n";
+  const std::string header = fmt::format("{}\n{} {}\n-1.0\n", image.channels == 3 ? "PF" : "Pf",
+                                         image.width, image.height);
   const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
   std::vector<std::uint8_t> bytes(header.size() + count * 4 * image.height);
   std::memcpy(bytes.data(), header.data(), header.size());

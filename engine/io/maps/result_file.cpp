@@ -9,6 +9,8 @@
 #include "engine/io/maps/foreign_result.h"
 #include "engine/io/maps/parameter_json.h"
 
+#include <fmt/format.h>
+
 namespace episcope::io {
 namespace {
 
@@ -122,8 +124,10 @@ class ResultReader {
     const Hdf5Dataset map = file_.dataset(in_group(name));
     const std::size_t rank = map.shape.size();
     if (rank != 2 && rank != 4) {
-      throw IoError(file_.path(), "the dataset " + map.name + " has " + std::to_string(rank) +
-                                      " axes, but 2 or 4 are expected; write the result again");
+      throw IoError(
+          file_.path(),
+          fmt::format("the dataset {} has {} axes, but 2 or 4 are expected; write the result again",
+                      map.name, rank));
     }
     const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
     const GridShape views = rank == 2 ? GridShape{1, 1} : GridShape{length(0), length(1)};
@@ -131,10 +135,10 @@ class ResultReader {
     const ViewIndex last{first.v + views.v - 1, first.u + views.u - 1};
     if (!grid_.contains(first) || !grid_.contains(last) || length(rank - 2) < 1 ||
         length(rank - 1) < 1) {
-      throw IoError(file_.path(), "the dataset " + map.name + " of " + shape_text(map.shape) +
-                                      " does not fit a light field of " + std::to_string(grid_.v) +
-                                      "×" + std::to_string(grid_.u) +
-                                      " views; name the light field that it belongs to");
+      throw IoError(file_.path(),
+                    fmt::format("the dataset {} of {} does not fit a light field of {}×{} views; "
+                                "name the light field that it belongs to",
+                                map.name, shape_text(map.shape), grid_.v, grid_.u));
     }
     ViewStack<T> stack(views, length(rank - 2), length(rank - 1), 1, first);
     file_.read(map.name, {Hdf5Shape(rank, 0), map.shape}, stack.data());

@@ -11,7 +11,7 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, scene.convention,
                progress);
-  zero_odd_samples(parts.samples, scene.convention);
+  zero_nonfinite_samples(parts.samples, scene.convention);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
   scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info));

@@ -13,9 +13,9 @@ struct SceneParts {
   ExpectedOrder expected;
 };
 
-/// The end of reading a light field: brings the parts into the house order, turns samples that are
-/// no numbers into 0, and puts light field and truth, if it is needed, into `scene`, whose
-/// report is continued. Options that were set go to the light field's `reading`. Throws Cancelled.
+/// The last step of reading a light field: brings the parts into canonical order, sets samples that
+/// are not finite to 0, and puts light field and truth, if needed, into `scene`, whose report is
+/// continued. Options that were set go to the light field's `reading`. Throws Cancelled.
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene, const Progress& progress);
 
 }  // namespace episcope::io

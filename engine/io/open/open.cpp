@@ -17,13 +17,14 @@ Scene read_scene(const fs::path& path, const OpenOptions& options, const Progres
   if (found.reader) return found.reader->read(found.path, options, progress);
   if (!fs::is_directory(path)) {
     throw IoError(path,
-                  "this is no light field: an lf.h5, a scene folder or a folder of images is "
+                  "this is not a light field: an lf.h5, a scene folder or a folder of images is "
                   "expected; choose another file");
   }
-  throw IoError(path, std::string(fs::is_empty(path) ? "the folder is empty"
-                                                     : "there is no light field in this folder") +
-                          "; a lf.h5, a parameters.cfg with input_Cam000.png …, or images on a "
-                          "grid were looked for");
+  throw IoError(
+      path,
+      std::string(fs::is_empty(path) ? "the folder is empty"
+                                     : "there is no light field in this folder") +
+          "; expected an lf.h5, a parameters.cfg with input_Cam000.png …, or images on a grid");
 }
 
 }  // namespace
@@ -38,9 +39,8 @@ Scene open_scene(const fs::path& path, const OpenOptions& options, const Progres
     throw IoError(path,
                   "it cannot be read (" + error.code().message() + "); check its permissions");
   } catch (const std::bad_alloc&) {
-    throw IoError(path,
-                  "the light field needs more memory than this machine has free; close other "
-                  "programs or open a smaller one");
+    throw IoError(
+        path, "not enough memory for this light field; close other programs or open a smaller one");
   }
 }
 

@@ -9,10 +9,10 @@
 
 namespace episcope::io {
 
-/// Opens whatever holds a light field, by the first reader (`readers`) that knows it. Converts to
-/// the house convention, looks for truth, labels and companions beside it, and reports what it
-/// found and how it checked it. Throws IoError with one sentence (what, where, what to do),
-/// Cancelled on a stop request.
+/// Opens anything that holds a light field, with the first reader (`readers`) that recognises it.
+/// Converts to the canonical convention, looks for truth, labels and companions beside it, and
+/// reports what it found and how it was checked. Throws IoError with one sentence (what, where,
+/// what to do), Cancelled on a stop request.
 [[nodiscard]] Scene open_scene(const std::filesystem::path& path, const OpenOptions& options,
                                const Progress& progress);
 

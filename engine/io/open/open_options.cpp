@@ -4,12 +4,12 @@
 namespace episcope::io {
 namespace {
 
-constexpr double kMostFocus_px = 1000;
+constexpr double kMaxFocus_px = 1000;
 
 }  // namespace
 
 Names<Flip> names_of(Flip) {
-  return {{Flip::Auto, "auto", "automatic: found out and checked"},
+  return {{Flip::Auto, "auto", "automatic: detected and checked"},
           {Flip::None, "none", "as stored"},
           {Flip::U, "u", "columns (u) reversed"},
           {Flip::V, "v", "rows (v) reversed"},
@@ -17,9 +17,9 @@ Names<Flip> names_of(Flip) {
 }
 
 Names<Units> names_of(Units) {
-  return {{Units::Auto, "auto", "automatic: the plausible one"},
-          {Units::WithWidth, "with-width", "dH holds the image width"},
-          {Units::WithoutWidth, "without-width", "dH lacks the image width"}};
+  return {{Units::Auto, "auto", "automatic: whichever is plausible"},
+          {Units::WithWidth, "with-width", "dH includes the image width"},
+          {Units::WithoutWidth, "without-width", "dH does not include the image width"}};
 }
 
 Schema<OpenOptions> open_schema() {
@@ -27,20 +27,22 @@ Schema<OpenOptions> open_schema() {
   Schema<O> schema;
   schema
       .choice("flip", &O::flip,
-              {"Order of views", "View axes to reverse against the file; auto = found and checked"})
+              {"Order of views",
+               "View axes to reverse relative to the file; auto = detected and checked"})
       .choice("units", &O::units,
               {"Depth units",
-               "Whether dH of an archive file holds the factor xRes, which decides how depth "
-               "becomes disparity"})
+               "Whether dH of an archive file includes the factor xRes, which determines how depth "
+               "is converted to disparity"})
       .text("pattern", &O::pattern,
             {"Image names",
-             "Names of an image grid with {row} and {col}, or {index}; * stands for anything: "
+             "File names of an image grid with {row} and {col}, or {index}; * matches anything: "
              "view_{row}_{col}.png"})
       .toggle("snake", &O::snake,
-              {"Snake", "Every second row of an image grid runs from right to left"})
-      .real(Reading::kFocus, &O::focus_px,
-            {"Focus plane", "Focus plane to bake in: what has this disparity gets 0", "px"},
-            {-kMostFocus_px, kMostFocus_px});
+              {"Snake", "Every other row of an image grid runs from right to left"})
+      .real(
+          Reading::kFocus, &O::focus_px,
+          {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},
+          {-kMaxFocus_px, kMaxFocus_px});
   return schema;
 }
 

@@ -23,7 +23,7 @@ enum class Units { Auto, WithWidth, WithoutWidth };
 /// Of which views maps of disparity and depth are read, where there are any of all.
 enum class MapViews { All, Center };
 
-/// How to open a light field: what a user may overrule of what a reader would find out by itself
+/// How to open a light field: what a user may override instead of letting the reader detect it
 /// (`open_schema`), and what the caller wants.
 struct OpenOptions {
   Flip flip = Flip::Auto;

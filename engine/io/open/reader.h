@@ -30,10 +30,10 @@ struct Reader {
   [[nodiscard]] bool has_option(std::string_view key) const;
 };
 
-/// Every reader; of several that find something, the first one reads.
+/// Every reader; if several recognise a path, the first one reads it.
 [[nodiscard]] std::span<const Reader> readers();
 
-/// Whoever reads `path`, and what. `reader` is null if nobody does.
+/// The reader of `path`, and what it reads. `reader` is null if there is none.
 struct FoundReader {
   const Reader* reader = nullptr;
   std::filesystem::path path;

@@ -6,7 +6,7 @@
 
 namespace episcope::io {
 
-/// How the slopes of horizontal and vertical EPIs go together, point by point.
+/// How the slopes of horizontal and vertical EPIs correlate, point by point.
 struct SlopeCorrelation {
   double value = 0;  ///< In [−1, 1]; negative: exactly one view axis is reversed.
   int points = 0;    ///< Textured points at which both slopes were found.

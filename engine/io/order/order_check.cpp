@@ -5,8 +5,9 @@
 #include "engine/io/order/epi_slopes.h"
 #include "engine/io/order/warp_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cstdio>
 
 namespace episcope::io {
 namespace {
@@ -50,7 +51,7 @@ struct Checked {
 std::string poor_truth(const WarpErrors& errors) {
   if (!errors.u.is_poor() && !errors.v.is_poor()) return {};
   const AxisErrors& worse = errors.u.is_poor() ? errors.u : errors.v;
-  return "The truth hardly explains the views: warped by it they differ by " +
+  return "The truth hardly explains the views: warped by it, they differ by " +
          fixed_text(std::min(worse.forward, worse.reversed), 2) + " grey levels along " +
          (errors.u.is_poor() ? "u" : "v") + ", the other way by " +
          fixed_text(std::max(worse.forward, worse.reversed), 2) + " and unwarped by " +
@@ -80,10 +81,11 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
   if (!checked.is_decided) return checked;
   const bool must_differ = slopes.value < 0;
   if ((expected.u != expected.v) != must_differ) checked.flip.u = !checked.flip.u;
-  checked.text = "checked by the slopes of horizontal and vertical EPIs: correlation " +
-                 fixed_text(slopes.value, 2) + " as stored at " + std::to_string(slopes.points) +
-                 " points, " +
-                 (must_differ ? "so exactly one axis is reversed" : "so both axes agree");
+  checked.text = fmt::format(
+      "checked by the slopes of horizontal and vertical EPIs: correlation {} as stored at {} "
+      "points, {}",
+      fixed_text(slopes.value, 2), slopes.points,
+      must_differ ? "so exactly one axis is reversed" : "so both axes agree");
   return checked;
 }
 
@@ -120,9 +122,9 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
     finding.flip = chosen_flip(choice);
     finding.order = flip_text(finding.flip) + ", as chosen by hand";
     if (checked.is_decided && !(finding.flip == checked.flip)) {
-      finding.check = "the check speaks for \"" + flip_text(checked.flip) + "\": " + checked.text;
+      finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
       finding.warnings.push_back("The order of views was chosen by hand (" +
-                                 flip_text(finding.flip) + "), but the check speaks for \"" +
+                                 flip_text(finding.flip) + "), but the check favours \"" +
                                  flip_text(checked.flip) + "\".");
     }
     return finding;

@@ -12,7 +12,7 @@
 
 namespace episcope::io {
 
-/// What a format lets us expect of the order of views before it is checked.
+/// The order of views that a format suggests before it is checked.
 struct ExpectedOrder {
   ViewFlip flip;
   std::string reason;  ///< "raw files of the archive store h reversed", …
@@ -31,17 +31,17 @@ struct OrderFinding {
   std::vector<std::string> warnings;
 };
 
-/// Finds which view axes to reverse: by warping with truth where there is some, else by the sign of
-/// the correlation of EPI slopes, else as expected. A `choice` other than Auto wins
-/// over all, but is checked and contradicted in the warnings. Nothing is reversed
+/// Determines which view axes to reverse: by warping with the truth if there is any, else by the
+/// sign of the correlation of EPI slopes, else as expected. A `choice` other than Auto takes
+/// precedence, but is checked, and a contradiction is reported in the warnings. Nothing is reversed
 /// yet. Throws Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
                                       const ExpectedOrder& expected, Flip choice,
                                       const Progress& progress);
 
-/// Brings views and truth as stored into the house order, as `find_order` finds it by the disparity
-/// of the truth, and tells `report`. Throws Cancelled.
+/// Brings stored views and truth into canonical order, as `find_order` determines it with the
+/// disparity of the truth, and adds to `report`. Throws Cancelled.
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
                   Flip choice, ConventionReport& report, const Progress& progress);
 

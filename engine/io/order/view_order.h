@@ -10,14 +10,14 @@
 
 namespace episcope::io {
 
-/// Which view axes of a file run against the house order.
+/// Which view axes of a file are opposite to the canonical order.
 struct ViewFlip {
   bool u = false;
   bool v = false;
   friend bool operator==(const ViewFlip&, const ViewFlip&) = default;
 };
 
-/// The one that reading took away.
+/// The flip that was undone while reading.
 [[nodiscard]] inline ViewFlip flip_of(const ConventionReport& report) {
   return {report.reversed_u, report.reversed_v};
 }
@@ -29,7 +29,7 @@ struct ViewFlip {
   return flip.v ? "v reversed" : "as stored";
 }
 
-/// Place of a stored view in the house order, and the other way round.
+/// Maps a stored view to its place in the canonical order, and vice versa.
 [[nodiscard]] inline ViewIndex flipped(ViewIndex view, GridShape grid, ViewFlip flip) {
   return {flip.v ? grid.v - 1 - view.v : view.v, flip.u ? grid.u - 1 - view.u : view.u};
 }

@@ -9,7 +9,7 @@ namespace episcope::io {
 /// Mean absolute differences in grey levels (0…255) between a view and its neighbours along one
 /// view axis, warped onto it by a disparity map.
 struct AxisErrors {
-  double forward = 0;    ///< If the axis runs as the house says,
+  double forward = 0;    ///< If the axis has the canonical direction,
   double reversed = 0;   ///< and if it runs the other way.
   double unwarped = 0;   ///< Without warping: as if all disparities were 0.
   long long pixels = 0;  ///< Compared; 0 if the axis has one view only.
@@ -17,7 +17,7 @@ struct AxisErrors {
   /// Whether the two differ by more than noise does: 3 % and 0.02 grey levels.
   [[nodiscard]] bool is_decided() const;
   /// Whether warping hardly explains the views: better than the other order or than no warping by
-  /// less than a tenth, or worse than no warping where the order is undecided.
+  /// less than 10 %, or worse than no warping where the order is undecided.
   [[nodiscard]] bool is_poor() const;
   [[nodiscard]] bool says_reversed() const { return reversed < forward; }
 };

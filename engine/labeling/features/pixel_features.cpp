@@ -181,7 +181,7 @@ PixelFeatures compute_pixel_features(const LightField& lf, ViewIndex view,
                                      const DisparityView& disparity, PixelFeatureSet set,
                                      const Progress& progress) {
   if (set.with_disparity && disparity.disparity.empty()) {
-    throw InvalidInput("features of disparity were asked for, but view " + view_text(view) +
+    throw InvalidInput("disparity features were requested, but view " + view_text(view) +
                        " has no disparity; estimate all views first");
   }
   PixelFeatures features(lf.height(), static_cast<int>(pixel_feature_names(set).size()),

@@ -37,12 +37,10 @@ inline constexpr int kDisparityLayer = 23;
 /// `disparity` is that of the view, used to carry places in either set; without (empty), places are
 /// those in the view itself. Invalid pixels take the disparity of their neighbours in the row.
 ///
-/// The feature groups are those of the archive, "without" and "with depth" [WSG13]; the list was
-/// not recovered. Gaussian features of wide scales, as is usual, were tried and left out: what they
-/// see beside an outline is like nothing in the middle of an object, where people paint, and halos
-/// of other labels come of it. Centre view, percentage labeled rightly by a forest with Gaussian
-/// scales up to 6 px | with these: still life, image 89.0 | 91.2, estimate 90.7 | 92.9, truth
-/// 92.3 | 93.7; demo 85.8 | 87.9, 85.1 | 86.6, 86.1 | 87.6.
+/// The feature groups are those of the archive, "without" and "with depth" [WSG13]; the exact list
+/// was not recovered. The usual Gaussian features of wide scales are left out: beside an outline
+/// they resemble nothing in the middle of an object, where people paint, and cause halos of other
+/// labels (tests/accuracy/tuning.md).
 /// Throws InvalidInput if `set` asks for disparity and there is none; Cancelled.
 [[nodiscard]] PixelFeatures compute_pixel_features(const LightField& light_field, ViewIndex view,
                                                    const DisparityView& disparity,

@@ -120,7 +120,7 @@ float StrokeDistances::excess(int y, int x, int label) const {
   if (stroked_.size() < 2 || std::ranges::count(stroked_, label) == 0) return 0;
   const float* all = distances_.get() + (static_cast<std::size_t>(y) * width_ + x) * pitch_;
   // Lanes of labels without strokes are far.
-  return std::min(all[label] - *std::min_element(all, all + label_count_), kMost);
+  return std::min(all[label] - *std::min_element(all, all + label_count_), kMaxExcess);
 }
 
 void StrokeDistances::weigh_row(int y, double strength, int pitch, float* probabilities) const {
@@ -130,7 +130,7 @@ void StrokeDistances::weigh_row(int y, double strength, int pitch, float* probab
     const float* all = distances_.get() + (static_cast<std::size_t>(y) * width_ + x) * pitch_;
     float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
     const float nearest = *std::min_element(all, all + label_count_);
-    for (const int l : stroked_) p[l] *= std::exp(factor * std::min(all[l] - nearest, kMost));
+    for (const int l : stroked_) p[l] *= std::exp(factor * std::min(all[l] - nearest, kMaxExcess));
     float sum = 0;
     for (int l = 0; l < label_count_; ++l) sum += p[l];
     if (sum <= 0) continue;

@@ -24,11 +24,10 @@ namespace episcope {
 /// How far each pixel of a view is from the strokes of each label.
 class StrokeDistances {
  public:
-  /// Shortest ways over the 8 neighbours of pixels: a step costs the Euclidean difference of the
-  /// pixels' `guides` (planes `[y][x]`) and kStep for each pixel. By three sweeps to and fro over
-  /// the image: exact where the way turns seldom (Toivanen 1996; Criminisi et al. 2008, GeoS); one
-  /// vector of labels at a time, 15 ms for 512×512 with up to 16 labels. Takes 4 bytes for each
-  /// pixel and label. `strokes` as `carried_strokes`. Throws Cancelled.
+  /// Shortest paths over the 8 neighbours of pixels: a step costs the Euclidean difference of the
+  /// pixels' `guides` (planes `[y][x]`) plus kStep per pixel. Found by three raster sweeps in both
+  /// directions: exact where the path turns seldom (Toivanen 1996; Criminisi et al. 2008, GeoS).
+  /// Memory: 4 bytes per pixel and label. `strokes` as from `carried_strokes`. Throws Cancelled.
   StrokeDistances(ImageView<const std::int32_t> strokes, int label_count,
                   const std::vector<ImageView<const float>>& guides, const Progress& progress,
                   Isa isa = best_isa());
@@ -36,9 +35,9 @@ class StrokeDistances {
   static constexpr float kStep = 0.0015F;
 
   /// By how much the pixel is farther from the strokes of a label than from the nearest ones of
-  /// all, at most kMost; 0 for labels without a stroke in the view.
+  /// all, at most kMaxExcess; 0 for labels without a stroke in the view.
   [[nodiscard]] float excess(int y, int x, int label) const;
-  static constexpr float kMost = 12;
+  static constexpr float kMaxExcess = 12;
 
   /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
   /// exp(−strength·excess), and makes them sum to 1 again.

@@ -3,6 +3,8 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <set>
 #include <string>
@@ -15,12 +17,10 @@ void require_fit(const ViewScribbles& painted, const LightField& lf) {
       painted.labels.width() == lf.width()) {
     return;
   }
-  throw InvalidInput("scribbles of " + std::to_string(painted.labels.width()) + "×" +
-                     std::to_string(painted.labels.height()) + " px on view " +
-                     view_text(painted.view) + " do not fit the light field " + lf.info().name +
-                     " of " + std::to_string(lf.grid().v) + "×" + std::to_string(lf.grid().u) +
-                     " views of " + std::to_string(lf.width()) + "×" + std::to_string(lf.height()) +
-                     " px");
+  throw InvalidInput(fmt::format(
+      "scribbles of {}×{} px on view {} do not fit the light field {} of {}×{} views of {}×{} px",
+      painted.labels.width(), painted.labels.height(), view_text(painted.view), lf.info().name,
+      lf.grid().v, lf.grid().u, lf.width(), lf.height()));
 }
 
 }  // namespace
@@ -36,11 +36,11 @@ std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const Light
     }
   }
   if (found.empty()) {
-    throw InvalidInput("nothing is painted yet; paint strokes of two labels at least");
+    throw InvalidInput("nothing is painted yet; paint strokes of at least two labels");
   }
   if (found.size() == 1) {
-    throw InvalidInput("only label " + std::to_string(*found.begin()) +
-                       " is painted; paint a second one, so that there is something to tell apart");
+    throw InvalidInput(
+        fmt::format("only label {} is painted; paint a second one as well", *found.begin()));
   }
   return {found.begin(), found.end()};
 }

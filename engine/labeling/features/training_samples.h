@@ -11,8 +11,8 @@
 
 namespace episcope {
 
-/// Ids that are painted on any view, ascending. Throws InvalidInput with a sentence that says what
-/// to do if nothing or only one label is painted, or if scribbles do not fit the light field.
+/// Ids that are painted on any view, ascending. Throws InvalidInput if nothing or only one label is
+/// painted, or if scribbles do not fit the light field.
 [[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
                                                        const LightField& light_field);
 

@@ -6,6 +6,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/labeling/forest/flat_tree.h"
 
+#include <fmt/format.h>
 #include <opencv2/ml.hpp>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ cv::Ptr<cv::ml::RTrees> grow(const cv::Ptr<cv::ml::TrainData>& data, const Fores
                              std::uint64_t seed) {
   const auto trees = cv::ml::RTrees::create();
   trees->setMaxDepth(options.depth);
-  trees->setMinSampleCount(options.least_samples);
+  trees->setMinSampleCount(options.min_samples);
   trees->setCalculateVarImportance(false);
   trees->setTermCriteria({cv::TermCriteria::MAX_ITER, kForestTreesPerBlock, 0});
   // OpenCV draws from the generator of the calling thread.
@@ -64,9 +65,9 @@ void check(const ForestSamples& samples) {
   if (samples.label_count < 2 || std::ranges::count(counts, 0) > 0 ||
       samples.features.size() !=
           static_cast<std::size_t>(samples.count()) * samples.feature_count) {
-    throw InvalidInput("a forest needs samples of two labels at least, but got " +
-                       std::to_string(samples.count()) + " samples of " +
-                       std::to_string(samples.label_count) + " labels");
+    throw InvalidInput(fmt::format(
+        "a forest needs samples of at least two labels, but got {} samples of {} labels",
+        samples.count(), samples.label_count));
   }
 }
 
@@ -83,7 +84,7 @@ class Forest::Trainer {
   void grow_block(int block) {
     std::mt19937 random(static_cast<unsigned>(options_.seed) * 7919U +
                         static_cast<unsigned>(block));
-    const auto data = draw(samples_, of_label_, options_.samples_a_label, random);
+    const auto data = draw(samples_, of_label_, options_.samples_per_label, random);
     const auto trees = grow(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
     const std::vector<int>& roots = trees->getRoots();
     for (int i = 0; i < kForestTreesPerBlock; ++i) {
@@ -108,7 +109,7 @@ class Forest::Trainer {
     forest.votes_.assign(static_cast<std::size_t>(leaf_count) * forest.pitch_, 0.F);
   }
 
-  /// Leads all samples down a tree.
+  /// Passes all samples down a tree.
   void count_votes(Forest& forest, int tree) const {
     const int end = tree + 1 < forest.tree_count()
                         ? forest.roots_[static_cast<std::size_t>(tree) + 1]

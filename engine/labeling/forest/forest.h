@@ -23,10 +23,10 @@ struct ForestSamples {
 };
 
 struct ForestOptions {
-  int trees = 96;             ///< Rounded up to whole blocks of kForestTreesPerBlock.
-  int depth = 14;             ///< Of a tree at most.
-  int least_samples = 12;     ///< A node of fewer is not split.
-  int samples_a_label = 250;  ///< Drawn for each block of trees, with replacement.
+  int trees = 96;               ///< Rounded up to whole blocks of kForestTreesPerBlock.
+  int depth = 14;               ///< Of a tree at most.
+  int min_samples = 12;         ///< A node of fewer is not split.
+  int samples_per_label = 250;  ///< Drawn for each block of trees, with replacement.
   int seed = 1;
 
   friend bool operator==(const ForestOptions&, const ForestOptions&) = default;

@@ -12,7 +12,7 @@ constexpr int kGroup = 16;
 
 // Leads a group of pixels to their leaves. Scalar on purpose: each step is two dependent loads from
 // the first-level cache, which the processor overlaps over the group; gathers of the vector units
-// were slower.
+// are slower.
 inline void walk(const ForestNode* tree, const float* features, long stride, int* node) {
   for (int i = 0; i < kGroup; ++i) node[i] = 0;
   int moved;

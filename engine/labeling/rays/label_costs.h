@@ -19,7 +19,7 @@ using CostTable = std::array<float, 256>;
 void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
                 VolumeView<float> costs);
 
-/// Which rays of a scene point are asked.
+/// Which rays of a scene point contribute.
 enum class TrackViews {
   All,   ///< Those of all views.
   Near,  ///< Those of the nearest 5×5 views.
@@ -36,10 +36,10 @@ struct TrackSources {
 
 /// Costs of the labels of one view, each the mean of the costs of the ray itself and of the rays of
 /// the same scene point in other views that have probabilities and disparity
-/// (engine/labeling/rays/ray_targets.h), as much as their colours are trusted. The floor of the
-/// table bounds what a single ray that went astray can say. `costs` has the shape of the view's
-/// probabilities. Rows are done in parallel; with 13 labels of 512×512 px 0.3 s for all of 81
-/// views. Precondition: both hold the view. Throws Cancelled.
+/// (engine/labeling/rays/ray_targets.h), weighted by the trust in their colours. The floor of the
+/// table limits the influence of a single stray ray. `costs` has the shape of the view's
+/// probabilities. Rows are processed in parallel. Precondition: probabilities and disparity hold
+/// the view. Throws Cancelled.
 void fill_track_costs(const TrackSources& sources, const CostTable& table, const Progress& progress,
                       VolumeView<float> costs);
 

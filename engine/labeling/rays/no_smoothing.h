@@ -5,8 +5,8 @@
 
 namespace episcope {
 
-/// The most probable label of each ray of all views, and of one view: nothing binds them to each
-/// other. Energy and bound are 0. Throws Cancelled.
+/// The most probable label of each ray of all views, and of one view, without any coupling. Energy
+/// and bound are 0. Throws Cancelled.
 [[nodiscard]] RayLabeling most_probable_labels_of_all(const RayLabelingInput& input,
                                                       const RayLabelingParameters& parameters,
                                                       const Progress& progress);

@@ -12,10 +12,9 @@
 namespace episcope {
 
 /// Tells by their colours whether two rays see the same scene point: at an outline, disparities are
-/// wrong by more than anywhere else, and a ray that is taken for one of the neighbouring object has
-/// another colour. With σ = 20 instead of 10 of 255, `objects` comes out at 99.90 instead of 99.91
-/// % right, a demo the same. Where noise or gloss exceeds σ, rays are left to themselves. Looks
-/// into samples of 8 bits; of others it keeps those of a rectangle of views, rounded to 8 bits.
+/// less accurate than anywhere else, and a ray that belongs to the neighbouring object has another
+/// colour. Where noise or gloss exceeds σ, rays are left to themselves. Refers to samples of 8 bits
+/// directly; of others it keeps a copy of a rectangle of views, rounded to 8 bits.
 class RayColors {
  public:
   /// Knows nothing: all rays are trusted.

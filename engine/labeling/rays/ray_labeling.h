@@ -10,35 +10,33 @@
 
 namespace episcope {
 
-/// Defaults were chosen on three scenes with scribbles (a rendered still life, `demo`, `objects`;
-/// forest with estimated disparity, centre view): a forest is mistaken in whole regions, sure of
-/// itself, so λ must be large and the floor high, and boundaries lie where image and disparity have
-/// edges. Accuracy without λ, with λ = 1, 16, 32, 64: still life 92.4, 93.1, 95.2, 95.8, 96.7 %,
-/// demo 91.0, 91.4, 92.6, 93.6, 92.6 %. Under independent mistakes of single rays λ = 1 is right.
+/// The defaults suit a forest: it errs with confidence in whole regions, so λ must be large and the
+/// floor high, and boundaries lie where image and disparity have edges (tests/accuracy/tuning.md).
+/// For independent errors of single rays λ = 1 is appropriate.
 struct RayLabelingParameters {
-  double smoothness = 32;     ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
-  double floor = 0.1;         ///< Least probability taken for possible, in (0, 1].
-  double gap = 2e-3;          ///< Relative duality gap at which label_view stops, > 0,
-  double gap_of_many = 1e-2;  ///< and label_rays in each view.
-  int max_iterations = 300;   ///< In each view.
+  double smoothness = 32;       ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
+  double floor = 0.1;           ///< Probabilities below are raised to this, in (0, 1].
+  double gap = 2e-3;            ///< Relative duality gap at which label_view stops, > 0,
+  double gap_all_views = 1e-2;  ///< and label_rays in each view.
+  int max_iterations = 300;     ///< In each view.
 };
 
-/// What is known of the rays; borrowed for the call.
+/// What is known about the rays; borrowed for the call.
 struct RayLabelingInput {
   const LabelProbabilities* probabilities = nullptr;
-  /// Disparities of (at least) all views with probabilities; only demanded where views are joined.
-  /// Without joining it is quicker with them: a view begins where the one beside it ended.
+  /// Disparities of (at least) all views with probabilities; required only where views are coupled.
+  /// Without coupling they speed up the solution: a view starts from the result of its neighbour.
   const DisparityField* disparity = nullptr;
   /// Probability of an edge in [0, 1] of (at least) those views
-  /// (engine/labeling/rays/boundary_weights.h); null or empty = no edges known.
+  /// (engine/labeling/rays/edge_probability.h); null or empty = no edges known.
   const ViewStack<float>* edges = nullptr;
-  /// Samples of those views; only looked at where views are joined, to tell which rays see the
-  /// same. Null = the disparities are trusted.
+  /// Samples of those views; used only where views are coupled, to tell which rays see the same
+  /// point. Null = the disparities are trusted.
   const LightField* light_field = nullptr;
 };
 
 struct RayLabeling {
-  ViewStack<std::int32_t> labels;  ///< Ids, `[v][u][y][x]`, of the views asked for.
+  ViewStack<std::int32_t> labels;  ///< Ids, `[v][u][y][x]`, of the requested views.
   double energy = 0;   ///< Of the labels of each view as its problem was solved, summed up.
   double bound = 0;    ///< No labeling has less energy in these problems.
   int iterations = 0;  ///< The most that any of its parts took.

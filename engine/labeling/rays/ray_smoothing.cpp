@@ -41,7 +41,7 @@ RayLabeling smooth_rays(const RayLabelingInput& input, const RayLabelingParamete
   const ViewProblems problems = problems_of(input, parameters, TrackViews::Near, progress);
   RayLabeling result = solve_views(problems, progress.part(0, 0.9));
   vote(input, problems.colors, progress.part(0.9, 1), result);
-  name_labels(input.probabilities->ids, result);
+  replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }
 
@@ -49,7 +49,7 @@ RayLabeling smooth_rays_of_view(const RayLabelingInput& input, ViewIndex view,
                                 const RayLabelingParameters& parameters, const Progress& progress) {
   const ViewProblems problems = problems_of(input, parameters, TrackViews::All, progress);
   RayLabeling result = solve_view(problems, view, progress);
-  name_labels(input.probabilities->ids, result);
+  replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }
 

@@ -22,7 +22,7 @@ void find_ray_targets(const DisparityView& from, const DisparityView& to, ViewIn
     }
     const PixelIndex there{static_cast<int>(at_y), static_cast<int>(at_x)};
     if (!to.is_valid(there.y, there.x)) continue;
-    if (std::fabs(to.disparity.at(there.y, there.x) - d) > kSamePointDisparity) continue;
+    if (std::fabs(to.disparity.at(there.y, there.x) - d) > kSamePointTolerance_px) continue;
     targets[x] = there.y * width + there.x;
   }
 }

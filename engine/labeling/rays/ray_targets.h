@@ -8,10 +8,10 @@
 
 namespace episcope {
 
-/// What is taken for the same scene point in two views: disparities (px per view step) that differ
-/// by no more. Estimates are off by about 0.05 to 0.2 px; a step that is smaller moves what it
-/// hides by less than a pixel over four views.
-inline constexpr float kSamePointDisparity = 0.25F;
+/// Maximum difference of disparities (px per view step) that count as the same scene point.
+/// Estimates are off by about 0.05 to 0.2 px; a smaller step in depth hides less than a pixel over
+/// four views.
+inline constexpr float kSamePointTolerance_px = 0.25F;
 
 /// Where the rays of row `y` of the view `from` arrive in the view that is `step` = (v, u) away
 /// from it: pixel (y, x) of disparity d at (y − d·step.v, x − d·step.u), to the nearest pixel,

@@ -6,6 +6,8 @@
 #include "engine/labeling/rays/ray_smoothing.h"
 #include "engine/labeling/rays/view_smoothing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <iterator>
@@ -37,9 +39,9 @@ void check_maps(const ViewStack<T>& maps, const LabelProbabilities& p, const cha
       covers(maps.grid(), maps.first(), p)) {
     return;
   }
-  throw InvalidInput("labels of " + std::to_string(p.grid.count()) + " views of " +
-                     std::to_string(view.width()) + "×" + std::to_string(view.height()) +
-                     " px need " + what + " of the same size in each of these views");
+  throw InvalidInput(
+      fmt::format("labels of {} views of {}×{} px need {} of the same size in each of these views",
+                  p.grid.count(), view.width(), view.height(), what));
 }
 
 void check_samples(const RayLabelingInput& input) {
@@ -49,14 +51,14 @@ void check_samples(const RayLabelingInput& input) {
                         covers(lf->grid(), {0, 0}, p))) {
     return;
   }
-  throw InvalidInput("labels that agree along rays need the light field that they are of");
+  throw InvalidInput("labels that are consistent along rays need their light field");
 }
 
 void check_joint_input(const RayLabelingInput& input) {
   if (input.disparity == nullptr || input.disparity->empty()) {
     throw InvalidInput(
-        "labels that agree along rays need a disparity map of every view; estimate one first, "
-        "or regularise each view alone");
+        "labels that are consistent along rays need a disparity map of every view; estimate one "
+        "first, or regularise each view alone");
   }
   check_maps(input.disparity->disparity, *input.probabilities, "disparities");
   check_samples(input);
@@ -75,7 +77,7 @@ void check_input(const RayLabelingInput& input, const RegularizerInfo& info,
     throw InvalidInput("the smoothness of labels must not be negative");
   }
   if (!(parameters.floor > 0 && parameters.floor <= 1)) {
-    throw InvalidInput("the least probability of a label must be above 0 and at most 1");
+    throw InvalidInput("the minimum probability of a label must be above 0 and at most 1");
   }
 }
 

@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-/// How labels are made consistent. A new way is an enumerator, a pair of files like
+/// How labels are made consistent. To add a method: an enumerator, a pair of files like
 /// view_smoothing.h and a row of the table in regularizer.cpp.
 enum class Regularizer {
   None,      ///< Not at all: the most probable label of each ray (no_smoothing.h).
@@ -37,8 +37,8 @@ struct RegularizerInfo {
                                      const RayLabelingParameters& parameters,
                                      const Progress& progress);
 
-/// Labels of one view alone, from the probabilities of it and whatever other views have some: for
-/// an answer while somebody paints. Throws likewise.
+/// Labels of one view, from its probabilities and those of other views as far as available: for an
+/// answer while the user paints. Throws likewise.
 [[nodiscard]] RayLabeling label_view(const RayLabelingInput& input, ViewIndex view,
                                      Regularizer regularizer,
                                      const RayLabelingParameters& parameters,

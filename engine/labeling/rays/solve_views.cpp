@@ -11,14 +11,14 @@ namespace {
 // Views of one row of the grid that are solved one after the other, each beginning where the last
 // ended, and how many such chains there are at least, for as many threads.
 constexpr int kLongestChain = 9;
-constexpr int kLeastChains = 8;
+constexpr int kMinChains = 8;
 
 struct Chain {
   int begin = 0, end = 0;  // of the views' numbers
 };
 
 std::vector<Chain> chains_of(GridShape grid) {
-  const int length = std::clamp(grid.count() / kLeastChains, 1, kLongestChain);
+  const int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
   std::vector<Chain> chains;
   for (int v = 0; v < grid.v; ++v) {
     for (int u = 0; u < grid.u; u += length) {
@@ -47,7 +47,7 @@ RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) 
   parallel_for_workers(static_cast<int>(chains.size()), progress, [&] {
     return [&, problem = ViewProblem(problems.input, problems.parameters, problems.colors)](
                int k) mutable {
-      ViewProblem::Task task{{}, problems.parameters.gap_of_many, {}};
+      ViewProblem::Task task{{}, problems.parameters.gap_all_views, {}};
       for (int i = chains[k].begin; i < chains[k].end; ++i) {
         task.view = p.view_at(i);
         problems.fill(problem, task.view, alone);
@@ -69,7 +69,7 @@ RayLabeling solve_view(const ViewProblems& problems, ViewIndex view, const Progr
   return result;
 }
 
-void name_labels(const std::vector<std::int32_t>& ids, RayLabeling& labeling) {
+void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling) {
   ViewStack<std::int32_t>& labels = labeling.labels;
   std::for_each(labels.data(), labels.data() + labels.size(),
                 [&ids](std::int32_t& label) { label = ids[label]; });

@@ -7,8 +7,8 @@
 
 namespace episcope {
 
-/// The problems of views that are solved each by itself, and how the costs of a view get into its
-/// problem. Borrows the input and the parameters.
+/// The separate problems of the views, and how the costs of a view get into its problem. Borrows
+/// the input and the parameters.
 struct ViewProblems {
   const RayLabelingInput& input;
   const RayLabelingParameters& parameters;
@@ -17,8 +17,8 @@ struct ViewProblems {
 };
 
 /// Solves the problems of all views that have probabilities, to a gap of
-/// `parameters.gap_of_many`, in chains along rows of the grid: each view begins where the one
-/// beside it ended, moved along the disparities, if there are any. Labels are layers of the
+/// `parameters.gap_all_views`, in chains along rows of the grid: each view starts from the result
+/// of its neighbour, moved along the disparities, if there are any. Labels are layers of the
 /// probabilities, 0 … L − 1. Throws Cancelled.
 [[nodiscard]] RayLabeling solve_views(const ViewProblems& problems, const Progress& progress);
 
@@ -27,6 +27,6 @@ struct ViewProblems {
                                      const Progress& progress);
 
 /// Replaces layers by their ids.
-void name_labels(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
+void replace_layers_by_ids(const std::vector<std::int32_t>& ids, RayLabeling& labeling);
 
 }  // namespace episcope

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/rays/view_problem.h"
 
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/rays/ray_targets.h"
 
 namespace episcope {
 namespace {
 
-// A look at the gap takes as long as half an iteration, and 30 iterations are enough.
+// A check of the gap costs half an iteration, and 30 iterations are enough.
 constexpr int kCheckEvery = 5;
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace episcope {
 
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
-/// its labels, weights of its boundaries, the solver. One object for each thread that solves.
+/// its labels, weights of its boundaries, the solver. One object per solving thread.
 class ViewProblem {
  public:
   /// Borrows the input. All views have the size of the first.

@@ -18,14 +18,14 @@ ViewProblems problems_of(const RayLabelingInput& input, const RayLabelingParamet
 RayLabeling smooth_views(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const Progress& progress) {
   RayLabeling result = solve_views(problems_of(input, parameters), progress);
-  name_labels(input.probabilities->ids, result);
+  replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }
 
 RayLabeling smooth_view(const RayLabelingInput& input, ViewIndex view,
                         const RayLabelingParameters& parameters, const Progress& progress) {
   RayLabeling result = solve_view(problems_of(input, parameters), view, progress);
-  name_labels(input.probabilities->ids, result);
+  replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }
 

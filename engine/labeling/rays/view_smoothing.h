@@ -6,9 +6,9 @@
 namespace episcope {
 
 /// Labels of all views, and of one view: boundaries within a view cost their length, weighted by
-/// edges (J_st of [WSG13]), and views know nothing of each other. With disparities it is quicker:
-/// a view begins where the one beside it ended (solve_views). Energy and bound are sums over the
-/// views. Throws Cancelled.
+/// edges (J_st of [WSG13]); views are independent. Disparities speed it up: a view then starts from
+/// the result of its neighbour (solve_views). Energy and bound are sums over the views. Throws
+/// Cancelled.
 [[nodiscard]] RayLabeling smooth_views(const RayLabelingInput& input,
                                        const RayLabelingParameters& parameters,
                                        const Progress& progress);

@@ -49,7 +49,7 @@ struct Primitive {
   bool is_pane = false;  ///< Transparent: half of its colour, half of what is behind.
 };
 
-/// Takes light away from what is near it: stands for an object in the soft shadows.
+/// Darkens what is near it: stands in for an object in the soft shadows.
 struct Occluder {
   float center[3] = {};
   float radius = 0;

@@ -34,7 +34,7 @@ struct Nearest {
   }
 };
 
-// One row under way.
+// One row in progress.
 struct Row {
   const RowJob& job;
   const RowResult& out;

@@ -68,10 +68,10 @@ void add_vase(StillLife& scene) {
   ceramic.pattern_warp = 0.14F;
   ceramic.gloss = 0.25F;
   const int texture = scene.model().add(ceramic);
-  scene.turned(foot, 1.5, {0.42, 0.78, 0.38}, texture, kVase);
+  scene.surface_of_revolution(foot, 1.5, {0.42, 0.78, 0.38}, texture, kVase);
   Place neck = foot;
   neck.y = 1.5;
-  scene.turned(neck, 0.6, {0.38, 0.30, 0.46}, texture, kVase);
+  scene.surface_of_revolution(neck, 0.6, {0.38, 0.30, 0.46}, texture, kVase);
   for (const double y : {0.55, 1.1, 1.7}) scene.occluder({foot.x, y, foot.z}, 0.55, kVase);
 
   const int stem = scene.model().add(scene.noise_at(neck, 32, {0.22F, 0.42F, 0.20F}, 0.2F));
@@ -125,7 +125,7 @@ void add_solids(StillLife& scene) {
   scene.add_pattern(swirl, Pattern::Stripes, cone, 0.55, {Vector3{0.3, 1, 0.1}, Vector3{}});
   const int texture = scene.model().add(swirl);
   // r = 0.75·(1 − y/h): the squared radius of a cone.
-  scene.turned(cone, 2.2, {0.75, 0.375, 0}, texture, kCone);
+  scene.surface_of_revolution(cone, 2.2, {0.75, 0.375, 0}, texture, kCone);
   scene.occluder({cone.x, 0.5, cone.z}, 0.5, kCone);
   scene.occluder({cone.x, 1.2, cone.z}, 0.3, kCone);
 
@@ -134,7 +134,7 @@ void add_solids(StillLife& scene) {
   set_color(tin.color[1], {0.74F, 0.70F, 0.58F});
   scene.add_pattern(tin, Pattern::Stripes, can, 0.6, {Vector3{0, 1, 0}, Vector3{}});
   tin.gloss = 0.25F;
-  scene.turned(can, 0.95, {0.45, 0.45, 0.45}, scene.model().add(tin), kCan);
+  scene.surface_of_revolution(can, 0.95, {0.45, 0.45, 0.45}, scene.model().add(tin), kCan);
   Place lid = can;
   lid.y = 0.95;
   const Texture tin_lid = scene.noise_at(lid, 54, {0.66F, 0.66F, 0.63F}, 0.30F);

@@ -74,8 +74,8 @@ void StillLife::sphere(const Place& center, double radius, const Texture& textur
   occluder(center, radius, label);
 }
 
-void StillLife::turned(const Place& place, double height, const Radii& radii, int texture,
-                       int label) {
+void StillLife::surface_of_revolution(const Place& place, double height, const Radii& radii,
+                                      int texture, int label) {
   const double bottom = radii.bottom * radii.bottom;
   const double middle = radii.middle * radii.middle;
   const double top = radii.top * radii.top;

@@ -32,7 +32,8 @@ class StillLife {
     double top = 0;
   };
   /// A piece of a surface of revolution whose squared radius is a parabola through the three given.
-  void turned(const Place& place, double height, const Radii& radii, int texture, int label);
+  void surface_of_revolution(const Place& place, double height, const Radii& radii, int texture,
+                             int label);
   void disc(const Place& center, double radius, int texture, int label);
   /// A thin rod between two points.
   void rod(const Place& from, const Place& to, double radius, int texture, int label);

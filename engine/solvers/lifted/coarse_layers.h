@@ -15,14 +15,15 @@ namespace episcope {
 void halve(VolumeView<const float> from, const Progress& progress, VolumeView<float> to);
 [[nodiscard]] Image<float> halved(ImageView<const float> from);
 
-/// Begins `fine` where `coarse`, of half the size, has arrived: φ is repeated, duals are spread
-/// over the two pairs of pixels that lie where one lay, and interpolated in between. Costs of both
-/// are per pixel, so duals and smoothness of the finer one are twice those of the coarser one.
+/// Initialises `fine` with the result of `coarse`, of half the size: φ is repeated, duals are
+/// distributed over the two pairs of pixels that replace one, and interpolated in between. Costs of
+/// both are per pixel, so duals and smoothness of the finer level are twice those of the coarser
+/// one.
 void begin_from(LayeredSweep& coarse, const Progress& progress, LayeredSweep& fine);
 
-/// Begins `to` where `from`, of the same size, has arrived, for an image whose pixels have moved:
-/// each pixel takes over φ and the duals of the pixel y'·width + x' named in `places` `[y][x]`, of
-/// the one at its own place where that is −1.
+/// Initialises `to` with the result of `from`, of the same size, for an image whose pixels have
+/// moved: each pixel takes φ and the duals of the pixel y'·width + x' given in `places` `[y][x]`,
+/// or of the one at its own place where that is −1.
 void begin_from_moved(LayeredSweep& from, ImageView<const std::int32_t> places,
                       const Progress& progress, LayeredSweep& to);
 

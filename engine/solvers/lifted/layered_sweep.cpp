@@ -71,7 +71,8 @@ float* LayeredSweep::ahead(int y, float* scratch) {
 }
 
 // A row of φ needs the old duals of its own and of the row above, a row of duals the new φ of its
-// own and of the row below: in this order all is updated in place, and memory is walked once.
+// own and of the row below: in this order everything is updated in place, and memory is traversed
+// once.
 void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limits,
                            const LayeredMoves& moves, const Progress& progress) {
   parallel_for_workers(bands(), progress, [&] {

@@ -24,9 +24,10 @@ struct LayeredMoves {
 };
 
 /// The unknowns of a primal-dual method on an image with layers, φ and the duals of its pairs, and
-/// the order in which they are renewed: bands of rows in parallel, within a band φ of a row and the
-/// duals of the row above in turn, so that memory is walked once an iteration and all is updated in
-/// place. The result does not depend on the number of threads. 5 floats for each pixel and layer.
+/// the order in which they are updated: bands of rows in parallel, within a band φ of a row and the
+/// duals of the row above in turn, so that memory is traversed once per iteration and everything is
+/// updated in place. The result does not depend on the number of threads. 5 floats per pixel and
+/// layer.
 class LayeredSweep {
  public:
   /// Rows that one thread takes through an iteration on its own.

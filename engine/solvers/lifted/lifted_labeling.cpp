@@ -7,6 +7,8 @@
 #include "engine/solvers/lifted/lifted_labeling_kernel.h"
 #include "engine/solvers/simplex/pair_labels.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -32,9 +34,9 @@ void check_problem(const LiftedProblem& problem) {
   if (cost.empty() || cost.height < 1 || cost.width < 1 || cost.layers < 1) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
-  if (cost.layers > kLiftedMostLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kLiftedMostLayers) +
-                       " labels, not " + std::to_string(cost.layers));
+  if (cost.layers > kMaxLiftedLayers) {
+    throw InvalidInput(
+        fmt::format("a labeling takes at most {} labels, not {}", kMaxLiftedLayers, cost.layers));
   }
   check_boundaries(problem.g, problem.smoothness, cost.height, cost.width);
 }
@@ -129,7 +131,7 @@ LiftedResult cheapest_labels(const LiftedProblem& problem) {
   return result;
 }
 
-// How far the solver has come, as far as can be told between two looks at the gap; and by the gap,
+// How far the solver has come, as far as can be told between two checks of the gap; and by the gap,
 // which falls about geometrically.
 double share_by_iterations(int iterations) {
   return std::min(0.7, 1 - std::exp2(-iterations / 6.0));
@@ -178,7 +180,7 @@ LiftedResult solve_lifted_labeling(const LiftedProblem& problem, const LiftedOpt
 double labeling_energy(const LiftedProblem& problem, ImageView<const int> labels) {
   check_problem(problem);
   if (labels.height != problem.cost.height || labels.width != problem.cost.width) {
-    throw InvalidInput("the energy of a labeling needs labels of the size of the costs");
+    throw InvalidInput("the labels and the costs of a labeling must have the same size");
   }
   const PairLimits limits(labels.height, labels.width, problem.smoothness, problem.g);
   double sum = 0;

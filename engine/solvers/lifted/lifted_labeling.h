@@ -17,10 +17,10 @@ namespace episcope {
 /// (1 − 1/√2)·(|u_across − u| + |u_right − u_down|), times g(x, y); at the image's border, where
 /// diagonals are missing, the sides count their share too. A straight boundary costs its Euclidean
 /// length if it runs along the axes or diagonals, and at most 8 % more in between.
-/// Why not √(|u_right − u|² + |u_down − u|²): its relaxation is not tight. Rounded optima were 0.1
-/// to 1 % above the lower bound (real costs, small to large Λ), and a diagonal boundary costs 1 or
-/// √2 times its length, as it falls or rises. With differences of pairs every threshold of an
-/// optimum is an optimal labeling, and the gap closes.
+/// Why not √(|u_right − u|² + |u_down − u|²): its relaxation is not tight, so rounded optima stay
+/// above the lower bound, and a diagonal boundary costs 1 or √2 times its length, depending on
+/// whether it falls or rises. With differences of pairs every threshold of an optimum is an optimal
+/// labeling, and the gap closes.
 struct LiftedProblem {
   VolumeView<const float> cost;  ///< ρ, `[y][label][x]`, finite, any scale.
   ImageView<const float> g;      ///< `[y][x]` ≥ 0, one channel. Empty = 1.
@@ -30,7 +30,7 @@ struct LiftedProblem {
 struct LiftedOptions {
   int max_iterations = 1000;
   double gap = 1e-3;     ///< Stop once E(u) − D ≤ gap·|E(u)|.
-  int check_every = 10;  ///< Iterations between two looks at the gap.
+  int check_every = 10;  ///< Iterations between two checks of the gap.
 };
 
 struct LiftedResult {
@@ -50,15 +50,14 @@ struct LiftedResult {
 /// D = Σ_x min_k [ρ_k − Σ_{l ≤ k} div p_l] bounds the energy from below.
 /// Source: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10]; Chambolle and Pock 2011.
 ///
-/// Where we depart from it: the costs are minimised exactly along the labels of each pixel, by
-/// projecting φ − τ∇ρ to non-increasing sequences (isotonic regression), instead of by a dual of
-/// their own in the third dimension; over-relaxed by 1.9. On costs of real light fields that takes
-/// 40 to 80 iterations to a gap of 1e-3 to 1e-4, the plain method with the best start and scale
-/// more than 200 to 2e-3. φ begins as the step at the cheapest label, p as 0. Steps follow from Λ
-/// alone, so the scale of the costs does not matter.
+/// Departures from it: the costs are minimised exactly along the labels of each pixel, by
+/// projecting φ − τ∇ρ onto non-increasing sequences (isotonic regression), instead of by a dual of
+/// their own in the third dimension, and steps are over-relaxed by 1.9. Both save most of the
+/// iterations (tests/accuracy/tuning.md). φ starts as the step at the cheapest label, p as 0. Step
+/// sizes follow from Λ alone, so the scale of the costs does not matter.
 ///
-/// Takes 5 floats for each pixel and label besides the costs. The result depends neither on the
-/// number of threads nor on constants added to all costs of a pixel (up to rounding).
+/// Takes 5 floats per pixel and label besides the costs. The result depends neither on the number
+/// of threads nor on constants added to all costs of a pixel (up to rounding).
 /// Stops at `progress.finish_requested()` with the best labeling so far. Throws InvalidInput on
 /// wrong shapes, a negative Λ or more than 512 labels, Cancelled on a stop request.
 [[nodiscard]] LiftedResult solve_lifted_labeling(const LiftedProblem& problem,

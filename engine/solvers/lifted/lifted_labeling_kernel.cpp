@@ -38,8 +38,8 @@ struct Summits {
 // Projects v[begin], …, v[end − 1], `stride` apart, to non-increasing sequences by pooling adjacent
 // violators (Barlow et al. 1972).
 void pool(float* v, long stride, int begin, int end) {
-  float sums[kLiftedMostLayers];
-  int counts[kLiftedMostLayers];
+  float sums[kMaxLiftedLayers];
+  int counts[kMaxLiftedLayers];
   int blocks = 0;
   for (int l = begin; l < end; ++l) {
     float sum = v[l * stride];

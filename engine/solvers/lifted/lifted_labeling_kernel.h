@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-inline constexpr int kLiftedMostLayers = 512;
+inline constexpr int kMaxLiftedLayers = 512;
 /// Thresholds of φ that a labeling is read from.
 inline constexpr float kLiftedThresholds[] = {0.25F, 0.5F, 0.75F};
 inline constexpr int kLiftedCuts = 3;

@@ -3,8 +3,9 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
-#include <cstdio>
 
 namespace episcope {
 
@@ -23,11 +24,10 @@ void take_cheapest(VolumeView<const float> cost, int y, int* labels, std::vector
 
 void check_boundaries(ImageView<const float> g, double smoothness, int height, int width) {
   if (!g.empty() && (g.height != height || g.width != width || g.channels != 1)) {
-    throw InvalidInput("a labeling needs edge weights of " + std::to_string(width) + " by " +
-                       std::to_string(height) + " pixels, not " + std::to_string(g.width) + " by " +
-                       std::to_string(g.height));
+    throw InvalidInput(fmt::format("a labeling needs edge weights of {} by {} pixels, not {} by {}",
+                                   width, height, g.width, g.height));
   }
-  if (!(smoothness >= 0)) throw InvalidInput("a labeling needs a smoothness of at least 0");
+  if (!(smoothness >= 0)) throw InvalidInput("the smoothness of a labeling must not be negative");
 }
 
 double labeling_gap(double energy, double bound) {
@@ -35,9 +35,7 @@ double labeling_gap(double energy, double bound) {
 }
 
 std::string labeling_gap_text(double gap) {
-  char text[40];
-  std::snprintf(text, sizeof text, "labeling, gap %.1e", gap);
-  return text;
+  return fmt::format("labeling, gap {:.1e}", gap);
 }
 
 }  // namespace episcope

@@ -24,7 +24,7 @@ void check_boundaries(ImageView<const float> g, double smoothness, int height, i
 /// (energy − bound)/|energy|; 0 if they are equal.
 [[nodiscard]] double labeling_gap(double energy, double bound);
 
-/// The stage of a solver that has come so far: "labeling, gap 1.0e-03".
+/// The text for a stage of a solver: "labeling, gap 1.0e-03".
 [[nodiscard]] std::string labeling_gap_text(double gap);
 
 /// Energy of row `y` of a labeling `u`: the costs of its pixels, and of the pairs that begin there,

@@ -8,7 +8,7 @@
 
 namespace episcope {
 
-/// Distance of the rows of layers of images so wide.
+/// Distance between the rows of layers for images of this width.
 [[nodiscard]] inline long layer_pitch(int width) {
   return (width / kLayerRowUnit + 1) * static_cast<long>(kLayerRowUnit);
 }

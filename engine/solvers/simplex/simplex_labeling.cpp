@@ -8,6 +8,8 @@
 #include "engine/solvers/simplex/pair_labels.h"
 #include "engine/solvers/simplex/simplex_labeling_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,16 +24,15 @@ namespace {
 
 constexpr float kRelaxation = 1.9F;
 // Levels are halved down to this side; iterations on each below the finest.
-constexpr int kLeastSide = 16;
+constexpr int kMinSide = 16;
 constexpr int kCoarseIterations = 30;
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
   if (cost.empty() || cost.height != height || cost.layers != layers || cost.width != width) {
-    throw InvalidInput("a labeling needs costs of " + std::to_string(layers) + " labels for " +
-                       std::to_string(width) + " by " + std::to_string(height) + " pixels, not " +
-                       std::to_string(cost.layers) + " for " + std::to_string(cost.width) + " by " +
-                       std::to_string(cost.height));
+    throw InvalidInput(
+        fmt::format("a labeling needs costs of {} labels for {} by {} pixels, not {} for {} by {}",
+                    layers, width, height, cost.layers, cost.width, cost.height));
   }
   check_boundaries(problem.g, problem.smoothness, height, width);
 }
@@ -44,7 +45,8 @@ void check_moves(ImageView<const std::int32_t> from, const LayeredShape& shape, 
                           [&](std::int32_t at) { return at >= -1 && at < pixels; })) {
     return;
   }
-  throw InvalidInput("a labeling begins from pixels of an image of the size of the costs");
+  throw InvalidInput(
+      "the pixels that a labeling starts from must form an image of the size of the costs");
 }
 
 // A jump changes the layers of both labels, each weighted by half of λ.
@@ -110,7 +112,7 @@ SimplexSolver::State::State(int height, int layers, int width, Isa isa)
       moves{kernel.move_primal, kernel.move_dual},
       sweep(height, layers, width),
       rounded(height, width) {
-  while (std::min(height, width) >= 2 * kLeastSide) {
+  while (std::min(height, width) >= 2 * kMinSide) {
     height = (height + 1) / 2;
     width = (width + 1) / 2;
     coarse.emplace_back(height, layers, width);
@@ -214,9 +216,9 @@ SimplexSolver::SimplexSolver(int height, int layers, int width, Isa isa) {
   if (height < 1 || layers < 1 || width < 1) {
     throw InvalidInput("a labeling needs costs of at least one pixel and one label");
   }
-  if (layers > kSimplexMostLayers) {
-    throw InvalidInput("a labeling takes at most " + std::to_string(kSimplexMostLayers) +
-                       " labels, not " + std::to_string(layers));
+  if (layers > kMaxSimplexLayers) {
+    throw InvalidInput(
+        fmt::format("a labeling takes at most {} labels, not {}", kMaxSimplexLayers, layers));
   }
   state_ = std::make_unique<State>(height, layers, width, isa);
 }
@@ -229,7 +231,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   const LayeredShape& shape = state.sweep.shape();
   check_problem(problem, state.sweep.height(), shape.steps, shape.width);
   if (labels.height != state.sweep.height() || labels.width != shape.width) {
-    throw InvalidInput("a labeling needs an image of labels of the size of the costs");
+    throw InvalidInput("the label image of a labeling must have the size of the costs");
   }
   check_moves(options.from_last, shape, state.sweep.height());
   SimplexResult result;

@@ -26,10 +26,10 @@ struct SimplexProblem {
 struct SimplexOptions {
   int max_iterations = 300;
   double gap = 1e-3;     ///< Stop once the primal energy is within this share of the bound.
-  int check_every = 10;  ///< Iterations between two looks at the gap.
-  /// `[y][x]`: begin where the last call ended, for an image like that one. Each pixel takes over
-  /// from the pixel y'·width + x' of the last image that is named here, where −1 from the one at
-  /// its own place. Empty = begin anew. Ignored in the first call.
+  int check_every = 10;  ///< Iterations between two checks of the gap.
+  /// `[y][x]`: start from the result of the last call, for a similar image. Each pixel starts from
+  /// the pixel y'·width + x' of the last image given here, where −1 from the one at its own place.
+  /// Empty = start afresh. Ignored in the first call.
   ImageView<const std::int32_t> from_last;
 };
 
@@ -53,17 +53,15 @@ struct SimplexResult {
 /// Source: Zach, Gallup, Frahm, Niethammer 2008 [ZGFN08] for the relaxation, with the first-order
 /// primal-dual method [CP11] over-relaxed by 1.9.
 ///
-/// Where we depart from it: solved coarse to fine, u and duals of each level beginning where the
-/// level of half its size has arrived. Regions of hundreds of pixels are bridged by large λ; on
-/// costs of a forest with λ = 64 the finest level then takes 160 iterations to a gap of 1e-3,
-/// without levels more than 400. The steps follow √λ where λ > 1 (costs of about 1, as −log p,
-/// bound the duals there, not λ): twice as fast as steps that follow λ.
+/// Departures from it: solved coarse to fine, u and duals of each level starting from the result of
+/// the level of half its size, because a large λ bridges regions of hundreds of pixels. The step
+/// sizes follow √λ where λ > 1: there the costs, about 1 as −log p, bound the duals, not λ.
+/// Evidence: tests/accuracy/tuning.md.
 ///
-/// For many images of one size: 8 floats for each pixel and label stay allocated between calls, 13
-/// once `from_last` is used. From the neighbouring view of a light field, moved along its
-/// disparities, 36 iterations do instead of 59 to a gap of 1e-2 (`demo`, 11 labels).
-/// Rows are worked on by `progress.threads()` threads; not thread-safe, one object for each caller.
-/// The result depends on neither the number of threads nor (without `from_last`) earlier calls.
+/// For many images of one size: 8 floats per pixel and label stay allocated between calls, 13 once
+/// `from_last` is used, which saves iterations between neighbouring views of a light field. Rows
+/// are processed by `progress.threads()` threads; not thread-safe, one object per caller. The
+/// result depends on neither the number of threads nor (without `from_last`) earlier calls.
 class SimplexSolver {
  public:
   /// Throws InvalidInput unless all are positive and there are at most 256 labels. `isa` other than
@@ -74,7 +72,7 @@ class SimplexSolver {
 
   /// Writes the labeling `[y][x]`, 0 … L − 1. Ends after the next iteration at
   /// `progress.finish_requested()`. Throws InvalidInput on a wrong shape or a negative λ, Cancelled
-  /// on a stop request (asked for at least once an iteration).
+  /// on a stop request (checked at least once per iteration).
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
 

@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-inline constexpr int kSimplexMostLayers = 256;
+inline constexpr int kMaxSimplexLayers = 256;
 
 /// The kernel's entry points, one set for each instruction set. Rows of u are `[layer][x]`, `pitch`
 /// apart; of the costs `width` apart.

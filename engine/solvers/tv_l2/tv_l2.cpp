@@ -6,6 +6,8 @@
 #include "engine/solvers/tv_l2/tv_l2_grid.h"
 #include "engine/solvers/tv_l2/tv_l2_kernel.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,7 +17,7 @@
 namespace episcope {
 namespace {
 
-constexpr float kLeastWeight = 1e-4F;
+constexpr float kMinWeight = 1e-4F;
 // Iterations on each level below the finest, and between two fits of the penalty.
 constexpr int kCoarseIterations = 20;
 constexpr int kPenaltyEvery = 10;
@@ -37,10 +39,8 @@ constexpr float kPenaltySpread = 16.0F;
 template <class T>
 void check_shape(const ImageView<T>& image, int height, int width, const char* what) {
   if (image.height != height || image.width != width || image.channels != 1 || image.empty()) {
-    throw InvalidInput(std::string("TV-L2 needs ") + what + " as one channel of " +
-                       std::to_string(width) + " by " + std::to_string(height) + ", not " +
-                       std::to_string(image.channels) + " of " + std::to_string(image.width) +
-                       " by " + std::to_string(image.height));
+    throw InvalidInput(fmt::format("TV-L2 needs {} as one channel of {} by {}, not {} of {} by {}",
+                                   what, width, height, image.channels, image.width, image.height));
   }
 }
 
@@ -87,10 +87,10 @@ void TvL2Solver::State::load(const TvL2Problem& problem) {
     const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
     for (int x = 0; x < level.width; ++x) {
       const bool known = std::isfinite(f[x]);
-      const float weight = !known ? kLeastWeight : w != nullptr ? w[x] : 1.0F;
+      const float weight = !known ? kMinWeight : w != nullptr ? w[x] : 1.0F;
       level.f[at + x] = known ? f[x] : 0.0F;
-      level.c[at + x] = std::max(weight, kLeastWeight) * inverse_lambda;
-      level.g[at + x] = g != nullptr ? std::max(g[x], kLeastWeight) : 1.0F;
+      level.c[at + x] = std::max(weight, kMinWeight) * inverse_lambda;
+      level.g[at + x] = g != nullptr ? std::max(g[x], kMinWeight) : 1.0F;
     }
   }
   centre();
@@ -198,8 +198,8 @@ void TvL2Solver::State::copy_to(ImageView<float> u) const {
 
 TvL2Solver::TvL2Solver(int height, int width, Isa isa) {
   if (height < 1 || width < 1) {
-    throw InvalidInput("TV-L2 needs an image of at least one pixel, not " + std::to_string(width) +
-                       " by " + std::to_string(height));
+    throw InvalidInput(
+        fmt::format("TV-L2 needs an image of at least one pixel, not {} by {}", width, height));
   }
   state_ = std::make_unique<State>(height, width, isa);
 }

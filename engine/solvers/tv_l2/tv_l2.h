@@ -24,7 +24,7 @@ struct TvL2Problem {
 struct TvL2Options {
   int max_iterations = 30;
   double gap = 1e-4;     ///< Stop once the duality gap is at most this share of the energy.
-  int check_every = 10;  ///< Iterations between two looks at the gap.
+  int check_every = 10;  ///< Iterations between two checks of the gap.
 };
 
 struct TvL2Result {
@@ -37,8 +37,8 @@ struct TvL2Result {
   [[nodiscard]] double relative_gap() const { return energy > 0 ? gap / energy : 0; }
 };
 
-/// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: one
-/// object for each thread, about 55 bytes a pixel. The result depends on neither the thread nor
+/// Minimises TvL2Problem for many images of one size. Single-threaded and not thread-safe: use one
+/// object per thread, about 55 bytes per pixel. The result depends on neither the thread nor
 /// earlier calls.
 ///
 /// Method: ADMM on the splitting d = ∇u (Goldstein and Osher 2009, "split Bregman") with
@@ -47,13 +47,9 @@ struct TvL2Result {
 /// penalty R is fitted to the solution every ten iterations, R ∝ g·√(1/|∇u|) within bounds. Levels
 /// are solved coarse to fine, each starting from the u and p of the one below it.
 ///
-/// Why: with w from 1e-3 to 1 most pixels are filled from far away, which a local iteration does
-/// slowly. On structure-tensor disparities of 512² with w = r^8, edge weights and λ = 0.4, the
-/// primal-dual method of Chambolle and Pock 2011 (plain, accelerated or preconditioned) was still
-/// about 0.3 px RMS off after 400 iterations, and 0.02 px when started coarse to fine; this one
-/// ends with a gap of 5e-4 of the energy after 30 iterations and 1e-4 after 50. With w = r² and λ =
-/// 0.1 the gap is 4e-5 to 1e-4 after 30; it stays at a few 1e-3 where f is all but constant and the
-/// energy next to nothing.
+/// Why: with w from 1e-3 to 1 most pixels are filled in from far away, which a local iteration does
+/// slowly; the primal-dual method of Chambolle and Pock 2011 needs many times the iterations
+/// (tests/accuracy/tuning.md).
 class TvL2Solver {
  public:
   /// Throws InvalidInput unless both are positive. `isa` other than `best_isa()` is for tests.
@@ -63,7 +59,7 @@ class TvL2Solver {
 
   /// Writes the minimiser to `u`, whose content before the call is not used; `u` may be `f`.
   /// Ends after the next iteration at `progress.finish_requested()`. Throws InvalidInput on a wrong
-  /// shape or λ ≤ 0, Cancelled on a stop request (asked for every few milliseconds).
+  /// shape or λ ≤ 0, Cancelled on a stop request (checked every few milliseconds).
   TvL2Result solve(const TvL2Problem& problem, const TvL2Options& options, const Progress& progress,
                    ImageView<float> u);
 

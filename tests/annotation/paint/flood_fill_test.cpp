@@ -14,7 +14,7 @@ using episcope::test::drawn;
 
 namespace {
 
-// The plainest flood fill: spreads from pixel to pixel until nothing changes.
+// The simplest flood fill: spreads from pixel to pixel until nothing changes.
 Image<std::uint8_t> spread(const Image<std::int32_t>& map, PixelIndex seed) {
   Image<std::uint8_t> reached(map.height(), map.width());
   reached.at(seed.y, seed.x) = 1;

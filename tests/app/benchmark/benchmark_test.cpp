@@ -149,8 +149,8 @@ class BenchmarkTest : public QObject {
       }
       return std::vector<std::string>();
     };
-    QCOMPARE(row("as figure 7", "average").size(), std::size_t{3});
-    QVERIFY(!row("as figure 7", "average")[1].starts_with("–"));
+    QCOMPARE(row("as in figure 7", "average").size(), std::size_t{3});
+    QVERIFY(!row("as in figure 7", "average")[1].starts_with("–"));
     for (const char* layer : {"foreground", "background"}) {
       QCOMPARE(row(layer, "edge").size(), std::size_t{2});
       QVERIFY(row(layer, "edge")[1] != "–");
@@ -292,7 +292,7 @@ class BenchmarkTest : public QObject {
 
   void everyMethod_searchesAtMostSixtyPoints() {
     for (const Estimator& method : registered_estimators()) {
-      QVERIFY2(search_grid(method.parameters).size() <= kMostSearchPoints, method.info.id.c_str());
+      QVERIFY2(search_grid(method.parameters).size() <= kMaxSearchPoints, method.info.id.c_str());
     }
   }
 

@@ -58,7 +58,7 @@ file(WRITE "${WORK}/theirs/runtimes/edge.txt" "12.5\n")
 file(WRITE "${WORK}/bad/edge/any.pfm" "no map\n")
 expect("a submission" 0 OUT "theirs +1 +0.000 +medium +12.50" ERR "^note: theirs on slant: [^\n]+\n$"
        ARGS benchmark edge slant --methods epi_l -o subs --submission theirs)
-if(NOT out MATCHES "1 of 2 scenes, those that every ranked entry has. Left out for a gap: slant .theirs.")
+if(NOT out MATCHES "1 of 2 scenes, those with scores for every ranked entry. Left out because of missing scores: slant .theirs.")
   fail_case("the table does not tell the gap:\n${out}")
 endif()
 expect("a broken submission" 1 ERR "bad on edge: .*any.pfm.*. the tables of the others are in subs"

@@ -36,6 +36,6 @@ expect("evaluate one view" 0 ARGS evaluate one.h5 --truth lf.h5 --json)
 json_near("${out}" 0 0.0001 results 0 mse_100)
 json_is("${out}" OFF results 0 all_views)
 
-expect("two maps" 1 ERR "2 are there \\(left, right\\)" ARGS show two.h5 -o two.png)
-expect("two maps to convert" 1 ERR "2 are there \\(left, right\\)" ARGS convert two.h5 two.pfm)
+expect("two maps" 1 ERR "2 were found \\(left, right\\)" ARGS show two.h5 -o two.png)
+expect("two maps to convert" 1 ERR "2 were found \\(left, right\\)" ARGS convert two.h5 two.pfm)
 expect("error without a truth" 1 ERR "--truth" ARGS show one.h5 -o e2.png --what error)

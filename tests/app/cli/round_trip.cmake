@@ -54,7 +54,7 @@ expect("evaluate two methods" 0 OUT "^file,[^\n]+\n[^\n]*epi_l,[^\n]+\n[^\n]*epi
 expect("estimate with a focus plane" 0 ARGS estimate epi_l "${lf}" -o focus.h5 --json --focus 0.5
        --views=center --range -4.5,3.5)
 expect("info with a focus plane" 0 OUT "focus +a plane of 0.5 px" ARGS info "${lf}" --focus 0.5)
-expect("a focus plane out of the picture" 1 ERR "out of the picture" ARGS info "${lf}" --focus 50)
+expect("a focus plane out of the picture" 1 ERR "out of the image" ARGS info "${lf}" --focus 50)
 
 expect(evaluate 0 OUT "mse_100 +[0-9.]+\nmse_100_inset15 +[0-9.]+\ndensity +[0-9.]+\n.*runtime_class +fast\nall_views +yes\n"
        ARGS evaluate "${result}" --truth "${lf}")

@@ -150,7 +150,7 @@ void ConfidenceTest::epiS_isTheSameForAnyThreadCount() {
   QVERIFY(same_bytes(one.confidence, many.confidence));
 }
 
-// To the bit: which views are wanted decides what is computed, not how.
+// Bit for bit: the requested views decide what is computed, not how.
 void ConfidenceTest::centerOnly_equalsCenterOfAllViews() {
   const Scene scene = render("objects", 77, 91, {7, 9});
   const ViewIndex center = scene.light_field->center();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What every estimator owes to those who run it by name: data-driven over the registry.
+// What every estimator must guarantee to callers that run it by name: data-driven over the
+// registry.
 #include "engine/disparity/common/estimator.h"
 
 #include "engine/core/error.h"
@@ -129,7 +130,7 @@ void EstimatorTest::foreignDevice_isUnavailable() {
 
   const std::string text =
       message_of([&] { (void)estimator.run(tiny(), {}, {.device = Device::Cuda}, Progress()); });
-  QCOMPARE(text, "this build computes on the CPU only; use --device cpu or auto");
+  QCOMPARE(text, "this build runs on the CPU only; use --device cpu or auto");
 }
 
 void EstimatorTest::method_runsAndFillsProvenance() {
@@ -273,7 +274,7 @@ void EstimatorTest::progress_risesToOne() {
   QVERIFY(fractions.size() > 5);
   QVERIFY(std::is_sorted(fractions.begin(), fractions.end()));
   QCOMPARE(fractions.back(), 1.0);
-  // One that stands still and jumps tells nothing.
+  // A bar that stands still and jumps is uninformative.
   double gap = 0;
   for (std::size_t i = 1; i < fractions.size(); ++i) {
     gap = std::max(gap, fractions[i] - fractions[i - 1]);

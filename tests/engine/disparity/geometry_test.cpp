@@ -318,7 +318,7 @@ void GeometryTest::greyLightField_isEstimated() {
   QVERIFY2(off.mse_100 < 0.1, qPrintable(QString("MSE %1").arg(off.mse_100)));
 }
 
-// ±3.5 px are far beyond what an unsheared EPI can tell.
+// ±3.5 px are far beyond what an unsheared EPI can measure.
 void GeometryTest::wideRange_isEstimated() {
   const Scene scene = render("slant", 96, 160, {9, 9}, 3.5);
   const Estimate estimate = epi_l(*scene.light_field, {-3.8, 3.8}, ViewSelection::Center);

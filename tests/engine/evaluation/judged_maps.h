@@ -10,7 +10,7 @@
 #include <map>
 #include <string>
 
-/// Maps of disparity to be judged.
+/// Disparity maps to be evaluated.
 namespace episcope::test {
 
 inline constexpr float kNan = std::numeric_limits<float>::quiet_NaN();

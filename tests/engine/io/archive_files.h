@@ -11,7 +11,7 @@ namespace episcope::test {
 
 /// What a hand-made archive file is to look like.
 struct RawArchive {
-  io::ViewFlip flip;           ///< Views are stored in this order against the house.
+  io::ViewFlip flip;           ///< Stored order relative to the canonical one.
   double attribute_scale = 1;  ///< Factor on dH and shift.
   bool has_depth = true;
   bool is_center_only = false;  ///< GT_DEPTH as [y][x].

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// While it lives, no file can grow beyond `bytes`: for a writer the same as a disk that fills up.
+/// While it exists, no file can grow beyond `bytes`: for a writer the same as a disk that fills up.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -85,7 +85,7 @@ std::vector<Writer> all_writers() {
            [=](const fs::path& path) { io::write_benchmark_folder(path, *scene, Progress(1)); }}};
 }
 
-/// Builds something broken in an empty folder and returns what to open.
+/// Creates a broken input in an empty folder and returns what to open.
 using Break = std::function<fs::path(const fs::path& folder)>;
 
 fs::path archive_with(const fs::path& folder, const RawArchive& form) {
@@ -168,11 +168,11 @@ std::vector<Broken> broken_inputs() {
          std::ofstream(f / "scene.xyz") << "x";
          return f / "scene.xyz";
        },
-       "no light field"},
+       "not a light field"},
       {"HDF5 cut in its header", [](const fs::path& f) { return cut_archive(f, 90); },
-       "cut short or damaged"},
+       "truncated or damaged"},
       {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
-       "cut short or damaged"},
+       "truncated or damaged"},
       {"no dataset LF",
        [](const fs::path& f) {
          return archive_of(f, {{"IMAGES", {2, 2}}});
@@ -194,7 +194,7 @@ std::vector<Broken> broken_inputs() {
        [](const fs::path& f) {
          return archive_of(f, {{"LF", {0, 3, 8, 9, 3}}});
        },
-       "no light field"},
+       "not that of a light field"},
       {"GT_DEPTH of rank 3",
        [](const fs::path& f) {
          return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {3, 8, 9}}});
@@ -215,7 +215,7 @@ std::vector<Broken> broken_inputs() {
          io::write_result(f / "r.h5", estimate_of(plane_scene()), Progress(1));
          return f / "r.h5";
        },
-       "disparity result and no light field"},
+       "disparity result, not a light field"},
       {"grid with a view of another size",
        [](const fs::path& f) {
          image_grid(f);
@@ -229,7 +229,7 @@ std::vector<Broken> broken_inputs() {
          io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 9).view());
          return f;
        },
-       "all views must be alike"},
+       "all views must match"},
       {"grid with a missing view",
        [](const fs::path& f) {
          image_grid(f);
@@ -257,7 +257,7 @@ std::vector<Broken> broken_inputs() {
          io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
          return f;
        },
-       "form no grid of views"},
+       "do not form a grid of views"},
       {"benchmark with a missing view",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
@@ -272,7 +272,7 @@ std::vector<Broken> broken_inputs() {
          fs::remove(scene / "input_Cam004.png");
          return scene;
        },
-       "form no square grid"},
+       "do not form a square grid"},
       {"benchmark with a broken cfg",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
@@ -293,7 +293,7 @@ std::vector<Broken> broken_inputs() {
          fs::resize_file(scene / "gt_disp_lowres_Cam002.pfm", 5000);
          return scene;
        },
-       "cut short"},
+       "truncated"},
   };
 }
 
@@ -438,7 +438,7 @@ class BadInputTest : public QObject {
 
     QCOMPARE(files_in(folder()), std::size_t{is_folder ? 0U : 1U});
     if (!is_folder) QCOMPARE(fs::file_size(folder() / "out"), std::uintmax_t{3});
-    // The libraries beneath must have got over it.
+    // The libraries beneath must still work.
     writer.write(folder() / "again");
     QVERIFY(fs::exists(folder() / "again"));
   }
@@ -448,7 +448,7 @@ class BadInputTest : public QObject {
       io::write_pfm("/dev/full", Image<float>(2, 2).view());
       QFAIL("it was written");
     } catch (const IoError& error) {
-      verify_sentence(error, "no ordinary file");
+      verify_sentence(error, "not a regular file");
     }
     QVERIFY(fs::is_character_file("/dev/full"));
   }

@@ -34,7 +34,7 @@ Interval range_of(const DisparityView& map) {
 
 }  // namespace
 
-/// Opens real files where they are at hand.
+/// Opens real files where available.
 class SharedDataTest : public QObject {
   Q_OBJECT
 

@@ -2,7 +2,7 @@
 #include "engine/labeling/consistency.h"
 
 #include "engine/core/error.h"
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 
@@ -110,7 +110,7 @@ void ConsistencyTest::weights_takeTheMoreProbableDirection() {
   const Image<float> weights = boundary_weights(two);
 
   QCOMPARE(weights.at(0, 0), 0.25F);
-  QCOMPARE(weights.at(0, 1), kLeastBoundaryWeight);
+  QCOMPARE(weights.at(0, 1), kMinBoundaryWeight);
 }
 
 void ConsistencyTest::edges_refuseOtherSizes() {

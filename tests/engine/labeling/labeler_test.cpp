@@ -183,7 +183,7 @@ void LabelerTest::badInput_isToldInASentence() {
   QVERIFY(message({}, kAll).contains("nothing is painted"));
   QVERIFY(message(one_label, kAll).contains("paint a second one"));
   QVERIFY(message(foreign, kAll).contains("do not fit"));
-  QVERIFY(message(scene().scribbles, {{2, 2}, {2, 2}}).contains("were asked for"));
+  QVERIFY(message(scene().scribbles, {{2, 2}, {2, 2}}).contains("were requested"));
   Labeler without(scene().light_field, nullptr);
   QVERIFY_THROWS_EXCEPTION(
       InvalidInput,

@@ -11,7 +11,7 @@
 
 namespace episcope::test {
 
-/// Ids of a scene's true labels, ascending.
+/// The ids of a scene's true labels, ascending.
 inline std::vector<std::int32_t> label_ids(const ViewStack<std::int32_t>& labels) {
   std::vector<std::int32_t> ids(labels.data(), labels.data() + labels.size());
   std::ranges::sort(ids);
@@ -49,7 +49,7 @@ inline LabelProbabilities mistaken(const ViewStack<std::int32_t>& truth, double 
   return p;
 }
 
-/// Share of rays labeled rightly, over all views that `labels` holds.
+/// Fraction of rays labeled correctly, over all views that `labels` holds.
 inline double accuracy(const ViewStack<std::int32_t>& labels,
                        const ViewStack<std::int32_t>& truth) {
   std::size_t right = 0;

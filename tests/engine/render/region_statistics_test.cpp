@@ -7,7 +7,6 @@
 
 namespace episcope::in_region_statistics_test {
 
-using render::PixelRegion;
 using render::region_statistics;
 
 class RegionStatisticsTest : public QObject {

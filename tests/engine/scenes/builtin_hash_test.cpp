@@ -4,8 +4,8 @@
 
 namespace episcope::in_builtin_hash_test {
 
-// The samples of every scene are recorded, so that a change of the pictures is noticed, and so that
-// every machine, instruction set and compiler must give the same bytes.
+// The samples of every scene are recorded, so that any change is noticed, and every machine,
+// instruction set and compiler must give the same bytes.
 class BuiltinHashTest : public QObject {
   Q_OBJECT
 

@@ -180,8 +180,8 @@ class BuiltinTest : public QObject {
         QVERIFY(std::abs(center.at(y, x) - (x < kSize / 2 ? -0.5F : 0.8F)) < 1e-6F);
       }
     }
-    // The near plane moves by 0.8 px a view, and the far one shows or hides behind it: from view 0
-    // its left side stands 0.8 px further right.
+    // The near plane moves by 0.8 px per view, and the far one shows or hides behind it: from view
+    // 0 its left side stands 0.8 px further right.
     QVERIFY(std::abs(scene.truth->field.disparity.view({1, 0}).at(9, kSize / 2) + 0.5F) < 1e-6F);
     QVERIFY(std::abs(scene.truth->field.disparity.view({1, 2}).at(9, kSize / 2 - 1) - 0.8F) <
             1e-6F);
@@ -371,7 +371,7 @@ class BuiltinTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(scenes::render_builtin("demo", small_options({9, 9}), progress),
                              Cancelled);
 
-    // A report a thread may be under way when the stop comes.
+    // One report per thread may be in progress when the stop comes.
     QVERIFY(reports < 3 + progress.threads() + 1);
   }
 };

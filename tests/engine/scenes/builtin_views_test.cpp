@@ -158,7 +158,7 @@ class BuiltinViewsTest : public QObject {
 
     for (int u = 0; u < 5; ++u) {
       const auto labels = scene.truth->labels.view({2, u});
-      // The near plane begins at x = 63.5 and moves by −0.8 px a view.
+      // The near plane begins at x = 63.5 and moves by −0.8 px per view.
       const double side = kSize / 2 - 0.5 - 0.8 * (u - 2);
       for (int x = 0; x < kSize; ++x) QCOMPARE(labels.at(50, x), x > side ? 2 : 1);
     }

@@ -8,8 +8,8 @@
 
 namespace episcope {
 
-/// The plainest solver of TvL2Problem: Chambolle and Pock's first algorithm in double, run for
-/// long.
+/// The simplest solver of TvL2Problem: Chambolle and Pock's first algorithm in double, run for many
+/// iterations.
 class TvL2Reference {
  public:
   explicit TvL2Reference(const TvL2Problem& problem)

@@ -36,7 +36,8 @@ class Weighted : public WindowFixture {
     for (std::size_t i = 0; i < weights.size(); ++i) {
       weights.data()[i] = isLeft(static_cast<int>(i) % lf.width(), lf.width()) ? 1.0F : 0.0F;
     }
-    io::write_edge_weights(file.parent_path() / "edge_weights.h5", weights, scene, Progress());
+    io::write_edge_probabilities(file.parent_path() / "edge_weights.h5", weights, scene,
+                                 Progress());
     open(file);
   }
   void openWithout() { open(writeScene("objects", smallOptions()).toStdString()); }

@@ -10,7 +10,7 @@
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/overlay.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/annotate/segment_panel.h"
@@ -191,7 +191,7 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   const QString share = QString::number(
       100.0 * static_cast<double>(right) / static_cast<double>(labels.size()), 'f', 1);
   QVERIFY2(f.panel().note().contains(share), qPrintable(f.panel().note() + " " + share));
-  QVERIFY(f.window.bench().overlay.isAvailable(Quantity::Labels));
+  QVERIFY(f.window.bench().overlay.isAvailable(Quantity::TrueLabels));
   QVERIFY(f.window.bench().overlay.isAvailable(Quantity::WrongLabels));
 }
 
@@ -211,7 +211,7 @@ void SegmentTest::allViews_areExportedAndReadAgain() {
   QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("out.png")), kPatience);
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
 
-  const io::LabelingFile file(f.path("out.h5").toStdString());
+  const io::SegmentationFile file(f.path("out.h5").toStdString());
   QVERIFY(file.grid() == (GridShape{9, 9}));
   QVERIFY(file.has_probabilities());
   const Image<std::int32_t> read = file.labels({8, 1});

@@ -5,7 +5,7 @@
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/error.h"
 #include "engine/io/grid/image_file.h"
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "tests/app/session/tiny_scene.h"
 #include "tests/test_main.h"
 

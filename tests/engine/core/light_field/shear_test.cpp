@@ -206,7 +206,7 @@ class ShearTest : public QObject {
 
   void absurdFocus_isRefused_data() {
     QTest::addColumn<double>("focus");
-    QTest::newRow("out of the picture") << 12.0;
+    QTest::newRow("out of the image") << 12.0;
     QTest::newRow("NaN") << std::numeric_limits<double>::quiet_NaN();
     QTest::newRow("infinite") << -std::numeric_limits<double>::infinity();
   }

@@ -108,7 +108,7 @@ class ParallelTest : public QObject {
 
     QVERIFY_EXCEPTION_THROWN(parallel_for(1000000, Progress(2), body), std::runtime_error);
 
-    // Ten seconds of items are left out; the other thread runs on until the exception is noted.
+    // Ten seconds of items are skipped; the other thread continues until the exception is noticed.
     QVERIFY(after < 500000);
   }
 
@@ -123,7 +123,7 @@ class ParallelTest : public QObject {
                                           }),
                              Cancelled);
 
-    // The other thread may have looked just before.
+    // The other thread may have checked just before.
     QVERIFY(begun_late <= 1);
   }
 

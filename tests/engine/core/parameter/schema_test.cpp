@@ -37,7 +37,7 @@ const Schema<Tuning>& schema() {
   return all;
 }
 
-// A struct put together from another one, whose defaults it sees differently.
+// A struct composed of another one, with different defaults.
 struct Method {
   bool is_rough = false;
   Tuning tuning{.scale = 2, .fusion = Fusion::Best};

@@ -33,8 +33,8 @@ class TextTableTest : public QObject {
     QVERIFY(QString::fromStdString(table_to_latex({{"−1.5"}, {}})).contains("$-$1.5"));
   }
 
-  void turned_exchangesRowsAndColumns() {
-    const TextTable table = turned({{"file", "a", "b"}, {{"x", "1", "2"}, {"y", "3", "4"}}});
+  void transposed_exchangesRowsAndColumns() {
+    const TextTable table = transposed({{"file", "a", "b"}, {{"x", "1", "2"}, {"y", "3", "4"}}});
     QCOMPARE(table.header, (std::vector<std::string>{"file", "x", "y"}));
     QCOMPARE(table.rows, (std::vector<std::vector<std::string>>{{"a", "1", "3"}, {"b", "2", "4"}}));
   }
@@ -44,9 +44,9 @@ class TextTableTest : public QObject {
     QVERIFY(text.contains("\\textless{}a\\textbar{}b\\textgreater{}"));
   }
 
-  void narrowText_isTurnedWhereThatIsShorter() {
+  void narrowText_isTransposedWhereThatIsShorter() {
     const TextTable few{{"file", "first metric", "second metric"}, {{"x", "1", "2"}}};
-    QCOMPARE(table_to_narrow_text(few), table_to_text(turned(few)));
+    QCOMPARE(table_to_narrow_text(few), table_to_text(transposed(few)));
     TextTable many{{"file", "a"}, {}};
     for (int i = 0; i < 20; ++i) many.rows.push_back({"a file of this name", "1"});
     QCOMPARE(table_to_narrow_text(many), table_to_text(many));

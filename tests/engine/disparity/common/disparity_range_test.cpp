@@ -91,7 +91,7 @@ void DisparityRangeTest::foundRange_holdsTheTruth() {
   // Of 0.2 % of the pixels, the ends may miss a corner of the slant.
   constexpr double missed = 0.02;
   QVERIFY2(found.min <= truth.min + missed && found.max >= truth.max - missed, qPrintable(both));
-  // Each shear more costs time, and gives noise another chance.
+  // Each additional shear costs time and gives noise another chance.
   constexpr double wide = 0.6;
   QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
 }

@@ -54,7 +54,7 @@ void LocalNoiseTest::noise_isMeasured() {
   QFETCH(int, channels);
   Image<float> variance = variance_of(view_of(channels, 0, 0));
   const double sigma = std::sqrt(quantile({variance.data(), variance.size()}, 0.5));
-  // The least of four measurements is a little low.
+  // The minimum of four measurements is slightly too low.
   QVERIFY2(sigma > 0.75 * kSigma && sigma < 1.05 * kSigma, qPrintable(QString::number(sigma)));
 }
 

@@ -62,7 +62,7 @@ double sample(const ImageView<const float>& image, double y, double x, int c,
   return sum;
 }
 
-// Equations (3) and (4), word by word, in the axes of the house.
+// Equations (3) and (4), literally, in canonical axes.
 double defined_cost(const ViewStack<float>& views, ViewIndex reference, const MatchingCost& cost,
                     double label, int y, int x) {
   double sum = 0;
@@ -240,7 +240,8 @@ void MatchingCostTest::cap_ignoresOneViewTurnedWhite() {
   QVERIFY(right_with(kNoCap) < 33);
 }
 
-// Without a word of the noise, moving views by half pixels averages it away and looks like a match.
+// Without the noise term, moving views by half pixels averages the noise away and looks like a
+// match.
 void MatchingCostTest::noise_favoursNoLabel() {
   const LightField noise = unrelated_views({5, 5});
   const auto ratio_with = [&](std::shared_ptr<const Image<float>> variance) {
@@ -301,7 +302,7 @@ void MatchingCostTest::threads_changeNothing() {
            0.0);
 }
 
-// Bytes take another way in; both are the same numbers up to the rounding of the stored ones.
+// Bytes take another code path; both give the same numbers up to the rounding of the stored ones.
 void MatchingCostTest::storedType_changesNothing() {
   const Scene scene = render("edge", 30, 140, {3, 3});
   const std::vector<float> labels = equidistant_labels({-1, 1}, 5);

@@ -106,7 +106,7 @@ void EpiCTest::plane_staysAsObserved() {
   Estimate estimate;
   estimate.field.disparity = filled(0.37F);
   estimate.confidence = filled(1);
-  order_views(plain_views(), parameters(), filled(0.37F), estimate, Progress());
+  denoise_with_ordering(plain_views(), parameters(), filled(0.37F), estimate, Progress());
   for (const ViewIndex view : {ViewIndex{0, 0}, ViewIndex{2, 2}, ViewIndex{4, 1}}) {
     QVERIFY(largest_difference(estimate.field.disparity.view(view), filled(0.37F).view(view)) <
             1e-3);
@@ -119,7 +119,7 @@ void EpiCTest::observation_isWhatRaysReturnTo() {
   estimate.confidence = filled(1);
   EpiCParameters p = parameters();
   p.fall = 1e-3;  // else it takes many sweeps
-  order_views(plain_views(), p, filled(0.37F), estimate, Progress());
+  denoise_with_ordering(plain_views(), p, filled(0.37F), estimate, Progress());
   QVERIFY(largest_difference(estimate.field.disparity.view({2, 2}), filled(0.37F).view({2, 2})) <
           1e-3);
 }
@@ -183,7 +183,7 @@ void EpiCTest::oneSweep_isThatOfTheDefinition() {
           (w * f.view({0, view}).at(0, x) + bend[x] * u[view][x] + pull[x]) / (w + bend[x]);
     }
   }
-  order_views(plain, p, f, estimate, Progress());
+  denoise_with_ordering(plain, p, f, estimate, Progress());
 
   for (int i = 0; i < 2 * width; ++i) {
     const double off = estimate.field.disparity.data()[i] - u[i / width][i % width];
@@ -200,7 +200,7 @@ void EpiCTest::gap_isTheLargestOfAllViews() {
   const auto gap = [&](const EpiCParameters& p) {
     Estimate estimate = epi_s(scene);
     const ViewStack<float> observed = estimate.field.disparity.clone();
-    return order_views(*scene.light_field, p, observed, estimate, Progress());
+    return denoise_with_ordering(*scene.light_field, p, observed, estimate, Progress());
   };
   const double large = gap(hasty), small = gap(patient);
   QVERIFY2(large > 1e-2, qPrintable(QString::number(large)));
@@ -221,7 +221,7 @@ void EpiCTest::edgeOfTheBackground_isMovedBack() {
   EpiCParameters p;
   p.fall = 1;
   p.sweeps = 10;
-  order_views(plain_views(), p, half_planes(0), estimate, Progress());
+  denoise_with_ordering(plain_views(), p, half_planes(0), estimate, Progress());
   const double after = ordering_violations(estimate.field.disparity, Progress());
   QVERIFY2(after < 0.5 * before, qPrintable(QString("%1, was %2").arg(after).arg(before)));
 }
@@ -299,7 +299,7 @@ void EpiCTest::finishing_givesWhatThereIs_data() {
                             << "ordering, sweep 2";
 }
 
-// Whoever asks for the result so far does not wait for further stages.
+// A request for the result so far does not wait for further stages.
 void EpiCTest::finishing_givesWhatThereIs() {
   QFETCH(QString, stage);
   QFETCH(QString, next);

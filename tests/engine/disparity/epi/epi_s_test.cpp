@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
-#include "engine/disparity/common/edge_weights.h"
+#include "engine/disparity/common/smoothness_weights.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
@@ -186,7 +186,7 @@ void EpiSTest::notes_holdTheGap() {
 }
 
 void EpiSTest::edgeWeights_areLessAtEdges() {
-  const Image<float> weights = edge_weights(step_light_field(), {0, 0}, 10);
+  const Image<float> weights = smoothness_weights(step_light_field(), {0, 0}, 10);
   for (int y = 0; y < 6; ++y) {
     for (int x = 0; x < 8; ++x) {
       const double expected = x == 3 ? std::exp(-10 * 0.5) : 1.0;
@@ -196,7 +196,7 @@ void EpiSTest::edgeWeights_areLessAtEdges() {
 }
 
 void EpiSTest::edgeWeights_withoutStrengthAreOne() {
-  const Image<float> weights = edge_weights(step_light_field(), {0, 0}, 0);
+  const Image<float> weights = smoothness_weights(step_light_field(), {0, 0}, 0);
   QVERIFY(std::all_of(weights.begin(), weights.end(), [](float w) { return w == 1.0F; }));
 }
 
@@ -204,7 +204,7 @@ void EpiSTest::edgeWeights_withoutStrengthAreOne() {
 void EpiSTest::edgeWeights_sumChannels() {
   const LightField lf = make_light_field(
       {1, 1}, 4, 4, 3, [](ViewIndex, int y, int x, int) { return x <= 1 && y <= 1 ? 0.4F : 0.3F; });
-  const Image<float> weights = edge_weights(lf, {0, 0}, 2);
+  const Image<float> weights = smoothness_weights(lf, {0, 0}, 2);
   QVERIFY(std::fabs(weights.at(1, 1) - std::exp(-2 * std::sqrt(0.06))) < 1e-5);
   QVERIFY(std::fabs(weights.at(0, 1) - std::exp(-2 * std::sqrt(0.03))) < 1e-5);
   QCOMPARE(weights.at(3, 3), 1.0F);

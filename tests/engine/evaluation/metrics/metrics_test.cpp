@@ -154,7 +154,7 @@ class MetricsTest : public QObject {
     QCOMPARE(int{present_mask(bad).at(21, 30)}, 1);
   }
 
-  // However small the error of the farthest disparity would be.
+  // However small the error of the farthest disparity is.
   void q25_countsMissingValuesBehindAllOthers() {
     const auto truth = map_of([](int, int x) { return x < 25 ? 1.0 : 3.0; });
     const auto estimate = map_of([](int, int x) { return x < 25 ? kNan : 3.5; });
@@ -269,7 +269,7 @@ class MetricsTest : public QObject {
     QCOMPARE(find_metric(metrics, "mse_100_foreground").value(), 25.0);
     QCOMPARE(find_metric(metrics, "mse_100_background").value(), 0.0);
     QVERIFY(find_metric(metrics, "layers_right") && !find_metric(metrics, "mse_100"));
-    // Where one surface is seen the foreground is judged as any other map.
+    // Where one surface is visible, the foreground is evaluated like any other map.
     truth.field = field(1.2F, true);
     QCOMPARE(metric(evaluate_layers(estimate, truth, {0, 0}, {}).single.value(), "density"), 100.0);
     QVERIFY(std::abs(find_metric(layered_metrics(evaluate_layers(estimate, truth, {0, 0}, {})),

@@ -16,7 +16,7 @@ using namespace episcope::test;
 class RegionMetricsTest : public QObject {
   Q_OBJECT
  private slots:
-  // A hole of the truth is not the estimate's doing.
+  // A hole in the truth is not a fault of the estimate.
   void holesOfTheTruth_costNothing() {
     auto truth = constant(1);
     truth.at(25, 25) = kNan;

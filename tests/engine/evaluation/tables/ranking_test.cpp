@@ -58,7 +58,7 @@ class RankingTest : public QObject {
 
     const double printed[] = {1.64, 1.07, 1.04, 1.18, 2.72, 1.19, 1.12, 3.54, 1.14, 1.01};
     for (std::size_t i = 0; i < matrix.entries.size(); ++i) {
-      // The paper averaged scores that it had not rounded yet.
+      // The paper averaged unrounded scores.
       QVERIFY2(std::abs(*ranking.averages[i] - printed[i]) <= 0.01, matrix.entries[i].c_str());
     }
     std::vector<std::string> order;

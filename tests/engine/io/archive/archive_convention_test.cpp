@@ -68,7 +68,7 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
     RawArchive form;
     form.flip = {true, false};
     form.more = [](io::Hdf5Output& file) {
-      file.set_text("/", "convention", "house order, so it says");
+      file.set_text("/", "convention", "canonical order, so it says");
     };
     write_raw_archive(path("lf.h5"), scene, form);
 
@@ -88,7 +88,7 @@ class ArchiveConventionTest : public QObject, private ArchiveFolder {
 
     QVERIFY(!has_same_samples(scene, read));
     QVERIFY(read.convention.reversed_u);
-    QVERIFY(QString::fromStdString(describe(read.convention)).contains("speaks for"));
+    QVERIFY(QString::fromStdString(describe(read.convention)).contains("check favours"));
     // Truth moves with its view.
     const auto moved = read.truth->field.disparity.view({1, 0});
     QVERIFY(std::abs(moved.at(5, 5) - scene.truth->field.disparity.view({1, 4}).at(5, 5)) <

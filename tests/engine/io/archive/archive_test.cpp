@@ -47,7 +47,7 @@ class ArchiveTest : public QObject, private ArchiveFolder {
     QTest::newRow("in order") << false;
     QTest::newRow("h reversed") << true;
   }
-  // What it is needed for is as with it: the order of views and the units.
+  // Everything that needs it is unchanged: the order of views and the units.
   void truthNotNeeded_isNotRead() {
     QFETCH(bool, is_reversed);
     const Scene scene = plane_scene();
@@ -323,21 +323,22 @@ class ArchiveTest : public QObject, private ArchiveFolder {
 
     const Scene read = open(path("lf.h5"));
     const ViewStack<float> weights =
-        io::read_edge_weights(path("edge_weights.h5"), read, Progress(1));
+        io::read_edge_probabilities(path("edge_weights.h5"), read, Progress(1));
     const io::ProbabilityFile all(path("feature_depth_probabilities.h5"), read);
     const io::ProbabilityFile single(path("feature_single_view_probabilities.h5"), read);
 
     QCOMPARE(read.companions.size(), std::size_t{3});
-    QCOMPARE(read.companions[0].kind, CompanionKind::EdgeWeights);
+    QCOMPARE(read.companions[0].kind, CompanionKind::EdgeProbabilities);
     QCOMPARE(read.companions[0].shape, std::string("5×5×64×80"));
     QCOMPARE(weights.view({0, 4}).at(0, 3), 3.0F);  // stored at h = 0
-    io::write_edge_weights(path("written.h5"), weights, read, Progress(1));
-    const auto again = io::read_edge_weights(path("written.h5"), read, Progress(1));
+    io::write_edge_probabilities(path("written.h5"), weights, read, Progress(1));
+    const auto again = io::read_edge_probabilities(path("written.h5"), read, Progress(1));
     QVERIFY(std::equal(again.data(), again.data() + again.size(), weights.data()));
     QCOMPARE(io::Hdf5Input(path("written.h5")).dataset("EDGE_WEIGHTS").shape,
              (io::Hdf5Shape{5, 5, 64, 80}));
     QVERIFY_EXCEPTION_THROWN(
-        io::write_edge_weights(path("few.h5"), ViewStack<float>({1, 1}, 64, 80), read, Progress(1)),
+        io::write_edge_probabilities(path("few.h5"), ViewStack<float>({1, 1}, 64, 80), read,
+                                     Progress(1)),
         IoError);
     QCOMPARE(all.label_count(), 3);
     QVERIFY(all.contains({0, 0}));

@@ -71,7 +71,7 @@ class AppendLogTest : public QObject {
     QCOMPARE(texts(open().records()), (Texts{"one", "two", "three"}));
   }
 
-  // What a program that dies leaves: any part of the file.
+  // What a crashed program leaves: any part of the file.
   void halfWrittenRecord_isDroppedForGood_data() { everyLog(); }
   void halfWrittenRecord_isDroppedForGood() {
     std::vector<qint64> sizes;  // with so many records

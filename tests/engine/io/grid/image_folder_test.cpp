@@ -223,7 +223,7 @@ class ImageFolderTest : public QObject {
     QCOMPARE(read.truth->field.disparity.first(), (ViewIndex{1, 1}));
   }
 
-  // What it is needed for is as with it, the order of views.
+  // Everything that needs it is unchanged: the order of views.
   void truthNotNeeded_isNotRead() {
     const Scene scene = plane_scene(grid(3, 3));
     io::write_benchmark_folder(path("scene"), scene, Progress(2));

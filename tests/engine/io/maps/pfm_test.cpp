@@ -88,11 +88,11 @@ class PfmTest : public QObject {
     QTest::newRow("no size") << "Pf\n"
                              << "width";
     QTest::newRow("negative size") << "Pf\n-3 1\n-1\n"
-                                   << "cannot be";
+                                   << "not valid";
     QTest::newRow("scale 0") << "Pf\n1 1\n0\n"
-                             << "cannot be";
+                             << "not valid";
     QTest::newRow("huge") << "Pf\n99999999 99999999\n-1\n"
-                          << "cannot be";
+                          << "not valid";
     QTest::newRow("cut short") << "Pf\n3 3\n-1\n"
                                << "0 of 3 rows";
   }

@@ -213,13 +213,13 @@ class ResultTest : public QObject {
     QTest::newRow("missing") << "none.h5"
                              << "no such file";
     QTest::newRow("two maps") << "two.h5"
-                              << "2 are there (a, b)";
+                              << "2 were found (a, b)";
     QTest::newRow("no map") << "rank.h5"
-                            << "none is there";
+                            << "none was found";
     QTest::newRow("text") << "text.h5"
                           << "not an HDF5 file";
     QTest::newRow("unknown kind") << "map.xyz"
-                                  << "no disparity map";
+                                  << "not a disparity map";
     QTest::newRow("8-bit TIFF") << "grey.tiff"
                                 << "32-bit float";
     QTest::newRow("folder") << "folder"
@@ -227,7 +227,7 @@ class ResultTest : public QObject {
     QTest::newRow("other grid") << "grid.h5"
                                 << "does not fit";
     QTest::newRow("cut short") << "cut.h5"
-                               << "cut short";
+                               << "truncated";
   }
   void badResults_areRefused() {
     QFETCH(QString, file);

@@ -19,8 +19,7 @@ using namespace episcope::test;
 
 namespace fs = std::filesystem;
 
-/// Files that say less than they seem to, or one thing here and another there: told, never
-/// believed.
+/// Files that are incomplete or contradict themselves: reported, never trusted.
 class ContradictionTest : public QObject {
   Q_OBJECT
 
@@ -231,9 +230,8 @@ class ContradictionTest : public QObject {
     const Scene read = open(path("lf.h5"));
 
     QVERIFY(read.companions.empty());
-    QVERIFY2(warns(read, "The file of edge weights is left out"),
-             describe(read.convention).c_str());
-    QVERIFY(warns(read, "The file of probabilities (depth) is left out"));
+    QVERIFY2(warns(read, "The file of edge weights is ignored"), describe(read.convention).c_str());
+    QVERIFY(warns(read, "The file of probabilities (depth) is ignored"));
   }
 
   void damagedPng_isFoundBeforeItIsDecoded_data() {

@@ -119,7 +119,7 @@ void ForestTest::result_dependsOnTheSeed_andNotOnThreads() {
 }
 
 void ForestTest::manySamplesOfALabel_weighNoMore() {
-  // Two labels that no feature tells apart, one painted nine times as much.
+  // Two labels that no feature distinguishes, one painted nine times as much.
   ForestSamples samples;
   samples.feature_count = kFeatures;
   samples.label_count = 2;

@@ -3,7 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/labeling/consistency.h"
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/rays/label_costs.h"
 #include "engine/labeling/rays/ray_colors.h"
 #include "engine/scenes/builtin.h"
@@ -277,7 +277,7 @@ void RayLabelingTest::trackCosts_areMeansOverVisibleRays() {
   QVERIFY(std::fabs(costs.view().at(17, 1, 14) - sum / 25) < 1e-4);
 }
 
-// Samples of 8 bits are looked into, others are rounded to 8 bits.
+// Samples of 8 bits are used directly, others are rounded to 8 bits.
 void RayLabelingTest::colors_doNotDependOnTheStoredType() {
   const Case noisy("objects");
   const LightField& bytes = *noisy.scene.light_field;

@@ -305,7 +305,7 @@ void LiftedLabelingTest::solve_stopsOnRequest() {
 
 void LiftedLabelingTest::solve_refusesBadInput() {
   const Labeling labeling = test::random_costs<LiftedProblem>(6, 4, 7, 0.1);
-  const Labeling many = test::random_costs<LiftedProblem>(1, kLiftedMostLayers + 1, 1, 0.1);
+  const Labeling many = test::random_costs<LiftedProblem>(1, kMaxLiftedLayers + 1, 1, 0.1);
   const Image<float> wrong(7, 6);
   const Image<int> few(3, 3);
   LiftedProblem problem = labeling.problem();

@@ -398,7 +398,7 @@ void SimplexLabelingTest::solve_refusesBadInput() {
   SimplexProblem problem = potts.problem();
 
   QVERIFY_EXCEPTION_THROWN(SimplexSolver(0, 4, 7), InvalidInput);
-  QVERIFY_EXCEPTION_THROWN(SimplexSolver(6, kSimplexMostLayers + 1, 7), InvalidInput);
+  QVERIFY_EXCEPTION_THROWN(SimplexSolver(6, kMaxSimplexLayers + 1, 7), InvalidInput);
   QVERIFY_EXCEPTION_THROWN(solver.solve({}, {}, Progress(1), labels.view()), InvalidInput);
   QVERIFY_EXCEPTION_THROWN(solver.solve(problem, {}, Progress(1), few.view()), InvalidInput);
   problem.smoothness = -1;

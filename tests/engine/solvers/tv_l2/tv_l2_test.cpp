@@ -23,7 +23,7 @@ struct Images {
 };
 
 // A tilted plane with a step, noise, outliers of little weight and weak edges along the step.
-Images noisy_step(int height, int width, float least_weight = 0.02F) {
+Images noisy_step(int height, int width, float min_weight = 0.02F) {
   Images images{Image<float>(height, width), Image<float>(height, width),
                 Image<float>(height, width)};
   std::mt19937 random(7);
@@ -34,7 +34,7 @@ Images noisy_step(int height, int width, float least_weight = 0.02F) {
       const bool outlier = uniform(random) < 0.1F;
       images.f.at(y, x) = 0.01F * static_cast<float>(x) + (2 * x + y > width ? 1.0F : 0.0F) +
                           noise(random) + (outlier ? 2.0F : 0.0F);
-      images.w.at(y, x) = outlier ? least_weight : 0.3F + 0.7F * uniform(random);
+      images.w.at(y, x) = outlier ? min_weight : 0.3F + 0.7F * uniform(random);
       images.g.at(y, x) = 0.2F + 0.8F * uniform(random);
     }
   }

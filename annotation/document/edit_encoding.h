@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "annotation/document/byte_code.h"
+#include "annotation/document/byte_stream.h"
 #include "annotation/document/edit.h"
 
 namespace episcope {
 
-/// An edit as bytes, about six for each run: for the journal. The rectangles are left out, since
-/// the runs give them.
+/// Encodes an edit for the journal, about six bytes per run. The rectangles are omitted, since they
+/// follow from the runs.
 void write_edit(const Edit& edit, ByteWriter& out);
 
 /// Throws InvalidInput for bytes that `write_edit` cannot have written.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/visibility.h"
+#include "engine/disparity/epi/replace_occluded.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
 #include <algorithm>
 
-namespace episcope::in_visibility_test {
+namespace episcope::in_replace_occluded_test {
 
 using namespace episcope::test;
 
@@ -42,22 +42,22 @@ int near_columns(const ViewStack<float>& stack, int u) {
 
 }  // namespace
 
-class VisibilityTest : public QObject {
+class ReplaceOccludedTest : public QObject {
   Q_OBJECT
 
  private slots:
   void truth_stays();
-  void raysSeenThrough_giveWay();
+  void raysSeenThrough_areReplaced();
   void surerRays_stay();
   void oneView_isNotEnough();
-  void raysThatGiveWay_takeTheMedian();
+  void replacedRays_takeTheMedian();
   void anyThreadCount_givesTheSame();
 };
 
-void VisibilityTest::truth_stays() {
+void ReplaceOccludedTest::truth_stays() {
   ViewStack<float> stack = half_planes(1);
 
-  const long changed = give_way(stack, filled(1), Progress());
+  const long changed = replace_occluded(stack, filled(1), Progress());
 
   QCOMPARE(changed, 0L);
   QVERIFY(same_bytes(stack, half_planes(1)));
@@ -65,10 +65,10 @@ void VisibilityTest::truth_stays() {
 
 // An edge that stands still: the k-th column before it is seen through by all views to the left
 // but k − 1.
-void VisibilityTest::raysSeenThrough_giveWay() {
+void ReplaceOccludedTest::raysSeenThrough_areReplaced() {
   ViewStack<float> stack = half_planes(0);
 
-  const long changed = give_way(stack, filled(1), Progress());
+  const long changed = replace_occluded(stack, filled(1), Progress());
 
   const int near[] = {20, 20, 19, 18, 17, 17, 17, 17, 17};
   long expected = 0;
@@ -79,45 +79,45 @@ void VisibilityTest::raysSeenThrough_giveWay() {
   QCOMPARE(changed, expected);
 }
 
-void VisibilityTest::surerRays_stay() {
+void ReplaceOccludedTest::surerRays_stay() {
   ViewStack<float> stack = half_planes(0);
   ViewStack<float> confidence = filled(1);
   for (std::size_t i = 0; i < confidence.size(); ++i) {
     if (i % kWidth >= 20) confidence.data()[i] = 0.9F;
   }
 
-  QCOMPARE(give_way(stack, confidence, Progress()), 0L);
+  QCOMPARE(replace_occluded(stack, confidence, Progress()), 0L);
 }
 
-void VisibilityTest::oneView_isNotEnough() {
+void ReplaceOccludedTest::oneView_isNotEnough() {
   ViewStack<float> stack = filled(1);
   stack.view({0, 4}).at(1, 20) = 0;
 
-  QCOMPARE(give_way(stack, filled(1), Progress()), 0L);
+  QCOMPARE(replace_occluded(stack, filled(1), Progress()), 0L);
 }
 
 // Three views show something farther where the line of the ray ends.
-void VisibilityTest::raysThatGiveWay_takeTheMedian() {
+void ReplaceOccludedTest::replacedRays_takeTheMedian() {
   ViewStack<float> stack = filled(1);
   stack.view({0, 0}).at(1, 24) = -0.9F;
   stack.view({0, 1}).at(1, 23) = 0.5F;
   stack.view({0, 6}).at(1, 18) = 0.2F;
 
-  give_way(stack, filled(1), Progress());
+  replace_occluded(stack, filled(1), Progress());
 
   QCOMPARE(stack.view({0, 4}).at(1, 20), 0.2F);
 }
 
-void VisibilityTest::anyThreadCount_givesTheSame() {
+void ReplaceOccludedTest::anyThreadCount_givesTheSame() {
   ViewStack<float> one = half_planes(0), three = half_planes(0);
 
-  give_way(one, filled(1), Progress(1));
-  give_way(three, filled(1), Progress(3));
+  replace_occluded(one, filled(1), Progress(1));
+  replace_occluded(three, filled(1), Progress(3));
 
   QVERIFY(same_bytes(one, three));
 }
 
-}  // namespace episcope::in_visibility_test
+}  // namespace episcope::in_replace_occluded_test
 
-EPISCOPE_TEST(visibility_test, VisibilityTest)
-#include "visibility_test.moc"
+EPISCOPE_TEST(replace_occluded_test, ReplaceOccludedTest)
+#include "replace_occluded_test.moc"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/labels/scribble_pictures.h"
+#include "engine/io/labels/true_labels.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -12,7 +13,7 @@
 
 #include <fstream>
 
-namespace episcope::in_label_file_test {
+namespace episcope::in_scribble_file_test {
 
 using namespace episcope::test;
 
@@ -58,7 +59,7 @@ std::size_t count_files(const std::filesystem::path& folder) {
 
 }  // namespace
 
-class LabelFileTest : public QObject {
+class ScribbleFileTest : public QObject {
   Q_OBJECT
 
  private:
@@ -198,7 +199,7 @@ class LabelFileTest : public QObject {
     std::uint8_t more[3] = {};
     file.read("more/data", {{0}, {3}}, more);
     QCOMPARE(int{more[2]}, 3);
-    // In the order of the file: view (0, 3) of the house is its (0, 1) if reversed.
+    // In the order of the file: the canonical view (0, 3) is its (0, 1) if reversed.
     std::vector<std::int32_t> view(kHeight * kWidth);
     file.read("SCRIBBLES", {{0, is_reversed ? 1U : 3U, 0, 0}, {1, 1, kHeight, kWidth}},
               view.data());
@@ -336,7 +337,7 @@ class LabelFileTest : public QObject {
   }
 };
 
-}  // namespace episcope::in_label_file_test
+}  // namespace episcope::in_scribble_file_test
 
-EPISCOPE_TEST(label_file_test, LabelFileTest)
-#include "label_file_test.moc"
+EPISCOPE_TEST(scribble_file_test, ScribbleFileTest)
+#include "scribble_file_test.moc"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/visibility.h"
+#include "engine/disparity/epi/replace_occluded.h"
 
 #include "engine/core/parallel/parallel.h"
 
@@ -12,7 +12,7 @@ namespace episcope {
 namespace {
 
 constexpr int kReach = 4;  // views to each side
-constexpr int kLeastViews = 2;
+constexpr int kMinViews = 2;
 constexpr float kFarther = 0.1F;
 
 // One view that lines of another reach, by `steps` in its row or column of the grid.
@@ -62,15 +62,15 @@ void look_along(const Reached& view, PixelIndex p, float disparity, float confid
   }
 }
 
-long give_way_row(const std::vector<Reached>& reached, const float* disparity,
-                  const float* confidence, int y, ImageView<float> out) {
+long replace_occluded_row(const std::vector<Reached>& reached, const float* disparity,
+                          const float* confidence, int y, ImageView<float> out) {
   long changed = 0;
   for (int x = 0; x < out.width; ++x) {
     Farther farther;
     for (const Reached& view : reached) {
       look_along(view, {y, x}, disparity[x], confidence[x], farther);
     }
-    if (farther.count < kLeastViews) continue;
+    if (farther.count < kMinViews) continue;
     out.at(y, x) = farther.median();
     ++changed;
   }
@@ -79,8 +79,8 @@ long give_way_row(const std::vector<Reached>& reached, const float* disparity,
 
 }  // namespace
 
-long give_way(ViewStack<float>& disparity, const ViewStack<float>& confidence,
-              const Progress& progress) {
+long replace_occluded(ViewStack<float>& disparity, const ViewStack<float>& confidence,
+                      const Progress& progress) {
   const ViewStack<float> before = disparity.clone();
   const GridShape grid = before.grid();
   std::vector<long> changed(grid.count());
@@ -89,8 +89,8 @@ long give_way(ViewStack<float>& disparity, const ViewStack<float>& confidence,
     const std::vector<Reached> reached = views_reached(before, confidence, view);
     for (int y = 0; y < before.height(); ++y) {
       if (y % 16 == 0) progress.check();
-      changed[i] += give_way_row(reached, before.view(view).row(y), confidence.view(view).row(y), y,
-                                 disparity.view(view));
+      changed[i] += replace_occluded_row(reached, before.view(view).row(y),
+                                         confidence.view(view).row(y), y, disparity.view(view));
     }
   });
   return std::accumulate(changed.begin(), changed.end(), 0L);

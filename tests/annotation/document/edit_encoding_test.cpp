@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/edit_code.h"
+#include "annotation/document/edit_encoding.h"
 #include "engine/core/error.h"
 #include "tests/annotation/random_edits.h"
 #include "tests/test_main.h"
 
-namespace episcope::in_edit_code_test {
+namespace episcope::in_edit_encoding_test {
 
 namespace {
 
@@ -16,7 +16,7 @@ std::vector<std::uint8_t> encoded(const Edit& edit) {
 
 }  // namespace
 
-class EditCodeTest : public QObject {
+class EditEncodingTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -87,7 +87,7 @@ class EditCodeTest : public QObject {
   }
 };
 
-}  // namespace episcope::in_edit_code_test
+}  // namespace episcope::in_edit_encoding_test
 
-EPISCOPE_TEST(edit_code_test, EditCodeTest)
-#include "edit_code_test.moc"
+EPISCOPE_TEST(edit_encoding_test, EditEncodingTest)
+#include "edit_encoding_test.moc"

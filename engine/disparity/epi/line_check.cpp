@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/data_trust.h"
+#include "engine/disparity/epi/line_check.h"
 
 #include "engine/core/array/quantile.h"
 #include "engine/core/parallel/isa.h"
@@ -18,8 +18,8 @@ namespace {
 
 using PackedViews = ViewStack<std::uint32_t>;
 
-// The least difference that is told from rounding and resampling.
-constexpr float kLeastDifference = 1.0F / 255;
+// The smallest difference distinguishable from rounding and resampling.
+constexpr float kMinDifference = 1.0F / 255;
 constexpr int kTextureRadius = 2;
 constexpr float kTextureGain = 4;
 
@@ -44,13 +44,13 @@ ResidualRow around(const PackedViews& views, ViewIndex view) {
   }
   // One view that agrees may do so by chance; small grids have no more.
   const int longest = std::max(views.grid().u, views.grid().v);
-  row.least_views = std::clamp(longest / 2, 1, 2);
+  row.min_views = std::clamp(longest / 2, 1, 2);
   row.height = views.height();
   row.width = views.width();
   return row;
 }
 
-// Computes rows of residuals of one view after the other; one for each thread.
+// Computes rows of residuals of one view after the other; one per thread.
 class Residuals {
  public:
   Residuals(const PackedViews& views, const ViewStack<float>& disparity)
@@ -182,19 +182,19 @@ Schema<LineCheck> line_check_schema() {
   return Schema<LineCheck>().flag(
       "check_lines", &LineCheck::is_on,
       {"Check lines",
-       "Trust estimates less where the other views show another colour along the line, or "
-       "where the texture is a neighbour's"});
+       "Reduce the confidence of estimates where other views show a different colour along the "
+       "line, or where the texture belongs to a neighbouring pixel"});
 }
 
-void lower_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
-  lower_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
+void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
+  reduce_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
 }
 
-void lower_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
+void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
   const int height = views.height(), width = views.width();
   const ViewStack<float>& disparity = estimate.field.disparity;
   const float variance = noise_variance(views, disparity);
-  const float noise = kLeastDifference * kLeastDifference + variance;
+  const float noise = kMinDifference * kMinDifference + variance;
   const GridShape grid = disparity.grid();
   parallel_for_workers(grid.count(), progress, [&] {
     return [&, residuals = Residuals(views, disparity), texture = TextureTrust(height, width),

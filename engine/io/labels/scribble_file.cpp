@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/label_file.h"
+#include "engine/io/labels/scribble_file.h"
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/scribble_dataset.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -36,8 +38,8 @@ std::unique_ptr<Hdf5Input> open_former(const fs::path& path, const Scene& scene)
   auto former = std::make_unique<Hdf5Input>(path);
   if (former->has("LF")) {
     throw IoError(path,
-                  "this file holds a light field and is not written over; save scribbles "
-                  "beside it, for example as labels.h5");
+                  "this file holds a light field and is not overwritten; save scribbles beside it, "
+                  "for example as labels.h5");
   }
   const auto owner = former->text("/", kOwner);
   const std::string name = owner_name(scene);
@@ -54,12 +56,10 @@ void require_fitting(const fs::path& path, const Scribbles& scribbles, const Fie
         labels.width() == shape.width) {
       continue;
     }
-    throw IoError(path, "scribbles of " + std::to_string(labels.height()) + "×" +
-                            std::to_string(labels.width()) + " px on view (" + view_text(view) +
-                            ") do not fit the light field of " + std::to_string(shape.grid.v) +
-                            "×" + std::to_string(shape.grid.u) + " views of " +
-                            std::to_string(shape.height) + "×" + std::to_string(shape.width) +
-                            " px; open the one that they belong to");
+    throw IoError(path, fmt::format("scribbles of {}×{} px on view ({}) do not fit the light field "
+                                    "of {}×{} views of {}×{} px; open the one that they belong to",
+                                    labels.height(), labels.width(), view_text(view), shape.grid.v,
+                                    shape.grid.u, shape.height, shape.width));
   }
 }
 
@@ -73,7 +73,7 @@ std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
          (1 << 16);
 }
 
-/// In the house order, on the views as they are stored.
+/// In canonical order, on the views as they are stored.
 Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
   StoredScribbles stored =
       read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);
@@ -95,20 +95,6 @@ Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progres
   Scribbles stored = read_unmoved(Hdf5Input(path), scene, progress);
   const double focus_px = scene.convention.focus_px;
   return focus_px == 0 ? std::move(stored) : sheared(stored, scene.light_field->center(), focus_px);
-}
-
-ViewStack<std::int32_t> read_true_labels(const fs::path& path, const Scene& scene,
-                                         const Progress& progress) {
-  const Hdf5Input file(path);
-  auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape_of(scene), progress);
-  if (scene.convention.raised_labels) {
-    std::for_each(labels.data(), labels.data() + labels.size(),
-                  [](std::int32_t& label) { ++label; });
-  }
-  reverse_views(labels, scene.light_field->grid(), flip_of(scene.convention));
-  const double focus_px = scene.convention.focus_px;
-  return focus_px == 0 ? std::move(labels)
-                       : sheared(labels, scene.light_field->center(), focus_px, progress);
 }
 
 void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,

@@ -9,7 +9,7 @@ namespace episcope {
 
 /// Division of one image `[y][x]` into two regions: the set E that minimises
 /// λ Per(E; g) − Σ_{E} w s, Per the length of its border weighted by g.
-struct SegmentationProblem {
+struct BinarySegmentationProblem {
   ImageView<const float> score;  ///< s: positive speaks for E, negative against; in about [−1, 1].
                                  ///< Not finite = unknown.
   ImageView<const float> weight;  ///< w in [1e-4, 1]. Empty = 1.
@@ -24,8 +24,8 @@ struct SegmentationProblem {
 /// width b whose score is 1 is dropped where λ > b/2. `scratch` has the shape of the image and
 /// holds the minimiser afterwards. Throws as TvL2Solver::solve. Source: Chan, Esedoglu, Nikolova
 /// 2006 [CEN06]; level sets: Chambolle 2005 [Cha05].
-TvL2Result segment(TvL2Solver& solver, const SegmentationProblem& problem,
-                   const TvL2Options& options, const Progress& progress, ImageView<float> scratch,
-                   ImageView<std::uint8_t> region);
+TvL2Result segment_binary(TvL2Solver& solver, const BinarySegmentationProblem& problem,
+                          const TvL2Options& options, const Progress& progress,
+                          ImageView<float> scratch, ImageView<std::uint8_t> region);
 
 }  // namespace episcope

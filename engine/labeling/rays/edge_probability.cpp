@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/labeling/rays/boundary_weights.h"
+#include "engine/labeling/rays/edge_probability.h"
 
 #include "engine/core/error.h"
-#include "engine/core/light_field/edge_strength.h"
+#include "engine/core/light_field/gradient_magnitude.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ float disparity_jump(const DisparityView& map, int y, int x) {
 
 void fill_view(const LightField& lf, ViewIndex view, const DisparityField& disparity,
                const EdgeParameters& parameters, ImageView<float> out) {
-  image_edge_strength(lf, view, out);
+  gradient_magnitude(lf, view, out);
   const auto beta = static_cast<float>(parameters.image);
   const auto gamma = static_cast<float>(parameters.disparity);
   const bool has_disparity = gamma > 0 && disparity.contains(view);
@@ -86,7 +86,7 @@ Image<float> larger_edge_probability(ImageView<const float> edge_probability) {
 
 Image<float> boundary_weights(ImageView<const float> edge_probability) {
   Image<float> weights = larger_edge_probability(edge_probability);
-  for (float& weight : weights) weight = std::clamp(1 - weight, kLeastBoundaryWeight, 1.0F);
+  for (float& weight : weights) weight = std::clamp(1 - weight, kMinBoundaryWeight, 1.0F);
   return weights;
 }
 

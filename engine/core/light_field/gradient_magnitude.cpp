@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/core/light_field/edge_strength.h"
+#include "engine/core/light_field/gradient_magnitude.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@ void gradient_norms(const float* here, const float* below, int width, int channe
 
 }  // namespace
 
-void image_edge_strength(const LightField& light_field, ViewIndex view, ImageView<float> out) {
+void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out) {
   const LightField& lf = light_field;
   std::vector<float> here(static_cast<std::size_t>(lf.width()) * lf.channels());
   std::vector<float> below(here.size());

@@ -16,8 +16,8 @@
 
 namespace episcope::io {
 
-/// What a segmentation file says besides its probabilities.
-struct StoredLabeling {
+/// The content of a segmentation file except its probabilities.
+struct StoredSegmentation {
   ViewStack<std::int32_t> labels;
   std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
   ParameterSet parameters;
@@ -26,23 +26,23 @@ struct StoredLabeling {
 };
 
 /// Probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1, labels as in
-/// StoredLabeling::infos.
+/// StoredSegmentation::infos.
 using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
 
-/// Writes a segmentation in the house order of views: `LABELS` int32 [v][u][y][x],
+/// Writes a segmentation in canonical order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
 /// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`.
 /// Atomic. Throws IoError, Cancelled.
-void write_labeling(const std::filesystem::path& path, const StoredLabeling& labeling,
-                    const ViewProbabilities& probabilities, const Progress& progress);
+void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
+                        const ViewProbabilities& probabilities, const Progress& progress);
 
 /// A segmentation file, read view by view.
-class LabelingFile {
+class SegmentationFile {
  public:
   /// Throws IoError.
-  explicit LabelingFile(const std::filesystem::path& path);
-  ~LabelingFile();
+  explicit SegmentationFile(const std::filesystem::path& path);
+  ~SegmentationFile();
 
   [[nodiscard]] GridShape grid() const;
   [[nodiscard]] ViewIndex first() const;
@@ -62,8 +62,8 @@ class LabelingFile {
   std::unique_ptr<State> state_;
 };
 
-/// Whether the file is one that `write_labeling` wrote: it holds LABELS and neither samples nor
+/// Whether the file is one that `write_segmentation` wrote: it holds LABELS and neither samples nor
 /// what a user painted. Throws IoError if it is an HDF5 file and damaged.
-[[nodiscard]] bool is_labeling_file(const std::filesystem::path& path);
+[[nodiscard]] bool is_segmentation_file(const std::filesystem::path& path);
 
 }  // namespace episcope::io

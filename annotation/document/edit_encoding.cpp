@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/edit_code.h"
+#include "annotation/document/edit_encoding.h"
 
 #include "engine/core/error.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
@@ -63,7 +65,7 @@ ViewEdit read_view(ByteReader& in) {
     run.length = static_cast<std::uint16_t>(in.number(kMaxPlace));
     run.before = in.byte();
     run.after = in.byte();
-    edit.rect.include(PixelSpan{run.y, run.x, run.x + run.length});
+    edit.rect.include(PixelRect{run.y, run.x, run.y + 1, run.x + run.length});
     edit.runs.push_back(run);
   }
   return edit;
@@ -85,7 +87,7 @@ Edit read_edit(ByteReader& in) {
   Edit edit;
   const std::uint8_t kind = in.byte();
   if (kind > static_cast<std::uint8_t>(EditKind::Import)) {
-    throw InvalidInput("there is no edit of kind " + std::to_string(kind));
+    throw InvalidInput(fmt::format("there is no edit of kind {}", kind));
   }
   edit.kind = static_cast<EditKind>(kind);
   for (auto left = in.number(in.rest()); left > 0; --left) edit.views.push_back(read_view(in));

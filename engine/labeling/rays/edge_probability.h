@@ -8,19 +8,19 @@
 
 namespace episcope {
 
-/// How edges of image and disparity are told from noise.
+/// How edges of image and disparity are distinguished from noise.
 struct EdgeParameters {
-  double image = 10;     ///< β: larger makes weaker edges of the image count; ≥ 0.
+  double image = 10;     ///< β: larger values respond to weaker image edges; ≥ 0.
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
 };
 
-/// How probable an edge is at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
+/// The probability of an edge at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
 /// archive: 1 − exp(−β·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
-/// channels. Views that `disparity` (which may be empty) does not hold, and pixels where it is
-/// invalid, go by the image alone. Throws InvalidInput on a wrong size, Cancelled.
+/// channels. Views that `disparity` (which may be empty) does not cover, and pixels where it is
+/// invalid, use the image alone. Throws InvalidInput on a wrong size, Cancelled.
 ///
-/// The archive does not tell how its own weights were made; this is the exponential that the plan
-/// gives for J_st, with disparity added.
+/// The archive does not say how its own weights were computed; this is the usual exponential of the
+/// gradient, with disparity added.
 [[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                                             const DisparityField& disparity,
                                             const EdgeParameters& parameters);
@@ -38,9 +38,9 @@ struct EdgeParameters {
 /// One probability for each pixel, `[y][x]`: of one per direction (two channels) the larger one.
 [[nodiscard]] Image<float> larger_edge_probability(ImageView<const float> edge_probability);
 
-/// Weights g of boundaries between labels, `[y][x]` in [kLeastBoundaryWeight, 1]: 1 − the
+/// Weights g of boundaries between labels, `[y][x]` in [kMinBoundaryWeight, 1]: 1 − the
 /// larger probability of an edge.
-inline constexpr float kLeastBoundaryWeight = 0.02F;
+inline constexpr float kMinBoundaryWeight = 0.02F;
 [[nodiscard]] Image<float> boundary_weights(ImageView<const float> edge_probability);
 
 }  // namespace episcope

@@ -8,6 +8,7 @@ namespace episcope {
 /// Weights of the total variation, `[y][x]` in (0, 1]: g = exp(−β·|∇I|), small where the view has
 /// an edge, so that disparity may jump there. |∇I| is the norm of the forward differences over all
 /// channels, samples in [0, 1]. β = 0 gives 1 everywhere.
-[[nodiscard]] Image<float> edge_weights(const LightField& light_field, ViewIndex view, double beta);
+[[nodiscard]] Image<float> smoothness_weights(const LightField& light_field, ViewIndex view,
+                                              double beta);
 
 }  // namespace episcope

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
@@ -14,11 +14,11 @@ namespace {
 constexpr const char* kLabels = "LABELS";
 constexpr const char* kProbabilities = "Probabilities";
 
-std::size_t label_count(const StoredLabeling& labeling) {
+std::size_t label_count(const StoredSegmentation& labeling) {
   return labeling.infos.size();
 }
 
-std::uintmax_t file_bytes(const StoredLabeling& labeling, bool with_probabilities) {
+std::uintmax_t file_bytes(const StoredSegmentation& labeling, bool with_probabilities) {
   const std::uintmax_t bytes = labeling.labels.size() * sizeof(std::int32_t) + (1 << 16);
   if (!with_probabilities) return bytes;
   return bytes + labeling.labels.size() * label_count(labeling) * sizeof(float);
@@ -34,7 +34,7 @@ Hdf5Block block_of(const Hdf5Shape& shape, ViewIndex place, bool has_views) {
   return block;
 }
 
-void write_probabilities(Hdf5Output& file, const StoredLabeling& labeling,
+void write_probabilities(Hdf5Output& file, const StoredSegmentation& labeling,
                          const ViewProbabilities& probabilities, const Progress& progress) {
   const ViewStack<std::int32_t>& labels = labeling.labels;
   const GridShape grid = labels.grid();
@@ -58,7 +58,7 @@ void write_probabilities(Hdf5Output& file, const StoredLabeling& labeling,
   }
 }
 
-void write_provenance(Hdf5Output& file, const StoredLabeling& labeling) {
+void write_provenance(Hdf5Output& file, const StoredSegmentation& labeling) {
   file.set_text("/", "parameters", parameters_to_json(labeling.parameters));
   file.set_text("/", "source", labeling.source);
   file.set_text("/", "version", kVersion);
@@ -69,9 +69,11 @@ void write_provenance(Hdf5Output& file, const StoredLabeling& labeling) {
 
 }  // namespace
 
-void write_labeling(const std::filesystem::path& path, const StoredLabeling& labeling,
-                    const ViewProbabilities& probabilities, const Progress& progress) {
-  if (labeling.labels.empty()) throw InvalidInput("a segmentation without labels");
+void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
+                        const ViewProbabilities& probabilities, const Progress& progress) {
+  if (labeling.labels.empty()) {
+    throw InvalidInput("a segmentation without labels cannot be written");
+  }
   progress.check();
   AtomicFile target(path, file_bytes(labeling, static_cast<bool>(probabilities)));
   Hdf5Output file(target);
@@ -86,7 +88,7 @@ void write_labeling(const std::filesystem::path& path, const StoredLabeling& lab
   target.commit();
 }
 
-struct LabelingFile::State {
+struct SegmentationFile::State {
   explicit State(const std::filesystem::path& path) : file(path) {}
 
   Hdf5Input file;
@@ -103,7 +105,7 @@ struct LabelingFile::State {
   }
 };
 
-LabelingFile::LabelingFile(const std::filesystem::path& path)
+SegmentationFile::SegmentationFile(const std::filesystem::path& path)
     : state_(std::make_unique<State>(path)) {
   State& state = *state_;
   state.shape = state.file.dataset(kLabels).shape;
@@ -119,25 +121,25 @@ LabelingFile::LabelingFile(const std::filesystem::path& path)
   state.infos = read_label_list(state.file, kLabels);
 }
 
-LabelingFile::~LabelingFile() = default;
+SegmentationFile::~SegmentationFile() = default;
 
-GridShape LabelingFile::grid() const {
+GridShape SegmentationFile::grid() const {
   return state_->grid;
 }
 
-ViewIndex LabelingFile::first() const {
+ViewIndex SegmentationFile::first() const {
   return state_->first;
 }
 
-bool LabelingFile::contains(ViewIndex view) const {
+bool SegmentationFile::contains(ViewIndex view) const {
   return state_->grid.contains(state_->place(view));
 }
 
-const std::vector<LabelInfo>& LabelingFile::infos() const {
+const std::vector<LabelInfo>& SegmentationFile::infos() const {
   return state_->infos;
 }
 
-bool LabelingFile::has_probabilities() const {
+bool SegmentationFile::has_probabilities() const {
   const State& state = *state_;
   if (!state.file.has(kProbabilities)) return false;
   Hdf5Shape expected = state.shape;
@@ -145,7 +147,7 @@ bool LabelingFile::has_probabilities() const {
   return state.file.dataset(kProbabilities).shape == expected;
 }
 
-Image<std::int32_t> LabelingFile::labels(ViewIndex view) const {
+Image<std::int32_t> SegmentationFile::labels(ViewIndex view) const {
   const State& state = *state_;
   Image<std::int32_t> labels(state.height(), state.width());
   state.file.read(kLabels, block_of(state.shape, state.place(view), state.has_views()),
@@ -153,7 +155,7 @@ Image<std::int32_t> LabelingFile::labels(ViewIndex view) const {
   return labels;
 }
 
-Image<float> LabelingFile::probabilities(ViewIndex view) const {
+Image<float> SegmentationFile::probabilities(ViewIndex view) const {
   const State& state = *state_;
   Hdf5Shape shape = state.shape;
   shape.push_back(state.infos.size());
@@ -163,11 +165,11 @@ Image<float> LabelingFile::probabilities(ViewIndex view) const {
   return samples;
 }
 
-std::string LabelingFile::source() const {
+std::string SegmentationFile::source() const {
   return state_->file.text("/", "source").value_or("");
 }
 
-bool is_labeling_file(const std::filesystem::path& path) {
+bool is_segmentation_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored) || !has_hdf5_signature(path)) return false;
   const Hdf5Input file(path);

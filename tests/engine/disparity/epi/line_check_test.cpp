@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/disparity/epi/data_trust.h"
+#include "engine/disparity/epi/line_check.h"
 
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace episcope::in_data_trust_test {
+namespace episcope::in_line_check_test {
 
 using namespace episcope::test;
 
@@ -33,7 +33,7 @@ Estimate uneven_estimate(const LightField& lf) {
   return estimate;
 }
 
-// The header word by word, one pixel after the other.
+// The formulas of the header, literally, pixel by pixel.
 class Definition {
  public:
   Definition(const LightField& lf, const ViewStack<float>& disparity)
@@ -63,7 +63,7 @@ class Definition {
   }
 
   [[nodiscard]] double line_error(ViewIndex view, int y, int x) const {
-    const int least_views = std::clamp(std::max(samples_.grid().u, samples_.grid().v) / 2, 1, 2);
+    const int min_views = std::clamp(std::max(samples_.grid().u, samples_.grid().v) / 2, 1, 2);
     double least = kInfinity;
     for (const ViewIndex way : {ViewIndex{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
       double sum = 0;
@@ -76,7 +76,7 @@ class Definition {
         sum += square;
         ++count;
       }
-      if (count >= least_views) least = std::min(least, sum / count);
+      if (count >= min_views) least = std::min(least, sum / count);
     }
     return least;
   }
@@ -142,17 +142,17 @@ class Definition {
 
 }  // namespace
 
-class DataTrustTest : public QObject {
+class LineCheckTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void confidence_isLoweredAsDefined_data();
-  void confidence_isLoweredAsDefined();
+  void confidence_isReducedAsDefined_data();
+  void confidence_isReducedAsDefined();
   void fattenedEdge_losesConfidence();
   void anyThreadCount_givesTheSame();
 };
 
-void DataTrustTest::confidence_isLoweredAsDefined_data() {
+void LineCheckTest::confidence_isReducedAsDefined_data() {
   QTest::addColumn<int>("rows");
   QTest::addColumn<int>("columns");
   QTest::newRow("5x7") << 5 << 7;
@@ -160,7 +160,7 @@ void DataTrustTest::confidence_isLoweredAsDefined_data() {
   QTest::newRow("3x1, arms of one view") << 3 << 1;
 }
 
-void DataTrustTest::confidence_isLoweredAsDefined() {
+void LineCheckTest::confidence_isReducedAsDefined() {
   QFETCH(int, rows);
   QFETCH(int, columns);
   const Scene scene = render("objects", 23, 37, {rows, columns}, 1, 4);
@@ -169,7 +169,7 @@ void DataTrustTest::confidence_isLoweredAsDefined() {
   const ViewStack<float> before = estimate.confidence.clone();
   const Definition definition(lf, estimate.field.disparity);
 
-  lower_confidence(lf, estimate, Progress());
+  reduce_confidence(lf, estimate, Progress());
 
   for (int i = 0; i < lf.grid().count(); ++i) {
     const ViewIndex view = lf.grid().view_at(i);
@@ -186,7 +186,7 @@ void DataTrustTest::confidence_isLoweredAsDefined() {
 }
 
 // Pixels of the background that were given the foreground's disparity, two beside its edge.
-void DataTrustTest::fattenedEdge_losesConfidence() {
+void LineCheckTest::fattenedEdge_losesConfidence() {
   const Scene scene = render("edge", 48, 64, {7, 7});
   const ViewIndex view = scene.light_field->center();
   Estimate estimate;
@@ -207,7 +207,7 @@ void DataTrustTest::fattenedEdge_losesConfidence() {
   }
   QVERIFY(fattened.size() > 48);
 
-  lower_confidence(*scene.light_field, estimate, Progress());
+  reduce_confidence(*scene.light_field, estimate, Progress());
 
   double of_wrong = 0;
   for (const PixelIndex p : fattened) {
@@ -217,17 +217,17 @@ void DataTrustTest::fattenedEdge_losesConfidence() {
   QVERIFY2(of_wrong < 0.6 * of_all, qPrintable(QString("%1, all %2").arg(of_wrong).arg(of_all)));
 }
 
-void DataTrustTest::anyThreadCount_givesTheSame() {
+void LineCheckTest::anyThreadCount_givesTheSame() {
   const Scene scene = render("objects", 30, 41, {5, 5});
   Estimate one = uneven_estimate(*scene.light_field), three = uneven_estimate(*scene.light_field);
 
-  lower_confidence(*scene.light_field, one, Progress(1));
-  lower_confidence(*scene.light_field, three, Progress(3));
+  reduce_confidence(*scene.light_field, one, Progress(1));
+  reduce_confidence(*scene.light_field, three, Progress(3));
 
   QVERIFY(same_bytes(one.confidence, three.confidence));
 }
 
-}  // namespace episcope::in_data_trust_test
+}  // namespace episcope::in_line_check_test
 
-EPISCOPE_TEST(data_trust_test, DataTrustTest)
-#include "data_trust_test.moc"
+EPISCOPE_TEST(line_check_test, LineCheckTest)
+#include "line_check_test.moc"

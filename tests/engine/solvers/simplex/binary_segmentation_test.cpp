@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/solvers/simplex/segmentation.h"
+#include "engine/solvers/simplex/binary_segmentation.h"
 
 #include "engine/core/error.h"
 #include "tests/test_main.h"
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <functional>
 
-namespace episcope::in_segmentation_test {
+namespace episcope::in_binary_segmentation_test {
 
 namespace {
 
@@ -17,8 +17,8 @@ Image<std::uint8_t> divide(const Image<float>& score, double lambda,
   TvL2Solver solver(score.height(), score.width());
   Image<float> scratch(score.height(), score.width());
   Image<std::uint8_t> region(score.height(), score.width());
-  (void)segment(solver, {score, weight, {}, lambda}, {200, 1e-6, 10}, Progress(1), scratch.view(),
-                region.view());
+  (void)segment_binary(solver, {score, weight, {}, lambda}, {200, 1e-6, 10}, Progress(1),
+                       scratch.view(), region.view());
   return region;
 }
 
@@ -54,7 +54,7 @@ unsigned bits_of(const Image<std::uint8_t>& region) {
 
 }  // namespace
 
-class SegmentationTest : public QObject {
+class BinarySegmentationTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -126,13 +126,13 @@ class SegmentationTest : public QObject {
     TvL2Solver solver(8, 8);
     Image<float> score(8, 8), scratch(8, 8);
     Image<std::uint8_t> region(8, 7);
-    QVERIFY_THROWS_EXCEPTION(
-        InvalidInput,
-        (void)segment(solver, {score, {}, {}, 1}, {}, Progress(1), scratch.view(), region.view()));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput,
+                             (void)segment_binary(solver, {score, {}, {}, 1}, {}, Progress(1),
+                                                  scratch.view(), region.view()));
   }
 };
 
-}  // namespace episcope::in_segmentation_test
+}  // namespace episcope::in_binary_segmentation_test
 
-EPISCOPE_TEST(segmentation_test, SegmentationTest)
-#include "segmentation_test.moc"
+EPISCOPE_TEST(binary_segmentation_test, BinarySegmentationTest)
+#include "binary_segmentation_test.moc"

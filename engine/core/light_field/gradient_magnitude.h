@@ -7,6 +7,6 @@ namespace episcope {
 
 /// |∇I| of one view, `[y][x]` ≥ 0 per px: the norm of the forward differences over all channels,
 /// samples in [0, 1]; nothing beyond the last row and column. `out` has the size of a view.
-void image_edge_strength(const LightField& light_field, ViewIndex view, ImageView<float> out);
+void gradient_magnitude(const LightField& light_field, ViewIndex view, ImageView<float> out);
 
 }  // namespace episcope

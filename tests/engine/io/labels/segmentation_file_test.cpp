@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/io/labels/labeling_file.h"
+#include "engine/io/labels/segmentation_file.h"
 
 #include "engine/core/error.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -11,15 +11,15 @@
 #include <cmath>
 #include <fstream>
 
-namespace episcope::in_labeling_file_test {
+namespace episcope::in_segmentation_file_test {
 
 namespace {
 
 constexpr int kHeight = 6;
 constexpr int kWidth = 7;
 
-io::StoredLabeling labeling(GridShape grid, ViewIndex first) {
-  io::StoredLabeling stored;
+io::StoredSegmentation labeling(GridShape grid, ViewIndex first) {
+  io::StoredSegmentation stored;
   stored.labels = ViewStack<std::int32_t>(grid, kHeight, kWidth, 1, first);
   for (std::size_t i = 0; i < stored.labels.size(); ++i) {
     stored.labels.data()[i] = i % 3 == 0 ? 12 : 4;
@@ -48,7 +48,7 @@ std::vector<Volume<std::uint8_t>> probabilities(GridShape grid) {
 
 }  // namespace
 
-class LabelingFileTest : public QObject {
+class SegmentationFileTest : public QObject {
   Q_OBJECT
 
  private slots:
@@ -67,30 +67,30 @@ class LabelingFileTest : public QObject {
   QTemporaryDir folder_;
 };
 
-void LabelingFileTest::roundTrip_data() {
+void SegmentationFileTest::roundTrip_data() {
   QTest::addColumn<int>("rows");
   QTest::addColumn<int>("columns");
   QTest::newRow("one view") << 1 << 1;
   QTest::newRow("a part of the grid") << 2 << 3;
 }
 
-void LabelingFileTest::roundTrip() {
+void SegmentationFileTest::roundTrip() {
   QFETCH(int, rows);
   QFETCH(int, columns);
   const GridShape grid{rows, columns};
   const ViewIndex first{1, 2};
-  const io::StoredLabeling stored = labeling(grid, first);
+  const io::StoredSegmentation stored = labeling(grid, first);
   const auto maps = probabilities(grid);
 
-  io::write_labeling(
+  io::write_segmentation(
       path("l.h5"), stored,
       [&](ViewIndex view) {
         return maps[static_cast<std::size_t>((view.v - 1) * columns + view.u - 2)].view();
       },
       Progress());
-  const io::LabelingFile read(path("l.h5"));
+  const io::SegmentationFile read(path("l.h5"));
 
-  QVERIFY(io::is_labeling_file(path("l.h5")));
+  QVERIFY(io::is_segmentation_file(path("l.h5")));
   QCOMPARE(read.grid(), grid);
   QCOMPARE(read.first(), first);
   QVERIFY(!read.contains({0, 2}));
@@ -109,16 +109,16 @@ void LabelingFileTest::roundTrip() {
   }
 }
 
-void LabelingFileTest::probabilities_mayBeLeftOut() {
-  io::write_labeling(path("bare.h5"), labeling({1, 1}, {0, 0}), {}, Progress());
+void SegmentationFileTest::probabilities_mayBeLeftOut() {
+  io::write_segmentation(path("bare.h5"), labeling({1, 1}, {0, 0}), {}, Progress());
 
-  QVERIFY(!io::LabelingFile(path("bare.h5")).has_probabilities());
+  QVERIFY(!io::SegmentationFile(path("bare.h5")).has_probabilities());
 }
 
-void LabelingFileTest::datasets_areNamedAsInTheArchive() {
+void SegmentationFileTest::datasets_areNamedAsInTheArchive() {
   const GridShape grid{2, 2};
   const auto maps = probabilities(grid);
-  io::write_labeling(
+  io::write_segmentation(
       path("named.h5"), labeling(grid, {0, 0}),
       [&](ViewIndex view) { return maps[static_cast<std::size_t>(view.v * 2 + view.u)].view(); },
       Progress());
@@ -131,19 +131,19 @@ void LabelingFileTest::datasets_areNamedAsInTheArchive() {
            QString("v,u,y,x,label"));
 }
 
-void LabelingFileTest::inputs_areNoLabelings() {
+void SegmentationFileTest::inputs_areNoLabelings() {
   std::ofstream(path("text.h5")) << "no HDF5";
 
-  QVERIFY(!io::is_labeling_file(path("text.h5")));
-  QVERIFY(!io::is_labeling_file(path("missing.h5")));
+  QVERIFY(!io::is_segmentation_file(path("text.h5")));
+  QVERIFY(!io::is_segmentation_file(path("missing.h5")));
 }
 
-void LabelingFileTest::unwritableFolder_leavesNothing() {
+void SegmentationFileTest::unwritableFolder_leavesNothing() {
   QVERIFY_THROWS_EXCEPTION(
-      IoError, io::write_labeling(path("no/such/l.h5"), labeling({1, 1}, {}), {}, Progress()));
+      IoError, io::write_segmentation(path("no/such/l.h5"), labeling({1, 1}, {}), {}, Progress()));
 }
 
-}  // namespace episcope::in_labeling_file_test
+}  // namespace episcope::in_segmentation_file_test
 
-EPISCOPE_TEST(labeling_file_test, LabelingFileTest)
-#include "labeling_file_test.moc"
+EPISCOPE_TEST(segmentation_file_test, SegmentationFileTest)
+#include "segmentation_file_test.moc"

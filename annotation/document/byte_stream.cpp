@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "annotation/document/byte_code.h"
+#include "annotation/document/byte_stream.h"
 
 #include "engine/core/error.h"
 
@@ -10,7 +10,7 @@ constexpr std::uint8_t kMore = 0x80;
 constexpr int kGroup = 7;
 
 [[noreturn]] void refuse() {
-  throw InvalidInput("the recorded bytes are cut short or damaged");
+  throw InvalidInput("the recorded edits are truncated or damaged");
 }
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace episcope {
 
-/// Where the value stands in the list; it joins the list at the end if it is not there yet.
+/// The index of the value in the list, to which it is appended if it is not there yet.
 template <class T>
-std::size_t place_of(std::vector<T>& list, const T& value) {
+std::size_t find_or_append(std::vector<T>& list, const T& value) {
   const auto found = std::find(list.begin(), list.end(), value);
   if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
   list.push_back(value);
