@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/parameter_options.h"
+#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/input.h"
+#include "app/cli/output/json.h"
+#include "app/cli/output/output_file.h"
+#include "app/cli/verbs/verbs.h"
+#include "app/session/run/run_estimator.h"
+#include "app/session/save/save_result.h"
+#include "engine/disparity/registry.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string method;
+  std::string input;
+  std::string output;
+  std::string views;
+  std::string device = name_of(Device::Auto);
+  bool is_json = false;
+  JobOptions job;
+  ReadOptions read;
+};
+
+const Estimator* find(const std::vector<Estimator>& estimators, const std::string& id) {
+  const auto found = std::find_if(estimators.begin(), estimators.end(),
+                                  [&](const Estimator& each) { return each.info.id == id; });
+  return found == estimators.end() ? nullptr : &*found;
+}
+
+/// The method must be known before its options can be: the first argument that names one.
+const Estimator* method_among(const VerbArguments& arguments,
+                              const std::vector<Estimator>& estimators) {
+  for (const auto& argument : arguments) {
+    if (const Estimator* estimator = find(estimators, argument)) return estimator;
+  }
+  return nullptr;
+}
+
+/// Without a known method its options cannot be judged: says so first.
+void require_method(const VerbArguments& arguments, const std::vector<Estimator>& estimators) {
+  const auto asks_for_help = [](const std::string& each) {
+    return each == "-h" || each == "--help";
+  };
+  if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) return;
+  const auto name = std::find_if(arguments.begin(), arguments.end(),
+                                 [](const std::string& each) { return !each.starts_with("-"); });
+  if (name == arguments.end()) return;
+  std::vector<std::string> ids;
+  for (const auto& estimator : estimators) ids.push_back(estimator.info.id);
+  throw unknown_name("method", *name, ids);
+}
+
+bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& request,
+           ParameterOptions& parameters) {
+  Arguments parser("estimate",
+                   {"Estimates disparity and writes a result file. METHOD is an id as in\n"
+                    "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
+                    "parameters.",
+                    "episcope-cli estimate epi_l demo -o demo.h5 --views center"});
+  parser.positional("METHOD", request.method, "Id of the estimator");
+  parser.positional("INPUT", request.input, "The light field");
+  parser.required_option("-o,--output", request.output, "OUT.h5", "Result file to write");
+  parser.choice("--views", request.views, all_names<ViewSelection>(),
+                "Views to estimate; by default all, if the method can");
+  parser.choice("--device", request.device, all_names<Device>(), "Where to compute");
+  parser.flag("--json", request.is_json, "One JSON object instead of a line");
+  declare_job_options(parser, request.job);
+  declare_read_options(parser, request.read);
+  if (estimator)
+    parameters.declare(parser, "Parameters of " + estimator->info.id, estimator->parameters);
+  return parser.parse(arguments);
+}
+
+ViewSelection selected_views(const Request& request, const Estimator& estimator) {
+  const bool can_all = estimator.info.all_views;
+  if (request.views.empty()) return can_all ? ViewSelection::All : ViewSelection::Center;
+  const ViewSelection wanted = value_named<ViewSelection>(request.views);
+  if (can_all || wanted == ViewSelection::Center) return wanted;
+  const auto& parameters = estimator.parameters;
+  const bool chooses = std::any_of(parameters.begin(), parameters.end(),
+                                   [](const auto& one) { return one.key == "view"; });
+  throw InvalidInput(estimator.info.id + " estimates one view at a time; use --views center" +
+                     (chooses ? ", or --view V,U for another" : ""));
+}
+
+/// The light field alone: truth and labels of all views would double the memory that is held.
+LightFieldPtr load_light_field(const Request& request, Job& job) {
+  ReadOptions read = request.read;
+  read.needs_truth = false;
+  const Scene scene = load_input(request.input, read, job.progress().part(0, 0.3));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  return scene.light_field;
+}
+
+/// For JSON "all", "center" or row and column of the only view; in words for people.
+struct CoveredViews {
+  std::string name;
+  std::string text;
+};
+CoveredViews covered_views(const Estimate& estimate, ViewIndex center) {
+  const ViewStack<float>& stack = estimate.field.disparity;
+  if (stack.grid().count() > 1) return {name_of(ViewSelection::All), "all views"};
+  if (stack.first() == center) return {name_of(ViewSelection::Center), "the centre view"};
+  return {view_text(stack.first()), "view " + view_text(stack.first())};
+}
+
+void print_answer(const Request& request, const Estimate& estimate, ViewIndex center) {
+  const CoveredViews views = covered_views(estimate, center);
+  if (!request.is_json) {
+    std::cout << request.output << ": " << estimate.method << " of " << views.text << std::fixed
+              << std::setprecision(2) << " in " << estimate.seconds << " s, disparity "
+              << estimate.range.min << " … " << estimate.range.max << " px, "
+              << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
+    return;
+  }
+  Json json;
+  json["method"] = estimate.method;
+  json["views"] = views.name;
+  json["seconds"] = estimate.seconds;
+  json["peak_mib"] = peak_memory_mib();
+  json["parameters"] = Json::object();
+  for (const auto& [key, value] : estimate.parameters) json["parameters"][key] = value_json(value);
+  json["range"] = interval_json(estimate.range);
+  if (!estimate.notes.empty()) json["notes"] = estimate.notes;
+  json["output"] = request.output;
+  print_json(json);
+}
+
+}  // namespace
+
+void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
+  const std::vector<Estimator> estimators = registered_estimators();
+  const Estimator* estimator = method_among(arguments, estimators);
+  if (!estimator) require_method(arguments, estimators);
+  Request request;
+  ParameterOptions parameters;
+  if (!parse(arguments, estimator, request, parameters)) return;
+  if (!estimator || request.method != estimator->info.id) {
+    // Another argument, like the name of the output, is an id as well.
+    estimator = find(estimators, request.method);
+    if (!estimator) require_method({request.method}, estimators);
+    parameters = {};
+    request = {};
+    if (!parse(arguments, estimator, request, parameters)) return;
+  }
+  const ParameterSet values = parameters.values();
+  RunOptions options{.views = selected_views(request, *estimator),
+                     .device = value_named<Device>(request.device)};
+  // The method asks as well, but not before the light field is loaded.
+  require_device(options.device, estimator->info);
+  check_hdf5_output("estimate", request.output);
+  check_result_output(request.output);
+  protect_input(request.output, request.input);
+
+  Job job(std::move(stop), request.job);
+  const Progress& progress = job.progress();
+  options.threads = progress.threads();
+  const LightFieldPtr light_field = load_light_field(request, job);
+  const EstimatePtr estimate =
+      run_estimator(*light_field, *estimator, {estimator->info.id, values, options},
+                    progress.part(0.3, 0.9))
+          .estimate;
+  progress.step("writing " + request.output);
+  save_result(request.output, *estimate, request.input, progress.part(0.9, 1));
+  for (const auto& note : estimate->notes) job.note(note);
+  job.finish();
+  print_answer(request, *estimate, light_field->center());
+}
+
+}  // namespace episcope::cli
