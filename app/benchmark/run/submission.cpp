@@ -2,6 +2,7 @@
 #include "app/benchmark/run/submission.h"
 
 #include "app/session/run/read_result.h"
+#include "app/session/run/result_reading.h"
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/core/text/text_table.h"
@@ -114,6 +115,7 @@ std::optional<Estimate> read_submission(const fs::path& folder, const LightField
   }
   Estimate estimate = read_result_of(light_field, maps.front());
   check_fits(estimate, light_field, maps.front().string());
+  bring_to_focus(estimate, light_field, Progress());
   check_values(maps.front(), light_field.center(), estimate);
   if (is_of_other_samples(estimate, light_field)) {
     estimate.notes.push_back(maps.front().filename().string() +

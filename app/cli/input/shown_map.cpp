@@ -6,10 +6,12 @@
 #include "app/session/labels/labeling_inputs.h"
 #include "app/session/labels/segmentation_file.h"
 #include "app/session/run/read_result.h"
+#include "app/session/run/result_reading.h"
 #include "app/session/run/result_source.h"
 #include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
 #include "engine/io/labels/labeling_file.h"
+#include "engine/io/maps/result_file.h"
 
 #include <memory>
 #include <utility>
@@ -49,11 +51,18 @@ void check_kind(const ShownMap& shown) {
   }
 }
 
+/// Whether two results are of light fields with different focus planes.
+bool differs_in_focus(const ShownMap& shown) {
+  const Reading first = io::read_reading(shown.subject);
+  const Reading second = io::read_reading(shown.minus);
+  return !first.reader.empty() && !second.reader.empty() && first.focus_px() != second.focus_px();
+}
+
 /// Whether colours or numbers come from the scene as well.
 bool needs_scene(const ShownMap& shown) {
   const bool is_alone = shown.quantity == Quantity::Confidence ||
                         shown.quantity == Quantity::Layers ||
-                        shown.quantity == Quantity::Difference;
+                        (shown.quantity == Quantity::Difference && !differs_in_focus(shown));
   return shown.needs_light_field || !is_alone;
 }
 
@@ -104,6 +113,16 @@ void load_light_field(const ShownMap& shown, const ReadOptions& read, LoadedMap&
   take_scene(shown, std::move(scene), loaded);
 }
 
+/// The result that is subtracted, at the focus plane of the first.
+void load_other(const ShownMap& shown, const Estimate& first, LoadedMap& loaded, Job& job) {
+  Estimate other = read_result_alone(shown.minus);
+  note_other_options({shown.subject, first.reading}, {shown.minus, other.reading}, job);
+  if (loaded.source.light_field) {
+    bring_to_focus(other, *loaded.source.light_field, job.progress());
+  }
+  loaded.source.other = std::make_shared<const Estimate>(std::move(other));
+}
+
 void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
   std::optional<Scene> scene;
   if (!shown.truth.empty()) {
@@ -127,9 +146,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
     note_other_source(*estimate, *scene->light_field, job);
     take_scene(shown, std::move(*scene), loaded);
   }
-  if (shown.quantity == Quantity::Difference) {
-    loaded.source.other = std::make_shared<const Estimate>(read_result_alone(shown.minus));
-  }
+  if (shown.quantity == Quantity::Difference) load_other(shown, *estimate, loaded, job);
   loaded.disparity_range = display_range(*estimate);
   loaded.source.estimate = std::move(estimate);
 }

@@ -5,6 +5,7 @@
 #include "app/cli/input/result_input.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/run/command_line.h"
 #include "app/session/run/read_result.h"
 #include "app/session/run/result_source.h"
 #include "app/session/save/save_result.h"
@@ -131,6 +132,15 @@ void write(Subject& subject, const Request& request, Format format, const Progre
   }
 }
 
+/// Maps in image formats forget what a result file remembers.
+void note_forgotten_options(const Subject& subject, const Request& request, Format format,
+                            Job& job) {
+  const bool forgets = format == Format::Pfm || format == Format::Tiff;
+  if (!forgets || !subject.estimate || subject.estimate->reading.options.empty()) return;
+  job.note(request.output + " does not store how its light field was read; evaluate it with" +
+           reading_options_text(subject.estimate->reading.options));
+}
+
 }  // namespace
 
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
@@ -150,6 +160,7 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   if (subject.scene) {
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
+  note_forgotten_options(subject, request, format, job);
   job.progress().check();
   write(subject, request, format, job.progress().part(0.5, 1));
   job.finish();

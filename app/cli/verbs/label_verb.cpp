@@ -3,6 +3,7 @@
 #include "app/cli/arguments/parameter_options.h"
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/input.h"
+#include "app/cli/input/result_input.h"
 #include "app/cli/output/json.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
@@ -136,6 +137,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
+  if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
   Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
   const auto labeling = std::make_shared<const Labeling>(
       labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
