@@ -3,13 +3,17 @@
 
 #include "app/cli/arguments/usage_error.h"
 #include "engine/core/parameter/parameter.h"
+#include "engine/core/text/join.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cctype>
+#include <deque>
 #include <iostream>
 #include <map>
+#include <sstream>
+#include <utility>
 
 namespace episcope::cli {
 namespace {
@@ -28,12 +32,29 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Help whose columns stand below each other where a name has letters of several bytes ("0 … 1").
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    const std::string name = make_option_name(option, is_positional) + make_option_opts(option);
+    const std::size_t more_bytes = std::ranges::count_if(
+        name, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
+    const std::size_t column = get_column_width();
+    const bool fits = name.size() - more_bytes < column;
+    std::ostringstream line;
+    CLI::detail::format_help(line, name, make_option_desc(option),
+                             fits ? column + more_bytes : column);
+    return line.str();
+  }
+};
+
 }  // namespace
 
 struct Arguments::State {
   State(const std::string& verb_name, const Text& text)
       : verb(verb_name), app(text.summary, "episcope-cli " + verb_name) {
     app.footer("Example:\n  " + text.example);
+    app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "Print this and exit");
     takes_value["-h"] = takes_value["--help"] = false;
   }
@@ -41,6 +62,24 @@ struct Arguments::State {
   CLI::Option* declare(CLI::Option* added, const std::string& names, bool with_value) {
     for (const auto& name : CLI::detail::split(names, ',')) takes_value[name] = with_value;
     return added->group(group);
+  }
+
+  /// Values are read after all else was found right: whoever asks for help gets it.
+  void assign_values() const {
+    for (const Given& each : given) {
+      if (each.option->count() > 0) each.assign(each.text);
+    }
+  }
+
+  void check_exclusions() const {
+    for (const auto& names : exclusions) {
+      const auto count = std::ranges::count_if(
+          names, [this](const std::string& name) { return app.get_option(name)->count() > 0; });
+      if (count < 2) continue;
+      const std::vector<std::string> others(names.begin(), names.end() - 1);
+      throw UsageError(verb + ": " + joined(others, ", ") + " and " + names.back() +
+                       " exclude each other");
+    }
   }
 
   /// Refuses options that do not exist, whatever else is wrong, and binds negative numbers to the
@@ -80,6 +119,15 @@ struct Arguments::State {
   CLI::App app;
   std::string group = "Options";
   std::map<std::string, bool> takes_value;
+
+  /// An option with a value, or a flag that stands for one.
+  struct Given {
+    CLI::Option* option = nullptr;
+    std::string text{};
+    Assign assign;
+  };
+  std::deque<Given> given;  // a deque, because CLI11 keeps the addresses of texts
+  std::vector<std::vector<std::string>> exclusions;
 };
 
 Arguments::Arguments(const std::string& verb, const Text& text)
@@ -100,19 +148,18 @@ void Arguments::flag(const std::string& names, bool& value, const std::string& h
   state_->declare(state_->app.add_flag(names, value, help), names, false);
 }
 
-void Arguments::option(const std::string& names, std::string& value, const std::string& value_name,
-                       const std::string& help) {
-  state_->declare(state_->app.add_option(names, value, help), names, true)
-      ->take_last()
-      ->option_text(value_name);
+void Arguments::add_flag(const OptionText& text, Assign assign) {
+  auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
+  given.option = state_->declare(state_->app.add_flag(text.names, text.help), text.names, false);
 }
 
-void Arguments::required_option(const std::string& names, std::string& value,
-                                const std::string& value_name, const std::string& help) {
-  state_->declare(state_->app.add_option(names, value, help), names, true)
-      ->take_last()
-      ->option_text(value_name)
-      ->required();
+void Arguments::add_option(const OptionText& text, Assign assign, Need need) {
+  auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
+  given.option =
+      state_->declare(state_->app.add_option(text.names, given.text, text.help), text.names, true)
+          ->take_last()
+          ->option_text(text.value_name)
+          ->required(need == Need::Required);
 }
 
 void Arguments::list_option(const std::string& names, std::vector<std::string>& values,
@@ -121,20 +168,8 @@ void Arguments::list_option(const std::string& names, std::vector<std::string>& 
       ->option_text(value_name);
 }
 
-void Arguments::choice(const std::string& names, std::string& value,
-                       const std::vector<std::string>& choices, const std::string& help) {
-  std::string list;
-  for (const auto& each : choices) list += (list.empty() ? "" : "|") + each;
-  const auto check = [names, choices](std::string& text) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end()) {
-      throw unknown_name("value of " + names, text, choices);
-    }
-    return std::string();
-  };
-  state_->declare(state_->app.add_option(names, value, help), names, true)
-      ->take_last()
-      ->option_text(list)
-      ->check(CLI::Validator(check, "", ""));
+void Arguments::exclude_each_other(const std::vector<std::string>& names) {
+  state_->exclusions.push_back(names);
 }
 
 void Arguments::heading(const std::string& text) {
@@ -153,6 +188,8 @@ bool Arguments::parse(const std::vector<std::string>& arguments) {
     throw UsageError(state_->verb + ": " + one_line(error.what()) + "; see episcope-cli " +
                      state_->verb + " --help");
   }
+  state_->assign_values();
+  state_->check_exclusions();
   return true;
 }
 

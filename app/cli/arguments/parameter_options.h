@@ -4,6 +4,7 @@
 #include "engine/core/parameter/parameter.h"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,22 +15,21 @@ class Arguments;
 /// Options generated from a schema: `--<key> VALUE`, and `--<key>` alone for toggles.
 class ParameterOptions {
  public:
-  /// To be called once for each heading; the object must outlive the parsing.
-  void declare(Arguments& arguments, const std::string& heading,
-               const std::vector<ParameterDescription>& parameters);
-  /// Values of the options that were given. Throws UsageError for one outside its domain.
+  /// Under the present heading of the arguments; the object must outlive the parsing.
+  void declare(Arguments& arguments, const std::vector<ParameterDescription>& parameters);
+  /// Values of the options that were given, in the order of declaration.
   [[nodiscard]] ParameterSet values() const;
+  [[nodiscard]] bool is_given(const std::string& key) const;
 
  private:
-  std::vector<ParameterDescription> parameters_;
-  std::map<std::string, std::string> texts_;  // by key; empty = not given
-  std::map<std::string, bool> toggles_;       // by key
+  std::vector<std::string> keys_;
+  std::map<std::string, std::optional<ParameterValue>> values_;  // by key; empty = not given
 };
 
 /// Whether `min` and `max` of a parameter say something.
 [[nodiscard]] bool has_numeric_domain(const ParameterDescription& parameter);
 
-/// "0.1 … 4 px", "auto or A,B from -8 to 8 px", "a|b|c", "true|false".
+/// "0.1 … 4 px", "auto or A,B in -8 … 8 px", "a|b|c", "true|false".
 [[nodiscard]] std::string domain_text(const ParameterDescription& parameter);
 
 }  // namespace episcope::cli

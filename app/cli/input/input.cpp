@@ -12,14 +12,6 @@
 namespace episcope::cli {
 namespace {
 
-void check_builtin_scene(const std::string& id) {
-  std::vector<std::string> ids;
-  for (const auto& scene : scenes::builtin_scenes()) ids.push_back(scene.id);
-  if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
-    throw unknown_name("built-in scene", id, ids);
-  }
-}
-
 /// Options that nothing came of.
 void warn_of_ignored(const ParameterSet& given, Scene& scene) {
   const std::string& id = scene.light_field->info().reading.reader;
@@ -34,7 +26,8 @@ void warn_of_ignored(const ParameterSet& given, Scene& scene) {
 }  // namespace
 
 void declare_read_options(Arguments& arguments, ReadOptions& options) {
-  options.options.declare(arguments, "Reading", io::open_schema().descriptions());
+  arguments.heading("Reading");
+  options.options.declare(arguments, io::open_schema().descriptions());
 }
 
 bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments, JobOptions& job,
@@ -42,6 +35,12 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
   declare_job_options(parser, job);
   declare_read_options(parser, read);
   return parser.parse(arguments);
+}
+
+void check_builtin_scene(const std::string& id) {
+  std::vector<std::string> ids;
+  for (const auto& scene : scenes::builtin_scenes()) ids.push_back(scene.id);
+  if (std::ranges::find(ids, id) == ids.end()) throw unknown_name("built-in scene", id, ids);
 }
 
 void check_input(const std::string& input) {

@@ -24,6 +24,9 @@ void declare_read_options(Arguments& arguments, ReadOptions& options);
 [[nodiscard]] bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
                                  JobOptions& job, ReadOptions& read);
 
+/// Throws UsageError for an unknown id, naming the nearest.
+void check_builtin_scene(const std::string& id);
+
 /// Refuses an INPUT that cannot be there, before anything is done. Throws UsageError for an unknown
 /// built-in scene, IoError for a path that does not exist.
 void check_input(const std::string& input);

@@ -9,7 +9,7 @@
 namespace episcope::cli {
 
 void declare_job_options(Arguments& arguments, JobOptions& options) {
-  arguments.option("--threads", options.threads, "N", "Threads to use; 0 = as many as there are");
+  options.run.declare(arguments, {run_schema().description("threads")});
   arguments.flag("-q,--quiet", options.is_quiet, "No progress bar and no notes");
 }
 
@@ -18,7 +18,7 @@ Job::Job(std::stop_token stop, const JobOptions& options)
       bar_(options.is_quiet),
       progress_(
           std::move(stop), [this](const ProgressState& state) { bar_.draw(state); },
-          parse_integer("--threads", options.threads, 0, 1024)) {}
+          options.run_options().threads) {}
 
 void Job::note(const std::string& sentence) {
   if (is_quiet_) return;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/cli/arguments/parameter_options.h"
 #include "app/cli/output/progress_bar.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/disparity/common/run_options.h"
 
 #include <stop_token>
 #include <string>
@@ -14,7 +16,9 @@ class Arguments;
 /// Options that every verb with something to wait for has.
 struct JobOptions {
   bool is_quiet = false;
-  std::string threads = "0";
+  ParameterOptions run;  ///< Of run_schema.
+
+  [[nodiscard]] RunOptions run_options() const { return run_schema().parse(run.values()); }
 };
 
 void declare_job_options(Arguments& arguments, JobOptions& options);
@@ -22,7 +26,6 @@ void declare_job_options(Arguments& arguments, JobOptions& options);
 /// Progress of a verb: shows the bar, ends with the token of Ctrl+C.
 class Job {
  public:
-  /// Throws UsageError for a bad number of threads.
   Job(std::stop_token stop, const JobOptions& options);
 
   [[nodiscard]] const Progress& progress() const { return progress_; }

@@ -19,37 +19,16 @@ namespace {
 struct Request {
   std::vector<std::string> inputs;
   std::vector<std::string> submissions;
-  std::string methods = "all";
+  std::vector<Estimator> methods = registered_estimators();
   std::string output;
-  std::string views = name_of(ViewSelection::All);
   bool has_search = false;
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
 };
 
-bool parse(const VerbArguments& arguments, Request& request) {
-  Arguments parser(
-      "benchmark",
-      {"Runs methods on scenes, judges the centre view by both protocols, and writes ranked\n"
-       "tables (HTML, CSV, LaTeX, JSON), pictures and maps. What is finished is kept: the same\n"
-       "line again goes on where it was stopped. Exit code 1 if anything failed; the tables\n"
-       "are written all the same.",
-       "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
-  parser.positionals("INPUT", request.inputs, "The light fields");
-  parser.required_option("-o,--output", request.output, "DIR", "Folder to write");
-  parser.option("--methods", request.methods, "ID,...", "Ids of estimators, or all");
-  parser.flag("--search", request.has_search,
-              "Also search parameters: the best of each scene, and equal ones for all scenes");
-  parser.list_option("--submission", request.submissions, "DIR...",
-                     "Folders with maps of other programs, named after the scenes");
-  parser.choice("--views", request.views, all_names<ViewSelection>(),
-                "Views to estimate for the tables; all where the method can");
-  parser.flag("--json", request.is_json, "One JSON object instead of tables");
-  return parse_reading(parser, arguments, request.job, request.read);
-}
-
-std::vector<Estimator> chosen_methods(const std::string& list) {
+/// Estimators by their ids, each once.
+std::vector<Estimator> methods_named(const std::string& list) {
   const std::vector<Estimator> all = registered_estimators();
   if (list == "all") return all;
   std::vector<std::string> ids;
@@ -68,13 +47,40 @@ std::vector<Estimator> chosen_methods(const std::string& list) {
   return chosen;
 }
 
+OptionValue<std::vector<Estimator>> methods_value() {
+  return {"ID,...",
+          [](const std::string&, const std::string& text) { return methods_named(text); }};
+}
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser(
+      "benchmark",
+      {"Runs methods on scenes, judges the centre view by both protocols, and writes ranked\n"
+       "tables (HTML, CSV, LaTeX, JSON), pictures and maps. What is finished is kept: the same\n"
+       "line again goes on where it was stopped. Exit code 1 if anything failed; the tables\n"
+       "are written all the same.",
+       "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
+  parser.positionals("INPUT", request.inputs, "The light fields");
+  parser.required_option("-o,--output", request.output, text_value("DIR"), "Folder to write");
+  parser.option("--methods", request.methods, methods_value(), "Ids of estimators, or all");
+  parser.flag("--search", request.has_search,
+              "Also search parameters: the best of each scene, and equal ones for all scenes");
+  parser.list_option("--submission", request.submissions, "DIR...",
+                     "Folders with maps of other programs, named after the scenes");
+  ParameterDescription views = run_schema().description("views");
+  views.help = "Views to estimate for the tables; all where the method can";
+  request.job.run.declare(parser, {views});
+  parser.flag("--json", request.is_json, "One JSON object instead of tables");
+  return parse_reading(parser, arguments, request.job, request.read);
+}
+
 BenchmarkOptions benchmark_options(const Request& request) {
   BenchmarkOptions options;
   options.inputs = request.inputs;
-  options.methods = chosen_methods(request.methods);
+  options.methods = request.methods;
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
   options.folder = request.output;
-  options.views = value_named<ViewSelection>(request.views);
+  options.views = request.job.run_options().views;
   options.has_search = request.has_search;
   for (const auto& input : request.inputs) check_input(input);
   return options;

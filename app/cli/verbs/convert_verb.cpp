@@ -21,7 +21,7 @@ struct Request {
   std::string input;
   std::string output;
   std::string truth;
-  bool is_overwriting = false;
+  Overwrite overwrite = Overwrite::No;
   JobOptions job;
   ReadOptions read;
 };
@@ -36,9 +36,10 @@ bool parse(const VerbArguments& arguments, Request& request) {
                     "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
-  parser.option("--truth", request.truth, "INPUT",
+  parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one that its file names");
-  parser.flag("--overwrite", request.is_overwriting, "Replace a light field that is there");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace a light field that is there");
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
@@ -151,8 +152,7 @@ void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   protect_input(request.output, request.input);
   if (!request.truth.empty()) protect_input(request.output, request.truth);
   if (format == Format::Archive) {
-    check_light_field_output(request.output,
-                             request.is_overwriting ? Overwrite::Yes : Overwrite::No);
+    check_light_field_output(request.output, request.overwrite);
   }
 
   Job job(std::move(stop), request.job);

@@ -21,8 +21,6 @@ struct Request {
   std::string method;
   std::string input;
   std::string output;
-  std::string views;
-  std::string device = name_of(Device::Auto);
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
@@ -66,22 +64,26 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
                     "episcope-cli estimate epi_l demo -o demo.h5 --views center"});
   parser.positional("METHOD", request.method, "Id of the estimator");
   parser.positional("INPUT", request.input, "The light field");
-  parser.required_option("-o,--output", request.output, "OUT.h5", "Result file to write");
-  parser.choice("--views", request.views, all_names<ViewSelection>(),
-                "Views to estimate; by default all, if the method can");
-  parser.choice("--device", request.device, all_names<Device>(), "Where to compute");
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "Result file to write");
+  const Schema<RunOptions> run = run_schema();
+  request.job.run.declare(parser, {run.description("views"), run.description("device")});
   parser.flag("--json", request.is_json, "One JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
-  if (estimator)
-    parameters.declare(parser, "Parameters of " + estimator->info.id, estimator->parameters);
+  if (estimator) {
+    parser.heading("Parameters of " + estimator->info.id);
+    parameters.declare(parser, estimator->parameters);
+  }
   return parser.parse(arguments);
 }
 
 ViewSelection selected_views(const Request& request, const Estimator& estimator) {
   const bool can_all = estimator.info.all_views;
-  if (request.views.empty()) return can_all ? ViewSelection::All : ViewSelection::Center;
-  const ViewSelection wanted = value_named<ViewSelection>(request.views);
+  if (!request.job.run.is_given("views")) {
+    return can_all ? ViewSelection::All : ViewSelection::Center;
+  }
+  const ViewSelection wanted = request.job.run_options().views;
   if (can_all || wanted == ViewSelection::Center) return wanted;
   const auto& parameters = estimator.parameters;
   const bool chooses = std::any_of(parameters.begin(), parameters.end(),
@@ -151,8 +153,8 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
     if (!parse(arguments, estimator, request, parameters)) return;
   }
   const ParameterSet values = parameters.values();
-  RunOptions options{.views = selected_views(request, *estimator),
-                     .device = value_named<Device>(request.device)};
+  RunOptions options = request.job.run_options();
+  options.views = selected_views(request, *estimator);
   // The method asks as well, but not before the light field is loaded.
   require_device(options.device, estimator->info);
   check_hdf5_output("estimate", request.output);

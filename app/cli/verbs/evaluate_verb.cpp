@@ -21,15 +21,16 @@
 namespace episcope::cli {
 namespace {
 
+/// What the answer is written as.
+enum class Format { Text, Json, Csv, Latex };
+
 struct Request {
   std::vector<std::string> files;
   std::string truth;
-  std::string protocol = "vmv2013";
-  std::string invalid = "bad";
+  Protocol protocol = Protocol::Vmv2013;
+  InvalidEstimates invalid = InvalidEstimates::Bad;
   std::string error_map;
-  bool is_json = false;
-  bool is_csv = false;
-  bool is_latex = false;
+  Format format = Format::Text;
   JobOptions job;
   ReadOptions read;
 };
@@ -44,26 +45,40 @@ struct Row {
   Metrics metrics;
 };
 
+OptionValue<Protocol> protocol_value() {
+  Names<Protocol> names;
+  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
+    names.push_back({protocol, protocol_name(protocol)});
+  }
+  return choice_of(names);
+}
+
+/// The 2013 paper ranks run times in classes.
+bool has_runtime_classes(const Request& request) {
+  return request.protocol == Protocol::Vmv2013;
+}
+
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser("evaluate", {"Judges results against the truth of a light field.",
                                 "episcope-cli evaluate demo.h5 --truth demo --protocol "
                                 "benchmark2016 --error-map error.png"});
   parser.positionals("RESULT", request.files,
                      "Result files, HDF5 files with one map, PFM, TIFF, submission folders");
-  parser.required_option("--truth", request.truth, "INPUT", "The light field with its truth");
-  parser.choice("--protocol", request.protocol, {"vmv2013", "benchmark2016"},
+  parser.required_option("--truth", request.truth, text_value("INPUT"),
+                         "The light field with its truth");
+  parser.option("--protocol", request.protocol, protocol_value(),
                 "Metrics of the 2013 paper or of the 2016 benchmark");
-  parser.choice("--invalid", request.invalid, {"bad", "compatible"},
+  parser.option("--invalid", request.invalid,
+                choice_of<InvalidEstimates>(
+                    {{InvalidEstimates::Bad, "bad"}, {InvalidEstimates::Compatible, "compatible"}}),
                 "Missing values count as bad, or as the 2016 tool counts them");
-  parser.flag("--json", request.is_json, "One JSON object");
-  parser.flag("--csv", request.is_csv, "A table of comma-separated values");
-  parser.flag("--latex", request.is_latex, "A LaTeX tabular");
-  parser.option("--error-map", request.error_map, "OUT.png",
+  parser.flag("--json", request.format, Format::Json, "One JSON object");
+  parser.flag("--csv", request.format, Format::Csv, "A table of comma-separated values");
+  parser.flag("--latex", request.format, Format::Latex, "A LaTeX tabular");
+  parser.exclude_each_other({"--json", "--csv", "--latex"});
+  parser.option("--error-map", request.error_map, text_value("OUT.png"),
                 "Picture of truth − estimate; with several results one for each");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  if (request.is_json + request.is_csv + request.is_latex > 1) {
-    throw UsageError("evaluate: --json, --csv and --latex exclude each other");
-  }
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
     throw UsageError("evaluate writes the error map as PNG, but it is to be " + request.error_map +
                      "; name it OUT.png");
@@ -94,7 +109,7 @@ std::vector<std::filesystem::path> error_map_paths(const Request& request) {
 
 Json results_json(const Request& request, const std::vector<Row>& rows) {
   Json json;
-  json["protocol"] = request.protocol;
+  json["protocol"] = protocol_name(request.protocol);
   json["truth"] = request.truth;
   json["view"] = {rows.front().view.v, rows.front().view.u};
   json["results"] = Json::array();
@@ -105,7 +120,7 @@ Json results_json(const Request& request, const std::vector<Row>& rows) {
     for (const auto& [key, value] : row.metrics) result[key] = value;
     if (row.seconds > 0) {
       result["seconds"] = row.seconds;
-      if (request.protocol == "vmv2013") result["runtime_class"] = runtime_class(row.seconds);
+      if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
     }
     result["all_views"] = row.has_all_views;
     json["results"].push_back(result);
@@ -126,12 +141,12 @@ std::vector<std::string> metric_keys(const std::vector<Row>& rows) {
 
 TextTable results_table(const Request& request, const std::vector<Row>& rows) {
   constexpr int exact_digits = 6;
-  const int digits = request.is_csv ? exact_digits : 3;
+  const int digits = request.format == Format::Csv ? exact_digits : 3;
   const auto keys = metric_keys(rows);
   TextTable table{{"file", "method"}, {}};
   table.header.insert(table.header.end(), keys.begin(), keys.end());
   table.header.emplace_back("seconds");
-  const bool has_classes = request.protocol == "vmv2013";
+  const bool has_classes = has_runtime_classes(request);
   if (has_classes) table.header.insert(table.header.end(), {"runtime_class", "all_views"});
   for (const Row& row : rows) {
     std::vector<std::string> cells{row.file, row.method};
@@ -150,14 +165,14 @@ TextTable results_table(const Request& request, const std::vector<Row>& rows) {
 }
 
 void print_answer(const Request& request, const std::vector<Row>& rows) {
-  if (request.is_json) return print_json(results_json(request, rows));
+  if (request.format == Format::Json) return print_json(results_json(request, rows));
   const TextTable table = results_table(request, rows);
-  if (request.is_csv) {
+  if (request.format == Format::Csv) {
     std::cout << table_to_csv(table);
-  } else if (request.is_latex) {
+  } else if (request.format == Format::Latex) {
     std::cout << table_to_latex(table);
   } else {
-    std::cout << request.protocol << " against " << request.truth << ", view "
+    std::cout << protocol_name(request.protocol) << " against " << request.truth << ", view "
               << view_text(rows.front().view) << "\n\n"
               << table_to_narrow_text(table);
   }
@@ -225,10 +240,7 @@ Row judge_file(const std::string& file, const Scene& scene, const EvaluationOpti
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  const EvaluationOptions options{
-      parse_protocol(request.protocol),
-      request.invalid == "bad" ? InvalidEstimates::Bad : InvalidEstimates::Compatible,
-      {}};
+  const EvaluationOptions options{request.protocol, request.invalid, {}};
   check_input(request.truth);
   const auto maps = error_map_paths(request);
   for (const auto& map : maps) {

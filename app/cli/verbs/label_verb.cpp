@@ -38,21 +38,21 @@ bool parse(const VerbArguments& arguments, Request& request) {
                     "writes a file of labels and their probabilities.",
                     "episcope-cli label demo -o labels.h5 --features image"});
   parser.positional("INPUT", request.input, "The light field");
-  parser.required_option("-o,--output", request.output, "OUT.h5", "File of labels to write");
-  parser.option("--scribbles", request.scribbles, "LABELS.h5",
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "File of labels to write");
+  parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
                 "What is painted; by default the scribbles that lie beside INPUT");
   parser.option(
-      "--disparity", request.disparity, "RESULT.h5",
+      "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
-  bool is_without_probabilities = false;
-  parser.flag("--no-probabilities", is_without_probabilities,
+  parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels alone: probabilities take four bytes for each ray and label");
   parser.flag("--json", request.is_json, "One JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
   ParameterOptions options;
-  options.declare(parser, "Parameters", schema.descriptions());
+  parser.heading("Parameters");
+  options.declare(parser, schema.descriptions());
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  if (is_without_probabilities) request.probabilities = StoredProbabilities::None;
   request.parameters = schema.parse(options.values());
   if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
     throw UsageError("label: --features image+truth takes the truth, so --disparity has no use");

@@ -18,11 +18,21 @@ namespace {
 
 using render::Quantity;
 
-constexpr const char* kEpi = "epi";
+constexpr int kMost = std::numeric_limits<int>::max();
+
+/// What is asked for; without an id, what there is most to say of.
+struct What {
+  std::string id;  ///< As typed.
+  bool is_epi = false;
+  Quantity quantity = Quantity::View;
+};
+
+enum class Layer { Foreground, Background };
 
 struct Request {
   std::string output;
-  std::string what;
+  What what;
+  Layer layer = Layer::Foreground;
   ShownMap map;
   std::optional<int> row;
   std::optional<int> column;
@@ -32,34 +42,6 @@ struct Request {
   ReadOptions read;
 };
 
-/// Options as typed.
-struct Texts {
-  std::string view;
-  std::string row;
-  std::string column;
-  std::string range;
-  std::string label = "1";
-  std::string layer;
-  std::string opacity;
-};
-
-void parse_texts(const Texts& texts, Request& request) {
-  constexpr int most = std::numeric_limits<int>::max();
-  if (!texts.view.empty()) request.map.view = parse_view("--view", texts.view);
-  if (!texts.row.empty()) request.row = parse_integer("--row", texts.row, 0, most);
-  if (!texts.column.empty()) request.column = parse_integer("--column", texts.column, 0, most);
-  if (!texts.range.empty()) request.shading.range = parse_interval("--range", texts.range);
-  if (!texts.opacity.empty()) request.opacity = parse_real("--over-view", texts.opacity, 0, 1);
-  request.map.needs_light_field = request.opacity.has_value();
-  request.map.label = parse_integer("--label", texts.label, 1, most);
-  if (request.row && request.column) {
-    throw UsageError("show: --row and --column exclude each other");
-  }
-  if (suffix_of(request.output) != ".png") {
-    throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
-  }
-}
-
 ShownKind kind_of(const Request& request) {
   if (io::is_labeling_file(request.map.subject)) return ShownKind::Labels;
   const bool is_result = !request.map.truth.empty() || names_result(request.map.subject);
@@ -67,12 +49,14 @@ ShownKind kind_of(const Request& request) {
 }
 
 /// "disparity" and "labels" are those of what is shown: true ones of a light field.
-Quantity quantity_of(const std::string& what, ShownKind kind, bool is_behind) {
-  if (what.empty()) {
+Quantity quantity_of(const Request& request) {
+  const ShownKind kind = request.map.kind;
+  if (request.what.id.empty()) {
     if (kind == ShownKind::Labels) return Quantity::Segmentation;
     return kind == ShownKind::Result ? Quantity::Disparity : Quantity::View;
   }
-  const Quantity named = render::find_quantity(what)->quantity;
+  const Quantity named = request.what.quantity;
+  const bool is_behind = request.layer == Layer::Background;
   if (named == Quantity::Labels && kind == ShownKind::Labels) return Quantity::Segmentation;
   const bool is_true =
       named == Quantity::Truth || (named == Quantity::Disparity && kind == ShownKind::LightField);
@@ -80,46 +64,65 @@ Quantity quantity_of(const std::string& what, ShownKind kind, bool is_behind) {
   return named == Quantity::Disparity && is_behind ? Quantity::Background : named;
 }
 
-std::vector<std::string> choices() {
-  std::vector<std::string> ids{kEpi};
-  for (const auto& info : render::quantities()) ids.emplace_back(info.id);
-  return ids;
+OptionValue<int> index_value(const std::string& name) {
+  return integer_value(name, 0, kMost);
+}
+
+OptionValue<What> what_value() {
+  std::vector<Named<What>> choices{{{"epi", true, Quantity::View}, "epi"}};
+  for (const auto& info : render::quantities()) {
+    choices.push_back({{info.id, false, info.quantity}, info.id});
+  }
+  return choice_of(choices);
+}
+
+/// What follows from the options.
+void complete(Request& request) {
+  if (suffix_of(request.output) != ".png") {
+    throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
+  }
+  request.map.needs_light_field = request.opacity.has_value();
+  request.map.kind = kind_of(request);
+  request.map.quantity = quantity_of(request);
+  if (request.what.id.empty()) {
+    const bool is_of_labels = request.map.kind == ShownKind::Labels;
+    request.what.id = render::info_of(is_of_labels ? Quantity::Labels : request.map.quantity).id;
+  }
 }
 
 bool parse(const VerbArguments& arguments, Request& request) {
-  Texts texts;
   Arguments parser("show",
                    {"Writes a picture of a light field, of a result or of labels, as the window "
                     "shows it.",
                     "episcope-cli show demo.h5 -o error.png --what error"});
   parser.positional("INPUT|RESULT", request.map.subject, "A light field, a result, or labels");
-  parser.required_option("-o,--output", request.output, "OUT.png", "Picture to write");
-  parser.choice("--what", request.what, choices(),
+  parser.required_option("-o,--output", request.output, text_value("OUT.png"), "Picture to write");
+  parser.option("--what", request.what, what_value(),
                 "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
                 "of labels");
-  parser.option("--view", texts.view, "V,U", "Camera row and column; by default the centre");
-  parser.option("--row", texts.row, "Y", "Image row of a horizontal EPI");
-  parser.option("--column", texts.column, "X", "Image column of a vertical EPI");
-  parser.option("--range", texts.range, "A,B", "Values at the ends of the colour map");
-  parser.choice("--colormap", request.shading.color_map, render::color_map_names(), "Colour map");
-  parser.option("--truth", request.map.truth, "INPUT",
+  parser.option("--view", request.map.view, view_value(),
+                "Camera row and column; by default the centre");
+  parser.option("--row", request.row, index_value("Y"), "Image row of a horizontal EPI");
+  parser.option("--column", request.column, index_value("X"), "Image column of a vertical EPI");
+  parser.exclude_each_other({"--row", "--column"});
+  parser.option("--range", request.shading.range, interval_value(),
+                "Values at the ends of the colour map");
+  parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
+                "Colour map");
+  parser.option("--truth", request.map.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one that its file names");
-  parser.choice("--layer", texts.layer, {"foreground", "background"},
-                "Which disparity of a light field or result in two layers");
-  parser.option("--label", texts.label, "N", "Label whose probability is shown (default 1)");
-  parser.option("--minus", request.map.minus, "RESULT", "For a difference: what is subtracted");
-  parser.option("--over-view", texts.opacity, "OPACITY",
+  parser.option(
+      "--layer", request.layer,
+      choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
+      "Which disparity of a light field or result in two layers");
+  parser.option("--label", request.map.label, integer_value("N", 1, kMost),
+                "Label whose probability is shown (default 1)");
+  parser.option("--minus", request.map.minus, text_value("RESULT"),
+                "For a difference: what is subtracted");
+  parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Lay the map over the view, with an opacity from 0 to 1");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
-  parse_texts(texts, request);
-  request.map.kind = kind_of(request);
-  const bool is_epi = request.what == kEpi;
-  request.map.quantity =
-      quantity_of(is_epi ? "view" : request.what, request.map.kind, texts.layer == "background");
-  if (request.what.empty()) {
-    const bool is_of_labels = request.map.kind == ShownKind::Labels;
-    request.what = render::info_of(is_of_labels ? Quantity::Labels : request.map.quantity).id;
-  }
+  complete(request);
   return true;
 }
 
@@ -132,7 +135,7 @@ RgbaImage make_picture(const Request& request, Job& job) {
   const LoadedMap loaded = load_map(request.map, request.read, job);
   const MapSource& source = loaded.source;
   job.progress().check();
-  if (request.what == kEpi) return epi_picture(request, *source.light_field, source.view);
+  if (request.what.is_epi) return epi_picture(request, *source.light_field, source.view);
   if (source.quantity == Quantity::View) {
     return render::shade_view(*source.light_field, source.view);
   }
@@ -158,7 +161,7 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   job.progress().check();
   io::write_png(request.output, picture.view());
   job.finish();
-  std::cout << request.output << ": " << request.what << ", " << picture.width() << "×"
+  std::cout << request.output << ": " << request.what.id << ", " << picture.width() << "×"
             << picture.height() << " px\n";
 }
 

@@ -1,27 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/arguments/arguments.h"
-#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/input.h"
 #include "app/cli/output/job.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/scenes/builtin.h"
 
-#include <algorithm>
 #include <iostream>
 #include <limits>
 
 namespace episcope::cli {
 namespace {
 
+constexpr int kMostViews = 101;
+constexpr int kMostPixels = 8192;
+constexpr double kMostNoise = 255;
+
 struct Request {
   std::string scene;
   std::string output;
-  std::string views = "9x9";
-  std::string size = "512x512";
-  std::string noise = "0";
-  std::string seed = "1";
-  bool is_overwriting = false;
+  Extent views{9, 9};
+  Extent size{512, 512};
+  double noise = 0;
+  int seed = 1;
+  Overwrite overwrite = Overwrite::No;
   JobOptions job;
 };
 
@@ -40,39 +43,30 @@ bool parse(const VerbArguments& arguments, Request& request) {
                                   "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
                                   "--size 256x256"});
   parser.positional("SCENE", request.scene, "Id of a built-in scene");
-  parser.required_option("-o,--output", request.output, "OUT.h5", "Light field to write");
-  parser.option("--views", request.views, "VxU", "Camera rows and columns (default 9x9)");
-  parser.option("--size", request.size, "WxH", "Pixels of a view (default 512x512)");
-  parser.option("--noise", request.noise, "SIGMA",
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "Light field to write");
+  parser.option("--views", request.views, extent_value("VxU", kMostViews),
+                "Camera rows and columns (default 9x9)");
+  parser.option("--size", request.size, extent_value("WxH", kMostPixels),
+                "Pixels of a view (default 512x512)");
+  parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
                 "Gaussian noise in grey levels of 255 (default 0)");
-  parser.option("--seed", request.seed, "N", "Seed of the noise (default 1)");
-  parser.flag("--overwrite", request.is_overwriting, "Replace a light field that is there");
+  parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
+                "Seed of the noise (default 1)");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
+              "Replace a light field that is there");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);
 }
 
 scenes::RenderOptions render_options(const Request& request) {
-  constexpr int most_views = 101;
-  constexpr int most_pixels = 8192;
-  constexpr double most_noise = 255;
-  const Extent views = parse_extent("--views", request.views, most_views);
-  const Extent size = parse_extent("--size", request.size, most_pixels);
   scenes::RenderOptions options;
-  options.grid = {views.first, views.second};
-  options.width = size.first;
-  options.height = size.second;
-  options.noise_sigma = parse_real("--noise", request.noise, 0, most_noise);
-  options.seed = static_cast<unsigned>(
-      parse_integer("--seed", request.seed, 0, std::numeric_limits<int>::max()));
+  options.grid = {request.views.first, request.views.second};
+  options.width = request.size.first;
+  options.height = request.size.second;
+  options.noise_sigma = request.noise;
+  options.seed = static_cast<unsigned>(request.seed);
   return options;
-}
-
-void check_scene(const std::string& id) {
-  std::vector<std::string> ids;
-  for (const auto& scene : scenes::builtin_scenes()) ids.push_back(scene.id);
-  if (std::find(ids.begin(), ids.end(), id) == ids.end()) {
-    throw unknown_name("built-in scene", id, ids);
-  }
 }
 
 }  // namespace
@@ -80,10 +74,10 @@ void check_scene(const std::string& id) {
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  check_scene(request.scene);
+  check_builtin_scene(request.scene);
   const scenes::RenderOptions options = render_options(request);
   check_hdf5_output("synthesize", request.output);
-  check_light_field_output(request.output, request.is_overwriting ? Overwrite::Yes : Overwrite::No);
+  check_light_field_output(request.output, request.overwrite);
 
   Job job(std::move(stop), request.job);
   job.progress().step("rendering " + request.scene);
