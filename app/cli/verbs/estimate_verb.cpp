@@ -127,8 +127,7 @@ void print_answer(const Request& request, const Estimate& estimate, ViewIndex ce
   json["views"] = views.name;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
-  json["parameters"] = Json::object();
-  for (const auto& [key, value] : estimate.parameters) json["parameters"][key] = value_json(value);
+  json["parameters"] = parameters_json(estimate.parameters);
   json["range"] = interval_json(estimate.range);
   if (!estimate.notes.empty()) json["notes"] = estimate.notes;
   json["output"] = request.output;

@@ -111,7 +111,7 @@ Json results_json(const Request& request, const std::vector<Row>& rows) {
   Json json;
   json["protocol"] = protocol_name(request.protocol);
   json["truth"] = request.truth;
-  json["view"] = {rows.front().view.v, rows.front().view.u};
+  json["view"] = view_json(rows.front().view);
   json["results"] = Json::array();
   for (const Row& row : rows) {
     Json result;

@@ -14,9 +14,9 @@ namespace {
 
 void add_camera(Json& json, const LightFieldInfo& info) {
   if (const auto& camera = info.camera; camera.is_known()) {
-    json["camera"] = {{"baseline", camera.baseline},
-                      {"focal_length", camera.focal_length},
-                      {"shift", camera.shift}};
+    json["camera"] = Json::object({{"baseline", camera.baseline},
+                                   {"focal_length", camera.focal_length},
+                                   {"shift", camera.shift}});
     if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
   }
 }
@@ -27,24 +27,22 @@ void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
     json["disparity_promised"] = interval_json(*promised);
   }
   if (summary.truth) {
-    json["truth"] = {{"views", summary.truth->views},
-                     {"valid_percent", summary.truth->valid_percent},
-                     {"disparity_center", interval_json(summary.truth->center)},
-                     {"disparity", interval_json(summary.truth->all)}};
+    json["truth"] = Json::object({{"views", summary.truth->views},
+                                  {"valid_percent", summary.truth->valid_percent},
+                                  {"disparity_center", interval_json(summary.truth->center)},
+                                  {"disparity", interval_json(summary.truth->all)}});
   }
   if (summary.has_layers) json["truth_layers"] = 2;
   if (!summary.label_ids.empty()) {
-    json["labels"] = {{"views", summary.label_views}, {"ids", summary.label_ids}};
+    json["labels"] = Json::object({{"views", summary.label_views}, {"ids", summary.label_ids}});
   }
   if (summary.painted_percent > 0) {
     Json views = Json::array();
-    for (const ViewScribbles& one : scene.scribbles.views) {
-      views.push_back({one.view.v, one.view.u});
-    }
-    json["scribbles"] = {{"view", views.front()},
-                         {"views", views},
-                         {"painted_percent", summary.painted_percent},
-                         {"ids", summary.scribble_ids}};
+    for (const ViewScribbles& one : scene.scribbles.views) views.push_back(view_json(one.view));
+    json["scribbles"] = Json::object({{"view", view_json(scene.scribbles.views.front().view)},
+                                      {"views", views},
+                                      {"painted_percent", summary.painted_percent},
+                                      {"ids", summary.scribble_ids}});
   }
   if (!scene.truth->regions.empty()) {
     json["regions"] = Json::array();
@@ -59,7 +57,7 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["input"] = input;
   json["name"] = light_field.info().name;
   json["format"] = scene.convention.format;
-  json["views"] = {{"v", light_field.grid().v}, {"u", light_field.grid().u}};
+  json["views"] = Json::object({{"v", light_field.grid().v}, {"u", light_field.grid().u}});
   json["height"] = light_field.height();
   json["width"] = light_field.width();
   json["channels"] = light_field.channels();
@@ -69,9 +67,9 @@ Json scene_json(const Scene& scene, const std::string& input) {
   add_truth(json, scene, summary);
   json["companions"] = Json::array();
   for (const auto& companion : scene.companions) {
-    json["companions"].push_back({{"kind", companion_name(companion.kind)},
-                                  {"path", companion.path.string()},
-                                  {"shape", companion.shape}});
+    json["companions"].push_back(Json::object({{"kind", companion_name(companion.kind)},
+                                               {"path", companion.path.string()},
+                                               {"shape", companion.shape}}));
   }
   json["focus"] = scene.convention.focus_px;
   json["order"] = scene.convention.order;

@@ -90,10 +90,7 @@ void print_json_answer(const Request& request, const Labeling& labeling,
   if (scores.consistency) json["consistency"] = *scores.consistency;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
-  json["parameters"] = Json::object();
-  for (const auto& [key, value] : labeler_schema().values(request.parameters)) {
-    json["parameters"][key] = value_json(value);
-  }
+  json["parameters"] = parameters_json(labeler_schema().values(request.parameters));
   json["output"] = request.output;
   print_json(json);
 }

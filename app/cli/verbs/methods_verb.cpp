@@ -67,7 +67,7 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
       print_method(method);
     }
   }
-  if (is_json) print_json({{"methods", list}});
+  if (is_json) print_json(Json::object({{"methods", list}}));
 }
 
 }  // namespace episcope::cli
