@@ -15,7 +15,7 @@ using namespace episcope;
 using namespace episcope::cli;
 
 void print_help(std::ostream& out) {
-  out << "Estimates and judges disparity of 4D light fields.\n"
+  out << "Estimates and evaluates disparity in 4D light fields.\n"
          "Usage: episcope-cli VERB ...\n\n"
          "INPUT is an lf.h5, a scene folder of the 2013 archive, a folder of the 2016 benchmark,\n"
          "a folder of images on a grid, demo, or demo:<scene> for a built-in scene.\n\nVerbs:\n";
@@ -23,7 +23,7 @@ void print_help(std::ostream& out) {
     out << "  " << verb.name << std::string(12 - std::string(verb.name).size(), ' ') << verb.summary
         << '\n';
   }
-  out << "\nOptions:\n  -h,--help   Print this, or the help of a verb after it, and exit\n"
+  out << "\nOptions:\n  -h,--help   Print this help, or after a verb its help, and exit\n"
          "  --version   Print the version and exit\n\n"
          "Example:\n  episcope-cli estimate epi_s demo -o demo.h5\n"
          "  episcope-cli evaluate demo.h5 --truth demo\n";
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     std::cerr << "episcope-cli: cancelled\n";
     return kCancelled;
   } catch (const std::bad_alloc&) {
-    return fail(Error("the memory does not suffice for this light field"), kFailed);
+    return fail(Error("not enough memory for this light field"), kFailed);
   } catch (const std::exception& error) {
     return fail(error, kFailed);
   }

@@ -214,7 +214,7 @@ std::string scene_html(const BenchmarkReport& report, const BenchmarkScene& scen
 std::string failures_html(const BenchmarkReport& report) {
   const auto failures = report.failures();
   if (failures.empty()) return {};
-  std::string html = "<h2>What failed</h2>\n<ul>\n";
+  std::string html = "<h2>Failures</h2>\n<ul>\n";
   for (const auto& failure : failures) html += "<li class=\"bad\">" + escaped(failure) + "</li>\n";
   return html + "</ul>\n";
 }
@@ -230,8 +230,8 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
       paragraph(
           std::to_string(report.scenes.size()) +
               (report.scenes.size() == 1 ? " scene" : " scenes") +
-              ", judged in the centre view. "
-              "Mean squared errors are in px² × 100; less is better, the best is bold. Made by "
+              ", evaluated in the centre view. "
+              "Mean squared errors are in px² × 100; lower is better, the best is in bold. Made by "
               "Episcope " +
               kVersion +
               "; the same numbers are in tables.csv, tables.tex, "
@@ -242,7 +242,8 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
   html += "<h2>Scenes</h2>\n" +
           paragraph(
               "Errors are truth − estimate from −0.2 (blue: too near) to 0.2 px (red: too "
-              "far). Pictures open in full size; the name of a method is its result file.",
+              "far). Click a picture to see it in full size; the name of a method links to its "
+              "result file.",
               "faint");
   for (const BenchmarkScene& scene : report.scenes) html += scene_html(report, scene);
   return html + "<script>" + kScript + "\n</script>\n</body>\n</html>\n";

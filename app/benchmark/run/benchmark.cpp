@@ -194,7 +194,7 @@ class Runner {
       part.report(1);
       return record->result;
     }
-    part.step("beginning");
+    part.step("starting");
     BenchmarkRecord record{key, open.input, run, {}, {}};
     record.result.entry = run.method;
     record.result.scene = open.name;
@@ -223,7 +223,7 @@ class Runner {
     if (result.has_failed) return;
     result.seconds = estimate->seconds;
     result.notes = estimate->notes;
-    part.step("judging");
+    part.step("evaluating");
     if (record.run.is_search) {
       const auto evaluation = judge_by(Protocol::Vmv2013, *estimate, open.scene, result);
       if (evaluation) result.vmv2013 = evaluation->metrics;
@@ -303,7 +303,7 @@ BenchmarkReport run_benchmark(const BenchmarkOptions& options, const SceneLoader
   fs::create_directories(options.folder, failure);
   if (failure) {
     throw IoError(options.folder,
-                  "the folder cannot be made (" + failure.message() + "); choose another one");
+                  "the folder cannot be created (" + failure.message() + "); choose another one");
   }
   return Runner(options, load, progress).run();
 }
@@ -315,7 +315,7 @@ void check_benchmark_folder(const fs::path& folder) {
     throw IoError(folder, "is a file; name a folder for the benchmark");
   }
   if (fs::is_empty(folder, ignored) || fs::exists(folder / RunLog::kFileName, ignored)) return;
-  throw IoError(folder, "holds other things than a benchmark; name an empty or a new folder");
+  throw IoError(folder, "contains something other than a benchmark; name an empty or a new folder");
 }
 
 }  // namespace episcope

@@ -64,7 +64,8 @@ double seconds_of(const fs::path& folder, const std::string& scene) {
 
 void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
   if (!estimate.field.contains(view)) {
-    throw IoError(map, "does not cover the centre view " + view_text(view) + ", which is judged");
+    throw IoError(map,
+                  "does not cover the centre view " + view_text(view) + ", which is evaluated");
   }
   const DisparityView values = estimate.field.view(view);
   std::size_t missing = 0;
@@ -79,7 +80,7 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
     }
   }
   const std::size_t count = values.disparity.size();
-  if (missing == count) throw IoError(map, "holds no finite value in the centre view");
+  if (missing == count) throw IoError(map, "contains no finite value in the centre view");
   const auto note = [&](const std::string& what) {
     estimate.notes.push_back(map.filename().string() + ": " + what);
   };
@@ -89,7 +90,7 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
   }
   if (farthest > kFarthest) {
     note("disparities reach " + fixed_text(farthest, 1) +
-         " px; are they in px per view step, and no depth?");
+         " px; are they depth instead of px per view step?");
   }
 }
 
@@ -102,7 +103,7 @@ std::string submission_name(const fs::path& folder) {
 void check_submission(const fs::path& folder) {
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return;
-  throw IoError(folder, "is no folder; a submission is a folder of maps named after the scenes");
+  throw IoError(folder, "is not a folder; a submission is a folder of maps named after the scenes");
 }
 
 std::optional<Estimate> read_submission(const fs::path& folder, const LightField& light_field,
@@ -110,8 +111,8 @@ std::optional<Estimate> read_submission(const fs::path& folder, const LightField
   const std::vector<fs::path> maps = maps_of(folder, scene);
   if (maps.empty()) return std::nullopt;
   if (maps.size() > 1) {
-    throw IoError(folder, "holds several maps of " + scene + ", " + maps[0].filename().string() +
-                              " and " + maps[1].filename().string() + "; leave one");
+    throw IoError(folder, "contains several maps of " + scene + ", " + maps[0].filename().string() +
+                              " and " + maps[1].filename().string() + "; keep one");
   }
   Estimate estimate = read_result_of(light_field, maps.front());
   check_fits(estimate, light_field, maps.front().string());

@@ -55,7 +55,7 @@ struct Arguments::State {
       : verb(verb_name), app(text.summary, "episcope-cli " + verb_name) {
     app.footer("Example:\n  " + text.example);
     app.formatter(std::make_shared<HelpFormatter>());
-    app.set_help_flag("-h,--help", "Print this and exit");
+    app.set_help_flag("-h,--help", "Print this help and exit");
     takes_value["-h"] = takes_value["--help"] = false;
   }
 

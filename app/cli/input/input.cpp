@@ -19,7 +19,7 @@ void warn_of_ignored(const ParameterSet& given, Scene& scene) {
   const std::string name = reader ? reader->name : "a built-in scene";
   for (const auto& [key, value] : given) {
     if (key == Reading::kFocus || (reader && reader->has_option(key))) continue;
-    scene.convention.warnings.push_back("--" + key + " is ignored, for this is " + name + ".");
+    scene.convention.warnings.push_back("--" + key + " is ignored, because this is " + name + ".");
   }
 }
 

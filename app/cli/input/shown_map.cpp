@@ -87,7 +87,7 @@ ViewIndex view_of(const ShownMap& shown, const LightField& light_field) {
   if (light_field.grid().contains(view)) return view;
   throw InvalidInput(light_field.info().name + " has " + std::to_string(light_field.grid().v) +
                      "×" + std::to_string(light_field.grid().u) + " views, but view " +
-                     view_text(view) + " was asked for; they count from 0");
+                     view_text(view) + " was asked for; views are counted from 0");
 }
 
 template <class T>

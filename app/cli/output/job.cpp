@@ -10,7 +10,7 @@ namespace episcope::cli {
 
 void declare_job_options(Arguments& arguments, JobOptions& options) {
   options.run.declare(arguments, {run_schema().description("threads")});
-  arguments.flag("-q,--quiet", options.is_quiet, "No progress bar and no notes");
+  arguments.flag("-q,--quiet", options.is_quiet, "Show no progress bar and no notes");
 }
 
 Job::Job(std::stop_token stop, const JobOptions& options)

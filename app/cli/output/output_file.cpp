@@ -82,11 +82,11 @@ void check_output_file(const fs::path& path) {
   const fs::path folder = folder_of(path);
   if (fs::is_directory(path, ignored)) throw IoError(path, "is a folder; name a file to write");
   if (!fs::is_directory(folder, ignored)) {
-    throw IoError(path, "cannot be written, for the folder " + folder.string() +
-                            " does not exist; make it first");
+    throw IoError(path, "cannot be written, because the folder " + folder.string() +
+                            " does not exist; create it first");
   }
   if (access(folder.c_str(), W_OK) != 0) {
-    throw IoError(path, "cannot be written, for the folder " + folder.string() +
+    throw IoError(path, "cannot be written, because the folder " + folder.string() +
                             " is read-only; choose another one");
   }
 }

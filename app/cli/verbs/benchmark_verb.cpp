@@ -55,22 +55,23 @@ OptionValue<std::vector<Estimator>> methods_value() {
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser(
       "benchmark",
-      {"Runs methods on scenes, judges the centre view by both protocols, and writes ranked\n"
-       "tables (HTML, CSV, LaTeX, JSON), pictures and maps. What is finished is kept: the same\n"
-       "line again goes on where it was stopped. Exit code 1 if anything failed; the tables\n"
-       "are written all the same.",
+      {"Runs methods on scenes, evaluates the centre view by both protocols, and writes ranked\n"
+       "tables (HTML, CSV, LaTeX, JSON), pictures and maps. Finished runs are kept: the same\n"
+       "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
+       "tables are written nevertheless.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
   parser.positionals("INPUT", request.inputs, "The light fields");
-  parser.required_option("-o,--output", request.output, text_value("DIR"), "Folder to write");
-  parser.option("--methods", request.methods, methods_value(), "Ids of estimators, or all");
+  parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
+  parser.option("--methods", request.methods, methods_value(),
+                "Ids of estimators, separated by commas, or all");
   parser.flag("--search", request.has_search,
-              "Also search parameters: the best of each scene, and equal ones for all scenes");
+              "Also search for the best parameters, of each scene and of all scenes together");
   parser.list_option("--submission", request.submissions, "DIR...",
-                     "Folders with maps of other programs, named after the scenes");
+                     "Folders with maps from other programs, named after the scenes");
   ParameterDescription views = run_schema().description("views");
-  views.help = "Views to estimate for the tables; all where the method can";
+  views.help = "Views to estimate for the tables; all if the method can";
   request.job.run.declare(parser, {views});
-  parser.flag("--json", request.is_json, "One JSON object instead of tables");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
   return parse_reading(parser, arguments, request.job, request.read);
 }
 

@@ -37,9 +37,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
   parser.option("--truth", request.truth, text_value("INPUT"),
-                "Light field of a RESULT; by default the one that its file names");
-  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
-              "Replace a light field that is there");
+                "Light field of a RESULT; by default the one named in its file");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
@@ -89,7 +88,7 @@ Subject load_subject(const Request& request, Format format, const Progress& prog
   }
   if (needs_scene && !subject.scene) {
     throw IoError(request.input,
-                  "its light field is not known or not where it was; name it with "
+                  "its light field is unknown or no longer where it was; name it with "
                   "--truth INPUT");
   }
   return subject;

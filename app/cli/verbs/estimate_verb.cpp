@@ -58,7 +58,7 @@ void require_method(const VerbArguments& arguments, const std::vector<Estimator>
 bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& request,
            ParameterOptions& parameters) {
   Arguments parser("estimate",
-                   {"Estimates disparity and writes a result file. METHOD is an id as in\n"
+                   {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
                     "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
                     "parameters.",
                     "episcope-cli estimate epi_l demo -o demo.h5 --views center"});
@@ -68,7 +68,7 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
                          "Result file to write");
   const Schema<RunOptions> run = run_schema();
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
-  parser.flag("--json", request.is_json, "One JSON object instead of a line");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
   if (estimator) {

@@ -59,28 +59,28 @@ bool has_runtime_classes(const Request& request) {
 }
 
 bool parse(const VerbArguments& arguments, Request& request) {
-  Arguments parser("evaluate", {"Judges results against the truth of a light field.",
+  Arguments parser("evaluate", {"Compares results with the ground truth of a light field.",
                                 "episcope-cli evaluate demo.h5 --truth demo --protocol "
                                 "benchmark2016 --error-map error.png"});
   parser.positionals("RESULT", request.files,
                      "Result files, HDF5 files with one map, PFM, TIFF, submission folders");
   parser.required_option("--truth", request.truth, text_value("INPUT"),
-                         "The light field with its truth");
+                         "The light field with its ground truth");
   parser.option("--protocol", request.protocol, protocol_value(),
                 "Metrics of the 2013 paper or of the 2016 benchmark");
   parser.option("--invalid", request.invalid,
                 choice_of<InvalidEstimates>(
                     {{InvalidEstimates::Bad, "bad"}, {InvalidEstimates::Compatible, "compatible"}}),
-                "Missing values count as bad, or as the 2016 tool counts them");
-  parser.flag("--json", request.format, Format::Json, "One JSON object");
-  parser.flag("--csv", request.format, Format::Csv, "A table of comma-separated values");
-  parser.flag("--latex", request.format, Format::Latex, "A LaTeX tabular");
+                "Count missing values as bad, or as the 2016 tool does");
+  parser.flag("--json", request.format, Format::Json, "Print one JSON object");
+  parser.flag("--csv", request.format, Format::Csv, "Print comma-separated values");
+  parser.flag("--latex", request.format, Format::Latex, "Print a LaTeX tabular");
   parser.exclude_each_other({"--json", "--csv", "--latex"});
   parser.option("--error-map", request.error_map, text_value("OUT.png"),
-                "Picture of truth − estimate; with several results one for each");
+                "Write a picture of truth − estimate, one for each result");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   if (!request.error_map.empty() && suffix_of(request.error_map) != ".png") {
-    throw UsageError("evaluate writes the error map as PNG, but it is to be " + request.error_map +
+    throw UsageError("evaluate writes error maps as PNG, but the output is " + request.error_map +
                      "; name it OUT.png");
   }
   return true;
@@ -209,7 +209,7 @@ class TruthScene {
 Row judge_file(const std::string& file, const Scene& scene, const EvaluationOptions& options,
                const std::filesystem::path& error_map, Job& job) {
   job.progress().check();
-  job.progress().step("judging " + file);
+  job.progress().step("evaluating " + file);
   const LightField& light_field = *scene.light_field;
   auto estimate = std::make_shared<const Estimate>(read_result_of(light_field, file));
   EvaluationPtr evaluation;

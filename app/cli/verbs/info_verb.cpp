@@ -183,11 +183,12 @@ void run_info(const VerbArguments& arguments, std::stop_token stop) {
   bool is_json = false;
   JobOptions job_options;
   ReadOptions read;
-  Arguments parser("info", {"Tells what a light field holds, how it was read and how that was "
-                            "checked.",
-                            "episcope-cli info demo --json"});
+  Arguments parser("info",
+                   {"Describes a light field: what it contains, how it was read and how that "
+                    "was checked.",
+                    "episcope-cli info demo --json"});
   parser.positional("INPUT", input, "The light field");
-  parser.flag("--json", is_json, "One JSON object instead of lines");
+  parser.flag("--json", is_json, "Print one JSON object instead of lines");
   if (!parse_reading(parser, arguments, job_options, read)) return;
 
   const Scene scene = [&] {

@@ -34,20 +34,20 @@ struct Request {
 
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser("label",
-                   {"Segments all views of a light field by what is painted on some of them, and\n"
+                   {"Segments all views of a light field from scribbles on some of them, and\n"
                     "writes a file of labels and their probabilities.",
                     "episcope-cli label demo -o labels.h5 --features image"});
   parser.positional("INPUT", request.input, "The light field");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "File of labels to write");
   parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
-                "What is painted; by default the scribbles that lie beside INPUT");
+                "File of scribbles; by default the one next to INPUT");
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
-              "Write labels alone: probabilities take four bytes for each ray and label");
-  parser.flag("--json", request.is_json, "One JSON object instead of a table");
+              "Write labels only; probabilities take four bytes per ray and label");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
   ParameterOptions options;
   parser.heading("Parameters");
@@ -55,7 +55,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   request.parameters = schema.parse(options.values());
   if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
-    throw UsageError("label: --features image+truth takes the truth, so --disparity has no use");
+    throw UsageError(
+        "label: --features image+truth uses the ground truth, so --disparity would have no effect");
   }
   return true;
 }
@@ -75,7 +76,7 @@ Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& p
   }
   if (scene.scribbles.empty()) {
     throw InvalidInput(request.input +
-                       " has no scribbles beside it; name a file of them with --scribbles");
+                       " has no scribbles next to it; name a file of scribbles with --scribbles");
   }
   return std::move(scene.scribbles);
 }

@@ -57,7 +57,7 @@ void run_methods(const VerbArguments& arguments, std::stop_token) {
   bool is_json = false;
   Arguments parser("methods",
                    {"Lists every estimator with its parameters.", "episcope-cli methods --json"});
-  parser.flag("--json", is_json, "One JSON object instead of a table");
+  parser.flag("--json", is_json, "Print one JSON object instead of a table");
   if (!parser.parse(arguments)) return;
   Json list = Json::array();
   for (const auto& method : registered_estimators()) {

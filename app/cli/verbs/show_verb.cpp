@@ -91,17 +91,16 @@ void complete(Request& request) {
 }
 
 bool parse(const VerbArguments& arguments, Request& request) {
-  Arguments parser("show",
-                   {"Writes a picture of a light field, of a result or of labels, as the window "
-                    "shows it.",
-                    "episcope-cli show demo.h5 -o error.png --what error"});
+  Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
+                            "shows it.",
+                            "episcope-cli show demo.h5 -o error.png --what error"});
   parser.positional("INPUT|RESULT", request.map.subject, "A light field, a result, or labels");
   parser.required_option("-o,--output", request.output, text_value("OUT.png"), "Picture to write");
   parser.option("--what", request.what, what_value(),
                 "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
                 "of labels");
   parser.option("--view", request.map.view, view_value(),
-                "Camera row and column; by default the centre");
+                "Camera row and column; by default the centre view");
   parser.option("--row", request.row, index_value("Y"), "Image row of a horizontal EPI");
   parser.option("--column", request.column, index_value("X"), "Image column of a vertical EPI");
   parser.exclude_each_other({"--row", "--column"});
@@ -110,17 +109,17 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
                 "Colour map");
   parser.option("--truth", request.map.truth, text_value("INPUT"),
-                "Light field of a RESULT; by default the one that its file names");
+                "Light field of a RESULT; by default the one named in its file");
   parser.option(
       "--layer", request.layer,
       choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
-      "Which disparity of a light field or result in two layers");
+      "Which layer to show where there are two");
   parser.option("--label", request.map.label, integer_value("N", 1, kMost),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
-                "For a difference: what is subtracted");
+                "For a difference: the result to subtract");
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
-                "Lay the map over the view, with an opacity from 0 to 1");
+                "Overlay the map on the view, with an opacity from 0 to 1");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   complete(request);
   return true;

@@ -30,8 +30,8 @@ struct Request {
 
 std::string list_of_scenes() {
   std::string list =
-      "Renders a built-in scene with exact truth, as lf.h5 of the archive form, with\n"
-      "labels.h5 beside it if the scene has labels. Scenes:\n";
+      "Renders a built-in scene with exact ground truth as lf.h5 in the archive form, with\n"
+      "labels.h5 next to it if the scene has labels. Scenes:\n";
   for (const auto& scene : scenes::builtin_scenes()) {
     list += "  " + scene.id + ": " + scene.summary + "\n";
   }
@@ -50,11 +50,10 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--size", request.size, extent_value("WxH", kMostPixels),
                 "Pixels of a view (default 512x512)");
   parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
-                "Gaussian noise in grey levels of 255 (default 0)");
+                "Standard deviation of Gaussian noise, in grey levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
                 "Seed of the noise (default 1)");
-  parser.flag("--overwrite", request.overwrite, Overwrite::Yes,
-              "Replace a light field that is there");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);
 }

@@ -69,7 +69,7 @@ expect("a light field is no submission" 1 ERR "light/edge.h5: holds a light fiel
 expect("a broken submission again" 1 ERR "any.pfm"
        ARGS benchmark edge --methods epi_l -o subs --submission theirs --submission bad)
 file(READ "${WORK}/subs/index.html" page)
-if(NOT page MATCHES "What failed.*any.pfm")
+if(NOT page MATCHES "Failures.*any.pfm")
   fail_case("the page does not tell the failure")
 endif()
 
@@ -101,9 +101,9 @@ expect("no such method" 2 ERR "no method 'epi_x'.*epi_" ARGS benchmark edge --me
 expect("no such scene" 1 ERR "nowhere: " ARGS benchmark edge nowhere --methods epi_l -o o)
 expect("no such built-in scene" 2 ERR "did you mean 'edge'"
        ARGS benchmark demo:edg --methods epi_l -o o)
-expect("no such submission" 1 ERR "none: is no folder"
+expect("no such submission" 1 ERR "none: is not a folder"
        ARGS benchmark edge --methods epi_l -o o --submission none)
-expect("a folder of other things" 1 ERR "theirs: holds other things"
+expect("a folder of other things" 1 ERR "theirs: contains something other"
        ARGS benchmark edge --methods epi_l -o theirs)
 expect("no output" 2 ARGS benchmark edge --methods epi_l)
 if(EXISTS "${WORK}/o")

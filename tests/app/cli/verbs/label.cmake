@@ -46,5 +46,5 @@ expect("no strokes" 1 ERR "no scribbles" ARGS label edge.h5 -o no.h5)
 expect("a result of other views" 1 ERR "covers 1 of 9"
        ARGS label lf.h5 -o no.h5 --disparity center.h5)
 expect("an unknown set" 2 ERR "features" ARGS label lf.h5 -o no.h5 --features color)
-expect("truth and a result" 2 ERR "no use"
+expect("truth and a result" 2 ERR "no effect"
        ARGS label lf.h5 -o no.h5 --features image+truth --disparity l.h5)
