@@ -19,6 +19,8 @@ namespace {
 
 struct Request {
   std::string method;
+  const Estimator* estimator = nullptr;  ///< That of `method`, once all is parsed.
+  ParameterOptions parameters;
   std::string input;
   std::string output;
   bool is_json = false;
@@ -55,8 +57,8 @@ void require_method(const VerbArguments& arguments, const std::vector<Estimator>
   throw unknown_name("method", *name, ids);
 }
 
-bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& request,
-           ParameterOptions& parameters) {
+/// With the parameters of `estimator` among the options, if it is known.
+bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Request& request) {
   Arguments parser("estimate",
                    {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
                     "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
@@ -73,12 +75,28 @@ bool parse(const VerbArguments& arguments, const Estimator* estimator, Request& 
   declare_read_options(parser, request.read);
   if (estimator) {
     parser.heading("Parameters of " + estimator->info.id);
-    parameters.declare(parser, estimator->parameters);
+    request.parameters.declare(parser, estimator->parameters);
   }
   return parser.parse(arguments);
 }
 
-ViewSelection selected_views(const Request& request, const Estimator& estimator) {
+bool parse(const VerbArguments& arguments, const std::vector<Estimator>& estimators,
+           Request& request) {
+  const Estimator* first = method_among(arguments, estimators);
+  if (!first) require_method(arguments, estimators);
+  if (!parse_as(first, arguments, request)) return false;
+  request.estimator = find(estimators, request.method);
+  if (request.estimator && request.estimator == first) return true;
+  // Another argument, like the name of the output, is an id as well.
+  if (!request.estimator) require_method({request.method}, estimators);
+  const Estimator* named = request.estimator;
+  request = {};
+  request.estimator = named;
+  return parse_as(named, arguments, request);
+}
+
+ViewSelection selected_views(const Request& request) {
+  const Estimator& estimator = *request.estimator;
   const bool can_all = estimator.info.all_views;
   if (!request.job.run.is_given("views")) {
     return can_all ? ViewSelection::All : ViewSelection::Center;
@@ -138,24 +156,13 @@ void print_answer(const Request& request, const Estimate& estimate, ViewIndex ce
 
 void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const std::vector<Estimator> estimators = registered_estimators();
-  const Estimator* estimator = method_among(arguments, estimators);
-  if (!estimator) require_method(arguments, estimators);
   Request request;
-  ParameterOptions parameters;
-  if (!parse(arguments, estimator, request, parameters)) return;
-  if (!estimator || request.method != estimator->info.id) {
-    // Another argument, like the name of the output, is an id as well.
-    estimator = find(estimators, request.method);
-    if (!estimator) require_method({request.method}, estimators);
-    parameters = {};
-    request = {};
-    if (!parse(arguments, estimator, request, parameters)) return;
-  }
-  const ParameterSet values = parameters.values();
+  if (!parse(arguments, estimators, request)) return;
+  const Estimator& estimator = *request.estimator;
   RunOptions options = request.job.run_options();
-  options.views = selected_views(request, *estimator);
+  options.views = selected_views(request);
   // The method asks as well, but not before the light field is loaded.
-  require_device(options.device, estimator->info);
+  require_device(options.device, estimator.info);
   check_hdf5_output("estimate", request.output);
   check_result_output(request.output);
   protect_input(request.output, request.input);
@@ -164,10 +171,9 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const Progress& progress = job.progress();
   options.threads = progress.threads();
   const LightFieldPtr light_field = load_light_field(request, job);
+  const EstimateRequest run{estimator.info.id, request.parameters.values(), options};
   const EstimatePtr estimate =
-      run_estimator(*light_field, *estimator, {estimator->info.id, values, options},
-                    progress.part(0.3, 0.9))
-          .estimate;
+      run_estimator(*light_field, estimator, run, progress.part(0.3, 0.9)).estimate;
   progress.step("writing " + request.output);
   save_result(request.output, *estimate, request.input, progress.part(0.9, 1));
   for (const auto& note : estimate->notes) job.note(note);
