@@ -37,8 +37,8 @@ class Arguments {
     add_flag({names, {}, help}, [&value, meaning](const std::string&) { value = meaning; });
   }
 
-  /// An option with a value. Of several, the last counts. An empty text leaves a variable that may
-  /// be empty as it is.
+  /// An option with a value, one of whose names is long. Of several values the last counts. An
+  /// empty text leaves a variable that may be empty as it is.
   template <class T, class Typed>
   void option(const std::string& names, T& value, const OptionValue<Typed>& typed,
               const std::string& help) {
