@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/usage_error.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/interrupt.h"
-#include "app/cli/usage_error.h"
-#include "app/cli/verbs.h"
+#include "app/cli/verbs/verbs.h"
 #include "engine/core/version.h"
 
 #include <exception>
@@ -14,34 +14,16 @@ namespace {
 using namespace episcope;
 using namespace episcope::cli;
 
-struct Verb {
-  const char* name;
-  const char* summary;
-  void (*run)(const VerbArguments&, std::stop_token);
-};
-
-constexpr Verb kVerbs[] = {
-    {"info", "What a light field holds, and how it was read", run_info},
-    {"methods", "Every estimator with its parameters", run_methods},
-    {"estimate", "Estimate disparity and write a result file", run_estimate},
-    {"evaluate", "Judge results against the truth", run_evaluate},
-    {"show", "Write a picture of a light field or a result", run_show},
-    {"convert", "Write a light field or a result in another format", run_convert},
-    {"synthesize", "Render a built-in scene with exact truth", run_synthesize},
-    {"label", "Segment a light field by what is painted on it", run_label},
-    {"benchmark", "Rank methods over scenes: tables, pictures, parameter search", run_benchmark},
-};
-
 void print_help(std::ostream& out) {
-  out << "Estimates and judges disparity of 4D light fields.\n"
+  out << "Estimates and evaluates disparity in 4D light fields.\n"
          "Usage: episcope-cli VERB ...\n\n"
          "INPUT is an lf.h5, a scene folder of the 2013 archive, a folder of the 2016 benchmark,\n"
          "a folder of images on a grid, demo, or demo:<scene> for a built-in scene.\n\nVerbs:\n";
-  for (const Verb& verb : kVerbs) {
+  for (const Verb& verb : verbs()) {
     out << "  " << verb.name << std::string(12 - std::string(verb.name).size(), ' ') << verb.summary
         << '\n';
   }
-  out << "\nOptions:\n  -h,--help   Print this, or the help of a verb after it, and exit\n"
+  out << "\nOptions:\n  -h,--help   Print this help, or after a verb its help, and exit\n"
          "  --version   Print the version and exit\n\n"
          "Example:\n  episcope-cli estimate epi_s demo -o demo.h5\n"
          "  episcope-cli evaluate demo.h5 --truth demo\n";
@@ -49,7 +31,7 @@ void print_help(std::ostream& out) {
 
 void run_verb(const std::string& name, const VerbArguments& arguments, std::stop_token stop) {
   std::vector<std::string> names;
-  for (const Verb& verb : kVerbs) {
+  for (const Verb& verb : verbs()) {
     if (name == verb.name) return verb.run(arguments, std::move(stop));
     names.emplace_back(verb.name);
   }
@@ -90,7 +72,7 @@ int main(int argc, char** argv) {
     std::cerr << "episcope-cli: cancelled\n";
     return kCancelled;
   } catch (const std::bad_alloc&) {
-    return fail(Error("the memory does not suffice for this light field"), kFailed);
+    return fail(Error("not enough memory for this light field"), kFailed);
   } catch (const std::exception& error) {
     return fail(error, kFailed);
   }

@@ -2,6 +2,7 @@
 #include "app/session/labels/labeling_inputs.h"
 
 #include "app/session/run/read_result.h"
+#include "app/session/run/result_reading.h"
 #include "app/session/run/run_estimator.h"
 #include "engine/core/error.h"
 #include "engine/io/archive/companions.h"
@@ -27,8 +28,8 @@ std::shared_ptr<const DisparityField> true_field(const Scene& scene) {
   return {scene.truth, &scene.truth->field};
 }
 
-std::shared_ptr<const DisparityField> field_of(EstimatePtr estimate) {
-  return {estimate, &estimate->field};
+LabelingDisparity disparity_of(EstimatePtr estimate, const std::string& origin) {
+  return {{estimate, &estimate->field}, origin, estimate};
 }
 
 }  // namespace
@@ -37,16 +38,17 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
                                           const std::filesystem::path& result_file,
                                           const Progress& progress) {
   const LightField& lf = *scene.light_field;
-  if (parameters.features == FeatureSet::ImageTruth) return {true_field(scene), "truth"};
+  if (parameters.features == FeatureSet::ImageTruth) return {true_field(scene), "truth", nullptr};
   if (!result_file.empty()) {
     const std::string name = result_file.string();
-    auto estimate = std::make_shared<const Estimate>(read_result_of(lf, result_file));
-    check_fits(*estimate, lf, name);
-    require_all_views(estimate->field, lf, name);
-    return {field_of(std::move(estimate)), name};
+    Estimate estimate = read_result_of(lf, result_file);
+    check_fits(estimate, lf, name);
+    require_all_views(estimate.field, lf, name);
+    bring_to_focus(estimate, lf, progress);
+    return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);
   }
-  const FinishedEstimate finished = run_estimator(lf, {kLabelingEstimator, {}, {}}, progress);
-  return {field_of(finished.estimate), kLabelingEstimator};
+  return disparity_of(run_estimator(lf, {kLabelingEstimator, {}, {}}, progress).estimate,
+                      kLabelingEstimator);
 }
 
 bool has_edge_weights(const Scene& scene) {

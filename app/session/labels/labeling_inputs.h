@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/labeling/labeler.h"
 
@@ -16,16 +17,17 @@ namespace episcope {
 /// the parameters say so.
 struct LabelingDisparity {
   std::shared_ptr<const DisparityField> field;
-  std::string origin;  ///< "truth", "epi_c", or the file it was read from.
+  std::string origin;    ///< "truth", "epi_c", or the file it was read from.
+  EstimatePtr estimate;  ///< What `field` is part of; null for the truth.
 };
 
 /// The method that estimates disparity for labels where none is given.
 inline constexpr const char* kLabelingEstimator = "epi_c";
 
 /// What the set of features asks for: the truth for FeatureSet::ImageTruth, else the result in
-/// `result_file`, else an estimate of all views by kLabelingEstimator. Throws InvalidInput if the
-/// scene has no true disparity of all views or the result does not fit or covers fewer views;
-/// IoError, Cancelled.
+/// `result_file`, brought to the focus plane of the scene, else an estimate of all views by
+/// kLabelingEstimator. Throws InvalidInput if the scene has no true disparity of all views or the
+/// result does not fit or covers fewer views; IoError, Cancelled.
 [[nodiscard]] LabelingDisparity find_labeling_disparity(const Scene& scene,
                                                         const LabelerParameters& parameters,
                                                         const std::filesystem::path& result_file,

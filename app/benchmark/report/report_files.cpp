@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/report/report_files.h"
+
+#include "app/benchmark/report/html_page.h"
+#include "app/benchmark/report/report_json.h"
+#include "engine/evaluation/tables/search_tables.h"
+#include "engine/io/durable/atomic_file.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+}  // namespace
+
+std::vector<TitledTable> report_tables(const BenchmarkReport& report) {
+  std::vector<TitledTable> tables = benchmark_tables(report.results);
+  for (auto& table : search_tables(report.searched)) tables.push_back(std::move(table));
+  return tables;
+}
+
+std::string tables_to_csv(const std::vector<TitledTable>& tables) {
+  std::string text;
+  for (const TitledTable& titled : tables) {
+    if (!text.empty()) text += "\n";
+    text += table_to_csv({{titled.title}, {}}) + table_to_csv(titled.table);
+  }
+  return text;
+}
+
+std::string tables_to_latex(const std::vector<TitledTable>& tables) {
+  std::string text;
+  for (const TitledTable& titled : tables) {
+    text += (text.empty() ? "% " : "\n% ") + titled.title + "\n";
+    if (!titled.note.empty()) text += "% " + titled.note + "\n";
+    text += table_to_latex(titled.table);
+  }
+  return text;
+}
+
+void write_report(const std::filesystem::path& folder, const BenchmarkReport& report) {
+  const std::vector<TitledTable> tables = report_tables(report);
+  write_text(folder / "tables.csv", tables_to_csv(tables));
+  write_text(folder / "tables.tex", tables_to_latex(tables));
+  write_text(folder / "results.csv", table_to_csv(results_table(report.results)));
+  write_text(folder / "results.json", report_to_json(report));
+  write_text(folder / "index.html", html_page(report, tables));
+}
+
+}  // namespace episcope

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/report/report_json.h"
+
+#include "app/benchmark/report/scene_files.h"
+#include "engine/core/version.h"
+#include "engine/evaluation/tables/benchmark_tables.h"
+#include "engine/evaluation/tables/search_tables.h"
+#include "engine/io/maps/result_file.h"
+
+#include <nlohmann/json.hpp>
+
+namespace episcope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json point_json(const ParameterSet& point) {
+  return Json::parse(io::parameters_to_json(point));
+}
+
+Json scene_json(const BenchmarkScene& scene) {
+  Json json{{"name", scene.name}, {"input", scene.input}};
+  if (!scene.shape.empty()) json["shape"] = scene.shape;
+  if (!scene.problem.empty()) json["problem"] = scene.problem;
+  return json;
+}
+
+Json result_json(const BenchmarkResult& result) {
+  Json json{{"entry", result.entry}, {"scene", result.scene}, {"foreign", result.is_foreign}};
+  if (result.seconds > 0) json["seconds"] = result.seconds;
+  json["all_views"] = result.has_all_views;
+  for (const auto& [protocol, metrics] :
+       {std::pair{Protocol::Vmv2013, &result.vmv2013},
+        std::pair{Protocol::Benchmark2016, &result.benchmark2016}}) {
+    for (const auto& [key, value] : *metrics) json[protocol_name(protocol)][key] = value;
+  }
+  if (!result.problem.empty()) json["problem"] = result.problem;
+  if (result.has_failed) json["failed"] = true;
+  if (!result.notes.empty()) json["notes"] = result.notes;
+  return json;
+}
+
+Json ranking_json(const BenchmarkReport& report) {
+  const ScoreMatrix matrix = score_matrix(report.results, Protocol::Vmv2013, "mse_100");
+  const Ranking ranking = rank_entries(matrix, kScoreDigits);
+  Json scenes = Json::array();
+  for (const std::size_t scene : ranking.scenes) scenes.push_back(matrix.scenes[scene]);
+  Json entries = Json::array();
+  for (const std::size_t entry : ranking.order) {
+    Json json{{"entry", matrix.entries[entry]}};
+    if (ranking.ranks[entry] > 0) json["rank"] = ranking.ranks[entry];
+    if (ranking.averages[entry]) json["mse_100"] = *ranking.averages[entry];
+    entries.push_back(json);
+  }
+  return {{"scenes", scenes}, {"entries", entries}};
+}
+
+Json choice_json(const MethodSearch& search, const std::optional<std::size_t>& point,
+                 std::size_t scene) {
+  if (!point) return nullptr;
+  const auto& score = search.scores[*point][scene];
+  return {{"point", *point}, {"mse_100", score ? Json(*score) : Json(nullptr)}};
+}
+
+Json search_json(const MethodSearch& search) {
+  Json json{{"method", search.method}, {"points", Json::array()}, {"scenes", Json::array()}};
+  for (const ParameterSet& point : search.points) json["points"].push_back(point_json(point));
+  for (std::size_t scene = 0; scene < search.scenes.size(); ++scene) {
+    Json scores = Json::array();
+    for (const auto& point : search.scores) {
+      scores.push_back(point[scene] ? Json(*point[scene]) : Json(nullptr));
+    }
+    json["scenes"].push_back(
+        {{"scene", search.scenes[scene]},
+         {"mse_100", scores},
+         {"default", choice_json(search, std::size_t{0}, scene)},
+         {"p_opt", choice_json(search, search.choice.per_scene[scene], scene)},
+         {"p_fix", choice_json(search, search.choice.equal, scene)},
+         {"loso", choice_json(search, search.choice.leave_one_out[scene], scene)}});
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string report_to_json(const BenchmarkReport& report) {
+  Json json{{"program", "episcope"}, {"version", kVersion}};
+  json["scenes"] = Json::array();
+  for (const auto& scene : report.scenes) json["scenes"].push_back(scene_json(scene));
+  json["ranking"] = ranking_json(report);
+  json["results"] = Json::array();
+  for (const auto& result : report.results) json["results"].push_back(result_json(result));
+  if (!report.searched.empty()) {
+    json["search"] = Json::array();
+    for (const MethodSearch& search : gather_searches(report.searched)) {
+      json["search"].push_back(search_json(search));
+    }
+  }
+  json["failures"] = report.failures();
+  // Names of files may be any bytes: those that are not UTF-8 become the replacement character.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace episcope

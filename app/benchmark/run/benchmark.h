@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/benchmark/report/report.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/disparity/common/estimator.h"
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+struct BenchmarkOptions {
+  std::vector<std::string> inputs;
+  std::vector<Estimator> methods;
+  std::vector<std::filesystem::path> submissions;  ///< Folders, see submission.h.
+  std::filesystem::path folder;                    ///< Where everything is written.
+  /// Views of the runs for the tables: all gives the times of figure 8. Points of a search always
+  /// estimate the centre view alone.
+  ViewSelection views = ViewSelection::All;
+  bool has_search = false;
+};
+
+/// Opens one of the inputs.
+using SceneLoader = std::function<Scene(const std::string& input, const Progress&)>;
+
+/// Runs every method with its default parameters on every scene, judges it and the submissions in
+/// the centre view by both protocols, with `has_search` also tries every point of `search_grid`,
+/// and writes tables, pictures and maps into the folder, renewed after every scene. One scene is in
+/// memory at a time.
+///
+/// What fails (a scene, a method, a submission, a point) is a sentence in the report, the others go
+/// on. Finished runs are in the log of the folder and are not computed again by a later call,
+/// unless samples, truth, parameters, method or program changed; failed ones are tried again. The
+/// program may be ended at any moment. Throws IoError if the folder cannot be written or holds
+/// something else, Cancelled.
+[[nodiscard]] BenchmarkReport run_benchmark(const BenchmarkOptions& options,
+                                            const SceneLoader& load, const Progress& progress);
+
+/// Refuses a folder that is there and holds other things than a benchmark. Throws IoError.
+void check_benchmark_folder(const std::filesystem::path& folder);
+
+}  // namespace episcope

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/run/record.h"
+
+#include "app/benchmark/run/scene_fingerprint.h"
+#include "engine/core/error.h"
+#include "engine/core/version.h"
+#include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/result_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json metrics_json(const Metrics& metrics) {
+  Json json = Json::object();
+  for (const auto& [key, value] : metrics) json[key] = value;
+  return json;
+}
+
+Metrics metrics_from(const Json& json) {
+  Metrics metrics;
+  for (const auto& [key, value] : json.items()) metrics.emplace_back(key, value.get<double>());
+  return metrics;
+}
+
+BenchmarkRecord read_record(const Json& json) {
+  BenchmarkRecord record;
+  record.key = json.at("key");
+  record.input = json.at("input");
+  record.files = json.at("files");
+  BenchmarkRun& run = record.run;
+  run.is_search = json.at("kind") == "search";
+  run.method = json.at("method");
+  run.revision = json.at("revision");
+  run.parameters = io::parameters_from_json(json.at("parameters").dump());
+  run.views = value_named<ViewSelection>(json.at("views"));
+  BenchmarkResult& result = record.result;
+  result.entry = run.method;
+  result.scene = json.at("scene");
+  result.seconds = json.at("seconds");
+  result.has_all_views = run.views == ViewSelection::All;
+  result.vmv2013 = metrics_from(json.at("vmv2013"));
+  result.benchmark2016 = metrics_from(json.at("benchmark2016"));
+  result.problem = json.at("problem");
+  result.has_failed = json.at("failed");
+  result.notes = json.at("notes");
+  return record;
+}
+
+}  // namespace
+
+BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point, ViewSelection views,
+                      bool is_search) {
+  BenchmarkRun run{is_search, estimator.info.id, estimator.info.revision, {}, views};
+  for (const auto& parameter : estimator.parameters) {
+    const auto set = std::find_if(point.begin(), point.end(),
+                                  [&](const auto& value) { return value.first == parameter.key; });
+    run.parameters.emplace_back(parameter.key,
+                                set == point.end() ? parameter.default_value : set->second);
+  }
+  return run;
+}
+
+std::string record_key(const BenchmarkRun& run, const std::string& fingerprint) {
+  std::string text = run.is_search ? "search" : "run";
+  for (const std::string& part :
+       {fingerprint, run.method, io::parameters_to_json(run.parameters), name_of(run.views),
+        std::string(kVersion), std::to_string(run.revision)}) {
+    text += "\n" + part;
+  }
+  return text_fingerprint(text);
+}
+
+std::string record_to_json(const BenchmarkRecord& record) {
+  const BenchmarkResult& result = record.result;
+  Json json;
+  json["key"] = record.key;
+  json["kind"] = record.run.is_search ? "search" : "run";
+  json["scene"] = result.scene;
+  json["input"] = record.input;
+  json["method"] = record.run.method;
+  json["parameters"] = Json::parse(io::parameters_to_json(record.run.parameters));
+  json["views"] = name_of(record.run.views);
+  json["version"] = kVersion;
+  json["revision"] = record.run.revision;
+  json["seconds"] = result.seconds;
+  json["vmv2013"] = metrics_json(result.vmv2013);
+  json["benchmark2016"] = metrics_json(result.benchmark2016);
+  json["problem"] = result.problem;
+  json["failed"] = result.has_failed;
+  json["notes"] = result.notes;
+  json["files"] = record.files;
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::optional<BenchmarkRecord> record_from_json(const std::string& line) {
+  try {
+    return read_record(Json::parse(line));
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  } catch (const InvalidInput&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/run/scene_fingerprint.h"
+
+#include "engine/core/hash/fnv1a.h"
+
+#include <string_view>
+
+namespace episcope {
+namespace {
+
+class Fingerprint {
+ public:
+  void add(std::string_view bytes) { hash_.add(bytes); }
+  template <class T>
+  void add_value(const T& value) {
+    add({reinterpret_cast<const char*>(&value), sizeof value});
+  }
+  template <class T>
+  void add_image(ImageView<const T> image) {
+    add_value(image.height);
+    add_value(image.width);
+    for (int y = 0; y < image.height; ++y) {
+      const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
+      add({reinterpret_cast<const char*>(image.row(y)), count * sizeof(T)});
+    }
+  }
+  [[nodiscard]] std::string text() const { return hash_digits(hash_.value()); }
+
+ private:
+  Fnv1a hash_;
+};
+
+/// The view that is judged: the centre, else the only one that there is.
+void add_truth(Fingerprint& fingerprint, const DisparityField& field, ViewIndex center) {
+  if (field.empty()) return;
+  const DisparityView view = field.view(field.contains(center) ? center : field.disparity.first());
+  fingerprint.add_image(view.disparity);
+  if (!view.valid.empty()) fingerprint.add_image(view.valid);
+}
+
+}  // namespace
+
+std::string scene_fingerprint(const Scene& scene) {
+  const LightField& light_field = *scene.light_field;
+  const GroundTruth& truth = *scene.truth;
+  Fingerprint fingerprint;
+  fingerprint.add_value(light_field.sample_hash());
+  const CameraGrid& camera = light_field.info().camera;
+  for (const double number : {camera.baseline, camera.focal_length, camera.shift}) {
+    fingerprint.add_value(number);
+  }
+  const Interval range = light_field.info().disparity_range.value_or(Interval{});
+  fingerprint.add_value(range.min);
+  fingerprint.add_value(range.max);
+  for (const DisparityField* field : {&truth.field, &truth.foreground, &truth.background}) {
+    add_truth(fingerprint, *field, light_field.center());
+    fingerprint.add("|");
+  }
+  for (const auto& [name, mask] : truth.regions) {
+    fingerprint.add(name);
+    fingerprint.add_image(mask.view());
+  }
+  return fingerprint.text();
+}
+
+std::string text_fingerprint(const std::string& text) {
+  Fingerprint fingerprint;
+  fingerprint.add(text);
+  return fingerprint.text();
+}
+
+}  // namespace episcope

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+
+#include "app/cli/arguments/usage_error.h"
+#include "engine/core/parameter/parameter.h"
+#include "engine/core/text/join.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <deque>
+#include <iostream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace episcope::cli {
+namespace {
+
+bool is_number_like(const std::string& text) {
+  return text.size() > 1 && text[0] == '-' &&
+         (std::isdigit(static_cast<unsigned char>(text[1])) != 0 || text[1] == '.');
+}
+
+std::string name_of(const std::string& argument) {
+  return argument.substr(0, argument.find('='));
+}
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Help whose columns stand below each other where a name has letters of several bytes ("0 … 1").
+class HelpFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    const std::string name = make_option_name(option, is_positional) + make_option_opts(option);
+    const std::size_t more_bytes = std::ranges::count_if(
+        name, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; });
+    const std::size_t column = get_column_width();
+    const bool fits = name.size() - more_bytes < column;
+    std::ostringstream line;
+    CLI::detail::format_help(line, name, make_option_desc(option),
+                             fits ? column + more_bytes : column);
+    return line.str();
+  }
+};
+
+}  // namespace
+
+struct Arguments::State {
+  State(const std::string& verb_name, const Text& text)
+      : verb(verb_name), app(text.summary, "episcope-cli " + verb_name) {
+    app.footer("Example:\n  " + text.example);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_help_flag("-h,--help", "Print this help and exit");
+    takes_value["-h"] = takes_value["--help"] = false;
+  }
+
+  CLI::Option* declare(CLI::Option* added, const std::string& names, bool with_value) {
+    for (const auto& name : CLI::detail::split(names, ',')) takes_value[name] = with_value;
+    return added->group(group);
+  }
+
+  /// Values are read after all else was found right: whoever asks for help gets it.
+  void assign_values() const {
+    for (const Given& each : given) {
+      if (each.option->count() > 0) each.assign(each.text);
+    }
+  }
+
+  void check_exclusions() const {
+    for (const auto& names : exclusions) {
+      const auto count = std::ranges::count_if(
+          names, [this](const std::string& name) { return app.get_option(name)->count() > 0; });
+      if (count < 2) continue;
+      const std::vector<std::string> others(names.begin(), names.end() - 1);
+      throw UsageError(verb + ": " + joined(others, ", ") + " and " + names.back() +
+                       " exclude each other");
+    }
+  }
+
+  /// Refuses options that do not exist, whatever else is wrong, and binds negative numbers to the
+  /// option before them.
+  [[nodiscard]] std::vector<std::string> checked(const std::vector<std::string>& arguments) const {
+    std::vector<std::string> result;
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+      std::string argument = arguments[i];
+      if (argument.size() > 1 && argument[0] == '-' && !is_number_like(argument)) {
+        check_option(name_of(argument));
+        const auto found = takes_value.find(argument);
+        if (found != takes_value.end() && found->second && i + 1 < arguments.size() &&
+            is_number_like(arguments[i + 1])) {
+          argument += (argument.starts_with("--") ? "=" : "") + arguments[++i];
+        }
+      }
+      result.push_back(argument);
+    }
+    return result;
+  }
+
+  void check_option(const std::string& name) const {
+    const bool is_long = name.starts_with("--");
+    // "-oFILE" is "-o FILE".
+    if (takes_value.contains(is_long ? name : name.substr(0, 2))) return;
+    std::vector<std::string> names;
+    for (const auto& [known, with_value] : takes_value) {
+      if (known.starts_with("--")) names.push_back(known.substr(2));
+    }
+    const std::string nearest = nearest_name(name.substr(name.find_first_not_of('-')), names);
+    throw UsageError(verb + " has no option '" + name + "'; " +
+                     (nearest.empty() ? "see episcope-cli " + verb + " --help"
+                                      : "did you mean '--" + nearest + "'?"));
+  }
+
+  std::string verb;
+  CLI::App app;
+  std::string group = "Options";
+  std::map<std::string, bool> takes_value;
+
+  /// An option with a value, or a flag that stands for one.
+  struct Given {
+    CLI::Option* option = nullptr;
+    std::string text{};
+    Assign assign;
+  };
+  std::deque<Given> given;  // a deque, because CLI11 keeps the addresses of texts
+  std::vector<std::vector<std::string>> exclusions;
+};
+
+Arguments::Arguments(const std::string& verb, const Text& text)
+    : state_(std::make_unique<State>(verb, text)) {}
+
+Arguments::~Arguments() = default;
+
+void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
+  state_->app.add_option(name, value, help)->required()->option_text(" ");
+}
+
+void Arguments::positionals(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help) {
+  state_->app.add_option(name, values, help)->required()->option_text(" ");
+}
+
+void Arguments::flag(const std::string& names, bool& value, const std::string& help) {
+  state_->declare(state_->app.add_flag(names, value, help), names, false);
+}
+
+void Arguments::add_flag(const OptionText& text, Assign assign) {
+  auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
+  given.option = state_->declare(state_->app.add_flag(text.names, text.help), text.names, false);
+}
+
+void Arguments::add_option(const OptionText& text, Assign assign, Need need) {
+  auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
+  given.option =
+      state_->declare(state_->app.add_option(text.names, given.text, text.help), text.names, true)
+          ->take_last()
+          ->option_text(text.value_name)
+          ->required(need == Need::Required);
+}
+
+void Arguments::list_option(const std::string& names, std::vector<std::string>& values,
+                            const std::string& value_name, const std::string& help) {
+  state_->declare(state_->app.add_option(names, values, help), names, true)
+      ->option_text(value_name);
+}
+
+void Arguments::exclude_each_other(const std::vector<std::string>& names) {
+  state_->exclusions.push_back(names);
+}
+
+void Arguments::heading(const std::string& text) {
+  state_->group = text;
+}
+
+bool Arguments::parse(const std::vector<std::string>& arguments) {
+  std::vector<std::string> left = state_->checked(arguments);
+  std::reverse(left.begin(), left.end());  // as CLI11 wants them
+  try {
+    state_->app.parse(left);
+  } catch (const CLI::CallForHelp&) {
+    std::cout << state_->app.help();
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(state_->verb + ": " + one_line(error.what()) + "; see episcope-cli " +
+                     state_->verb + " --help");
+  }
+  state_->assign_values();
+  state_->check_exclusions();
+  return true;
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/cli/arguments/option_value.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace episcope::cli {
+
+/// The arguments of one verb: declares what there is, then parses. Values land in the variables
+/// given, which must outlive `parse` and keep what they hold where an option is not given. Names
+/// are as typed: "--views", or "-o,--output".
+class Arguments {
+ public:
+  struct Text {
+    std::string summary;
+    std::string example;  ///< A command line that works, or several lines of them.
+  };
+
+  Arguments(const std::string& verb, const Text& text);
+  ~Arguments();
+  Arguments(const Arguments&) = delete;
+  Arguments& operator=(const Arguments&) = delete;
+
+  void positional(const std::string& name, std::string& value, const std::string& help);
+  /// One or more.
+  void positionals(const std::string& name, std::vector<std::string>& values,
+                   const std::string& help);
+
+  void flag(const std::string& names, bool& value, const std::string& help);
+  /// A flag that stands for a value.
+  template <class T>
+  void flag(const std::string& names, T& value, T meaning, const std::string& help) {
+    add_flag({names, {}, help}, [&value, meaning](const std::string&) { value = meaning; });
+  }
+
+  /// An option with a value, one of whose names is long. Of several values the last counts. An
+  /// empty text leaves a variable that may be empty as it is.
+  template <class T, class Typed>
+  void option(const std::string& names, T& value, const OptionValue<Typed>& typed,
+              const std::string& help) {
+    add_option({names, typed.name, help}, assignment(names, value, typed), Need::Optional);
+  }
+  template <class T, class Typed>
+  void required_option(const std::string& names, T& value, const OptionValue<Typed>& typed,
+                       const std::string& help) {
+    add_option({names, typed.name, help}, assignment(names, value, typed), Need::Required);
+  }
+  /// An option with one or more texts, which may be given several times.
+  void list_option(const std::string& names, std::vector<std::string>& values,
+                   const std::string& value_name, const std::string& help);
+
+  /// Options of which only one may be given.
+  void exclude_each_other(const std::vector<std::string>& names);
+  /// Options declared from here on stand under this heading in the help.
+  void heading(const std::string& text);
+
+  /// Returns false if help was asked for and printed. Throws UsageError, naming the nearest option
+  /// for one that does not exist, and for values that `OptionValue::read` refuses.
+  [[nodiscard]] bool parse(const std::vector<std::string>& arguments);
+
+ private:
+  struct State;
+  struct OptionText {
+    std::string names;
+    std::string value_name;
+    std::string help;
+  };
+  enum class Need { Optional, Required };
+  using Assign = std::function<void(const std::string& text)>;
+
+  /// "--output" of "-o,--output".
+  [[nodiscard]] static std::string long_name(const std::string& names) {
+    return names.substr(names.find("--"));
+  }
+  template <class T, class Typed>
+  [[nodiscard]] static Assign assignment(const std::string& names, T& value,
+                                         const OptionValue<Typed>& typed) {
+    return [&value, option = long_name(names), read = typed.read](const std::string& text) {
+      if constexpr (requires { value.reset(); }) {
+        if (text.empty()) return;
+      }
+      value = read(option, text);
+    };
+  }
+
+  void add_flag(const OptionText& text, Assign assign);
+  void add_option(const OptionText& text, Assign assign, Need need);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace episcope::cli

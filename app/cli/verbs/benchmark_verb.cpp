@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/benchmark/report/report_files.h"
+#include "app/benchmark/report/report_json.h"
+#include "app/benchmark/run/benchmark.h"
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/input.h"
+#include "app/cli/verbs/verbs.h"
+#include "engine/disparity/registry.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::vector<std::string> inputs;
+  std::vector<std::string> submissions;
+  std::vector<Estimator> methods = registered_estimators();
+  std::string output;
+  bool has_search = false;
+  bool is_json = false;
+  JobOptions job;
+  ReadOptions read;
+};
+
+/// Estimators by their ids, each once.
+std::vector<Estimator> methods_named(const std::string& list) {
+  const std::vector<Estimator> all = registered_estimators();
+  if (list == "all") return all;
+  std::vector<std::string> ids;
+  for (const Estimator& each : all) ids.push_back(each.info.id);
+  std::vector<Estimator> chosen;
+  std::istringstream names(list);
+  for (std::string name; std::getline(names, name, ',');) {
+    const auto known = std::find(ids.begin(), ids.end(), name);
+    if (known == ids.end()) throw unknown_name("method", name, ids);
+    const auto is_same = [&](const Estimator& each) { return each.info.id == name; };
+    if (std::none_of(chosen.begin(), chosen.end(), is_same)) {
+      chosen.push_back(all[known - ids.begin()]);
+    }
+  }
+  if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");
+  return chosen;
+}
+
+OptionValue<std::vector<Estimator>> methods_value() {
+  return {"ID,...",
+          [](const std::string&, const std::string& text) { return methods_named(text); }};
+}
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser(
+      "benchmark",
+      {"Runs methods on scenes, evaluates the centre view by both protocols, and writes ranked\n"
+       "tables (HTML, CSV, LaTeX, JSON), pictures and maps. Finished runs are kept: the same\n"
+       "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
+       "tables are written nevertheless.",
+       "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
+  parser.positionals("INPUT", request.inputs, "The light fields");
+  parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
+  parser.option("--methods", request.methods, methods_value(),
+                "Ids of estimators, separated by commas, or all");
+  parser.flag("--search", request.has_search,
+              "Also search for the best parameters, of each scene and of all scenes together");
+  parser.list_option("--submission", request.submissions, "DIR...",
+                     "Folders with maps from other programs, named after the scenes");
+  ParameterDescription views = run_schema().description("views");
+  views.help = "Views to estimate for the tables; all if the method can";
+  request.job.run.declare(parser, {views});
+  parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
+  return parse_reading(parser, arguments, request.job, request.read);
+}
+
+BenchmarkOptions benchmark_options(const Request& request) {
+  BenchmarkOptions options;
+  options.inputs = request.inputs;
+  options.methods = request.methods;
+  options.submissions.assign(request.submissions.begin(), request.submissions.end());
+  options.folder = request.output;
+  options.views = request.job.run_options().views;
+  options.has_search = request.has_search;
+  for (const auto& input : request.inputs) check_input(input);
+  return options;
+}
+
+/// A sentence for the exit code, if anything failed.
+void require_success(const BenchmarkReport& report, const std::string& folder) {
+  const auto failures = report.failures();
+  if (failures.empty()) return;
+  const std::string more =
+      failures.size() == 1 ? "" : " (and " + std::to_string(failures.size() - 1) + " more)";
+  std::string first = failures.front();
+  if (first.ends_with('.')) first.pop_back();
+  throw Error(first + more + "; the tables of the others are in " + folder);
+}
+
+void print_answer(const Request& request, const BenchmarkReport& report) {
+  if (request.is_json) {
+    std::cout << report_to_json(report);
+    return;
+  }
+  for (const TitledTable& titled : report_tables(report)) {
+    std::cout << titled.title << '\n';
+    if (!titled.note.empty()) std::cout << titled.note << '\n';
+    std::cout << '\n' << table_to_text(titled.table) << '\n';
+  }
+  std::cout << (std::filesystem::path(request.output) / "index.html").string() << ": "
+            << report.results.size() << " results, " << report.searched.size()
+            << " points searched, " << report.reused << " taken from before\n";
+}
+
+// What a scene does to every method is said once.
+void note_problems(const BenchmarkReport& report, Job& job) {
+  std::map<std::pair<std::string, std::string>, std::string> entries;  // by scene and problem
+  for (const auto& result : report.results) {
+    if (result.problem.empty() || result.has_failed) continue;
+    std::string& names = entries[{result.scene, result.problem}];
+    names += (names.empty() ? "" : ", ") + result.entry;
+  }
+  for (const auto& [where, names] : entries) {
+    job.note(names + " on " + where.first + ": " + where.second);
+  }
+}
+
+}  // namespace
+
+void run_benchmark(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  const BenchmarkOptions options = benchmark_options(request);
+  Job job(std::move(stop), request.job);
+  const SceneLoader load = [&](const std::string& input, const Progress& progress) {
+    Scene scene = load_input(input, request.read, progress);
+    for (const auto& warning : scene.convention.warnings) job.note(warning);
+    return scene;
+  };
+  const BenchmarkReport report = episcope::run_benchmark(options, load, job.progress());
+  note_problems(report, job);
+  job.finish();
+  require_success(report, request.output);
+  print_answer(request, report);
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/input/input.h"
+#include "app/cli/output/json.h"
+#include "app/cli/verbs/verbs.h"
+#include "app/session/scene/scene_summary.h"
+#include "engine/core/parameter/parameter.h"
+
+#include <iostream>
+#include <sstream>
+
+namespace episcope::cli {
+namespace {
+
+void add_camera(Json& json, const LightFieldInfo& info) {
+  if (const auto& camera = info.camera; camera.is_known()) {
+    json["camera"] = Json::object({{"baseline", camera.baseline},
+                                   {"focal_length", camera.focal_length},
+                                   {"shift", camera.shift}});
+    if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
+  }
+}
+
+/// Keys of what there is; what is missing has no key.
+void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
+  if (const auto& promised = scene.light_field->info().disparity_range) {
+    json["disparity_promised"] = interval_json(*promised);
+  }
+  if (summary.truth) {
+    json["truth"] = Json::object({{"views", summary.truth->views},
+                                  {"valid_percent", summary.truth->valid_percent},
+                                  {"disparity_center", interval_json(summary.truth->center)},
+                                  {"disparity", interval_json(summary.truth->all)}});
+  }
+  if (summary.has_layers) json["truth_layers"] = 2;
+  if (!summary.label_ids.empty()) {
+    json["labels"] = Json::object({{"views", summary.label_views}, {"ids", summary.label_ids}});
+  }
+  if (summary.painted_percent > 0) {
+    Json views = Json::array();
+    for (const ViewScribbles& one : scene.scribbles.views) views.push_back(view_json(one.view));
+    json["scribbles"] = Json::object({{"view", view_json(scene.scribbles.views.front().view)},
+                                      {"views", views},
+                                      {"painted_percent", summary.painted_percent},
+                                      {"ids", summary.scribble_ids}});
+  }
+  if (!scene.truth->regions.empty()) {
+    json["regions"] = Json::array();
+    for (const auto& [name, mask] : scene.truth->regions) json["regions"].push_back(name);
+  }
+}
+
+Json scene_json(const Scene& scene, const std::string& input) {
+  const SceneSummary summary = summarize(scene);
+  const LightField& light_field = *scene.light_field;
+  Json json;
+  json["input"] = input;
+  json["name"] = light_field.info().name;
+  json["format"] = scene.convention.format;
+  json["views"] = Json::object({{"v", light_field.grid().v}, {"u", light_field.grid().u}});
+  json["height"] = light_field.height();
+  json["width"] = light_field.width();
+  json["channels"] = light_field.channels();
+  json["sample_type"] = summary.sample_type;
+  json["bytes"] = light_field.byte_size();
+  add_camera(json, light_field.info());
+  add_truth(json, scene, summary);
+  json["companions"] = Json::array();
+  for (const auto& companion : scene.companions) {
+    json["companions"].push_back(Json::object({{"kind", companion_name(companion.kind)},
+                                               {"path", companion.path.string()},
+                                               {"shape", companion.shape}}));
+  }
+  json["focus"] = scene.convention.focus_px;
+  json["order"] = scene.convention.order;
+  json["order_check"] = scene.convention.order_check;
+  json["units"] = scene.convention.units;
+  json["warnings"] = scene.convention.warnings;
+  return json;
+}
+
+void print_line(const std::string& label, const std::string& text) {
+  constexpr std::size_t column = 12;
+  if (!text.empty()) std::cout << label << std::string(column - label.size(), ' ') << text << '\n';
+}
+
+std::string ids_text(const std::vector<int>& ids) {
+  std::string text;
+  for (const int id : ids) text += (text.empty() ? "" : ", ") + std::to_string(id);
+  return text;
+}
+
+void print_shape(const LightField& light_field, const SceneSummary& summary) {
+  std::ostringstream shape;
+  shape.precision(3);
+  shape << light_field.grid().v << "×" << light_field.grid().u << " views of "
+        << light_field.width() << "×" << light_field.height() << " px, "
+        << (light_field.channels() == 3 ? "RGB" : "grey") << ", " << summary.sample_type << ", "
+        << static_cast<double>(light_field.byte_size()) / (1 << 20) << " MiB";
+  print_line("shape", shape.str());
+}
+
+void print_camera(const LightFieldInfo& info) {
+  std::ostringstream camera;
+  if (!info.camera.is_known()) {
+    camera << "not known: disparity has no depth";
+  } else {
+    camera << "baseline " << info.camera.baseline << ", focal length " << info.camera.focal_length
+           << ", shift " << info.camera.shift << " px";
+    if (info.camera.cam_distance) camera << ", d = 0 at Z = " << *info.camera.cam_distance;
+  }
+  print_line("camera", camera.str());
+}
+
+std::string range_text(const Interval& range) {
+  std::ostringstream text;
+  text.precision(4);
+  text << range.min << " … " << range.max << " px";
+  return text.str();
+}
+
+void print_truth(const Scene& scene, const SceneSummary& summary) {
+  if (const auto& promised = scene.light_field->info().disparity_range) {
+    print_line("disparity", range_text(*promised) + ", as the files say");
+  }
+  if (summary.truth) {
+    std::ostringstream valid;
+    valid.precision(4);
+    valid << summary.truth->valid_percent << " % of the pixels";
+    print_line("truth", "disparity of " + summary.truth->views + " view" +
+                            (summary.truth->views == "all" ? "s" : "") + ", " + valid.str() + ", " +
+                            range_text(summary.truth->center) + " in the centre view" +
+                            (summary.truth->all == summary.truth->center
+                                 ? ""
+                                 : ", " + range_text(summary.truth->all) + " in all"));
+  } else if (!summary.has_layers) {
+    print_line("truth", "none");
+  }
+  if (summary.has_layers) print_line("truth", "two layers: foreground and background");
+  if (!summary.label_ids.empty()) {
+    print_line("labels", ids_text(summary.label_ids) + " in " + summary.label_views + " view" +
+                             (summary.label_views == "all" ? "s" : ""));
+  }
+  if (summary.painted_percent > 0) {
+    std::ostringstream painted;
+    painted.precision(3);
+    painted << summary.painted_percent << " % of view " << summary.painted_views << ", labels "
+            << ids_text(summary.scribble_ids);
+    print_line("scribbles", painted.str());
+  }
+  std::string regions;
+  for (const auto& [name, mask] : scene.truth->regions) {
+    regions += (regions.empty() ? "" : ", ") + name;
+  }
+  print_line("regions", regions);
+}
+
+void print_scene(const Scene& scene) {
+  const SceneSummary summary = summarize(scene);
+  print_line("name", scene.light_field->info().name);
+  print_line("format", scene.convention.format);
+  print_shape(*scene.light_field, summary);
+  print_camera(scene.light_field->info());
+  print_truth(scene, summary);
+  for (const auto& companion : scene.companions) {
+    print_line("beside it", std::string(companion_name(companion.kind)) + ", " + companion.shape +
+                                ", " + companion.path.filename().string());
+  }
+  if (const double focus_px = scene.convention.focus_px; focus_px != 0) {
+    print_line("focus", "a plane of " + to_text(focus_px) + " px was baked in: it has 0 now");
+  }
+  print_line("order", scene.convention.order + (scene.convention.order_check.empty()
+                                                    ? ""
+                                                    : " (" + scene.convention.order_check + ")"));
+  print_line("units", scene.convention.units);
+  for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
+}
+
+}  // namespace
+
+void run_info(const VerbArguments& arguments, std::stop_token stop) {
+  std::string input;
+  bool is_json = false;
+  JobOptions job_options;
+  ReadOptions read;
+  Arguments parser("info",
+                   {"Describes a light field: what it contains, how it was read and how that "
+                    "was checked.",
+                    "episcope-cli info demo --json"});
+  parser.positional("INPUT", input, "The light field");
+  parser.flag("--json", is_json, "Print one JSON object instead of lines");
+  if (!parse_reading(parser, arguments, job_options, read)) return;
+
+  const Scene scene = [&] {
+    const Job job(std::move(stop), job_options);
+    return load_input(input, read, job.progress());
+  }();
+  if (is_json) {
+    print_json(scene_json(scene, input));
+  } else {
+    print_scene(scene);
+  }
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/parameter_options.h"
+#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/input.h"
+#include "app/cli/input/result_input.h"
+#include "app/cli/output/json.h"
+#include "app/cli/output/output_file.h"
+#include "app/cli/verbs/verbs.h"
+#include "app/session/labels/judge_labeling.h"
+#include "app/session/labels/labeling_inputs.h"
+#include "app/session/labels/segmentation_file.h"
+#include "engine/core/error.h"
+#include "engine/core/parallel/stopwatch.h"
+#include "engine/io/labels/scribble_file.h"
+
+#include <iomanip>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string input;
+  std::string output;
+  std::string scribbles;
+  std::string disparity;
+  bool is_json = false;
+  StoredProbabilities probabilities = StoredProbabilities::All;
+  LabelerParameters parameters;
+  JobOptions job;
+  ReadOptions read;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("label",
+                   {"Segments all views of a light field from scribbles on some of them, and\n"
+                    "writes a file of labels and their probabilities.",
+                    "episcope-cli label demo -o labels.h5 --features image"});
+  parser.positional("INPUT", request.input, "The light field");
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "File of labels to write");
+  parser.option("--scribbles", request.scribbles, text_value("LABELS.h5"),
+                "File of scribbles; by default the one next to INPUT");
+  parser.option(
+      "--disparity", request.disparity, text_value("RESULT.h5"),
+      std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
+  parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
+              "Write labels only; probabilities take four bytes per ray and label");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
+  const Schema<LabelerParameters> schema = labeler_schema();
+  ParameterOptions options;
+  parser.heading("Parameters");
+  options.declare(parser, schema.descriptions());
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  request.parameters = schema.parse(options.values());
+  if (!request.disparity.empty() && request.parameters.features == FeatureSet::ImageTruth) {
+    throw UsageError(
+        "label: --features image+truth uses the ground truth, so --disparity would have no effect");
+  }
+  return true;
+}
+
+void check_output(const Request& request) {
+  check_hdf5_output("label", request.output);
+  check_labeling_output(request.output);
+  protect_input(request.output, request.input);
+  for (const std::string& file : {request.scribbles, request.disparity}) {
+    if (!file.empty()) protect_input(request.output, file);
+  }
+}
+
+Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& progress) {
+  if (!request.scribbles.empty()) {
+    return io::read_scribbles(request.scribbles, scene, progress);
+  }
+  if (scene.scribbles.empty()) {
+    throw InvalidInput(request.input +
+                       " has no scribbles next to it; name a file of scribbles with --scribbles");
+  }
+  return std::move(scene.scribbles);
+}
+
+void print_json_answer(const Request& request, const Labeling& labeling,
+                       const LabelingScores& scores, double seconds) {
+  Json json;
+  json["labels"] = labeling.probabilities.ids.size();
+  json["seconds"] = seconds;
+  if (const auto share = scores.all_views.share()) json["accuracy_all_views"] = *share;
+  if (const auto share = scores.view.share()) json["accuracy_center"] = *share;
+  if (scores.consistency) json["consistency"] = *scores.consistency;
+  if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
+  json["peak_mib"] = peak_memory_mib();
+  json["parameters"] = parameters_json(labeler_schema().values(request.parameters));
+  json["output"] = request.output;
+  print_json(json);
+}
+
+void print_text_answer(const Request& request, const Labeling& labeling,
+                       const LabelingScores& scores, double seconds) {
+  std::cout << request.output << ": " << labeling.probabilities.ids.size() << " labels in "
+            << labeling.labels.grid().count() << " views, " << std::fixed << std::setprecision(2)
+            << seconds << " s, " << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
+  std::cout << std::setprecision(2);
+  if (scores.consistency) {
+    std::cout << "consistency along rays    " << 100 * *scores.consistency << " %\n";
+  }
+  if (const auto share = scores.all_views.share()) {
+    std::cout << "accuracy of all views     " << 100 * *share << " %\n";
+  }
+  const auto share = scores.view.share();
+  if (!share) return;
+  std::cout << "accuracy of the centre    " << 100 * *share << " %\n";
+  for (const std::int32_t id : labeling.probabilities.ids) {
+    if (const auto of_label = scores.view.share(id)) {
+      std::cout << "  of label " << std::setw(3) << id << "            " << 100 * *of_label
+                << " %\n";
+    }
+  }
+}
+
+}  // namespace
+
+void run_label(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  check_input(request.input);
+  check_output(request);
+
+  Job job(std::move(stop), request.job);
+  const Progress& progress = job.progress();
+  Scene scene = load_input(request.input, request.read, progress.part(0, 0.1));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  const Scribbles scribbles = load_scribbles(request, scene, progress);
+  const Stopwatch watch;
+  const LabelingDisparity disparity = find_labeling_disparity(
+      scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
+  if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
+  Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
+  const auto labeling = std::make_shared<const Labeling>(
+      labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
+                    progress.part(0.2, 0.95)));
+  const double seconds = watch.seconds();
+  progress.step("writing " + request.output);
+  Segmentation segmentation;
+  segmentation.labeling = labeling;
+  segmentation.labels = scribbles.labels;
+  segmentation.parameters = labeler_schema().values(request.parameters);
+  write_segmentation(request.output, segmentation, request.input, request.probabilities,
+                     progress.part(0.95, 1));
+  const LabelingScores scores =
+      judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
+                     *scene.truth, disparity.field.get(), progress.part(1, 1));
+  job.finish();
+  if (request.is_json) {
+    print_json_answer(request, *labeling, scores, seconds);
+  } else {
+    print_text_answer(request, *labeling, scores, seconds);
+  }
+}
+
+}  // namespace episcope::cli

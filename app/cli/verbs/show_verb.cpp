@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/shown_map.h"
+#include "app/cli/output/output_file.h"
+#include "app/cli/verbs/verbs.h"
+#include "app/session/picture/picture.h"
+#include "app/session/run/read_result.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/labels/segmentation_file.h"
+
+#include <iostream>
+#include <limits>
+
+namespace episcope::cli {
+namespace {
+
+using render::Quantity;
+
+constexpr int kMost = std::numeric_limits<int>::max();
+
+/// What is asked for; without an id, what there is most to say of.
+struct What {
+  std::string id;  ///< As typed.
+  bool is_epi = false;
+  Quantity quantity = Quantity::View;
+};
+
+enum class Layer { Foreground, Background };
+
+struct Request {
+  std::string output;
+  What what;
+  Layer layer = Layer::Foreground;
+  ShownMap map;
+  std::optional<int> row;
+  std::optional<int> column;
+  ShadingChoice shading;
+  std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
+  JobOptions job;
+  ReadOptions read;
+};
+
+ShownKind kind_of(const Request& request) {
+  if (io::is_segmentation_file(request.map.subject)) return ShownKind::Labels;
+  const bool is_result = !request.map.truth.empty() || names_result(request.map.subject);
+  return is_result ? ShownKind::Result : ShownKind::LightField;
+}
+
+/// "disparity" and "labels" are those of what is shown: true ones of a light field.
+Quantity quantity_of(const Request& request) {
+  const ShownKind kind = request.map.kind;
+  if (request.what.id.empty()) {
+    if (kind == ShownKind::Labels) return Quantity::Segmentation;
+    return kind == ShownKind::Result ? Quantity::Disparity : Quantity::View;
+  }
+  const Quantity named = request.what.quantity;
+  const bool is_behind = request.layer == Layer::Background;
+  if (named == Quantity::TrueLabels && kind == ShownKind::Labels) return Quantity::Segmentation;
+  const bool is_true =
+      named == Quantity::Truth || (named == Quantity::Disparity && kind == ShownKind::LightField);
+  if (is_true) return is_behind ? Quantity::TruthBackground : Quantity::Truth;
+  return named == Quantity::Disparity && is_behind ? Quantity::Background : named;
+}
+
+OptionValue<int> index_value(const std::string& name) {
+  return integer_value(name, 0, kMost);
+}
+
+OptionValue<What> what_value() {
+  std::vector<Named<What>> choices{{{"epi", true, Quantity::View}, "epi"}};
+  for (const auto& info : render::quantities()) {
+    choices.push_back({{info.id, false, info.quantity}, info.id});
+  }
+  return choice_of(choices);
+}
+
+/// What follows from the options.
+void complete(Request& request) {
+  if (suffix_of(request.output) != ".png") {
+    throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
+  }
+  request.map.needs_light_field = request.opacity.has_value();
+  request.map.kind = kind_of(request);
+  request.map.quantity = quantity_of(request);
+  if (request.what.id.empty()) {
+    const bool is_of_labels = request.map.kind == ShownKind::Labels;
+    request.what.id = render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
+  }
+}
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("show", {"Writes a picture of a light field, a result or labels, as the window "
+                            "shows it.",
+                            "episcope-cli show demo.h5 -o error.png --what error"});
+  parser.positional("INPUT|RESULT", request.map.subject, "A light field, a result, or labels");
+  parser.required_option("-o,--output", request.output, text_value("OUT.png"), "Picture to write");
+  parser.option("--what", request.what, what_value(),
+                "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
+                "of labels");
+  parser.option("--view", request.map.view, view_value(),
+                "Camera row and column; by default the centre view");
+  parser.option("--row", request.row, index_value("Y"), "Image row of a horizontal EPI");
+  parser.option("--column", request.column, index_value("X"), "Image column of a vertical EPI");
+  parser.exclude_each_other({"--row", "--column"});
+  parser.option("--range", request.shading.range, interval_value(),
+                "Values at the ends of the colour map");
+  parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
+                "Colour map");
+  parser.option("--truth", request.map.truth, text_value("INPUT"),
+                "Light field of a RESULT; by default the one named in its file");
+  parser.option(
+      "--layer", request.layer,
+      choice_of<Layer>({{Layer::Foreground, "foreground"}, {Layer::Background, "background"}}),
+      "Which layer to show where there are two");
+  parser.option("--label", request.map.label, integer_value("N", 1, kMost),
+                "Label whose probability is shown (default 1)");
+  parser.option("--minus", request.map.minus, text_value("RESULT"),
+                "For a difference: the result to subtract");
+  parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
+                "Overlay the map on the view, with an opacity from 0 to 1");
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  complete(request);
+  return true;
+}
+
+RgbaImage epi_picture(const Request& request, const LightField& light_field, ViewIndex view) {
+  if (request.column) return vertical_epi_picture(light_field, view, *request.column);
+  return horizontal_epi_picture(light_field, view, request.row.value_or(light_field.height() / 2));
+}
+
+RgbaImage make_picture(const Request& request, Job& job) {
+  const LoadedMap loaded = load_map(request.map, request.read, job);
+  const MapSource& source = loaded.source;
+  job.progress().check();
+  if (request.what.is_epi) return epi_picture(request, *source.light_field, source.view);
+  if (source.quantity == Quantity::View) {
+    return render::shade_view(*source.light_field, source.view);
+  }
+  const auto shading = shading_of(source.quantity, loaded.disparity_range, request.shading);
+  const QuantityMapPtr map = make_map(source);
+  if (!request.opacity) return map_picture(*map, shading);
+  return blended(render::shade_view(*source.light_field, source.view),
+                 overlay_picture(*map, shading), *request.opacity);
+}
+
+}  // namespace
+
+void run_show(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  check_output_file(request.output);
+  for (const std::string& input : {request.map.subject, request.map.truth, request.map.minus}) {
+    if (!input.empty()) protect_input(request.output, input);
+  }
+
+  Job job(std::move(stop), request.job);
+  const RgbaImage picture = make_picture(request, job);
+  job.progress().check();
+  io::write_png(request.output, picture.view());
+  job.finish();
+  std::cout << request.output << ": " << request.what.id << ", " << picture.width() << "×"
+            << picture.height() << " px\n";
+}
+
+}  // namespace episcope::cli

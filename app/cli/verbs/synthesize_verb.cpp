@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/input/input.h"
+#include "app/cli/output/job.h"
+#include "app/cli/output/output_file.h"
+#include "app/cli/verbs/verbs.h"
+#include "engine/io/archive/write_scene.h"
+#include "engine/scenes/builtin.h"
+
+#include <iostream>
+#include <limits>
+
+namespace episcope::cli {
+namespace {
+
+constexpr int kMostViews = 101;
+constexpr int kMostPixels = 8192;
+constexpr double kMostNoise = 255;
+
+struct Request {
+  std::string scene;
+  std::string output;
+  Extent views{9, 9};
+  Extent size{512, 512};
+  double noise = 0;
+  int seed = 1;
+  Overwrite overwrite = Overwrite::No;
+  JobOptions job;
+};
+
+std::string list_of_scenes() {
+  std::string list =
+      "Renders a built-in scene with exact ground truth as lf.h5 in the archive form, with\n"
+      "labels.h5 next to it if the scene has labels. Scenes:\n";
+  for (const auto& scene : scenes::builtin_scenes()) {
+    list += "  " + scene.id + ": " + scene.summary + "\n";
+  }
+  return list;
+}
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("synthesize", {list_of_scenes(),
+                                  "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
+                                  "--size 256x256"});
+  parser.positional("SCENE", request.scene, "Id of a built-in scene");
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "Light field to write");
+  parser.option("--views", request.views, extent_value("VxU", kMostViews),
+                "Camera rows and columns (default 9x9)");
+  parser.option("--size", request.size, extent_value("WxH", kMostPixels),
+                "Pixels of a view (default 512x512)");
+  parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
+                "Standard deviation of Gaussian noise, in grey levels of 255 (default 0)");
+  parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
+                "Seed of the noise (default 1)");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
+  declare_job_options(parser, request.job);
+  return parser.parse(arguments);
+}
+
+scenes::RenderOptions render_options(const Request& request) {
+  scenes::RenderOptions options;
+  options.grid = {request.views.first, request.views.second};
+  options.width = request.size.first;
+  options.height = request.size.second;
+  options.noise_sigma = request.noise;
+  options.seed = static_cast<unsigned>(request.seed);
+  return options;
+}
+
+}  // namespace
+
+void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  check_builtin_scene(request.scene);
+  const scenes::RenderOptions options = render_options(request);
+  check_hdf5_output("synthesize", request.output);
+  check_light_field_output(request.output, request.overwrite);
+
+  Job job(std::move(stop), request.job);
+  job.progress().step("rendering " + request.scene);
+  const Scene scene = scenes::render_builtin(request.scene, options, job.progress().part(0, 0.9));
+  job.progress().step("writing " + request.output);
+  io::write_archive(request.output, scene, job.progress().part(0.9, 1));
+  job.finish();
+  std::cout << request.output << ": " << request.scene << ", " << options.grid.v << "×"
+            << options.grid.u << " views of " << options.width << "×" << options.height << " px\n";
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/verbs/verbs.h"
+
+namespace episcope::cli {
+namespace {
+
+constexpr Verb kVerbs[] = {
+    {"info", "Describe a light field and how it was read", run_info},
+    {"methods", "List every estimator with its parameters", run_methods},
+    {"estimate", "Estimate disparity and write a result file", run_estimate},
+    {"evaluate", "Compare results with the ground truth", run_evaluate},
+    {"show", "Write a picture of a light field or a result", run_show},
+    {"convert", "Convert a light field or a result to another format", run_convert},
+    {"synthesize", "Render a built-in scene with exact ground truth", run_synthesize},
+    {"label", "Segment a light field from scribbles", run_label},
+    {"benchmark", "Rank methods over scenes: tables, pictures, parameter search", run_benchmark},
+};
+
+}  // namespace
+
+std::span<const Verb> verbs() {
+  return kVerbs;
+}
+
+}  // namespace episcope::cli

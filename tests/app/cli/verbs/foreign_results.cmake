@@ -1,0 +1,41 @@
+# Disparity maps of other programs in HDF5 files: show, convert, evaluate without a word on what
+# they are.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+
+# write_map(out views datasets…)
+function(write_map out views)
+  execute_process(COMMAND "${WRITE_MAP}" truth.pfm "${out}" ${views} ${ARGN}
+                  WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE code)
+  if(NOT code EQUAL 0)
+    fail_case("${out} could not be made: ${code}")
+  endif()
+endfunction()
+
+expect(synthesize 0 ARGS synthesize objects -o lf.h5 --views 3x3 --size 64x48)
+expect("the truth as PFM" 0 ARGS convert lf.h5 truth.pfm)
+write_map(one.h5 0 depth_map)
+write_map(all.h5 3 disparities)
+write_map(two.h5 0 left right)
+
+foreach(file one all)
+  expect("show ${file}" 0 OUT "^${file}.png: disparity" ARGS show ${file}.h5 -o ${file}.png)
+  expect_file(${file}.png ${png})
+  expect("convert ${file} to PFM" 0 ARGS convert ${file}.h5 ${file}.pfm)
+  expect("evaluate ${file} and its PFM" 0 ARGS evaluate ${file}.h5 ${file}.pfm --truth lf.h5 --json)
+  json_is("${out}" 100.0 results 0 density)
+  json_is("${out}" 100.0 results 1 density)
+  json_near("${out}" 0 0.0001 results 1 mse_100)
+  expect("show the error of ${file}" 0 ARGS show ${file}.h5 -o e.png --what error --truth lf.h5)
+endforeach()
+file(SHA256 "${WORK}/one.png" of_one)
+file(SHA256 "${WORK}/all.png" of_all)
+if(NOT of_one STREQUAL of_all)
+  fail_case("the same map looks different as that of one view and of all")
+endif()
+expect("evaluate one view" 0 ARGS evaluate one.h5 --truth lf.h5 --json)
+json_near("${out}" 0 0.0001 results 0 mse_100)
+json_is("${out}" OFF results 0 all_views)
+
+expect("two maps" 1 ERR "2 were found \\(left, right\\)" ARGS show two.h5 -o two.png)
+expect("two maps to convert" 1 ERR "2 were found \\(left, right\\)" ARGS convert two.h5 two.pfm)
+expect("error without a truth" 1 ERR "--truth" ARGS show one.h5 -o e2.png --what error)
