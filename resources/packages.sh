@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The Debian packages that Episcope needs, in one place. Sourced by run.sh and test.sh.
 
-ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-dev libcli11-dev
+ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-core-dev
+  libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libcli11-dev
   nlohmann-json3-dev libfmt-dev"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"

@@ -141,3 +141,5 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_main_window.cpp"

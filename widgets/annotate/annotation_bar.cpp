@@ -91,3 +91,5 @@ AnnotationBar::CarriedBy AnnotationBar::carriedBy() const {
 }
 
 }  // namespace episcope
+
+#include "moc_annotation_bar.cpp"

@@ -179,3 +179,5 @@ double BrushPanel::scribbleOpacity() const {
 }
 
 }  // namespace episcope
+
+#include "moc_brush_panel.cpp"

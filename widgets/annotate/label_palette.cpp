@@ -212,3 +212,5 @@ void LabelPalette::showMenu(const QPoint& position) {
 }
 
 }  // namespace episcope
+
+#include "moc_label_palette.cpp"

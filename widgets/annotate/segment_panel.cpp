@@ -176,3 +176,5 @@ QString SegmentPanel::note() const {
 }
 
 }  // namespace episcope
+
+#include "moc_segment_panel.cpp"

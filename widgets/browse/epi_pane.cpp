@@ -170,3 +170,5 @@ void EpiPane::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_epi_pane.cpp"

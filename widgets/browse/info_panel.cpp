@@ -108,3 +108,5 @@ void InfoPanel::rebuild() {
 }
 
 }  // namespace episcope
+
+#include "moc_info_panel.cpp"

@@ -102,3 +102,5 @@ QString ValueBar::text() const {
 }
 
 }  // namespace episcope
+
+#include "moc_value_bar.cpp"

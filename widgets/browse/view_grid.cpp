@@ -136,3 +136,5 @@ void ViewGrid::playNext() {
 }
 
 }  // namespace episcope
+
+#include "moc_view_grid.cpp"

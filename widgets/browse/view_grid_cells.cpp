@@ -159,3 +159,5 @@ void ViewGridCells::mouseMoveEvent(QMouseEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_view_grid_cells.cpp"

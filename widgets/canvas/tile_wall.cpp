@@ -160,3 +160,5 @@ void TileWall::arrange() {
 }
 
 }  // namespace episcope
+
+#include "moc_tile_wall.cpp"

@@ -207,3 +207,5 @@ void ViewCanvas::resizeEvent(QResizeEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_view_canvas.cpp"

@@ -166,3 +166,5 @@ CloudColoring PointCloudPanel::coloring() const {
 }
 
 }  // namespace episcope
+
+#include "moc_point_cloud_panel.cpp"

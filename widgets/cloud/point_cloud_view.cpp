@@ -412,3 +412,5 @@ QWidget* make_point_cloud_view(QWidget* parent) {
 }
 
 }  // namespace episcope
+
+#include "moc_point_cloud_view.cpp"

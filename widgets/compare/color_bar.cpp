@@ -147,3 +147,5 @@ void ColorBar::editRange() {
 }
 
 }  // namespace episcope
+
+#include "moc_color_bar.cpp"

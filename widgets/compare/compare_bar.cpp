@@ -86,3 +86,5 @@ void CompareBar::setChoices(const std::vector<Choice>& choices, quint64 a, quint
 }
 
 }  // namespace episcope
+
+#include "moc_compare_bar.cpp"

@@ -151,3 +151,5 @@ void HistogramView::mouseReleaseEvent(QMouseEvent*) {
 }
 
 }  // namespace episcope
+
+#include "moc_histogram_view.cpp"

@@ -301,3 +301,5 @@ void MetricTable::copyLatex() {
 }
 
 }  // namespace episcope
+
+#include "moc_metric_table.cpp"

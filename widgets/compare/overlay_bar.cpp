@@ -179,3 +179,5 @@ void OverlayBar::stepFocus(double steps) {
 }
 
 }  // namespace episcope
+
+#include "moc_overlay_bar.cpp"

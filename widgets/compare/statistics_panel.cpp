@@ -93,3 +93,5 @@ QString StatisticsPanel::text() const {
 }
 
 }  // namespace episcope
+
+#include "moc_statistics_panel.cpp"

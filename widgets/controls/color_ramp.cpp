@@ -55,3 +55,5 @@ void ColorRamp::paintEvent(QPaintEvent*) {
 }
 
 }  // namespace episcope
+
+#include "moc_color_ramp.cpp"

@@ -41,3 +41,5 @@ void ElidedLabel::changeEvent(QEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_elided_label.cpp"

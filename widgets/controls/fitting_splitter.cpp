@@ -32,3 +32,5 @@ void FittingSplitter::fit() {
 }
 
 }  // namespace episcope
+
+#include "moc_fitting_splitter.cpp"

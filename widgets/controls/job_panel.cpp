@@ -168,3 +168,5 @@ void JobPanel::updateColors() {
 }
 
 }  // namespace episcope
+
+#include "moc_job_panel.cpp"

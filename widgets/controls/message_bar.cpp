@@ -132,3 +132,5 @@ void MessageBar::changeEvent(QEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_message_bar.cpp"

@@ -39,3 +39,5 @@ QValidator::State NumberSpin::validate(QString& text, int& position) const {
 }
 
 }  // namespace episcope
+
+#include "moc_number_spin.cpp"

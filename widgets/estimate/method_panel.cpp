@@ -212,3 +212,5 @@ void MethodPanel::updateColors() {
 }
 
 }  // namespace episcope
+
+#include "moc_method_panel.cpp"

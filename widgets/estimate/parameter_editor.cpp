@@ -370,3 +370,5 @@ ParameterEditor* make_parameter_editor(const ParameterDescription& description, 
 }
 
 }  // namespace episcope
+
+#include "moc_parameter_editor.cpp"

@@ -138,3 +138,5 @@ void ParameterForm::resetToDefaults() {
 }
 
 }  // namespace episcope
+
+#include "moc_parameter_form.cpp"

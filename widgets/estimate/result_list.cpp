@@ -237,3 +237,5 @@ void ResultList::showMenu(const QPoint& position) {
 }
 
 }  // namespace episcope
+
+#include "moc_result_list.cpp"

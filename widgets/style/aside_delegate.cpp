@@ -53,3 +53,5 @@ QSize AsideDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIn
 }
 
 }  // namespace episcope
+
+#include "moc_aside_delegate.cpp"

@@ -25,3 +25,5 @@ void OutlinedStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* 
 }
 
 }  // namespace episcope
+
+#include "moc_outlined_style.cpp"

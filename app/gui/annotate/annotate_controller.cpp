@@ -238,3 +238,5 @@ void AnnotateController::goTo(const DocumentChange& change) {
 }
 
 }  // namespace episcope
+
+#include "moc_annotate_controller.cpp"

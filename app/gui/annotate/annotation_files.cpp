@@ -299,3 +299,5 @@ void AnnotationFiles::leave(std::function<void()> go_on) {
 }
 
 }  // namespace episcope
+
+#include "moc_annotation_files.cpp"

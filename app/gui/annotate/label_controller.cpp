@@ -207,3 +207,5 @@ void LabelController::recolor(int id) {
 }
 
 }  // namespace episcope
+
+#include "moc_label_controller.cpp"

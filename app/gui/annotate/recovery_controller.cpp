@@ -158,3 +158,5 @@ void RecoveryController::refuse(const QString& sentence) {
 }
 
 }  // namespace episcope
+
+#include "moc_recovery_controller.cpp"

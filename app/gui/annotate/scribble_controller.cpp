@@ -151,3 +151,5 @@ void ScribbleController::carry() {
 }
 
 }  // namespace episcope
+
+#include "moc_scribble_controller.cpp"

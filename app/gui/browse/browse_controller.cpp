@@ -281,3 +281,5 @@ bool BrowseController::endWhatIsInHand() {
 }
 
 }  // namespace episcope
+
+#include "moc_browse_controller.cpp"

@@ -55,3 +55,5 @@ ParameterSet ConventionsDialog::given() const {
 }
 
 }  // namespace episcope
+
+#include "moc_conventions_dialog.cpp"

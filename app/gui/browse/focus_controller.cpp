@@ -121,3 +121,5 @@ void FocusController::moveResults(const Kept& kept, double moved_px) {
 }
 
 }  // namespace episcope
+
+#include "moc_focus_controller.cpp"

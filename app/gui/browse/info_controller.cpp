@@ -87,3 +87,5 @@ void InfoController::askForConventions() {
 }
 
 }  // namespace episcope
+
+#include "moc_info_controller.cpp"

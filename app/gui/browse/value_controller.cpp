@@ -107,3 +107,5 @@ QStringList ValueController::pixelText(PixelIndex pixel) const {
 }
 
 }  // namespace episcope
+
+#include "moc_value_controller.cpp"

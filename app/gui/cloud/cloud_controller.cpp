@@ -126,3 +126,5 @@ void CloudController::startCloud(const std::optional<Coloring>& coloring) {
 }
 
 }  // namespace episcope
+
+#include "moc_cloud_controller.cpp"

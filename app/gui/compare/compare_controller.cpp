@@ -281,3 +281,5 @@ void CompareController::open(quint64 tile) {
 }
 
 }  // namespace episcope
+
+#include "moc_compare_controller.cpp"

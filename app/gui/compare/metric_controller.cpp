@@ -131,3 +131,5 @@ void MetricController::save(const QString& suffix, const QString& text) {
 }
 
 }  // namespace episcope
+
+#include "moc_metric_controller.cpp"

@@ -142,3 +142,5 @@ void StatisticsController::applyAutomaticRange() {
 }
 
 }  // namespace episcope
+
+#include "moc_statistics_controller.cpp"

@@ -241,3 +241,5 @@ void DocumentController::tellUnsaved() {
 }
 
 }  // namespace episcope
+
+#include "moc_document_controller.cpp"

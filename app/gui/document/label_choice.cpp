@@ -58,3 +58,5 @@ void LabelChoice::swap() {
 }
 
 }  // namespace episcope
+
+#include "moc_label_choice.cpp"

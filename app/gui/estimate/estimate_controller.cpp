@@ -235,3 +235,5 @@ void EstimateController::reuse(const EstimateEntry& entry) {
 }
 
 }  // namespace episcope
+
+#include "moc_estimate_controller.cpp"

@@ -175,3 +175,5 @@ bool FileController::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_file_controller.cpp"

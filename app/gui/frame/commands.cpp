@@ -237,3 +237,5 @@ void Commands::fillBar(QToolBar& bar) const {
 }
 
 }  // namespace episcope
+
+#include "moc_commands.cpp"

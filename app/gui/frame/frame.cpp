@@ -97,3 +97,5 @@ QString Frame::shownTab() const {
 }
 
 }  // namespace episcope
+
+#include "moc_frame.cpp"

@@ -83,3 +83,5 @@ int Jobs::count(Lane lane) const {
 LatestJob::LatestJob(QObject* context) : runner_(queued_post(context)) {}
 
 }  // namespace episcope
+
+#include "moc_jobs.cpp"

@@ -35,3 +35,5 @@ void Messages::dismiss() {
 }
 
 }  // namespace episcope
+
+#include "moc_messages.cpp"

@@ -97,3 +97,5 @@ bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
 }
 
 }  // namespace episcope
+
+#include "moc_command_palette.cpp"

@@ -226,3 +226,5 @@ void ShortcutWindow::setKey() {
 }
 
 }  // namespace episcope
+
+#include "moc_shortcut_window.cpp"

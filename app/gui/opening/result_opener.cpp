@@ -70,3 +70,5 @@ void ResultOpener::open(const QString& path) {
 }
 
 }  // namespace episcope
+
+#include "moc_result_opener.cpp"

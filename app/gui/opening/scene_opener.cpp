@@ -209,3 +209,5 @@ void SceneOpener::close() {
 }
 
 }  // namespace episcope
+
+#include "moc_scene_opener.cpp"

@@ -50,3 +50,5 @@ void EdgeSource::take(const Read& read) {
 }
 
 }  // namespace episcope
+
+#include "moc_edge_source.cpp"

@@ -106,3 +106,5 @@ void LabelingSource::provide() {
 }
 
 }  // namespace episcope
+
+#include "moc_labeling_source.cpp"

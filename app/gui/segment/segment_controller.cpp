@@ -309,3 +309,5 @@ void SegmentController::showScores(const LabelingScores& scores) {
 }
 
 }  // namespace episcope
+
+#include "moc_segment_controller.cpp"

@@ -257,3 +257,5 @@ std::optional<double> Overlay::valueAt(PixelIndex pixel) const {
 }
 
 }  // namespace episcope
+
+#include "moc_overlay.cpp"

@@ -98,3 +98,5 @@ void Stage::endPreview() {
 }
 
 }  // namespace episcope
+
+#include "moc_stage.cpp"

@@ -1,26 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/picture/map_choice.h"
 
+#include "app/session/picture/result_map.h"
+
 namespace episcope {
 namespace {
 
 using render::Quantity;
 using render::Subject;
-
-bool is_available_of(const EstimateEntry* shown, Quantity quantity) {
-  if (!shown) return false;
-  const Estimate& estimate = *shown->estimate;
-  switch (quantity) {
-    case Quantity::Confidence:
-      return !estimate.confidence.empty();
-    case Quantity::Background:
-      return !estimate.layered.background.empty();
-    case Quantity::Layers:
-      return !estimate.layered.layers.empty();
-    default:
-      return true;
-  }
-}
 
 bool is_available_of(const GroundTruth& truth, Quantity quantity) {
   return quantity == Quantity::Truth ? truth.has_disparity() || truth.has_layers()
@@ -40,7 +27,8 @@ bool is_available(const Session& session, Quantity quantity) {
     case Subject::TrueLabels:
       return session.true_labels() != nullptr;
     case Subject::Result:
-      return is_available_of(session.shown(), quantity);
+      return session.shown() &&
+             result_map_of(quantity).coverage(*session.shown()->estimate).grid.count() > 0;
     case Subject::Error:
       return session.shown() && is_available_of(*scene->truth, Quantity::Truth);
     case Subject::ResultPair:

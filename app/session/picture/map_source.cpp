@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/picture/map_source.h"
 
+#include "app/session/picture/result_map.h"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace episcope {
@@ -9,34 +13,29 @@ namespace {
 using render::Quantity;
 using render::Subject;
 
-template <class T>
-std::string coverage_text(const ViewStack<T>& stack) {
-  return std::to_string(stack.grid().v) + "×" + std::to_string(stack.grid().u) +
-         " views from view " + view_text(stack.first()) + " on";
+std::string coverage_text(const ViewCoverage& covered) {
+  return fmt::format("{}×{} views from view {} on", covered.grid.v, covered.grid.u,
+                     view_text(covered.first));
 }
 
-template <class T>
-std::string reason_against_view(const ViewStack<T>& stack, ViewIndex view, const std::string& who,
+bool contains(const ViewCoverage& covered, ViewIndex view) {
+  const int v = view.v - covered.first.v;
+  const int u = view.u - covered.first.u;
+  return v >= 0 && u >= 0 && v < covered.grid.v && u < covered.grid.u;
+}
+
+std::string reason_against_view(const ViewCoverage& covered, ViewIndex view, const std::string& who,
                                 const std::string& what) {
-  if (stack.empty()) return who + " has no " + what;
-  if (stack.contains(view)) return {};
-  return who + " has " + coverage_text(stack) + ", but view " + view_text(view) + " was asked for";
+  if (covered.grid.count() == 0) return who + " has no " + what;
+  if (contains(covered, view)) return {};
+  return fmt::format("{} has {}, but view {} was asked for", who, coverage_text(covered),
+                     view_text(view));
 }
 
 std::string reason_against_result(const MapSource& source) {
-  const Estimate& estimate = *source.estimate;
-  const std::string who = "the result of " + estimate.method;
-  switch (source.quantity) {
-    case Quantity::Confidence:
-      return reason_against_view(estimate.confidence, source.view, who, "confidence");
-    case Quantity::Background:
-      return reason_against_view(estimate.layered.background.disparity, source.view, who,
-                                 "background");
-    case Quantity::Layers:
-      return reason_against_view(estimate.layered.layers, source.view, who, "number of layers");
-    default:
-      return reason_against_view(estimate.field.disparity, source.view, who, "disparity");
-  }
+  const ResultMap& map = result_map_of(source.quantity);
+  return reason_against_view(map.coverage(*source.estimate), source.view,
+                             "the result of " + source.estimate->method, map.what);
 }
 
 std::string reason_against_segmentation(const MapSource& source) {
@@ -44,7 +43,8 @@ std::string reason_against_segmentation(const MapSource& source) {
   if (!source.labeling) return "nothing is segmented yet";
   const Labeling& labeling = *source.labeling;
   const std::string who = "the segmentation";
-  std::string reason = reason_against_view(labeling.labels, source.view, who, "labels");
+  std::string reason =
+      reason_against_view(coverage_of(labeling.labels), source.view, who, "labels");
   if (!reason.empty() || source.quantity == Quantity::Segmentation) return reason;
   if (source.quantity == Quantity::WrongLabels) {
     return source.true_labels && source.true_labels->contains(source.view)
@@ -95,7 +95,7 @@ std::string reason_against(const MapSource& source) {
     case Subject::ResultPair: {
       std::string reason = reason_against_result(source);
       if (!reason.empty()) return reason;
-      return reason_against_view(source.other->field.disparity, source.view,
+      return reason_against_view(coverage_of(source.other->field.disparity), source.view,
                                  "the result of " + source.other->method, "disparity");
     }
     case Subject::Segmentation:

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/picture/quantity_map.h"
 
+#include "app/session/picture/result_map.h"
 #include "app/session/picture/segmentation_map.h"
 #include "engine/evaluation/metrics/error_maps.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -14,14 +14,6 @@ using render::Quantity;
 using render::Subject;
 
 using Map = std::shared_ptr<QuantityMap>;
-
-Map borrowed(const DisparityView& view, std::shared_ptr<const void> owner) {
-  auto made = std::make_shared<QuantityMap>();
-  made->map = view.disparity;
-  made->valid = view.valid;
-  made->owner = std::move(owner);
-  return made;
-}
 
 Map error_map(const EvaluationPtr& evaluation, Quantity quantity) {
   auto made = std::make_shared<QuantityMap>();
@@ -59,33 +51,11 @@ Map difference_map(const DisparityView& left, const DisparityView& right) {
   return made;
 }
 
-Map layers_map(ImageView<const std::uint8_t> layers) {
-  auto made = std::make_shared<QuantityMap>();
-  made->computed = Image<float>(layers.height, layers.width);
-  std::copy_n(layers.data, layers.size(), made->computed.data());
-  made->map = made->computed;
-  return made;
-}
-
-Map result_map(const MapSource& source) {
-  const Estimate& estimate = *source.estimate;
-  switch (source.quantity) {
-    case Quantity::Confidence:
-      return borrowed({estimate.confidence.view(source.view), {}}, source.estimate);
-    case Quantity::Background:
-      return borrowed(estimate.layered.background.view(source.view), source.estimate);
-    case Quantity::Layers:
-      return layers_map(estimate.layered.layers.view(source.view));
-    default:
-      return borrowed(estimate.field.view(source.view), source.estimate);
-  }
-}
-
 Map truth_map(const MapSource& source) {
   const GroundTruth& truth = *source.truth;
   const DisparityField& single = truth.has_disparity() ? truth.field : truth.foreground;
   const bool is_behind = source.quantity == Quantity::TruthBackground;
-  return borrowed((is_behind ? truth.background : single).view(source.view), source.truth);
+  return borrowed_map((is_behind ? truth.background : single).view(source.view), source.truth);
 }
 
 Map labels_map(const MapSource& source) {
@@ -106,7 +76,7 @@ QuantityMapPtr make_map(const MapSource& source) {
     case Subject::TrueLabels:
       return labels_map(source);
     case Subject::Result:
-      return result_map(source);
+      return result_map_of(source.quantity).make(source.estimate, source.view);
     case Subject::Error:
       return error_map(source.evaluation, source.quantity);
     case Subject::ResultPair:

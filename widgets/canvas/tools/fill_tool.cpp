@@ -9,3 +9,5 @@ void FillTool::press(const ToolPress& press) {
 }
 
 }  // namespace episcope
+
+#include "moc_fill_tool.cpp"

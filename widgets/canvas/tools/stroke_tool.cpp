@@ -102,3 +102,5 @@ void StrokeTool::paintTicks(QPainter& painter, QPointF center, double radius) co
 }
 
 }  // namespace episcope
+
+#include "moc_stroke_tool.cpp"
