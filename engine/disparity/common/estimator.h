@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace episcope {
@@ -43,21 +44,18 @@ struct Estimator {
       run;
 };
 
-/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`
-/// returns an Estimate with maps, confidence, range and notes; the rest is filled in here.
-template <class P>
-Estimator make_estimator(
-    EstimatorInfo info, Schema<P> schema,
-    std::function<Estimate(const LightField&, const P&, ViewSelection, const Progress&)> estimate);
+/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`, or
+/// for a method with a choice of devices `estimate(light_field, P, RunOptions, Progress)`, returns
+/// an Estimate with maps, confidence, range and notes; the rest is filled in here.
+template <class P, class F>
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
 /// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds);
 
-template <class P>
-Estimator make_estimator(
-    EstimatorInfo info, Schema<P> schema,
-    std::function<Estimate(const LightField&, const P&, ViewSelection, const Progress&)> estimate) {
+template <class P, class F>
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
   Estimator estimator;
   estimator.info = info;
   estimator.parameters = schema.descriptions();
@@ -68,8 +66,16 @@ Estimator make_estimator(
     require_device(options.device, info);
     const Stopwatch watch;
     const P parameters = schema.parse(values);
-    Estimate result =
-        estimate(light_field, parameters, options.views, progress.limited_to(options.threads));
+    const Progress limited = progress.limited_to(options.threads);
+    constexpr bool knows_devices =
+        std::is_invocable_v<F, const LightField&, const P&, const RunOptions&, const Progress&>;
+    Estimate result = [&] {
+      if constexpr (knows_devices) {
+        return estimate(light_field, parameters, options, limited);
+      } else {
+        return estimate(light_field, parameters, options.views, limited);
+      }
+    }();
     result.parameters = schema.values(parameters);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
