@@ -4,6 +4,8 @@
 #include "engine/disparity/registry.h"
 #include "engine/io/open/open_options.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -49,11 +51,11 @@ std::string options_text(const ParameterSet& options,
   std::string text;
   for (const auto& [key, value] : options) {
     const auto found = std::ranges::find(descriptions, key, &ParameterDescription::key);
-    text += " --" + key;
     const bool is_bare =
         found != descriptions.end() && found->is_toggle && value == ParameterValue(true);
     // "=" keeps a value that begins with a minus from being read as an option.
-    if (!is_bare) text += "=" + shell_quoted(to_text(value));
+    text += is_bare ? fmt::format(" --{}", key)
+                    : fmt::format(" --{}={}", key, shell_quoted(to_text(value)));
   }
   return text;
 }
@@ -65,8 +67,9 @@ std::string reading_options_text(const ParameterSet& options) {
 std::string command_line_for(const std::string& method, const ParameterSet& values,
                              ViewSelection views, const std::string& input,
                              const ParameterSet& reading) {
-  std::string line = "episcope-cli estimate " + shell_quoted(method) + " " + shell_quoted(input) +
-                     " -o " + shell_quoted(method + ".h5") + " --views " + name_of(views);
+  const std::string line =
+      fmt::format("episcope-cli estimate {} {} -o {} --views {}", shell_quoted(method),
+                  shell_quoted(input), shell_quoted(method + ".h5"), name_of(views));
   return line + options_text(changed_parameters(method, values), {}) +
          reading_options_text(reading);
 }

@@ -5,9 +5,11 @@
 #include "widgets/style/theme.h"
 
 #include <QMainWindow>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QToolButton>
 
+#include <cmath>
 #include <memory>
 
 namespace episcope::in_point_cloud_view_test {
@@ -67,6 +69,38 @@ class PointCloudViewTest : public QObject {
     QVERIFY(count(shown, Qt::red) > 5000);
     QVERIFY(count(shown, Qt::green) > 500);
     QVERIFY(count(shown, Qt::black) == 0);
+  }
+
+  void click_picksThePointUnderIt() {
+    const PointCloud cloud = bump();
+    view_->setCloud(cloud);
+    view_->showPreset(CloudPreset::Front);
+    (void)view_->grabFramebuffer();
+    QSignalSpy picked(view_.get(), &PointCloudView::pointPicked);
+
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {160, 120});
+    QCOMPARE(picked.size(), 1);
+    const auto middle = cloud.positions[picked[0][0].value<std::size_t>()];
+    QVERIFY(std::hypot(middle[0], middle[1]) < 4 && middle[2] == 25);
+
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {160, 40});
+    QCOMPARE(picked.size(), 2);
+    const auto upper = cloud.positions[picked[1][0].value<std::size_t>()];
+    QVERIFY(std::abs(upper[0]) < 4 && upper[1] > 20 && upper[2] == 0);
+  }
+
+  void dragsAndClicksBesideTheCloud_pickNothing() {
+    view_->setCloud(bump());
+    view_->showPreset(CloudPreset::Front);
+    (void)view_->grabFramebuffer();
+    QSignalSpy picked(view_.get(), &PointCloudView::pointPicked);
+
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {4, 120});
+    QTest::mousePress(view_.get(), Qt::LeftButton, {}, {160, 120});
+    QTest::mouseMove(view_.get(), {180, 130});
+    QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, {180, 130});
+
+    QCOMPARE(picked.size(), 0);
   }
 
   void presets_differAndFillTheWindow() {
