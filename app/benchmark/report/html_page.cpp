@@ -4,6 +4,8 @@
 #include "app/benchmark/report/scene_files.h"
 #include "engine/core/version.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -89,9 +91,7 @@ std::string link_to(const std::string& path) {
         std::string("/._-").find(c) != std::string::npos) {
       link += c;
     } else {
-      char code[4];
-      std::snprintf(code, sizeof code, "%%%02X", static_cast<unsigned char>(c));
-      link += code;
+      link += fmt::format("%{:02X}", static_cast<unsigned char>(c));
     }
   }
   return link;
@@ -228,8 +228,7 @@ std::string html_page(const BenchmarkReport& report, const std::vector<TitledTab
       "<title>Disparity benchmark</title>\n<style>" +
       std::string(kStyle) + "\n</style>\n</head>\n<body>\n<h1>Disparity benchmark</h1>\n" +
       paragraph(
-          std::to_string(report.scenes.size()) +
-              (report.scenes.size() == 1 ? " scene" : " scenes") +
+          fmt::format("{} scene{}", report.scenes.size(), report.scenes.size() == 1 ? "" : "s") +
               ", evaluated in the centre view. "
               "Mean squared errors are in px² × 100; lower is better, the best is in bold. Made by "
               "Episcope " +

@@ -14,6 +14,8 @@
 #include "engine/evaluation/tables/parameter_search.h"
 #include "engine/io/maps/result_file.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <new>
 #include <set>
@@ -57,14 +59,13 @@ EvaluationPtr judge_by_both(const Estimate& estimate, const Scene& scene, Benchm
 }
 
 std::string shape_text(const LightField& light_field) {
-  return std::to_string(light_field.grid().v) + "×" + std::to_string(light_field.grid().u) +
-         " views of " + std::to_string(light_field.width()) + "×" +
-         std::to_string(light_field.height()) + " px";
+  return fmt::format("{}×{} views of {}×{} px", light_field.grid().v, light_field.grid().u,
+                     light_field.width(), light_field.height());
 }
 
 std::string unused_name(const std::string& wanted, const std::set<std::string>& taken) {
   std::string name = wanted;
-  for (int copy = 2; taken.contains(name); ++copy) name = wanted + "-" + std::to_string(copy);
+  for (int copy = 2; taken.contains(name); ++copy) name = fmt::format("{}-{}", wanted, copy);
   return name;
 }
 
@@ -272,9 +273,8 @@ class Runner {
   void search(const OpenScene& open, const Estimator& method,
               const std::vector<ParameterSet>& points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Progress part =
-          workload_.next(open.name + ", " + method.info.id + " " + std::to_string(i + 1) + " of " +
-                         std::to_string(points.size()));
+      const Progress part = workload_.next(
+          fmt::format("{}, {} {} of {}", open.name, method.info.id, i + 1, points.size()));
       const BenchmarkRun run = plan_run(method, points[i], ViewSelection::Center, true);
       const BenchmarkResult result = find_or_run(open, method, run, part);
       report_.searched.push_back({method.info.id, open.name, points[i],

@@ -5,6 +5,8 @@
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/text/join.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -54,8 +56,7 @@ OptionValue<int> integer_value(const std::string& name, int min, int max) {
   return {name, [min, max](const std::string& option, const std::string& text) {
             const auto number = number_in<int>(text);
             if (!number || *number < min || *number > max) {
-              refuse(option, text,
-                     "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+              refuse(option, text, fmt::format("a whole number from {} to {}", min, max));
             }
             return *number;
           }};
@@ -98,7 +99,7 @@ OptionValue<Extent> extent_value(const std::string& name, int max) {
             if (!extent) extent = pair_in<int>(text, "×");
             if (!extent || extent->first < 1 || extent->second < 1 || extent->first > max ||
                 extent->second > max) {
-              refuse(option, text, "two whole numbers AxB from 1 to " + std::to_string(max));
+              refuse(option, text, fmt::format("two whole numbers AxB from 1 to {}", max));
             }
             return Extent{extent->first, extent->second};
           }};

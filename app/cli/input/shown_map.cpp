@@ -13,6 +13,8 @@
 #include "engine/io/labels/segmentation_file.h"
 #include "engine/io/maps/result_file.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <utility>
 
@@ -85,9 +87,9 @@ IoError missing_source(const ShownMap& shown, const std::string& named) {
 ViewIndex view_of(const ShownMap& shown, const LightField& light_field) {
   const ViewIndex view = shown.view.value_or(light_field.center());
   if (light_field.grid().contains(view)) return view;
-  throw InvalidInput(light_field.info().name + " has " + std::to_string(light_field.grid().v) +
-                     "×" + std::to_string(light_field.grid().u) + " views, but view " +
-                     view_text(view) + " was asked for; views are counted from 0");
+  throw InvalidInput(fmt::format(
+      "{} has {}×{} views, but view {} was asked for; views are counted from 0",
+      light_field.info().name, light_field.grid().v, light_field.grid().u, view_text(view)));
 }
 
 template <class T>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/output/progress_bar.h"
 
+#include <fmt/format.h>
+
 #include <sys/ioctl.h>
 #include <unistd.h>
 #include <algorithm>
@@ -22,8 +24,8 @@ std::string time_left(double fraction, double seconds) {
   // Too early to tell before the first second or two per cent.
   if (seconds < 1 || fraction < 0.02) return "";
   const long left = std::lround(seconds * (1 - fraction) / fraction);
-  if (left < 60) return ", " + std::to_string(left) + " s left";
-  return ", " + std::to_string(left / 60) + " min " + std::to_string(left % 60) + " s left";
+  if (left < 60) return fmt::format(", {} s left", left);
+  return fmt::format(", {} min {} s left", left / 60, left % 60);
 }
 
 }  // namespace
@@ -31,12 +33,9 @@ std::string time_left(double fraction, double seconds) {
 std::string progress_line(const ProgressState& state, double seconds, int columns) {
   constexpr int bar_width = 24;
   const int filled = static_cast<int>(std::clamp(state.fraction, 0.0, 1.0) * bar_width);
-  const std::string percent = std::to_string(std::lround(100 * state.fraction));
-  // Appended piece by piece: GCC 12 warns wrongly of a literal before a temporary string.
-  std::string line = "[";
-  line.append(filled, '#').append(bar_width - filled, '.').append("] ");
-  line.append(3 - std::min<std::size_t>(3, percent.size()), ' ').append(percent).append(" %  ");
-  line.append(state.step).append(time_left(state.fraction, seconds));
+  std::string line = fmt::format("[{:.<{}}] {:3} %  {}{}", std::string(filled, '#'), bar_width,
+                                 std::lround(100 * state.fraction), state.step,
+                                 time_left(state.fraction, seconds));
   if (static_cast<int>(line.size()) >= columns) line.resize(std::max(0, columns - 1));
   return line;
 }

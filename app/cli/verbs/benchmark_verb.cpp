@@ -8,6 +8,8 @@
 #include "app/cli/verbs/verbs.h"
 #include "engine/disparity/registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iostream>
 #include <map>
@@ -92,7 +94,7 @@ void require_success(const BenchmarkReport& report, const std::string& folder) {
   const auto failures = report.failures();
   if (failures.empty()) return;
   const std::string more =
-      failures.size() == 1 ? "" : " (and " + std::to_string(failures.size() - 1) + " more)";
+      failures.size() == 1 ? "" : fmt::format(" (and {} more)", failures.size() - 1);
   std::string first = failures.front();
   if (first.ends_with('.')) first.pop_back();
   throw Error(first + more + "; the tables of the others are in " + folder);

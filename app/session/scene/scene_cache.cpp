@@ -7,6 +7,8 @@
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/open.h"
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <random>
 #include <system_error>
@@ -25,17 +27,13 @@ struct TemporaryFolder {
 
 std::string random_suffix() {
   std::random_device random;
-  char text[20];
-  std::snprintf(text, sizeof text, ".%08x", random());
-  return text;
+  return fmt::format(".{:08x}", random());
 }
 
 std::string key_of(const std::string& id, const scenes::RenderOptions& options) {
-  char text[160];
-  std::snprintf(text, sizeof text, "-%s-%dx%d-%dx%dx%d-n%g-s%u-d%g", kVersion, options.grid.v,
-                options.grid.u, options.height, options.width, options.channels,
-                options.noise_sigma, options.seed, options.disparity_scale);
-  return id + text;
+  return fmt::format("{}-{}-{}x{}-{}x{}x{}-n{:g}-s{}-d{:g}", id, kVersion, options.grid.v,
+                     options.grid.u, options.height, options.width, options.channels,
+                     options.noise_sigma, options.seed, options.disparity_scale);
 }
 
 }  // namespace
