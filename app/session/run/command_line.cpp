@@ -10,12 +10,13 @@
 namespace episcope {
 namespace {
 
+// As texts: files tell one "auto" from another no more.
 bool is_default(const std::vector<ParameterDescription>& descriptions, const std::string& key,
                 const ParameterValue& value) {
-  return std::any_of(descriptions.begin(), descriptions.end(),
-                     [&](const ParameterDescription& description) {
-                       return description.key == key && description.default_value == value;
-                     });
+  return std::any_of(
+      descriptions.begin(), descriptions.end(), [&](const ParameterDescription& description) {
+        return description.key == key && to_text(description.default_value) == to_text(value);
+      });
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ std::string options_text(const ParameterSet& options,
     const bool is_bare =
         found != descriptions.end() && found->is_toggle && value == ParameterValue(true);
     // "=" keeps a value that begins with a minus from being read as an option.
-    if (!is_bare) text += "=" + shell_quoted(to_text(value));
+    if (!is_bare) text.append("=").append(shell_quoted(to_text(value)));
   }
   return text;
 }

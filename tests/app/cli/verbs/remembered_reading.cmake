@@ -139,6 +139,11 @@ expect_equal("a result with units" ${remembered} ${other_units})
 expect("contradicting units" 1 ERR "with --units=without-width, but --units=with-width"
        ARGS evaluate a/units.h5 --truth a/lf.h5 --units with-width)
 
+# An option that means nothing to a form is named, and changes nothing.
+expect("an option of another form" 0 ERR "--units is ignored, because this is [^\n]*2016"
+       ARGS estimate epi_l bench -o a/ignored.h5 --units with-width)
+score_of(score bench a/ignored.h5)
+
 # Names and order of the images of a grid, whose names fit two patterns.
 file(MAKE_DIRECTORY "${WORK}/grid" "${WORK}/snake")
 foreach(v RANGE 2)
