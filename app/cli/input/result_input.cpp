@@ -23,10 +23,14 @@ std::string options_missing_in(const Reading& other, const Reading& reading) {
 
 }  // namespace
 
-Scene load_input_of(const std::string& result, const std::string& input, const ReadOptions& options,
-                    const Progress& progress) {
+NamedReading reading_of(const std::string& result) {
+  return {result, io::read_reading(result)};
+}
+
+Scene load_input_of(const NamedReading& result, const std::string& input,
+                    const ReadOptions& options, const Progress& progress) {
   return load_input(
-      input, options_for_result(result, io::read_reading(result), input, options.options.values()),
+      input, options_for_result(result.file, result.reading, input, options.options.values()),
       options.needs_truth, progress);
 }
 

@@ -125,9 +125,10 @@ void load_other(const ShownMap& shown, const Estimate& first, LoadedMap& loaded,
 }
 
 void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& loaded, Job& job) {
+  const NamedReading reading = reading_of(shown.subject);
   std::optional<Scene> scene;
   if (!shown.truth.empty()) {
-    scene = load_input_of(shown.subject, shown.truth, read, job.progress().part(0, 0.9));
+    scene = load_input_of(reading, shown.truth, read, job.progress().part(0, 0.9));
   }
   auto estimate =
       std::make_shared<const Estimate>(scene ? read_result_of(*scene->light_field, shown.subject)
@@ -135,7 +136,7 @@ void load_result(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   if (!scene && needs_scene(shown)) {
     const std::string source = existing_source(estimate->source, shown.subject);
     if (!source.empty()) {
-      scene = load_input_of(shown.subject, source, read, job.progress().part(0, 0.9));
+      scene = load_input_of(reading, source, read, job.progress().part(0, 0.9));
     } else if (!can_do_without_scene(shown)) {
       throw missing_source(shown, estimate->source);
     }
@@ -161,7 +162,10 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
   const std::string named = io::SegmentationFile(shown.subject).source();
   const std::string input = named_source(shown, existing_source(named, shown.subject));
   if (input.empty()) throw missing_source(shown, named);
-  take_scene(shown, load_input(input, read, job.progress().part(0, 0.9)), loaded);
+  take_scene(shown,
+             load_input_of({shown.subject, segmentation.reading}, input, read,
+                           job.progress().part(0, 0.9)),
+             loaded);
 }
 
 /// Edges are those of the file beside the light field, else of image and result.

@@ -80,10 +80,10 @@ Subject load_subject(const Request& request, Format format, const Progress& prog
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
     if (needs_scene && !source.empty()) {
-      subject.scene = load_input_of(request.input, source, request.read, progress);
+      subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
-    subject.scene = load_input_of(request.input, request.truth, request.read, progress);
+    subject.scene = load_input_of(reading_of(request.input), request.truth, request.read, progress);
     subject.estimate = read_result_of(*subject.scene->light_field, request.input);
   }
   if (needs_scene && !subject.scene) {

@@ -146,6 +146,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   segmentation.labeling = labeling;
   segmentation.labels = scribbles.labels;
   segmentation.parameters = labeler_schema().values(request.parameters);
+  segmentation.reading = scene.light_field->info().reading;
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
   const LabelingScores scores =

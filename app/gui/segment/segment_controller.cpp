@@ -75,7 +75,8 @@ std::optional<Segmentation> SegmentController::segmentation() const {
   const AnnotationDocument* document = std::as_const(document_).document();
   if (!labeling || !document || !live_.has_input()) return std::nullopt;
   return Segmentation{std::move(labeling), document->labels().labels(),
-                      labeler_schema().values(possible_parameters(*live_.input()))};
+                      labeler_schema().values(possible_parameters(*live_.input())),
+                      live_.input()->light_field->info().reading};
 }
 
 bool SegmentController::has_map(render::Quantity quantity) const {

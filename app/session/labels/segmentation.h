@@ -3,6 +3,7 @@
 
 #include "app/session/labels/live_labeling.h"
 #include "engine/core/light_field/label_info.h"
+#include "engine/core/light_field/reading.h"
 #include "engine/core/parameter/parameter.h"
 
 #include <vector>
@@ -14,6 +15,7 @@ struct Segmentation {
   LabelingPtr labeling;           ///< Covers one view or all; not null.
   std::vector<LabelInfo> labels;  ///< Names and colours, by id.
   ParameterSet parameters;        ///< It was made with.
+  Reading reading{};              ///< How its light field was read.
 };
 
 }  // namespace episcope

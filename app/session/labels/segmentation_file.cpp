@@ -62,6 +62,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   stored.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
   stored.parameters = segmentation.parameters;
   stored.source = source_text(input, path);
+  stored.reading = segmentation.reading;
   stored.seconds = labeling.seconds;
   io::ViewProbabilities of_view;
   if (probabilities == StoredProbabilities::All) {
@@ -84,7 +85,7 @@ Segmentation read_segmentation(const std::filesystem::path& path, std::optional<
     probabilities.first = view;
     probabilities.views.push_back(bytes_of(file.probabilities(view)));
   }
-  return {std::move(labeling), file.infos(), {}};
+  return {std::move(labeling), file.infos(), {}, file.reading()};
 }
 
 LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {

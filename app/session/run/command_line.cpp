@@ -12,12 +12,13 @@
 namespace episcope {
 namespace {
 
+// As texts: files tell one "auto" from another no more.
 bool is_default(const std::vector<ParameterDescription>& descriptions, const std::string& key,
                 const ParameterValue& value) {
-  return std::any_of(descriptions.begin(), descriptions.end(),
-                     [&](const ParameterDescription& description) {
-                       return description.key == key && description.default_value == value;
-                     });
+  return std::any_of(
+      descriptions.begin(), descriptions.end(), [&](const ParameterDescription& description) {
+        return description.key == key && to_text(description.default_value) == to_text(value);
+      });
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ const Option* find(const ParameterSet& options, const std::string& key) {
 IoError contradiction(const std::string& result, const Option& given, const Option* stored) {
   const std::string was =
       stored ? "with" + reading_options_text({*stored}) : "without --" + given.first;
-  return {result, "was estimated " + was + ", but" + reading_options_text({given}) +
+  return {result, "was made " + was + ", but" + reading_options_text({given}) +
                       " was asked for; leave --" + given.first +
-                      " out, or name the result of another run"};
+                      " out, or name the file of another run"};
 }
 
 ParameterSet without_focus(ParameterSet options) {

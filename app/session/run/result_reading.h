@@ -10,10 +10,10 @@
 
 namespace episcope {
 
-/// How to read `input`, so that it has the views that a result was estimated from: what `given`
-/// says and, where that is silent, what the result says of its own light field. The focus plane
-/// holds for every form, the other options for the form that they were given for. `result` names
-/// the result in sentences. Throws IoError, saying what to change, if `given` contradicts the
+/// How to read `input`, so that it has the views that a result or labels were made from: what
+/// `given` says and, where that is silent, what their file says of its own light field. The focus
+/// plane holds for every form, the other options for the form that they were given for. `result`
+/// names the file in sentences. Throws IoError, saying what to change, if `given` contradicts the
 /// result; InvalidInput for a bad option.
 [[nodiscard]] io::OpenOptions options_for_result(const std::string& result,
                                                  const Reading& of_result, const std::string& input,

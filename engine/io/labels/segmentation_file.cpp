@@ -7,6 +7,7 @@
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/labels/label_list.h"
 #include "engine/io/maps/result_file.h"
+#include "engine/io/maps/stored_reading.h"
 
 namespace episcope::io {
 namespace {
@@ -63,6 +64,7 @@ void write_provenance(Hdf5Output& file, const StoredSegmentation& labeling) {
   file.set_text("/", "source", labeling.source);
   file.set_text("/", "version", kVersion);
   file.set_number("/", "seconds", labeling.seconds);
+  write_reading(file, "/", labeling.reading);
   const ViewIndex first = labeling.labels.first();
   file.set_integers(kLabels, "first_view", {first.v, first.u});
 }
@@ -167,6 +169,10 @@ Image<float> SegmentationFile::probabilities(ViewIndex view) const {
 
 std::string SegmentationFile::source() const {
   return state_->file.text("/", "source").value_or("");
+}
+
+Reading SegmentationFile::reading() const {
+  return reading_in(state_->file, "/");
 }
 
 bool is_segmentation_file(const std::filesystem::path& path) {

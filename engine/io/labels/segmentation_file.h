@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/label_info.h"
+#include "engine/core/light_field/reading.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/parameter.h"
 
@@ -22,6 +23,7 @@ struct StoredSegmentation {
   std::vector<LabelInfo> infos;  ///< By id; those of the layers of probabilities above all.
   ParameterSet parameters;
   std::string source;  ///< Path or name of the light field.
+  Reading reading{};   ///< How that was read.
   double seconds = 0;
 };
 
@@ -32,7 +34,8 @@ using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex
 /// Writes a segmentation in canonical order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
-/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`.
+/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`,
+/// `reader`, `reading`.
 /// Atomic. Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress);
@@ -56,6 +59,8 @@ class SegmentationFile {
   [[nodiscard]] Image<float> probabilities(ViewIndex view) const;
   /// Light field that it belongs to, as its file says; empty if it does not.
   [[nodiscard]] std::string source() const;
+  /// How that was read; unknown for files of former versions.
+  [[nodiscard]] Reading reading() const;
 
  private:
   struct State;

@@ -8,6 +8,7 @@
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/maps/foreign_result.h"
 #include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/stored_reading.h"
 
 #include <fmt/format.h>
 
@@ -49,18 +50,6 @@ std::vector<std::string> split_lines(const std::string& text) {
   return lines;
 }
 
-void write_reading(Hdf5Output& file, const Reading& reading) {
-  if (reading.reader.empty()) return;
-  file.set_text(kGroup, "reader", reading.reader);
-  file.set_text(kGroup, "reading", parameters_to_json(reading.options));
-}
-
-Reading reading_in(const Hdf5Input& file) {
-  const auto options = file.text(kGroup, "reading");
-  return {file.text(kGroup, "reader").value_or(""),
-          options ? parameters_from_json(*options) : ParameterSet()};
-}
-
 void write_provenance(Hdf5Output& file, const Estimate& estimate, const std::string& source) {
   file.set_text(kGroup, "method", estimate.method);
   file.set_text(kGroup, "parameters", parameters_to_json(estimate.parameters));
@@ -70,7 +59,7 @@ void write_provenance(Hdf5Output& file, const Estimate& estimate, const std::str
   if (estimate.source_hash != 0) {
     file.set_text(kGroup, "source_hash", hash_digits(estimate.source_hash));
   }
-  write_reading(file, estimate.reading);
+  write_reading(file, kGroup, estimate.reading);
   if (!(estimate.range == Interval{})) {
     file.set_numbers(kGroup, "range", {estimate.range.min, estimate.range.max});
   }
@@ -172,7 +161,7 @@ class ResultReader {
     estimate.version = text("version");
     estimate.source = text("source");
     estimate.source_hash = hash_from_digits(text("source_hash"));
-    estimate.reading = reading_in(file_);
+    estimate.reading = reading_in(file_, kGroup);
     estimate.notes = split_lines(text("notes"));
     const std::vector<double> range = file_.numbers(kGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
@@ -211,7 +200,7 @@ Estimate read_result(const std::filesystem::path& path, GridShape grid, const st
 }
 
 Reading read_reading(const std::filesystem::path& path) {
-  return is_result_file(path) ? reading_in(Hdf5Input(path)) : Reading{};
+  return is_result_file(path) ? reading_in(Hdf5Input(path), kGroup) : Reading{};
 }
 
 bool is_result_file(const std::filesystem::path& path) {

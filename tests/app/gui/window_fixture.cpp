@@ -74,6 +74,7 @@ void WindowFixture::runAndWait() {
   QTRY_VERIFY_WITH_TIMEOUT(run->isEnabled(), kPatience);
   QTest::mouseClick(run, Qt::LeftButton);
   QTRY_COMPARE_WITH_TIMEOUT(window.bench().session.estimates().size(), before + 1, kScenePatience);
+  QCoreApplication::processEvents();  // the session tells the window of it one turn later
 }
 
 bool WindowFixture::isSegmented() {

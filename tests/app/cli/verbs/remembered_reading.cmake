@@ -82,6 +82,18 @@ accuracy_of(by_plain a/plain.h5)
 accuracy_of(by_far a/far.h5)
 expect_equal("labels by a result with a focus plane" ${by_far} ${by_plain})
 
+# Labels remember the focus plane as well: those of a view off the centre belong to a moved image.
+expect("label in a focus plane" 0
+       ARGS label a/lf.h5 -o a/segments.h5 --features image --trees 4 --focus 2)
+picture_of(remembered wrong_labels a/segments.h5)
+picture_of(repeated wrong_labels a/segments.h5 --focus 2)
+expect_equal("labels with a focus plane" ${remembered} ${repeated})
+picture_of(shown segmentation a/segments.h5 --over-view 0)
+picture_of(focused view a/lf.h5 --focus 2)
+expect_equal("the view of labels with a focus plane" ${shown} ${focused})
+expect("another focus plane of labels" 1 ERR "with --focus=2, but --focus=0 .*leave --focus out"
+       ARGS show a/segments.h5 -o x.png --what wrong_labels --focus 0)
+
 # A submission is judged in the focus plane of its scene, whose name is that of the folder.
 file(MAKE_DIRECTORY "${WORK}/submission")
 file(COPY_FILE "${WORK}/a/far.h5" "${WORK}/submission/a.h5")
@@ -112,6 +124,11 @@ expect("difference from a flipped result" 0
        ERR "a/flip.h5 was read with --flip=u, that of a/plain.h5 was not"
        ARGS show a/plain.h5 -o d.png --what difference --minus a/flip.h5)
 
+expect("label with a flip" 0 ERR "chosen by hand"
+       ARGS label a/lf.h5 -o a/flipped.h5 --features image --trees 4 --flip u)
+picture_of(shown segmentation a/flipped.h5 --over-view 0)
+expect_equal("the view of labels with a flip" ${shown} ${flipped})
+
 # Units of the true depth: the estimate is the same, the truth is not.
 expect("estimate with units" 0 ERR "implausible"
        ARGS estimate epi_l a/lf.h5 -o a/units.h5 --units without-width)
@@ -121,6 +138,11 @@ score_of(remembered a/lf.h5 a/units.h5)
 expect_equal("a result with units" ${remembered} ${other_units})
 expect("contradicting units" 1 ERR "with --units=without-width, but --units=with-width"
        ARGS evaluate a/units.h5 --truth a/lf.h5 --units with-width)
+
+# An option that means nothing to a form is named, and changes nothing.
+expect("an option of another form" 0 ERR "--units is ignored, because this is [^\n]*2016"
+       ARGS estimate epi_l bench -o a/ignored.h5 --units with-width)
+score_of(score bench a/ignored.h5)
 
 # Names and order of the images of a grid, whose names fit two patterns.
 file(MAKE_DIRECTORY "${WORK}/grid" "${WORK}/snake")

@@ -2,6 +2,7 @@
 #include "app/session/run/command_line.h"
 
 #include "engine/disparity/registry.h"
+#include "engine/io/open/open_options.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_command_line_test {
@@ -33,10 +34,12 @@ class CommandLineTest : public QObject {
   void word_isQuotedWhereItMust_data();
   void word_isQuotedWhereItMust();
   void defaults_areLeftOut();
+  void autoOfAFile_isLeftOut();
   void changedValue_isNamed();
   void unknownMethod_namesEveryValue();
   void estimateOfOneView_saysSo();
   void overruledConventions_areNamed();
+  void readingOptions_readBack();
 };
 
 void CommandLineTest::word_isQuotedWhereItMust_data() {
@@ -69,6 +72,13 @@ void CommandLineTest::defaults_areLeftOut() {
 
   QCOMPARE(command_line_for("epi_l", defaults, ViewSelection::All, "demo"),
            std::string("episcope-cli estimate epi_l demo -o epi_l.h5 --views all"));
+}
+
+void CommandLineTest::autoOfAFile_isLeftOut() {
+  // Result files store "auto" without its type.
+  const ParameterSet read{{"range", IntervalOrAuto()}, {"view", IntervalOrAuto()}};
+
+  QVERIFY(changed_parameters("st_av_l", read).empty());
 }
 
 void CommandLineTest::changedValue_isNamed() {
@@ -107,6 +117,28 @@ void CommandLineTest::overruledConventions_areNamed() {
       command_line_for("epi_l", {}, ViewSelection::All, "x", reading),
       std::string("episcope-cli estimate epi_l x -o epi_l.h5 --views all --flip=both "
                   "--units=without-width --pattern='a {row} {col}.png' --snake --focus=-0.25"));
+}
+
+void CommandLineTest::readingOptions_readBack() {
+  const Schema<io::OpenOptions> schema = io::open_schema();
+  const ParameterSet given{{"flip", std::string("both")},
+                           {"units", std::string("without-width")},
+                           {"pattern", std::string("view_{row}_{col}.png")},
+                           {"snake", true},
+                           {Reading::kFocus, -0.1}};
+  QCOMPARE(given.size(), schema.descriptions().size());
+
+  const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');
+
+  ParameterSet read;
+  for (const QString& word : text.split(' ', Qt::SkipEmptyParts)) {
+    QVERIFY2(word.startsWith("--"), qPrintable(word));
+    const std::string key = word.section('=', 0, 0).mid(2).toStdString();
+    const std::string value = word.contains('=') ? word.section('=', 1).toStdString() : "true";
+    read.emplace_back(key, parse_parameter(schema.description(key), value));
+  }
+  QVERIFY(read == given);
+  QVERIFY(io::given_options(schema.parse(read)) == given);
 }
 
 }  // namespace episcope::in_command_line_test

@@ -27,6 +27,7 @@ io::StoredSegmentation labeling(GridShape grid, ViewIndex first) {
   stored.infos = {{4, "Löwe", {1, 2, 3}}, {12, "apple; red", {200, 0, 0}}};
   stored.parameters = {{"trees", 8}};
   stored.source = "lf.h5";
+  stored.reading = {"archive", {{"flip", std::string("u")}, {"focus", 1.5}}};
   stored.seconds = 1.5;
   return stored;
 }
@@ -56,6 +57,7 @@ class SegmentationFileTest : public QObject {
   void roundTrip();
   void probabilities_mayBeLeftOut();
   void datasets_areNamedAsInTheArchive();
+  void unknownReading_staysUnknown();
   void inputs_areNoLabelings();
   void unwritableFolder_leavesNothing();
 
@@ -96,6 +98,7 @@ void SegmentationFileTest::roundTrip() {
   QVERIFY(!read.contains({0, 2}));
   QVERIFY(read.infos() == stored.infos);
   QCOMPARE(QString::fromStdString(read.source()), QString("lf.h5"));
+  QVERIFY(read.reading() == stored.reading);
   QVERIFY(read.has_probabilities());
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view{1 + i / columns, 2 + i % columns};
@@ -129,6 +132,14 @@ void SegmentationFileTest::datasets_areNamedAsInTheArchive() {
   QCOMPARE(QString::fromStdString(file.text("LABELS", "axes").value_or("")), QString("v,u,y,x"));
   QCOMPARE(QString::fromStdString(file.text("Probabilities", "axes").value_or("")),
            QString("v,u,y,x,label"));
+}
+
+void SegmentationFileTest::unknownReading_staysUnknown() {
+  io::StoredSegmentation stored = labeling({1, 1}, {0, 0});
+  stored.reading = {};
+  io::write_segmentation(path("former.h5"), stored, {}, Progress());
+
+  QVERIFY(io::SegmentationFile(path("former.h5")).reading() == Reading());
 }
 
 void SegmentationFileTest::inputs_areNoLabelings() {
