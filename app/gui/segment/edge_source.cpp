@@ -28,11 +28,11 @@ void EdgeSource::read() {
   generation_ = session_.generation();
   read_job_.drop();
   const auto& scene = session_.scene();
-  if (!scene || !has_edge_weights(*scene)) return;
+  if (!scene || !has_edge_probabilities(*scene)) return;
   read_job_.start<Read>(
       [scene](const Progress& progress) -> Read {
         try {
-          return {find_edge_weights(*scene, progress), {}};
+          return {find_edge_probabilities(*scene, progress), {}};
         } catch (const IoError& error) {
           return {nullptr, error.what()};
         }

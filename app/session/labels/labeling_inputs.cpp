@@ -51,12 +51,12 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
                       kLabelingEstimator);
 }
 
-bool has_edge_weights(const Scene& scene) {
+bool has_edge_probabilities(const Scene& scene) {
   return scene.find_companion(CompanionKind::EdgeProbabilities) != nullptr;
 }
 
-std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
-                                                          const Progress& progress) {
+std::shared_ptr<const ViewStack<float>> find_edge_probabilities(const Scene& scene,
+                                                                const Progress& progress) {
   const Companion* file = scene.find_companion(CompanionKind::EdgeProbabilities);
   if (!file) return nullptr;
   return std::make_shared<const ViewStack<float>>(
