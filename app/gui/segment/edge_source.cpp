@@ -19,8 +19,8 @@ std::shared_ptr<const ViewStack<float>> EdgeSource::edges() const {
 
 QString EdgeSource::origin() const {
   return edges() ? tr("Boundaries follow the edge weights of the file beside the light field.")
-                 : tr("Boundaries follow edges computed from the image, and from disparity as far "
-                      "as it is known.");
+                 : tr("Boundaries follow edges computed from the image and, where it is known, the "
+                      "disparity.");
 }
 
 void EdgeSource::read() {

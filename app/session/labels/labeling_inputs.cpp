@@ -12,9 +12,10 @@ namespace {
 
 void require_all_views(const DisparityField& field, const LightField& lf, const std::string& what) {
   if (field.disparity.grid() == lf.grid()) return;
-  throw InvalidInput(what + " covers " + std::to_string(field.disparity.grid().count()) + " of " +
-                     std::to_string(lf.grid().count()) +
-                     " views, but labels are carried along the rays of all; use one of all views");
+  throw InvalidInput(
+      what + " covers " + std::to_string(field.disparity.grid().count()) + " of " +
+      std::to_string(lf.grid().count()) +
+      " views, but labels are carried along the rays of all views; use one that covers them");
 }
 
 /// A field of the scene that lives as long as the scene's truth does.
