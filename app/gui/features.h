@@ -7,7 +7,7 @@
 
 namespace episcope {
 
-/// Every feature of the window, in the order in which they put their widgets and commands.
+/// Every feature of the window, in the order in which they add widgets and commands.
 [[nodiscard]] std::span<const Feature> features();
 
 }  // namespace episcope

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   if (parser.isSet(version)) parser.showVersion();
   const QStringList inputs = parser.positionalArguments();
   if (!episcope::apply_theme(parser.value(theme)) || inputs.size() > 1) {
-    return fail(inputs.size() > 1 ? "only one INPUT can be open; start it again for each"
+    return fail(inputs.size() > 1 ? "only one INPUT can be open at a time"
                                   : "--theme must be light, dark or system");
   }
 

@@ -31,9 +31,9 @@ constexpr QSize kFirstSize(1280, 800);
 
 }  // namespace
 
-/// What features share, in the order in which it can be made; it ends the other way round, so that
-/// workers end before the session that they speak of. Widgets belong to the window; controllers of
-/// features can be found in it, as children.
+/// What features share, in order of construction. Destroyed in reverse, so that workers end before
+/// the session they refer to. Widgets belong to the window; controllers of features can be found in
+/// it, as children.
 struct MainWindow::Core {
   explicit Core(MainWindow& window)
       : session(queued_post(&window)),

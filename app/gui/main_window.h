@@ -17,7 +17,7 @@ class MainWindow : public QMainWindow {
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a path or a built-in scene, and lets features offer what is left from before.
+  /// Opens a path or a built-in scene, and lets features offer what an earlier session left behind.
   void start(const QString& input);
 
   /// What features work with.

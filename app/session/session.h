@@ -21,8 +21,8 @@ struct EstimateEntry {
   Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
 };
 
-/// What is open and what is known about it: scene, estimates, evaluations, and the place that is
-/// looked at. Belongs to one thread. Changes are gathered and told once per turn of that thread's
+/// What is open and what is known about it: scene, estimates, evaluations, and the current view and
+/// pixel. Belongs to one thread. Changes are collected and reported once per turn of that thread's
 /// event loop.
 class Session {
  public:
@@ -43,7 +43,7 @@ class Session {
   [[nodiscard]] const std::string& input() const { return input_; }
   /// The reading options that the scene was read with, the focus plane among them.
   [[nodiscard]] ParameterSet reading_options() const;
-  /// Grows with every scene: results begun under another number belong to a former light field.
+  /// Increases with every scene: results begun under another number belong to a former light field.
   [[nodiscard]] std::uint64_t generation() const { return generation_; }
 
   /// Adds an estimate and shows it. Returns its id, or 0 if `generation` is a former one: the

@@ -305,8 +305,10 @@ class SidePanelsTest : public QObject {
     InfoPanel panel;
     panel.resize(180, 300);
     const QString path = "/a/very/long/path/to/a/light/field/in/some/folder/lf.h5";
-    panel.setInfo("scene", {{"source", path, ""}, {"units", "depth in mm, from the cfg file", ""}},
-                  {"The order could not be checked."});
+    panel.setInfo(
+        "scene",
+        {{"source", path, "", "source"}, {"units", "depth in mm, from the cfg file", "", "units"}},
+        {"The order could not be checked."});
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
 

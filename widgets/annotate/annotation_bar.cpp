@@ -25,13 +25,13 @@ AnnotationBar::AnnotationBar(QWidget* parent)
   setObjectName("annotationBar");
   carried_->setObjectName("carry.on");
   carried_->setToolTip(
-      tr("Shows on every view, in stripes, what is painted on the others: carried along the rays, "
-         "without what is hidden. It is never painted over what you painted."));
+      tr("Shows the scribbles of every view on all others, as stripes: carried along the rays, "
+         "except where they are occluded. They never replace what you painted."));
   by_->setObjectName("carry.by");
   by_->addItem(tr("the shown estimate"), static_cast<int>(CarriedBy::Estimate));
-  by_->addItem(tr("the truth"), static_cast<int>(CarriedBy::Truth));
+  by_->addItem(tr("the ground truth"), static_cast<int>(CarriedBy::Truth));
   by_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  by_->setToolTip(tr("Disparities that scribbles are carried by"));
+  by_->setToolTip(tr("Disparity along which scribbles are carried"));
   carry_state_->setObjectName("carry.state");
   file_state_->setObjectName("annotation.file");
   auto* carry = new QHBoxLayout;

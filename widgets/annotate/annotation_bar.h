@@ -13,8 +13,8 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// What is done with scribbles as a whole: carried to all views, saved, exported, imported. Setters
-/// never emit.
+/// What is done with all scribbles: carrying them to all views, saving, exporting, importing.
+/// Setters never emit.
 class AnnotationBar : public QWidget {
   Q_OBJECT
 

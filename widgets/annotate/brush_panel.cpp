@@ -53,8 +53,8 @@ BrushPanel::BrushPanel(QWidget* parent)
   form->addRow(tr("Opacity"), opacity_);
   protects_->setObjectName("brush.protect");
   protects_->setToolTip(
-      tr("The brush paints over bare pixels only, the eraser erases the current label only; or "
-         "hold Shift while painting"));
+      tr("The brush paints only unpainted pixels, and the eraser erases only the current label. "
+         "Holding Shift does the same."));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
   layout->setSpacing(theme::kSpacing);
@@ -94,15 +94,15 @@ void BrushPanel::addFill(QFormLayout& form) {
   bound_->addItem(tr("up to edges"), static_cast<int>(FillBound::Edges));
   bound_->addItem(tr("its segment"), static_cast<int>(FillBound::Segmentation));
   bound_->setToolTip(
-      tr("What a fill is bounded by: edges of the view, or the segment of the "
-         "current segmentation"));
+      tr("What bounds a fill: edges of the view, or the segment of the current segmentation"));
   gradient_->setObjectName("fill.gradient");
   gradient_->setLocale(QLocale::c());
   gradient_->setRange(0.5, 99);
   gradient_->setDecimals(1);
   gradient_->setValue(kFirstGradient);
   gradient_->setToolTip(
-      tr("Change of colour from one pixel to the next that is an edge, in grey levels of 255"));
+      tr("Edge threshold: the change of colour from pixel to pixel that counts as an edge, in grey "
+         "levels (0 … 255)"));
   auto* line = new QHBoxLayout;
   line->setSpacing(theme::kSpacing);
   line->addWidget(bound_, 1);

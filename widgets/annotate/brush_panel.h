@@ -19,7 +19,7 @@ namespace episcope {
 /// What stops a fill.
 enum class FillBound { Edges, Segmentation };
 
-/// Buttons of the tools, sizes of brush and eraser, and what a fill goes by. Setters never emit.
+/// Buttons of the tools, sizes of brush and eraser, and what bounds a fill. Setters never emit.
 class BrushPanel : public QWidget {
   Q_OBJECT
 

@@ -54,8 +54,8 @@ LabelPalette::LabelPalette(QWidget* parent)
       rename_(make_tool_button({"labels.rename", "rename", tr("Rename this label"), tr("Rename")},
                                this)),
       remove_(make_tool_button(
-          {"labels.remove", "trash", tr("Remove this label and what is painted with it (Delete)"),
-           tr("Remove")},
+          {"labels.remove", "trash",
+           tr("Remove this label and everything painted with it (Delete)"), tr("Remove")},
           this)) {
   setObjectName("labelPalette");
   setUpTree();

@@ -19,8 +19,8 @@ namespace episcope {
 
 /// The labels that can be painted with: id, colour and name of each, the current one marked. A
 /// click makes a label the current one, a click on its colour asks for another colour, a double
-/// click renames it in its row, Delete removes it. Setters never emit; what the user wants comes
-/// out as an intent.
+/// click renames it in its row, Delete removes it. Setters never emit; what the user wants is a
+/// signal.
 class LabelPalette : public QWidget {
   Q_OBJECT
 

@@ -44,7 +44,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
   note_->setWordWrap(true);
   fold_->setObjectName("segment.settings");
   fold_->setText(tr("Settings"));
-  fold_->setToolTip(tr("Shows what the segmentation goes by"));
+  fold_->setToolTip(tr("Shows the settings of the segmentation"));
   fold_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   fold_->setArrowType(Qt::RightArrow);
   fold_->setAutoRaise(true);
@@ -77,7 +77,8 @@ SegmentPanel::SegmentPanel(QWidget* parent)
 QWidget* SegmentPanel::makeSettings() {
   source_->setObjectName("segment.source");
   source_->setToolTip(
-      tr("Disparity that labels are carried by from view to view, and that the forest may see"));
+      tr("Disparity that carries labels from view to view, and that the classifier may use as a "
+         "feature"));
   source_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   all_views_->setObjectName("segment.keepAll");
   all_views_->setToolTip(tr("Segments all views whenever the labels of this one are ready"));

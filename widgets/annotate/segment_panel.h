@@ -23,8 +23,8 @@ class ParameterForm;
 /// What the state chip is coloured by.
 enum class ChipMood { Quiet, Busy, Stale, Hint, Failed };
 
-/// The segmentation learnt from scribbles: its state, buttons of what is done and shown, how good
-/// it is, and, folded away, its settings. Setters never emit.
+/// The segmentation learnt from scribbles: its state and quality, buttons of what is done and
+/// shown, and, folded away, its settings. Setters never emit.
 class SegmentPanel : public QWidget {
   Q_OBJECT
 

@@ -84,11 +84,12 @@ void InfoPanel::rebuild() {
     key->setAlignment(Qt::AlignLeft | Qt::AlignTop);
     key->setPalette(theme::text_palette(theme::muted_text(palette())));
     auto* value = make_value(row.value, body);
-    value->setObjectName("info." + row.key);
+    if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
     grid->addWidget(key, line, 0);
     grid->addWidget(value, line++, 1);
     if (row.check.isEmpty()) continue;
     auto* check = make_value(row.check, body);
+    check->setObjectName("info.check");
     check->setPalette(theme::text_palette(theme::muted_text(palette())));
     grid->addWidget(check, line++, 1);
   }

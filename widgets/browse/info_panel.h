@@ -19,6 +19,7 @@ struct InfoRow {
   QString key;
   QString value;
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
+  QString id{};   ///< "order": the value is the object "info.order"; may be empty.
 };
 
 /// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; what

@@ -19,7 +19,7 @@ namespace episcope {
 class CanvasTool;
 
 /// Shows a picture with an overlay, zoomed and panned down to the single pixel, with a cross-hair.
-/// It owns no model: what the user does comes out as an intent, and the host answers with a setter.
+/// It owns no model: what the user does is emitted, and the host answers with a setter.
 ///
 /// The wheel zooms at the cursor; middle drag or Space+drag pans; click moves the cross-hair;
 /// Shift+click focuses; drag is parallax while browsing; double click asks for the centre view.

@@ -44,8 +44,8 @@ ColorBar::ColorBar(QWidget* parent)
           {"colorBar.lock", "unlock", tr("Lock the range: it stays when the result changes")},
           this)),
       automatic_(make_tool_button(
-          {"colorBar.automatic", "auto", tr("Automatic range of what is in sight")}, this)),
-      own_(make_tool_button({"colorBar.own", "reset", tr("The quantity's own range")}, this)) {
+          {"colorBar.automatic", "auto", tr("Automatic range of the visible values")}, this)),
+      own_(make_tool_button({"colorBar.own", "reset", tr("Default range of the quantity")}, this)) {
   setObjectName("colorBar");
   title_->setObjectName("colorBar.title");
   title_->setTextInteractionFlags(Qt::NoTextInteraction);

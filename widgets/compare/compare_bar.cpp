@@ -49,8 +49,8 @@ void fill(QComboBox* combo, const std::vector<CompareBar::Choice>& choices, quin
 
 CompareBar::CompareBar(QWidget* parent)
     : QWidget(parent),
-      a_(make_combo("compare.a", tr("A: the result that is shown"), this)),
-      b_(make_combo("compare.b", tr("B: the result that it is compared with"), this)),
+      a_(make_combo("compare.a", tr("A: the result shown"), this)),
+      b_(make_combo("compare.b", tr("B: the result it is compared with"), this)),
       buttons_(new QHBoxLayout) {
   setObjectName("compareBar");
   buttons_->setSpacing(2);

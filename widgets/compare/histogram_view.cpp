@@ -24,7 +24,7 @@ HistogramView::HistogramView(QWidget* parent) : QWidget(parent) {
   setObjectName("histogramView");
   setMouseTracking(true);
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-  setToolTip(tr("Values in sight. Drag the handles to change the colours' range."));
+  setToolTip(tr("Visible values. Drag the handles to change the colour range."));
 }
 
 void HistogramView::setHistogram(const render::Histogram& histogram,
@@ -62,7 +62,7 @@ void HistogramView::paintEvent(QPaintEvent*) {
   painter.fillRect(area(), theme::kCanvas);
   if (histogram_.counts.empty()) {
     painter.setPen(theme::kCanvasMuted);
-    painter.drawText(area(), Qt::AlignCenter, tr("No values in sight"));
+    painter.drawText(area(), Qt::AlignCenter, tr("No visible values"));
     return;
   }
   paintBars(painter);

@@ -54,14 +54,14 @@ OverlayBar::OverlayBar(QWidget* parent)
   focus_slider_->setMinimumWidth(60);
   focus_slider_->setMaximumWidth(220);
   focus_slider_->setToolTip(
-      tr("Focus plane: shears EPIs and view so that this disparity stands upright "
-         "(Alt+wheel, Shift+click)"));
+      tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "
+         "Shift+click)"));
   focus_spin_->setObjectName("overlay.focusSpin");
   focus_spin_->setDecimals(2);
   focus_spin_->setSingleStep(0.05);
   focus_spin_->setSuffix(tr(" px"));
   auto* reset =
-      make_tool_button({"overlay.focusReset", "reset", tr("Focus plane back to 0 px")}, this);
+      make_tool_button({"overlay.focusReset", "reset", tr("Reset the focus plane to 0 px")}, this);
 
   row_->setContentsMargins(0, 0, 0, 0);
   row_->setSpacing(theme::kSpacing);

@@ -46,8 +46,8 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
     layout->addWidget(values_[place], 3, i);
     layout->setColumnStretch(i, 1);
   }
-  values_[kBad]->setToolTip(tr("Judged pixels in sight that are off by more than 0.07 px"));
-  values_[kInvalid]->setToolTip(tr("Pixels in sight without a value"));
+  values_[kBad]->setToolTip(tr("Visible judged pixels that are off by more than 0.07 px"));
+  values_[kInvalid]->setToolTip(tr("Visible pixels without a value"));
   connect(histogram_, &HistogramView::rangeEdited, this, &StatisticsPanel::rangeEdited);
   clear(tr("No map is shown"));
 }
@@ -56,7 +56,7 @@ void StatisticsPanel::setSummary(const Summary& summary) {
   const auto& statistics = summary.statistics;
   const QString title =
       summary.unit.isEmpty() ? summary.title : tr("%1 [%2]").arg(summary.title, summary.unit);
-  title_->setFullText(tr("%1 · in sight").arg(title));
+  title_->setFullText(tr("%1 · visible part").arg(title));
   histogram_->setHistogram(statistics.histogram, summary.shading);
   const double numbers[] = {statistics.min, statistics.median, statistics.mean, statistics.max};
   for (std::size_t i = 0; i < std::size(numbers); ++i) {

@@ -6,8 +6,8 @@
 
 namespace episcope {
 
-/// One line of plain text that gives way: what does not fit is elided, and the whole of it becomes
-/// the tool tip. Never asks for more width than it gets.
+/// One line of plain text that is elided where it does not fit; the whole of it is then the tool
+/// tip. Never asks for more width than it gets.
 class ElidedLabel : public QLabel {
   Q_OBJECT
 

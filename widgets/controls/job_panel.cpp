@@ -70,8 +70,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   title_label->setObjectName(name + ".title");
   title_label->setFullText(title);
   row.finish = make_tool_button(
-      {name + ".finish", "success", tr("Take the result so far, without waiting for the end")},
-      row.widget);
+      {name + ".finish", "success", tr("Finish now and keep the result so far")}, row.widget);
   row.finish->hide();
   row.cancel = make_tool_button({name + ".cancel", "close", tr("Cancel this job")}, row.widget);
   row.bar = new QProgressBar(row.widget);

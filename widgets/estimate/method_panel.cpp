@@ -5,6 +5,7 @@
 #include "widgets/estimate/parameter_form.h"
 #include "widgets/style/aside_delegate.h"
 #include "widgets/style/icon.h"
+#include "widgets/style/schema_text.h"
 #include "widgets/style/theme.h"
 
 #include <QAbstractItemView>
@@ -43,14 +44,14 @@ MethodPanel::MethodPanel(QWidget* parent)
       scroll_(new QScrollArea(this)),
       all_views_(new QCheckBox(tr("All views"), this)),
       run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
-      cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancels every run"), this)),
+      cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancel all runs"), this)),
       reset_(make_button("method.reset", "reset", tr("Reset"),
-                         tr("All parameters back to their defaults"), this)),
+                         tr("Reset all parameters to their defaults"), this)),
       copy_(make_button("method.copyCommand", "copy", tr("Copy as command"),
-                        tr("Copy the episcope-cli line that does the same"), this)) {
+                        tr("Copy the equivalent episcope-cli command"), this)) {
   setObjectName("methodPanel");
   method_->setObjectName("method.combo");
-  method_->setToolTip(tr("Method of estimation"));
+  method_->setToolTip(tr("Estimation method"));
   method_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::Column, method_));
   method_->view()->setMinimumWidth(kListWidth);
   summary_->setObjectName("method.summary");
@@ -59,7 +60,7 @@ MethodPanel::MethodPanel(QWidget* parent)
   reference_->setWordWrap(true);
   reference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   all_views_->setObjectName("method.allViews");
-  all_views_->setToolTip(tr("Estimate every view; else only the centre view"));
+  all_views_->setToolTip(tr("Estimate all views instead of the centre view only"));
   run_->setDefault(true);
 
   scroll_->setObjectName("method.scroll");
@@ -118,7 +119,7 @@ void MethodPanel::setMethods(std::vector<MethodDescription> methods) {
   for (const auto& method : methods_) {
     method_->addItem(QString::fromStdString(method.name), QString::fromStdString(method.id));
     for (const int role : {static_cast<int>(Qt::ToolTipRole), AsideDelegate::kAsideRole}) {
-      method_->setItemData(method_->count() - 1, QString::fromStdString(method.summary), role);
+      method_->setItemData(method_->count() - 1, schema_text(method.summary), role);
     }
   }
   showMethod(method_->currentIndex());
@@ -132,7 +133,7 @@ void MethodPanel::showMethod(int index) {
     widget->setEnabled(has_method);
   }
   const MethodDescription method = has_method ? methods_[index] : MethodDescription{};
-  summary_->setText(QString::fromStdString(method.summary));
+  summary_->setText(schema_text(method.summary));
   reference_->setText(QString::fromStdString(method.reference));
   reference_->setVisible(!method.reference.empty());
   all_views_->setEnabled(method.all_views);

@@ -3,6 +3,7 @@
 
 #include "widgets/controls/number_scale.h"
 #include "widgets/controls/number_spin.h"
+#include "widgets/style/schema_text.h"
 #include "widgets/style/theme.h"
 
 #include <QCheckBox>
@@ -67,7 +68,7 @@ NumberSpin* make_spin(const ParameterDescription& description, const char* contr
   spin->setRange(description.min, description.max);
   spin->setSingleStep(is_integer ? 1 : (description.max - description.min) / 100);
   if (description.logarithmic) spin->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-  if (!description.unit.empty()) spin->setSuffix(' ' + text_of(description.unit));
+  if (!description.unit.empty()) spin->setSuffix(' ' + schema_text(description.unit));
   spin->setLeastDecimals(kLeastDecimals);
   new WheelGuard(spin);
   return spin;
@@ -164,7 +165,7 @@ class ChoiceEditor : public ParameterEditor {
     const auto& choices = description.choices;
     const auto& labels = description.choice_labels.empty() ? choices : description.choice_labels;
     for (std::size_t i = 0; i < choices.size(); ++i) {
-      combo_->addItem(text_of(labels[i]), text_of(choices[i]));
+      combo_->addItem(schema_text(labels[i]), text_of(choices[i]));
     }
     new WheelGuard(combo_);
     make_row(this)->addWidget(combo_, 1);
@@ -213,7 +214,7 @@ class IntervalEditor : public ParameterEditor {
   IntervalEditor(const ParameterDescription& description, QWidget* parent)
       : ParameterEditor(parent),
         domain_{description.min, description.max},
-        automatic_(new QCheckBox(tr("auto"), this)),
+        automatic_(new QCheckBox(ParameterEditor::tr("auto"), this)),
         min_(make_spin(description, "min", this)),
         max_(make_spin(description, "max", this)) {
     automatic_->setObjectName(control_name(description, "auto"));
@@ -289,9 +290,9 @@ class ViewEditor : public ParameterEditor {
  public:
   ViewEditor(const ParameterDescription& description, QWidget* parent)
       : ParameterEditor(parent),
-        automatic_(new QCheckBox(tr("auto"), this)),
-        v_(make_place(description, "v", tr("Row of the view"))),
-        u_(make_place(description, "u", tr("Column of the view"))) {
+        automatic_(new QCheckBox(ParameterEditor::tr("auto"), this)),
+        v_(make_place(description, "v", ParameterEditor::tr("Row of the view"))),
+        u_(make_place(description, "u", ParameterEditor::tr("Column of the view"))) {
     automatic_->setObjectName(control_name(description, "auto"));
     auto* row = make_row(this);
     row->addWidget(automatic_);

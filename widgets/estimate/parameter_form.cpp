@@ -3,6 +3,7 @@
 
 #include "widgets/controls/tool_button.h"
 #include "widgets/estimate/parameter_editor.h"
+#include "widgets/style/schema_text.h"
 #include "widgets/style/theme.h"
 
 #include <QGridLayout>
@@ -13,29 +14,14 @@
 namespace episcope {
 namespace {
 
-QString with_unit(const std::string& number, const std::string& unit) {
-  const QString text = QString::fromStdString(number);
-  return unit.empty() ? text : text + ' ' + QString::fromStdString(unit);
-}
-
-QString domain_text(const ParameterDescription& d) {
-  if (!d.choices.empty() || std::holds_alternative<bool>(d.default_value) ||
-      std::holds_alternative<std::string>(d.default_value) ||
-      std::holds_alternative<ViewOrAuto>(d.default_value)) {
-    return {};
-  }
-  return ParameterForm::tr("Range %1 … %2")
-      .arg(QString::fromStdString(to_text(d.min)), with_unit(to_text(d.max), d.unit));
-}
-
 QString tool_tip(const ParameterDescription& d) {
-  const QString fallback = with_unit(to_text(d.default_value), d.unit);
-  QStringList facts{domain_text(d), ParameterForm::tr("Default %1").arg(fallback)};
-  facts.removeAll({});
+  const QString domain = domain_text(d);
+  QStringList facts;
+  if (!domain.isEmpty()) facts << ParameterForm::tr("Range %1").arg(domain);
+  facts << ParameterForm::tr("Default %1").arg(value_text(d, d.default_value));
   return QString("<p><b>%1</b></p><p>%2</p><p>%3<br/><code>--%4</code></p>")
-      .arg(QString::fromStdString(d.label).toHtmlEscaped(),
-           QString::fromStdString(d.help).toHtmlEscaped(), facts.join(" · ").toHtmlEscaped(),
-           QString::fromStdString(d.key).toHtmlEscaped());
+      .arg(schema_text(d.label).toHtmlEscaped(), schema_text(d.help).toHtmlEscaped(),
+           facts.join(" · ").toHtmlEscaped(), QString::fromStdString(d.key).toHtmlEscaped());
 }
 
 }  // namespace
@@ -61,11 +47,11 @@ void ParameterForm::setParameters(const std::vector<ParameterDescription>& param
 
 void ParameterForm::addRow(const ParameterDescription& description) {
   const QString key = QString::fromStdString(description.key);
-  auto* label = new QLabel(QString::fromStdString(description.label), this);
+  auto* label = new QLabel(schema_text(description.label), this);
   auto* editor = make_parameter_editor(description, this);
-  const QString fallback = with_unit(to_text(description.default_value), description.unit);
-  auto* reset =
-      make_tool_button({key + ".reset", "reset", tr("Back to the default %1").arg(fallback)}, this);
+  const QString fallback = value_text(description, description.default_value);
+  auto* reset = make_tool_button(
+      {key + ".reset", "reset", tr("Reset to the default, %1").arg(fallback)}, this);
   label->setObjectName(key + ".label");
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);

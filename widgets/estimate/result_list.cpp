@@ -48,10 +48,9 @@ ResultList::ResultList(QWidget* parent)
                                this)),
       remove_(make_tool_button(
           {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),
-      reuse_(make_tool_button(
-          {"results.reuse", "reuse", tr("Bring the parameters of this result back into the form"),
-           tr("Reuse")},
-          this)) {
+      reuse_(make_tool_button({"results.reuse", "reuse",
+                               tr("Copy the parameters of this result to the form"), tr("Reuse")},
+                              this)) {
   setObjectName("resultList");
   setUpTree();
   hint_->setObjectName("results.hint");
@@ -85,7 +84,8 @@ void ResultList::setUpTree() {
   tree_->viewport()->installEventFilter(this);
   tree_->setColumnCount(kColumnCount);
   tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});
-  tree_->headerItem()->setToolTip(kMse, tr("Mean squared error ×100 against the truth, px²"));
+  tree_->headerItem()->setToolTip(kMse,
+                                  tr("Mean squared error ×100 against the ground truth, px²"));
   for (const int column : {kMse, kSeconds}) {
     tree_->headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   }

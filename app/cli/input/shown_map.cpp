@@ -4,7 +4,7 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/result_input.h"
 #include "app/session/labels/labeling_inputs.h"
-#include "app/session/labels/segmentation_file.h"
+#include "app/session/labels/save_segmentation.h"
 #include "app/session/run/read_result.h"
 #include "app/session/run/result_reading.h"
 #include "app/session/run/result_source.h"
@@ -170,7 +170,7 @@ void load_labels(const ShownMap& shown, const ReadOptions& read, LoadedMap& load
 
 /// Edges are those of the file beside the light field, else of image and result.
 void add_edges(LoadedMap& loaded, const Progress& progress) {
-  loaded.source.edges = find_edge_weights(*loaded.scene, progress);
+  loaded.source.edges = find_edge_probabilities(*loaded.scene, progress);
   if (const EstimatePtr& estimate = loaded.source.estimate) {
     loaded.source.edge_disparity = {estimate, &estimate->field};
   }

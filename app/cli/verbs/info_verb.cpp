@@ -72,9 +72,9 @@ Json scene_json(const Scene& scene, const std::string& input) {
                                                {"shape", companion.shape}}));
   }
   json["focus"] = scene.convention.focus_px;
-  json["order"] = scene.convention.order;
+  json["order"] = order_text(scene.convention);
   json["order_check"] = scene.convention.order_check;
-  json["units"] = scene.convention.units;
+  json["units"] = units_text(scene.convention);
   json["warnings"] = scene.convention.warnings;
   return json;
 }
@@ -169,10 +169,11 @@ void print_scene(const Scene& scene) {
   if (const double focus_px = scene.convention.focus_px; focus_px != 0) {
     print_line("focus", "a plane of " + to_text(focus_px) + " px was baked in: it has 0 now");
   }
-  print_line("order", scene.convention.order + (scene.convention.order_check.empty()
-                                                    ? ""
-                                                    : " (" + scene.convention.order_check + ")"));
-  print_line("units", scene.convention.units);
+  print_line(
+      "order",
+      order_text(scene.convention) +
+          (scene.convention.order_check.empty() ? "" : " (" + scene.convention.order_check + ")"));
+  print_line("units", units_text(scene.convention));
   for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
 }
 

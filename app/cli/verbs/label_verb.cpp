@@ -9,7 +9,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/labels/judge_labeling.h"
 #include "app/session/labels/labeling_inputs.h"
-#include "app/session/labels/segmentation_file.h"
+#include "app/session/labels/save_segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/io/labels/scribble_file.h"
@@ -136,7 +136,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
   if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
-  Labeler labeler(scene.light_field, disparity.field, find_edge_weights(scene, progress));
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress));
   const auto labeling = std::make_shared<const Labeling>(
       labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
                     progress.part(0.2, 0.95)));

@@ -30,7 +30,7 @@ void add_annotating(const Workbench& bench) {
   bench.frame.addTab({.id = "annotate",
                       .title = AnnotateController::tr("Annotate"),
                       .command_text = AnnotateController::tr("Annotate tab"),
-                      .command_tip = AnnotateController::tr("Shows labels and tools to paint"),
+                      .command_tip = AnnotateController::tr("Shows the labels and painting tools"),
                       .widget = tab,
                       .room = room});
   new AnnotateController(bench, brush);

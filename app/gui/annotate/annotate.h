@@ -5,8 +5,8 @@
 
 namespace episcope {
 
-/// Painting labels on views: tools, labels, scribbles on all views, their files, and what is left
-/// of them after a crash.
+/// Painting labels on views: tools, labels, scribbles on all views, their files, and recovery after
+/// a crash.
 void add_annotating(const Workbench& bench);
 
 }  // namespace episcope

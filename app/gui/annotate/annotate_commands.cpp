@@ -22,11 +22,11 @@ QString edit_text(EditKind kind) {
     case EditKind::AddLabel:
       return AnnotateController::tr("new label");
     case EditKind::RenameLabel:
-      return AnnotateController::tr("name of label");
+      return AnnotateController::tr("label name");
     case EditKind::RecolorLabel:
-      return AnnotateController::tr("colour of label");
+      return AnnotateController::tr("label colour");
     case EditKind::RemoveLabel:
-      return AnnotateController::tr("removal of label");
+      return AnnotateController::tr("label removal");
     case EditKind::Import:
       return AnnotateController::tr("import");
   }
@@ -39,7 +39,7 @@ void AnnotateController::addHistoryCommands() {
   bench_.commands.add({.id = "annotate.mode",
                        .menu = Menu::Annotate,
                        .text = tr("Annotate"),
-                       .tip = tr("Paints labels on the view, or goes back to browsing"),
+                       .tip = tr("Switches between painting labels and browsing"),
                        .icon = "brush",
                        .keys = {tr("Ctrl+B")},
                        .run = [this] { setAnnotating(!is_annotating_); },
@@ -62,7 +62,7 @@ void AnnotateController::addHistoryCommands() {
       {.id = "annotate.undo",
        .menu = Menu::Annotate,
        .text = tr("Undo"),
-       .tip = tr("Undoes the last stroke or change of labels, on whichever view it is"),
+       .tip = tr("Undoes the last stroke or change of labels, on whichever view it was made"),
        .icon = "undo",
        .keys = {tr("Ctrl+Z")},
        .run = [this] { document_.undo(); },
@@ -102,9 +102,9 @@ void AnnotateController::addToolCommands() {
            {AnnotationTool::Eraser, "eraser", tr("Eraser"), tr("Erases what is painted"),
             Qt::Key_E},
            {AnnotationTool::Fill, "fill", tr("Fill"),
-            tr("Fills a region up to its edges; right: empties it"), Qt::Key_F},
+            tr("Fills a region up to its edges; the right button clears it"), Qt::Key_F},
            {AnnotationTool::Pick, "pick", tr("Pick label"),
-            tr("Makes the label under the mouse the current one"), Qt::Key_I}}) {
+            tr("Selects the label under the cursor"), Qt::Key_I}}) {
     QAction* action =
         bench_.commands.add({.id = "annotate." + row.id,
                              .menu = Menu::Annotate,
@@ -125,7 +125,7 @@ void AnnotateController::addSizeCommands() {
   bench_.commands.add({.id = "annotate.larger",
                        .menu = Menu::Annotate,
                        .text = tr("Larger brush"),
-                       .tip = tr("Makes the brush, or the eraser in use, larger"),
+                       .tip = tr("Enlarges the brush, or the eraser while it is in use"),
                        .keys = {Qt::Key_BracketRight, Qt::Key_Period},
                        .run = [this] { stepSize(1); },
                        .section = annotate_section::kTools,
@@ -133,7 +133,7 @@ void AnnotateController::addSizeCommands() {
   bench_.commands.add({.id = "annotate.smaller",
                        .menu = Menu::Annotate,
                        .text = tr("Smaller brush"),
-                       .tip = tr("Makes the brush, or the eraser in use, smaller"),
+                       .tip = tr("Shrinks the brush, or the eraser while it is in use"),
                        .keys = {Qt::Key_BracketLeft, Qt::Key_Comma},
                        .run = [this] { stepSize(-1); },
                        .section = annotate_section::kTools,
@@ -141,8 +141,8 @@ void AnnotateController::addSizeCommands() {
   bench_.commands.add({.id = "annotate.protect",
                        .menu = Menu::Annotate,
                        .text = tr("Protect other labels"),
-                       .tip = tr("Paints over bare pixels only and erases the current label only, "
-                                 "as Shift does"),
+                       .tip = tr("Paints only unpainted pixels and erases only the current label; "
+                                 "holding Shift does the same"),
                        .run = [this] { setProtectsOthers(!protects_others_); },
                        .section = annotate_section::kTools,
                        .enabled = has_document,

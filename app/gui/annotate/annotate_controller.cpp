@@ -186,7 +186,7 @@ PaintStyle AnnotateController::styleOf(const StrokeStart& start) const {
   return style;
 }
 
-// Who begins to paint without a label gets one.
+// Painting without a label creates one.
 bool AnnotateController::requireLabel() {
   if (bench_.labels.current() == 0) {
     document_.edit([](AnnotationDocument& document) { document.add_label(); });
@@ -210,7 +210,7 @@ void AnnotateController::fill(const StrokeStart& start) {
   const PixelRegion region = regionAt(pixel_of(start.at));
   if (region.empty()) {
     bench_.messages.hint(
-        tr("There is an edge here: click beside it, or let the fill pass stronger edges."));
+        tr("There is an edge here. Click beside it, or raise the edge threshold of the fill."));
     return;
   }
   document_.edit([&](AnnotationDocument& document) {

@@ -50,7 +50,8 @@ class AnnotateController : public QObject {
   void showMode();
   void showSizeKeys();
   void showColor();
-  /// Strokes are seen with the tab that they are edited in: over errors they would hide some.
+  /// Strokes are shown only with the tab they are edited in: elsewhere they would hide what lies
+  /// below.
   void showScribbles();
   [[nodiscard]] bool isTabShown() const;
   [[nodiscard]] CanvasTool* canvasTool() const;

@@ -66,19 +66,19 @@ void AnnotationFiles::addCommand(const QString& id, const QString& text, const Q
 
 void AnnotationFiles::addCommands() {
   addCommand("save_scribbles", tr("Save scribbles"),
-             tr("Saves labels and scribbles, beside the light field if that can be written"),
+             tr("Saves labels and scribbles, beside the light field if that folder is writable"),
              "save", {QKeySequence::Save}, &AnnotationFiles::save);
   addCommand("save_scribbles_as", tr("Save scribbles as…"),
-             tr("Saves labels and scribbles in another file"), {}, {tr("Ctrl+Shift+S")},
+             tr("Saves labels and scribbles to another file"), {}, {tr("Ctrl+Shift+S")},
              &AnnotationFiles::saveAsDialog);
   addCommand("import_scribbles", tr("Import scribbles…"),
-             tr("Adds scribbles of another file where nothing is painted"), "open", {},
+             tr("Adds scribbles from another file wherever nothing is painted"), "open", {},
              &AnnotationFiles::importDialog);
   addCommand("compare_labels", tr("Compare with true labels…"),
-             tr("Compares the segmentation with GT_LABELS of another file"), "open", {},
+             tr("Compares the segmentation with the GT_LABELS of another file"), "open", {},
              &AnnotationFiles::compareDialog);
-  addCommand("export_scribbles", tr("Export scribbles as pictures…"),
-             tr("Writes a PNG picture of each painted view"), "picture", {},
+  addCommand("export_scribbles", tr("Export scribbles as images…"),
+             tr("Writes a PNG image of each painted view"), "picture", {},
              &AnnotationFiles::exportDialog);
   for (const char* id : {"file.save_scribbles", "file.import_scribbles", "file.export_scribbles"}) {
     bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));
@@ -129,7 +129,7 @@ void AnnotationFiles::askForPlace(std::function<void()> then) {
   ask_where_to_save(&bench_.window,
                     {.name = "save_scribbles",
                      .title = tr("Save scribbles"),
-                     .filter = tr("Labels of the archive (*.h5)"),
+                     .filter = tr("Archive labels (*.h5)"),
                      .proposal = suggestion(),
                      // What else a file of labels holds stays as it is.
                      .confirms_overwrite = false},
@@ -184,14 +184,14 @@ void AnnotationFiles::exportDialog() {
   }
   ask_for_folder(
       &bench_.window,
-      {.name = "export_scribbles", .title = tr("Folder for a picture of each painted view")},
+      {.name = "export_scribbles", .title = tr("Folder for the images of the painted views")},
       [this](const QString& folder) { exportPictures(folder); });
 }
 
 void AnnotationFiles::exportPictures(const QString& folder) {
   if (!document_.document()) return;
   bench_.jobs.start<bool>(
-      Lane::Export, tr("Writing pictures of scribbles"),
+      Lane::Export, tr("Writing scribble images"),
       [scribbles = snapshot(), folder, scene = session_.scene()](const Progress&) {
         io::write_scribble_pictures(
             path_of(folder),
@@ -206,7 +206,7 @@ void AnnotationFiles::importDialog() {
   ask_for_file(&bench_.window,
                {.name = "import_scribbles",
                 .title = tr("Import scribbles"),
-                .filter = tr("Labels of the archive, or a picture of those exported (*.h5 *.hdf5 "
+                .filter = tr("Archive labels or exported scribble images (*.h5 *.hdf5 "
                              "scribbles_*.png);;All files (*)")},
                [this](const QString& path) { importFrom(path); });
 }
@@ -236,8 +236,7 @@ void AnnotationFiles::importFrom(const QString& path) {
         if (is_new) {
           bench_.messages.success(tr("Imported: %1").arg(path));
         } else {
-          bench_.messages.hint(tr("%1 holds no scribbles that were not here already.")
-                                   .arg(QFileInfo(path).fileName()));
+          bench_.messages.hint(tr("%1 contains no new scribbles.").arg(QFileInfo(path).fileName()));
         }
       });
 }
@@ -247,7 +246,7 @@ void AnnotationFiles::compareDialog() {
   ask_for_file(&bench_.window,
                {.name = "compare_labels",
                 .title = tr("Compare with true labels"),
-                .filter = tr("Labels of the archive (*.h5 *.hdf5);;All files (*)")},
+                .filter = tr("Archive labels (*.h5 *.hdf5);;All files (*)")},
                [this](const QString& path) { compareWith(path); });
 }
 
@@ -262,7 +261,7 @@ void AnnotationFiles::compareWith(const QString& path) {
       [this, path, generation = session_.generation()](const TrueLabelsPtr& labels) {
         if (generation != session_.generation()) return;
         session_.set_true_labels(labels);
-        bench_.messages.success(tr("Labels are compared with %1").arg(path));
+        bench_.messages.success(tr("Labels are now compared with %1").arg(path));
       });
 }
 
@@ -277,7 +276,7 @@ void AnnotationFiles::leave(std::function<void()> go_on) {
     return;
   }
   question_ = new QMessageBox(QMessageBox::Question, tr("Unsaved scribbles"),
-                              tr("What you painted on “%1” is not saved.")
+                              tr("The scribbles on “%1” have not been saved.")
                                   .arg(QString::fromStdString(session_.light_field()->info().name)),
                               QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel,
                               &bench_.window);

@@ -20,17 +20,17 @@ namespace episcope {
 
 class AnnotationBar;
 
-/// Saves, exports and imports scribbles in the background, and sees to it that nobody loses any by
-/// leaving the light field. Files and pictures keep to the views as they are stored, also at a
-/// focus plane (shear.h).
+/// Saves, exports and imports scribbles in the background, and ensures that none are lost by
+/// leaving the light field. Files hold views as stored, also while a focus plane is applied
+/// (shear.h).
 class AnnotationFiles : public QObject {
   Q_OBJECT
 
  public:
   AnnotationFiles(const Workbench& bench, AnnotationBar* bar);
 
-  /// Where `save` writes: where it was saved last, else beside the light field; empty if neither is
-  /// known or can be written, then `save` asks.
+  /// Where `save` writes: where it wrote last, else beside the light field. Empty if neither is
+  /// known and writable: then `save` asks.
   [[nodiscard]] QString place() const;
   void save();
   void saveAsDialog();
@@ -41,11 +41,11 @@ class AnnotationFiles : public QObject {
   void importDialog();
   /// From an HDF5 file of labels, or the folder of an exported picture.
   void importFrom(const QString& path);
-  /// Compares the segmentation with GT_LABELS of another file.
+  /// Compares the segmentation with the GT_LABELS of another file.
   void compareDialog();
   void compareWith(const QString& path);
   /// Calls `go_on` at once if nothing is unsaved; else asks whether to save or to discard first. It
-  /// is never called if the user stays or saving fails.
+  /// is never called if the user cancels or saving fails.
   void leave(std::function<void()> go_on);
 
  private:

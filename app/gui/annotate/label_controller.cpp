@@ -81,7 +81,7 @@ void LabelController::addChoiceCommands() {
   bench_.commands.add({.id = "annotate.swap_labels",
                        .menu = Menu::Label,
                        .text = tr("Swap labels"),
-                       .tip = tr("Goes back to the label used before"),
+                       .tip = tr("Returns to the label used before"),
                        .keys = {Qt::Key_X},
                        .run = [this] { labels_.swap(); },
                        .section = label_section::kEdit,
@@ -106,12 +106,12 @@ void LabelController::addEditCommands() {
   };
   add_one("add_label", tr("Add label"), tr("Adds a label and paints with it"), "add",
           {tr("Ctrl+Shift+N")}, [this] { add(); });
-  add_one("rename_label", tr("Rename label"), tr("Edits the name of the current label"), "rename",
+  add_one("rename_label", tr("Rename label"), tr("Renames the current label"), "rename",
           {Qt::Key_F2}, [this] { rename(); });
   add_one("recolor_label", tr("Change colour…"), tr("Changes the colour of the current label"), {},
           {}, [this] { recolor(labels_.current()); });
   add_one("remove_label", tr("Remove label"),
-          tr("Removes the current label and what is painted with it"), "trash", {},
+          tr("Removes the current label and everything painted with it"), "trash", {},
           [this] { remove(labels_.current()); });
 }
 
@@ -137,7 +137,7 @@ void LabelController::showHint() {
   palette_->setHint(
       hasDocument() ? tr("No labels yet. Add one for each kind of thing, then paint a few strokes "
                          "on the view.")
-      : bench_.stage.isPreviewing() ? tr("The light field is being read.")
+      : bench_.stage.isPreviewing() ? tr("The light field is still loading.")
                                     : tr("Open a light field to label it."));
 }
 
@@ -174,11 +174,10 @@ void LabelController::remove(int id) {
     removeNow(id);
     return;
   }
-  auto* box =
-      new QMessageBox(QMessageBox::Question, tr("Remove a label"),
-                      tr("Remove “%1” and everything that is painted with it, on all views?")
-                          .arg(QString::fromStdString(label->name)),
-                      QMessageBox::Cancel, &bench_.window);
+  auto* box = new QMessageBox(QMessageBox::Question, tr("Remove a label"),
+                              tr("Remove “%1” and everything painted with it, on all views?")
+                                  .arg(QString::fromStdString(label->name)),
+                              QMessageBox::Cancel, &bench_.window);
   box->setObjectName("remove_label");
   box->addButton(tr("Remove"), QMessageBox::AcceptRole)->setObjectName("remove_label.remove");
   box->setAttribute(Qt::WA_DeleteOnClose);

@@ -78,13 +78,12 @@ void RecoveryController::offerNext() {
   if (left_.empty()) return;
   const LeftJournal journal = left_.back();
   left_.pop_back();
-  bar_->showMessage(
-      Severity::Warning,
-      tr("Episcope ended unexpectedly while “%1” was painted (%2). What was painted can be "
-         "recovered.")
-          .arg(name_of(journal), time_of(journal)),
-      {tr("Recover"), [this, journal] { recover(journal); }},
-      {tr("Discard"), [this, journal] { discard(journal); }});
+  bar_->showMessage(Severity::Warning,
+                    tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
+                       "can be recovered.")
+                        .arg(name_of(journal), time_of(journal)),
+                    {tr("Recover"), [this, journal] { recover(journal); }},
+                    {tr("Discard"), [this, journal] { discard(journal); }});
 }
 
 void RecoveryController::discard(const LeftJournal& journal) {
@@ -141,15 +140,14 @@ void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotatio
                     layer.height() == light_field->height() &&
                     layer.width() == light_field->width();
   if (!fits || (found.owner.sample_hash != 0 && found.owner.sample_hash != sample_hash)) {
-    refuse(tr("“%1” is not the light field any more that was painted. What was painted is kept in "
-              "%2.")
+    refuse(tr("“%1” is no longer the light field that was annotated. Your work is kept in %2.")
                .arg(name_of(journal), QString::fromStdString(journal.path.string())));
     return;
   }
   document_.replace(std::move(found.document), document_.isWhole());
   discard_journal(journal.path);
   bench_.frame.showTab("annotate");
-  bench_.messages.success(tr("Recovered what was painted on “%1”.").arg(name_of(journal)));
+  bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));
   offerNext();
 }
 

@@ -14,7 +14,7 @@ namespace episcope {
 
 class MessageBar;
 
-/// Offers what sessions that died left behind, one after the other, in a bar that blocks nothing.
+/// Offers what crashed sessions left behind, one after the other, in a bar that blocks nothing.
 class RecoveryController : public QObject {
   Q_OBJECT
 

@@ -42,7 +42,7 @@ void ScribbleController::addCommand() {
   bench_.commands.add({.id = "annotate.carry",
                        .menu = Menu::Annotate,
                        .text = tr("Carry to all views"),
-                       .tip = tr("Shows on every view what is painted on the others"),
+                       .tip = tr("Shows the scribbles of every view on all others"),
                        .icon = "carry",
                        .keys = {Qt::Key_C},
                        .run = [this] { setCarried(!is_carried_); },
@@ -100,7 +100,7 @@ void ScribbleController::setCarried(bool is_carried) {
     show();
   } else if (session_.scene() && !field()) {
     bench_.messages.hint(
-        tr("No disparity is known to carry scribbles by: run a method in the Estimate tab."));
+        tr("Carrying scribbles needs a disparity: run a method in the Estimate tab."));
   }
   carry();
   bench_.commands.refresh();

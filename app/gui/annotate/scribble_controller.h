@@ -26,8 +26,8 @@ class ScribbleController : public QObject {
 
   void setCarried(bool is_carried);
   [[nodiscard]] bool isCarried() const { return is_carried_; }
-  /// What was carried, bare wherever something is painted; null without. It may be older than the
-  /// document.
+  /// What was carried, empty wherever something is painted; null if nothing is. It may be older
+  /// than the document.
   [[nodiscard]] const std::shared_ptr<const ScribbleLayer>& carried() const { return carried_; }
   [[nodiscard]] bool isCarrying() const { return is_carrying_; }
 
@@ -40,7 +40,7 @@ class ScribbleController : public QObject {
   [[nodiscard]] QImage picture(const PixelRect& rect) const;
   void carry();
   void dropCarried();
-  /// What to carry by: keeps the scene or the estimate alive. Null if there is none.
+  /// The disparity to carry by, which keeps its scene or estimate alive; null if there is none.
   [[nodiscard]] std::shared_ptr<const DisparityField> field() const;
 
   Workbench bench_;

@@ -20,7 +20,8 @@ class SceneOpener;
 class Session;
 class Stage;
 
-/// What features work with: the places of the window and what they share. All of it outlives them.
+/// What features work with: the places of the window and the services they share. All of it
+/// outlives them.
 struct Workbench {
   QWidget& window;  ///< Parent of dialogs.
   QObject& owner;   ///< Of the controllers of features.

@@ -5,8 +5,8 @@
 
 namespace episcope {
 
-/// Walking through views and EPIs, the focus plane, the values of a pixel, and what is known of the
-/// light field.
+/// Browsing views and EPIs, the focus plane, the values of a pixel, and the facts about the light
+/// field.
 void add_browsing(const Workbench& bench);
 
 }  // namespace episcope

@@ -21,8 +21,8 @@ void BrowseController::addStep(const QString& id, const QString& text, const QSt
                        .scope = KeyScope::Viewer});
   bench_.commands.add({.id = "view." + id + "_most",
                        .menu = Menu::View,
-                       .text = tr("%1, to the border").arg(text),
-                       .tip = tr("%1, as far as the grid goes").arg(tip),
+                       .text = tr("%1, to the end").arg(text),
+                       .tip = tr("%1, at the end of the grid").arg(tip),
                        .keys = {QKeySequence(Qt::ShiftModifier | key)},
                        .run = [this, dv, du] { jump(dv, du); },
                        .section = section::kWalk,
@@ -68,13 +68,13 @@ void BrowseController::addZoom(const QString& id, const QString& text, const QSt
 }
 
 void BrowseController::addZoomCommands() {
-  addZoom("zoom_in", tr("Zoom in"), tr("Shows the picture larger"), {},
+  addZoom("zoom_in", tr("Zoom in"), tr("Enlarges the picture"), {},
           {Qt::Key_Plus, Qt::Key_Equal, tr("Ctrl++")}, &ViewCanvas::zoomIn);
-  addZoom("zoom_out", tr("Zoom out"), tr("Shows the picture smaller"), {},
-          {Qt::Key_Minus, tr("Ctrl+-")}, &ViewCanvas::zoomOut);
-  addZoom("fit", tr("Fit"), tr("Shows the whole picture"), "fit", {Qt::Key_K},
+  addZoom("zoom_out", tr("Zoom out"), tr("Shrinks the picture"), {}, {Qt::Key_Minus, tr("Ctrl+-")},
+          &ViewCanvas::zoomOut);
+  addZoom("fit", tr("Fit"), tr("Fits the whole picture into its pane"), "fit", {Qt::Key_K},
           &ViewCanvas::zoomToFit);
-  addZoom("actual_size", tr("100 %"), tr("Shows one image pixel on one pixel of the screen"), {},
+  addZoom("actual_size", tr("100 %"), tr("Shows each image pixel as one screen pixel"), {},
           {tr("Ctrl+0")}, &ViewCanvas::zoomToActualSize);
 }
 
@@ -93,17 +93,16 @@ void BrowseController::addFocusCommands() {
       tr("Ctrl+Alt+Up"), [this] { stepFocus(1); });
   add("view.focus_farther", tr("Focus farther"), tr("Moves the focus plane to smaller disparities"),
       tr("Ctrl+Alt+Down"), [this] { stepFocus(-1); });
-  add("view.focus_reset", tr("Focus at zero"),
-      tr("Moves the focus plane back to the plane of zero disparity"), tr("Ctrl+Alt+0"),
-      [this] { resetFocus(); });
-  bench_.commands.add(
-      {.id = "view.refocus",
-       .menu = Menu::View,
-       .text = tr("Refocus the view"),
-       .tip = tr("Shows the mean of all views at the focus plane, not only sheared EPIs"),
-       .run = [this] { setRefocusing(!refocuses_); },
-       .section = section::kFocus,
-       .checked = [this] { return refocuses_; }});
+  add("view.focus_reset", tr("Focus at zero"), tr("Moves the focus plane back to zero disparity"),
+      tr("Ctrl+Alt+0"), [this] { resetFocus(); });
+  bench_.commands.add({.id = "view.refocus",
+                       .menu = Menu::View,
+                       .text = tr("Refocus the view"),
+                       .tip = tr("Refocuses the view too, as the mean of all views at the focus "
+                                 "plane; otherwise only the EPIs are sheared"),
+                       .run = [this] { setRefocusing(!refocuses_); },
+                       .section = section::kFocus,
+                       .checked = [this] { return refocuses_; }});
 }
 
 void BrowseController::addCommands() {

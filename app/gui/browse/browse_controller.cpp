@@ -231,7 +231,7 @@ void BrowseController::focusAt(PixelIndex pixel) {
     session_.set_focus(*disparity);
   } else {
     bench_.messages.hint(
-        tr("No disparity is known at this pixel: run a method first, or move the slider."));
+        tr("The disparity of this pixel is not known: run a method first, or move the slider."));
   }
 }
 

@@ -34,7 +34,7 @@ class BrowseController : public QObject {
   void resetFocus();
   /// Whether the view is refocused with the focus plane, or only the EPIs are sheared.
   void setRefocusing(bool refocuses);
-  /// Ends playing or forgets the line drawn in an EPI; false if there was nothing to end.
+  /// Stops playing or removes the line drawn in an EPI; false if there was neither.
   bool endWhatIsInHand();
 
  private:

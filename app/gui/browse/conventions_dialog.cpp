@@ -24,8 +24,8 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   setWindowTitle(tr("Conventions"));
   auto* file = new ElidedLabel(this, Qt::ElideMiddle);
   file->setFullText(path);
-  auto* note = new QLabel(tr("The file is read again, and your choice is remembered for it. "
-                             "Results of this light field are removed from the list."),
+  auto* note = new QLabel(tr("The file will be read again and your choice remembered. Results of "
+                             "this light field will be removed from the list."),
                           this);
   note->setWordWrap(true);
   form_->setParameters(options);

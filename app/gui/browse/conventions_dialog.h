@@ -9,8 +9,8 @@ namespace episcope {
 
 class ParameterForm;
 
-/// Asks how a file is to be read where the automatic answer is wrong, with a row for each reading
-/// option that means something to its reader.
+/// Asks how to read a file where the automatic choice is wrong, with a row for each option that its
+/// reader supports.
 class ConventionsDialog : public QDialog {
   Q_OBJECT
 

@@ -25,8 +25,8 @@ void FocusController::addCommands() {
       bench_.commands.add({.id = "view.focus_apply",
                            .menu = Menu::View,
                            .text = tr("Apply focus plane"),
-                           .tip = tr("Moves every disparity so that what is in focus gets 0; "
-                                     "results and ground truth move along"),
+                           .tip = tr("Shifts all disparities, those of results and ground truth "
+                                     "too, so that what is in focus has 0"),
                            .icon = "apply",
                            .keys = {tr("Ctrl+Alt+Return")},
                            .run = [this] { this->apply(); },
@@ -35,7 +35,7 @@ void FocusController::addCommands() {
   bench_.commands.add({.id = "view.focus_undo",
                        .menu = Menu::View,
                        .text = tr("Undo applied focus plane"),
-                       .tip = tr("Goes back to the disparities of the files"),
+                       .tip = tr("Restores the disparities of the files"),
                        .run = [this] { undo(); },
                        .section = section::kFocus,
                        .enabled = [this] { return canUndo(); }});
@@ -61,12 +61,12 @@ void FocusController::undo() {
 void FocusController::bake(double focus_px) {
   if (bench_.jobs.count(Lane::Estimate) > 0) {
     bench_.messages.hint(
-        tr("A method is running on the light field as it is: wait for its end, or cancel it."));
+        tr("A method is still running on this light field: wait for it to finish, or cancel it."));
     return;
   }
   if (bench_.document.hasUnsavedChanges()) {
     bench_.messages.hint(
-        tr("What is painted belongs to the light field as it is: save or undo it first."));
+        tr("There are unsaved scribbles on this light field: save or undo them first."));
     return;
   }
   const double moved_px = focus_px - session_.scene()->convention.focus_px;

@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// Bakes the focus plane in (shear.h): the light field is read again, so that it is interpolated
-/// only once however often this is done; results move along in the background.
+/// Applies the focus plane (shear.h). The light field is read again, so that it is interpolated
+/// only once however often this is done; results are converted in the background.
 class FocusController : public QObject {
   Q_OBJECT
 

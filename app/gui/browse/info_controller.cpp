@@ -47,7 +47,7 @@ InfoController::InfoController(const Workbench& bench)
       {.id = "file.conventions",
        .menu = Menu::File,
        .text = tr("Conventions…"),
-       .tip = tr("Overrules the order of views, the units or the names that were found"),
+       .tip = tr("Overrides the order of views, the units or the file names that were found"),
        .keys = {tr("Ctrl+Shift+R")},
        .run = [this] { askForConventions(); },
        .section = section::kOpen,

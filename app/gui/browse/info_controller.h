@@ -9,8 +9,8 @@ namespace episcope {
 
 class InfoPanel;
 
-/// Tells what is open: the facts of the light field, the conventions found and how they were
-/// checked; lets the user overrule them.
+/// Shows what is open: the facts of the light field, the conventions found and how they were
+/// checked, which the user can override.
 class InfoController : public QObject {
   Q_OBJECT
 

@@ -3,6 +3,7 @@
 
 #include "app/session/scene/scene_range.h"
 #include "widgets/style/number_text.h"
+#include "widgets/style/schema_text.h"
 
 #include <QCoreApplication>
 
@@ -66,9 +67,15 @@ QString megabytes(std::size_t bytes) {
   return QString::number(count, 'f', count < 10 ? 1 : 0);
 }
 
-// Readers speak of a choice made by hand; here it is known whose hand it was.
-QString by_whom(QString finding) {
-  return with_minus(finding.replace(", as chosen by hand", text(" (set by you)")));
+QString by_whom(const std::string& finding, bool was_chosen) {
+  const QString shown = with_minus(QString::fromStdString(finding));
+  return was_chosen ? text("%1 (set by you)").arg(shown) : shown;
+}
+
+QString units_check_text(const ConventionReport& convention) {
+  const QString units = by_whom(convention.units, convention.units_were_chosen);
+  const QString check = with_minus(QString::fromStdString(convention.units_check));
+  return check.isEmpty() ? units : units + "; " + check;
 }
 
 // Names of an image grid that were given; empty if they were found.
@@ -78,7 +85,7 @@ QString names_text(const Reading& reading) {
   if (!pattern && !is_snake) return {};
   QString names = pattern ? QString::fromStdString(to_text(*pattern)) : text("automatic");
   if (is_snake) names += text(", snake");
-  return names + text(" (set by you)");
+  return text("%1 (set by you)").arg(names);
 }
 
 }  // namespace
@@ -106,22 +113,22 @@ SceneInfo describe(const Scene& scene) {
   }
   if (convention.focus_px != 0) {
     info.rows.push_back({text("Focus"),
-                         text("%1 px baked in").arg(number_text(convention.focus_px, 2)),
+                         text("%1 px applied").arg(number_text(convention.focus_px, 2)),
                          text("All views but the centre one are interpolated.")});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
-  info.rows.push_back(
-      {text("Order"), by_whom(utf8(convention.order)), with_minus(utf8(convention.order_check))});
-  info.rows.push_back(
-      {text("Camera"), camera_text(light_field.info().camera), by_whom(utf8(convention.units))});
-  info.rows.push_back({text("Format"), utf8(convention.format), {}});
+  info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
+                       with_minus(utf8(convention.order_check)), "order"});
+  info.rows.push_back({text("Camera"), camera_text(light_field.info().camera),
+                       units_check_text(convention), "camera"});
+  info.rows.push_back({text("Format"), utf8(convention.format), {}, "format"});
   if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
-    info.rows.push_back({text("Names"), names, {}});
+    info.rows.push_back({text("Names"), names, {}, "names"});
   }
   for (const Companion& companion : scene.companions) {
-    info.rows.push_back({utf8(companion_name(companion.kind)), utf8(companion.shape), {}});
+    info.rows.push_back({schema_text(companion_name(companion.kind)), utf8(companion.shape), {}});
   }
-  info.rows.push_back({text("Source"), utf8(light_field.info().source), {}});
+  info.rows.push_back({text("Source"), utf8(light_field.info().source), {}, "source"});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
   return info;
 }

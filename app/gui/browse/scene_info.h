@@ -11,7 +11,7 @@
 
 namespace episcope {
 
-/// What the info panel tells about a scene.
+/// What the info panel says about a scene.
 struct SceneInfo {
   QString title;
   std::vector<InfoRow> rows;

@@ -26,7 +26,7 @@ QColor color_at(const LightField& light_field, ViewIndex view, PixelIndex pixel)
   return QColor::fromRgbF(bounded(normalized[0]), bounded(normalized[1]), bounded(normalized[2]));
 }
 
-// Of many results, a line has room for a few: A and B before the others.
+// The line has room for a few results: A and B come first.
 std::vector<const EstimateEntry*> shown_first(const Session& session) {
   std::vector<const EstimateEntry*> entries;
   for (const EstimateEntry& entry : session.estimates()) entries.push_back(&entry);

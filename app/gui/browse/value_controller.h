@@ -13,8 +13,8 @@ namespace episcope {
 
 class ValueBar;
 
-/// Reads out what is known of the pixel under the cursor (of the cross-hair while the cursor is
-/// elsewhere), prints values into large pixels, and tells how many jobs are running.
+/// Shows the values of the pixel under the cursor (of the cross-hair while the cursor is
+/// elsewhere), prints values into large pixels, and counts the running jobs.
 class ValueController : public QObject {
   Q_OBJECT
 

@@ -52,8 +52,8 @@ bool CloudController::isOnScreen() const {
 
 void CloudController::makePanel() {
   if (panel_) return;
-  // The first OpenGL widget has the window made anew, and placed by the desktop unless it says
-  // where it is.
+  // The first OpenGL widget has the native window recreated; the desktop would place it anew unless
+  // the window fixes its position.
   bench_.window.move(bench_.window.pos());
   panel_ = new PointCloudPanel(tab_);
   auto* layout = new QVBoxLayout(tab_);
@@ -121,7 +121,7 @@ void CloudController::startCloud(const std::optional<Coloring>& coloring) {
         } else {
           panel_->setLegend({});
         }
-        panel_->setCloud(*cloud, tr("This result has no valid pixel in this view."));
+        panel_->setCloud(*cloud, tr("This result has no valid pixels in this view."));
       });
 }
 

@@ -5,7 +5,7 @@
 
 namespace episcope {
 
-/// Maps over the view, results laid against each other, statistics of what is in sight, the table
+/// Maps over the view, results compared with each other, statistics of the visible part, the table
 /// of metrics, and pictures of all that.
 void add_comparing(const Workbench& bench);
 

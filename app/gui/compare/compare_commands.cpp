@@ -58,21 +58,22 @@ void CompareController::addChoiceCommands() {
              if (mode_ == CompareMode::Single || !is_held) overlay_.setFlipped(is_held);
            }});
   bench_.commands.hearHeldKeys(canvas_);
-  bench_.commands.add({.id = "compare.difference",
-                       .menu = Menu::Compare,
-                       .text = tr("Difference A − B"),
-                       .tip = tr("Shows the shown result minus the compared one"),
-                       .icon = "difference",
-                       .keys = {Qt::Key_D},
-                       .run = [this] { toggleDifference(); },
-                       .section = compare_section::kChoice,
-                       .bar = BarSection::Compare,
-                       .enabled = has_other,
-                       .checked = [this] { return overlay_.showsDifference(); }});
+  bench_.commands.add(
+      {.id = "compare.difference",
+       .menu = Menu::Compare,
+       .text = tr("Difference A − B"),
+       .tip = tr("Shows A minus B, the result shown minus the one it is compared with"),
+       .icon = "difference",
+       .keys = {Qt::Key_D},
+       .run = [this] { toggleDifference(); },
+       .section = compare_section::kChoice,
+       .bar = BarSection::Compare,
+       .enabled = has_other,
+       .checked = [this] { return overlay_.showsDifference(); }});
   bench_.commands.add({.id = "compare.swap",
                        .menu = Menu::Compare,
                        .text = tr("Swap A and B"),
-                       .tip = tr("Shows the compared result and compares with the one shown now"),
+                       .tip = tr("Shows B and compares it with A"),
                        .icon = "swap",
                        .keys = {Qt::Key_QuoteLeft},
                        .run = [this] { session_.show_estimate(session_.compared()->id); },
@@ -91,7 +92,8 @@ void CompareController::addModeCommands() {
   };
   for (const Row& row : std::initializer_list<Row>{
            {CompareMode::Wipe, "wipe", tr("Wipe"),
-            tr("Shows A left and B right of a line that can be dragged"), Qt::Key_W},
+            tr("Shows A to the left and B to the right of a divider that can be dragged"),
+            Qt::Key_W},
            {CompareMode::Sides, "sides", tr("Side by side"), tr("Shows A beside B"), Qt::Key_H},
            {CompareMode::Wall, "tiles", tr("Tiles"),
             tr("Shows the view, the ground truth and every result"), Qt::Key_G,

@@ -194,8 +194,11 @@ QString CompareController::captionOf(const EstimateEntry& entry) const {
 std::vector<CompareController::Entry> CompareController::everything() const {
   std::vector<Entry> entries = {{kViewTile, tr("view"), Side::None, request(std::nullopt), {}}};
   if (session_.has_truth(session_.view())) {
-    entries.push_back(
-        {kTruthTile, tr("truth"), Side::None, request(MapChoice{Quantity::Truth, 0, 0}), {}});
+    entries.push_back({kTruthTile,
+                       tr("ground truth"),
+                       Side::None,
+                       request(MapChoice{Quantity::Truth, 0, 0}),
+                       {}});
   }
   const EstimateEntry* shown = session_.shown();
   const EstimateEntry* compared = session_.compared();
@@ -257,7 +260,7 @@ void CompareController::fillWall() {
         return sample_texts(*request.light_field, request.view, {y, x});
       };
     } else {
-      tile.caption = tr("%1 · no such map of this view").arg(entry.caption);
+      tile.caption = tr("%1 · no such map for this view").arg(entry.caption);
     }
     tiles.push_back(std::move(tile));
   }

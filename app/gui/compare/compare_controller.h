@@ -17,7 +17,7 @@ class CompareBar;
 class TileWall;
 class ViewCanvas;
 
-/// How results are laid beside each other.
+/// How results are arranged for comparison.
 enum class CompareMode {
   Single,  ///< One picture: A, or B while flipped.
   Wipe,    ///< A left and B right of a divider.
@@ -25,14 +25,14 @@ enum class CompareMode {
   Wall     ///< The view, the truth and every result.
 };
 
-/// Shows results against each other: wipe, side by side, a wall of all of them.
+/// Arranges results for comparison: wipe, side by side, or a wall of all.
 class CompareController : public QObject {
   Q_OBJECT
 
  public:
   CompareController(const Workbench& bench, CompareBar* bar);
 
-  /// Ignored if there is nothing to compare. Chosen again, a mode is left.
+  /// Ignored if there is nothing to compare. Choosing the current mode again leaves it.
   void toggleMode(CompareMode mode);
   void setMode(CompareMode mode);
   [[nodiscard]] CompareMode mode() const { return mode_; }

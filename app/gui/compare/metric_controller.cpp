@@ -87,11 +87,11 @@ void MetricController::fillTable() {
   const auto& scene = session_.scene();
   if (!scene || (!scene->truth->has_disparity() && !scene->truth->has_layers())) {
     table_->setTable({}, {});
-    table_->setEmptyText(scene ? tr("This light field has no ground truth to judge results by.")
+    table_->setEmptyText(scene ? tr("This light field has no ground truth to compare results with.")
                                : tr("Open a light field with ground truth and run a method."));
     return;
   }
-  table_->setEmptyText(tr("Run a method: its errors against the truth appear here."));
+  table_->setEmptyText(tr("Run a method: its errors against the ground truth appear here."));
   const std::vector<Judged> judged = judgeAll();
   const std::vector<Place> places = places_of(judged);
   std::vector<MetricColumn> columns = {

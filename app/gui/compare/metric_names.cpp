@@ -28,7 +28,7 @@ constexpr MetricName kNames[] = {
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels off by more than 0.01 px, in %")},
     {"q_25_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "Q25"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Error ×100 that the best quarter of the pixels stays below, px"),
+                       "Error ×100 below which the best quarter of the pixels lies, px"),
      3},
     {"density", QT_TRANSLATE_NOOP("episcope::MetricTable", "dense"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels with a value, in %"), 1},
@@ -50,13 +50,13 @@ constexpr MetricName kNames[] = {
                        "Median angular error of normals on smooth surfaces, °")},
     {"fine_fattening_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "fattened"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels around fine structures that are too near by 0.15 px, in %")},
+                       "Pixels around fine structures that are more than 0.15 px too near, in %")},
     {"fine_thinning_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinned"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels of fine structures that are too far by 0.15 px, in %")},
+                       "Pixels of fine structures that are more than 0.15 px too far, in %")},
     {"layers_right", QT_TRANSLATE_NOOP("episcope::MetricTable", "layers"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
-                       "Pixels whose number of layers, one or two, is right, in %"),
+                       "Pixels with the correct number of layers, one or two, in %"),
      1}};
 
 QString text(const char* source) {
@@ -105,7 +105,7 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
   if (is_known && layer) label += ' ' + text(layer->label);
   const QString year = protocol == Protocol::Vmv2013 ? text("2013") : text("2016");
   const QString rules = protocol == Protocol::Vmv2013
-                            ? text("Protocol vmv2013: all pixels with truth, centre view")
+                            ? text("Protocol vmv2013: all pixels with ground truth, centre view")
                             : text(
                                   "Protocol benchmark2016: without a border of 15 px, centre "
                                   "view");

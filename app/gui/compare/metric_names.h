@@ -8,10 +8,10 @@
 
 namespace episcope {
 
-/// Header, tool tip and decimals of a metric (keys of engine/evaluation) in tables.
+/// Header, tool tip and decimals of a metric, by its key in engine/evaluation.
 [[nodiscard]] MetricColumn metric_column(Protocol protocol, const std::string& key);
 
-/// Place of a metric in tables: what is asked for first comes first, whatever the protocol.
+/// Position of a metric in tables: the most important first, whatever the protocol.
 [[nodiscard]] int metric_rank(const std::string& key);
 
 }  // namespace episcope

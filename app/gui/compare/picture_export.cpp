@@ -31,7 +31,7 @@ struct DrawnMap {
   render::Shading shading;
 };
 
-// What is drawn over the view; nothing if that is bare.
+// What is drawn over the view; nothing without an overlay.
 std::optional<DrawnMap> drawn_map(const Overlay& overlay) {
   const MapChoice choice = overlay.choice();
   auto source = overlay.sourceOf(choice);
@@ -73,7 +73,7 @@ void add_picture_export(const Workbench& bench) {
   bench.commands.add({.id = "file.save_picture",
                       .menu = Menu::File,
                       .text = Text::tr("Save picture…"),
-                      .tip = Text::tr("Writes the view with its overlay as PNG"),
+                      .tip = Text::tr("Saves the view with its overlay as PNG"),
                       .icon = "save",
                       .keys = {Text::tr("Ctrl+Shift+E")},
                       .run = [bench] { ask_for_picture(bench); },
@@ -82,7 +82,7 @@ void add_picture_export(const Workbench& bench) {
   bench.commands.add({.id = "file.save_map",
                       .menu = Menu::File,
                       .text = Text::tr("Save map…"),
-                      .tip = Text::tr("Writes the map that is drawn over the view as PNG"),
+                      .tip = Text::tr("Saves the map drawn over the view as PNG"),
                       .run = [bench] { ask_for_map(bench); },
                       .section = section::kExport,
                       .enabled = has_scene});

@@ -57,19 +57,19 @@ StatisticsController::StatisticsController(const Workbench& bench, StatisticsPan
 }
 
 void StatisticsController::addCommands() {
-  QAction* automatic = bench_.commands.add({.id = "compare.auto_range",
-                                            .menu = Menu::Compare,
-                                            .text = tr("Automatic range"),
-                                            .tip = tr("Stretches the colours over the values in "
-                                                      "sight"),
-                                            .icon = "auto",
-                                            .keys = {Qt::Key_A},
-                                            .run = [this] { useAutomaticRange(); },
-                                            .section = compare_section::kRange});
+  QAction* automatic =
+      bench_.commands.add({.id = "compare.auto_range",
+                           .menu = Menu::Compare,
+                           .text = tr("Automatic range"),
+                           .tip = tr("Stretches the colours over the visible values"),
+                           .icon = "auto",
+                           .keys = {Qt::Key_A},
+                           .run = [this] { useAutomaticRange(); },
+                           .section = compare_section::kRange});
   QAction* own = bench_.commands.add({.id = "compare.own_range",
                                       .menu = Menu::Compare,
-                                      .text = tr("Own range"),
-                                      .tip = tr("Back to the range that belongs to the quantity"),
+                                      .text = tr("Default range"),
+                                      .tip = tr("Restores the default range of the quantity"),
                                       .icon = "reset",
                                       .keys = {Qt::Key_R},
                                       .run = [this] { overlay_.setRange(std::nullopt); },

@@ -15,16 +15,17 @@ namespace episcope {
 
 class StatisticsPanel;
 
-/// Sums up in the background what is in sight of the shown map, and sets its colour range from it.
+/// Computes statistics of the visible part of the shown map in the background, and the colour range
+/// from them.
 class StatisticsController : public QObject {
   Q_OBJECT
 
  public:
   StatisticsController(const Workbench& bench, StatisticsPanel* panel);
 
-  /// Stretches the colours over the values in sight; at once, or as soon as they are known.
+  /// Stretches the colours over the visible values; at once, or as soon as they are known.
   void useAutomaticRange();
-  /// Of what is in sight; none while it is not known.
+  /// Of the visible part; none while unknown.
   [[nodiscard]] const std::optional<render::RegionStatistics>& statistics() const {
     return statistics_;
   }

@@ -62,8 +62,8 @@ void DocumentController::openDocument() {
     setDocument(make(session_.scene()->scribbles), true);
   } catch (const InvalidInput& error) {
     setDocument(make({}), false);
-    emit problem(tr("The scribbles of this light field cannot be edited: %1. They stay as they "
-                    "are, and what you paint is saved elsewhere.")
+    emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
+                    "unchanged, and what you paint is saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
   }
   hash_job_.start<std::uint64_t>(
@@ -85,7 +85,7 @@ void DocumentController::setDocument(AnnotationDocument document, bool is_whole)
       journal_folder_);
 }
 
-// A journal with changes that nobody decided about stays, to be offered at the next start.
+// A journal with unsaved changes stays, to be offered at the next start.
 void DocumentController::leaveDocument() {
   stroke_.reset();
   sample_hash_ = 0;

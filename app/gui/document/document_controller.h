@@ -16,8 +16,8 @@
 
 namespace episcope {
 
-/// The document that is painted on the open light field: makes it, changes it, keeps its journal,
-/// and tells what changed. Whoever shows, saves or learns from scribbles listens to this.
+/// The annotation document of the open light field: creates it, changes it, keeps its journal and
+/// reports changes. Whatever shows, saves or learns from scribbles listens to this.
 class DocumentController : public QObject {
   Q_OBJECT
 
@@ -32,8 +32,8 @@ class DocumentController : public QObject {
   /// Null if nothing is open, or not yet.
   [[nodiscard]] AnnotationDocument* document();
   [[nodiscard]] const AnnotationDocument* document() const;
-  /// Whether it holds all scribbles of the light field's own files; else they must not be written
-  /// over.
+  /// Whether it holds all scribbles of the light field's own files; if not, those must not be
+  /// overwritten.
   [[nodiscard]] bool isWhole() const { return is_whole_; }
   [[nodiscard]] bool hasUnsavedChanges() const;
   /// Puts another document in the place of the present one, whose journal ends. `is_whole` as
@@ -42,12 +42,13 @@ class DocumentController : public QObject {
   /// Notes that the state was written to a file; if painting went on meanwhile, there are unsaved
   /// changes still.
   void noteSaved(std::uint64_t state);
-  /// The user does not want the present changes: they may be dropped with the document.
+  /// The user discards the present changes: they may be dropped with the document.
   void discardChanges();
-  /// Makes sure that what is painted next outlives a crash.
+  /// Ensures that what is painted next survives a crash.
   void keepJournal();
 
-  /// Makes any edit; what it throws is told as a problem. Returns whether the document changed.
+  /// Applies any edit; what it throws is reported as a problem. Returns whether the document
+  /// changed.
   bool edit(const std::function<void(AnnotationDocument&)>& change);
   void undo();
   void redo();
@@ -64,7 +65,7 @@ class DocumentController : public QObject {
   void replaced();
   /// Pixels of a view changed within a stroke.
   void painted(episcope::ViewIndex view, const episcope::PixelRect& rect);
-  /// The history went a step on or back. Rectangles may hold more than what changed.
+  /// The history went a step forward or back. Rectangles may cover more than what changed.
   void changed(const episcope::DocumentChange& change);
   /// As `changed`, by undo or redo: who works on it wants to see where.
   void steppedBack(const episcope::DocumentChange& change);
@@ -80,7 +81,7 @@ class DocumentController : public QObject {
   void go(DocumentChange (AnnotationDocument::*step)());
   void tell(const DocumentChange& change);
   void tellUnsaved();
-  /// Runs a change and tells what it threw. A journal that fails is given up.
+  /// Runs a change and reports what it threw. A journal that fails is abandoned.
   void run(const std::function<void()>& change);
   [[nodiscard]] DocumentChange everything() const;
   [[nodiscard]] bool isCurrent() const;

@@ -7,7 +7,7 @@
 
 namespace episcope {
 
-/// Which label of the document is painted with and looked at.
+/// The current label of the document: the one painted with and whose probability is shown.
 class LabelChoice : public QObject {
   Q_OBJECT
 

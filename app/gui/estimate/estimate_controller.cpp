@@ -44,8 +44,8 @@ EstimateRequest request_of(const RunRequest& request) {
   return {request.method, request.values, {.views = views_of(request.all_views)}};
 }
 
-// What sets this run apart from others: whether it was cut short, and parameters that are not at
-// their defaults.
+// What distinguishes this run: whether it was ended early, and parameters that are not at their
+// defaults.
 QString parameter_text(const Estimate& estimate) {
   QStringList texts;
   const auto& notes = estimate.notes;
@@ -87,7 +87,7 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(method_, &MethodPanel::cancelRequested, this, &EstimateController::cancel);
   connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
   connectResults();
-  // There is something to see at once in a scene that was opened to look at the program.
+  // The demo scene is estimated at once, so that there is something to see.
   connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
     if (is_builtin(input)) run({kFirstMethod, {}, {}});
   });

@@ -23,7 +23,7 @@ class EstimateController : public QObject {
   /// Runs what the form says; parameters are copied now.
   void run();
   void run(const EstimateRequest& request);
-  /// Cancels every run.
+  /// Cancels all runs.
   void cancel();
   void removeShown();
   /// The line for what the form says.

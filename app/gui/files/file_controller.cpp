@@ -56,21 +56,20 @@ void FileController::addOpenCommands() {
   open.icon = "open";
   open.bar = BarSection::Files;
   bench_.commands.add(std::move(open));
-  Command folder =
-      add("file.open_folder", tr("Open folder…"),
-          tr("Opens a folder: a scene of the archive, a benchmark scene, an image grid"),
-          {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
+  Command folder = add("file.open_folder", tr("Open folder…"),
+                       tr("Opens a folder: an archive scene, a benchmark scene or an image grid"),
+                       {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
   folder.icon = "open";
   bench_.commands.add(std::move(folder));
   Command result =
-      add("file.open_result", tr("Open result…"), tr("Adds a result from a file to the results"),
+      add("file.open_result", tr("Open result…"), tr("Adds a result from a file to the list"),
           {tr("Ctrl+R")}, &FileController::askForResult);
   result.enabled = [this] { return bench_.session.scene() != nullptr; };
   bench_.commands.add(std::move(result));
   bench_.commands.add({.id = "file.recent",
                        .menu = Menu::File,
                        .text = tr("Open recent"),
-                       .tip = tr("Opens what was open before"),
+                       .tip = tr("Reopens a recent light field"),
                        .section = section::kOpen,
                        .enabled = [] { return !recent_inputs().isEmpty(); },
                        .submenu = recent_menu_});
@@ -111,7 +110,7 @@ void FileController::askForFile() {
 
 void FileController::askForFolder() {
   ask_for_folder(&bench_.window,
-                 {.name = "open_folder", .title = tr("Open a folder that holds a light field")},
+                 {.name = "open_folder", .title = tr("Open the folder of a light field")},
                  [this](const QString& path) { bench_.opener.open(path); });
 }
 
@@ -140,7 +139,7 @@ void FileController::fillRecentMenu() {
   }
   if (!recent_menu_->isEmpty()) {
     recent_menu_->addSeparator();
-    recent_menu_->addAction(tr("Forget all"), this, [this] {
+    recent_menu_->addAction(tr("Clear list"), this, [this] {
       forget_recent();
       fillRecentMenu();
     });

@@ -6,7 +6,7 @@
 
 namespace episcope {
 
-/// What the cancel key ends, in the order in which it is asked.
+/// What the cancel key can end, in the order in which it is tried.
 enum class CancelRank {
   Stroke,
   LiveSegmentation,
@@ -16,7 +16,7 @@ enum class CancelRank {
   Message
 };
 
-/// What can be cancelled, by rank: the cancel key ends the first that is under way.
+/// What can be cancelled, by rank: the cancel key ends the first that is active.
 class Cancels {
  public:
   /// `cancel` returns whether there was something to end.

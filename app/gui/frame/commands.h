@@ -50,7 +50,7 @@ struct Command {
 };
 
 /// The one table of commands, in the order in which they were added. Whoever changes what
-/// `enabled`, `checked`, `visible` or `live_text` of any command go by calls `refresh`.
+/// `enabled`, `checked`, `visible` or `live_text` depend on calls `refresh`.
 class Commands : public QObject {
   Q_OBJECT
 
@@ -58,8 +58,8 @@ class Commands : public QObject {
   /// `window` hears the keys of scope Window, `viewer` those of scope Viewer.
   Commands(QWidget* window, QWidget* viewer);
 
-  /// The action with text, tool tip, icon, keys (those of the user, if there are) and handler. Its
-  /// object name is the id.
+  /// The action with text, tool tip, icon, keys (the user's, if changed) and handler. Its object
+  /// name is the id.
   QAction* add(Command command);
   /// Null for an unknown id.
   [[nodiscard]] QAction* find(const QString& id) const;
@@ -67,17 +67,18 @@ class Commands : public QObject {
   /// Runs a command if it is enabled. Returns whether it was.
   bool trigger(const QString& id);
 
-  /// Keys of a command now; its own ones unless the user changed them.
+  /// The current keys of a command: its defaults unless the user changed them.
   [[nodiscard]] QList<QKeySequence> keys(const QString& id) const;
   /// The first of them as it is written; empty if there is none.
   [[nodiscard]] QString keyText(const QString& id) const;
-  /// Whether the user gave the command other keys than its own.
+  /// Whether the user changed the keys of the command.
   [[nodiscard]] bool hasOwnKeys(const QString& id) const;
   /// Id of the command that a key belongs to; empty if it is free.
   [[nodiscard]] QString userOf(const QKeySequence& key) const;
-  /// Changes keys and remembers them in the settings. Who has them already keeps them: look first.
+  /// Changes keys and stores them in the settings. Another command that has them keeps them: check
+  /// first.
   void setKeys(const QString& id, const QList<QKeySequence>& keys);
-  /// Back to the command's own keys, but for those that another command has now.
+  /// Restores the default keys, except those that another command has now.
   void resetKeys(const QString& id);
   void resetAllKeys();
   /// Keys of scope Held are heard in this widget, which must outlive this.

@@ -30,7 +30,7 @@ void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer);
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
 void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer);
 
-/// Whether `path` ends as one of the forms does; else the user is told, and nothing is written.
+/// Whether `path` has one of the suffixes; if not, the user is told and nothing is written.
 [[nodiscard]] bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages);
 
 /// Writes as a job, and tells the user.

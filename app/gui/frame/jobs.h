@@ -17,8 +17,8 @@ namespace episcope {
 /// Jobs of one lane run one after the other, those of different lanes side by side.
 enum class Lane { Load, Estimate, Label, Export };
 
-/// Every background job that a user sees: starts, progress, cancel, end and failures of all lanes
-/// with ids of their own.
+/// Every background job that a user sees: start, progress, cancellation, end and failure, in all
+/// lanes, with unique ids.
 class Jobs : public QObject {
   Q_OBJECT
 
@@ -27,7 +27,7 @@ class Jobs : public QObject {
   ~Jobs() override;
 
   /// Runs `work(progress) -> T` in the background. `done(value)` is called on success; `ended` in
-  /// every case after it. Failures are told by `failed`, once for all jobs.
+  /// every case after it. Failures are reported by `failed`, in one place for all jobs.
   template <class T>
   quint64 start(Lane lane, const QString& title, std::function<T(const Progress&)> work,
                 std::function<void(T)> done, std::function<void()> ended = nullptr) {

@@ -7,7 +7,7 @@
 
 namespace episcope {
 
-/// Keeps the open light field from being left while something would be lost by that.
+/// Keeps the open light field from being closed while something would be lost.
 class LeaveGuards {
  public:
   using Continue = std::function<void()>;
@@ -27,7 +27,7 @@ class LeaveGuards {
     return true;
   }
 
-  /// Calls `go_on` once every guard lets go: at once if nothing would be lost, or never.
+  /// Calls `go_on` once every guard agrees: at once if nothing would be lost, or never.
   void leave(const Continue& go_on) const { ask(0, go_on); }
 
  private:

@@ -9,14 +9,14 @@ namespace episcope {
 class Frame;
 class MessageBar;
 
-/// Sentences for the user, in a line of the frame that blocks nothing.
+/// Messages for the user, in a line of the frame that blocks nothing.
 class Messages : public QObject {
   Q_OBJECT
 
  public:
   explicit Messages(Frame& frame);
 
-  /// What is no failure: something to do first, or what was done.
+  /// No failure: something to do first.
   void hint(const QString& sentence);
   void success(const QString& sentence);
   void warn(const QString& sentence);

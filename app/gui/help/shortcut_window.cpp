@@ -80,10 +80,10 @@ QWidget* ShortcutWindow::makeEditor() {
   set_->setObjectName("keys.set");
   reset_ = new QPushButton(tr("Default"), editor);
   reset_->setObjectName("keys.reset");
-  reset_->setToolTip(tr("Gives the chosen command its own keys back"));
+  reset_->setToolTip(tr("Restores the default keys of the selected command"));
   auto* reset_all = new QPushButton(tr("All defaults"), editor);
   reset_all->setObjectName("keys.resetAll");
-  reset_all->setToolTip(tr("Gives every command its own keys back"));
+  reset_all->setToolTip(tr("Restores the default keys of all commands"));
   for (auto* button : {set_, reset_, reset_all}) button->setAutoDefault(false);
   hint_ = new QLabel(editor);
   hint_->setObjectName("keys.hint");
@@ -108,25 +108,26 @@ QWidget* ShortcutWindow::makeEditor() {
 }
 
 void ShortcutWindow::fillGestures() {
-  addGestures(tr("In the view"),
-              {
-                  {tr("Click"), tr("Moves the cross-hair")},
-                  {tr("Shift+click"), tr("Focuses at the pixel")},
-                  {tr("Double click"), tr("Shows the centre view; of a tile: shows it alone")},
-                  {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
-                  {tr("Middle drag, Space+drag"), tr("Pans")},
-                  {tr("Wheel"), tr("Zooms at the cursor")},
-                  {tr("Alt+wheel"), tr("Moves the focus plane")},
-                  {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
-              });
+  addGestures(
+      tr("In the view"),
+      {
+          {tr("Click"), tr("Moves the cross-hair")},
+          {tr("Shift+click"), tr("Focuses on the pixel")},
+          {tr("Double click"), tr("Shows the centre view; in tiles: shows that tile alone")},
+          {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
+          {tr("Middle drag, Space+drag"), tr("Pans")},
+          {tr("Wheel"), tr("Zooms at the cursor")},
+          {tr("Alt+wheel"), tr("Moves the focus plane")},
+          {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
+      });
   addGestures(tr("In the view, while annotating"),
               {
-                  {tr("Drag"), tr("Paints the current label, or uses the tool in hand")},
+                  {tr("Drag"), tr("Paints the current label, or uses the current tool")},
                   {tr("Right drag"), tr("Erases")},
-                  {tr("Shift+drag"), tr("Paints and leaves other labels as they are")},
+                  {tr("Shift+drag"), tr("Paints without changing other labels")},
                   {tr("Ctrl+click"), tr("Moves the cross-hair")},
                   {tr("Ctrl+Shift+wheel"), tr("Changes the size of brush or eraser")},
-                  {tr("Esc"), tr("Takes the stroke back that is under way")},
+                  {tr("Esc"), tr("Cancels the current stroke")},
               });
 }
 
@@ -207,7 +208,7 @@ void ShortcutWindow::updateEditor() {
   hint_->setText(tr("%1 already belongs to “%2”, which would lose it.")
                      .arg(text, commands_.find(user)->text()));
   hint_->setPalette(theme::text_palette(theme::warning_text(palette())));
-  set_->setText(tr("Take it"));
+  set_->setText(tr("Reassign"));
 }
 
 void ShortcutWindow::setKey() {

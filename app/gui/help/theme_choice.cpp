@@ -23,12 +23,13 @@ struct Theme {
   const char* tip;
 };
 
-constexpr Theme kThemes[] = {{"system", QT_TRANSLATE_NOOP("episcope::Theme", "As the desktop"),
-                              QT_TRANSLATE_NOOP("episcope::Theme", "Colours of the desktop")},
-                             {"light", QT_TRANSLATE_NOOP("episcope::Theme", "Light"),
-                              QT_TRANSLATE_NOOP("episcope::Theme", "Dark text on light ground")},
-                             {"dark", QT_TRANSLATE_NOOP("episcope::Theme", "Dark"),
-                              QT_TRANSLATE_NOOP("episcope::Theme", "Light text on dark ground")}};
+constexpr Theme kThemes[] = {
+    {"system", QT_TRANSLATE_NOOP("episcope::Theme", "Follow the desktop"),
+     QT_TRANSLATE_NOOP("episcope::Theme", "Colours of the desktop")},
+    {"light", QT_TRANSLATE_NOOP("episcope::Theme", "Light"),
+     QT_TRANSLATE_NOOP("episcope::Theme", "Dark text on a light background")},
+    {"dark", QT_TRANSLATE_NOOP("episcope::Theme", "Dark"),
+     QT_TRANSLATE_NOOP("episcope::Theme", "Light text on a dark background")}};
 
 }  // namespace
 

@@ -62,9 +62,10 @@ void ResultOpener::open(const QString& path) {
                             "same in Conventions…")
                              .arg(name, QString::fromStdString(read.differing_options)));
         } else if (read.is_of_others) {
-          messages_.warn(tr("%1 was estimated from other samples than those of this light field: "
-                            "its errors may be meaningless.")
-                             .arg(name));
+          messages_.warn(
+              tr("%1 was estimated from different samples than those of this light field: "
+                 "its errors may be meaningless.")
+                  .arg(name));
         }
       });
 }

@@ -13,8 +13,8 @@ class Session;
 /// Whether a path names a result. False for what cannot be read: opening it tells what is wrong.
 [[nodiscard]] bool is_result(const QString& path);
 
-/// Adds result files, and maps from elsewhere, to the results of the open light field, in the
-/// background. The user is told of results that may be of another light field.
+/// Adds result files, and maps of other programs, to the results of the open light field, in the
+/// background. Warns of results that may belong to another light field.
 class ResultOpener : public QObject {
   Q_OBJECT
 

@@ -186,7 +186,7 @@ void SceneOpener::end(quint64 number, const QString& input) {
 
 void SceneOpener::keepBuiltin(const QString& input) {
   jobs_.start<bool>(
-      Lane::Export, tr("Keeping the built-in scene for the next start"),
+      Lane::Export, tr("Caching the built-in scene"),
       [scene = session_.scene(), input = input.toStdString(),
        folder = cache_folder_](const Progress& progress) {
         store_in_cache(input, *scene, folder, progress);

@@ -17,8 +17,8 @@ namespace episcope {
 class LeaveGuards;
 class Stage;
 
-/// Opens light fields in the background: the centre view is shown as soon as it is read; what was
-/// open stays until all is there, if this fails or is cancelled.
+/// Opens light fields in the background. The centre view is shown as soon as it is read; what was
+/// open stays until everything is loaded, and if loading fails or is cancelled.
 class SceneOpener : public QObject {
   Q_OBJECT
 

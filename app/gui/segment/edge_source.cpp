@@ -19,8 +19,8 @@ std::shared_ptr<const ViewStack<float>> EdgeSource::edges() const {
 
 QString EdgeSource::origin() const {
   return edges() ? tr("Boundaries follow the edge weights of the file beside the light field.")
-                 : tr("Boundaries follow edges computed from the image, and from disparity as far "
-                      "as it is known.");
+                 : tr("Boundaries follow edges computed from the image and, where it is known, the "
+                      "disparity.");
 }
 
 void EdgeSource::read() {
@@ -28,11 +28,11 @@ void EdgeSource::read() {
   generation_ = session_.generation();
   read_job_.drop();
   const auto& scene = session_.scene();
-  if (!scene || !has_edge_weights(*scene)) return;
+  if (!scene || !has_edge_probabilities(*scene)) return;
   read_job_.start<Read>(
       [scene](const Progress& progress) -> Read {
         try {
-          return {find_edge_weights(*scene, progress), {}};
+          return {find_edge_probabilities(*scene, progress), {}};
         } catch (const IoError& error) {
           return {nullptr, error.what()};
         }

@@ -8,7 +8,7 @@
 namespace episcope {
 namespace {
 
-// Somebody waits for it while painting: seconds, where better methods take half a minute.
+// It is waited for while painting: this takes seconds, better methods half a minute.
 constexpr const char* kQuickEstimator = "epi_s";
 
 }  // namespace
@@ -68,9 +68,9 @@ std::shared_ptr<const DisparityField> LabelingSource::find(FeatureSet features) 
 
 std::vector<SegmentPanel::Source> LabelingSource::sources() const {
   std::vector<SegmentPanel::Source> sources{{Automatic, tr("automatic"), true},
-                                            {None, tr("none: images alone"), true}};
+                                            {None, tr("none, images only"), true}};
   if (!session_.scene()) return sources;
-  sources.push_back({Truth, tr("the truth"), truth() != nullptr});
+  sources.push_back({Truth, tr("the ground truth"), truth() != nullptr});
   for (const EstimateEntry& entry : session_.estimates()) {
     sources.push_back({entry.id, QString::fromStdString(entry.name), fieldOf(&entry) != nullptr});
   }

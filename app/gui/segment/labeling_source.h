@@ -13,9 +13,9 @@
 
 namespace episcope {
 
-/// Finds the disparity that a segmentation goes by: of all views, since labels are carried through
-/// them all. By itself it takes the shown result, else the newest one that covers all views, else
-/// runs a method for it once, in the background.
+/// Finds the disparity for a segmentation: of all views, since labels are carried through them all.
+/// By default it takes the shown result, else the newest one that covers all views, else runs a
+/// method once, in the background.
 class LabelingSource : public QObject {
   Q_OBJECT
 

@@ -226,7 +226,7 @@ void SegmentController::publish() {
   showState();
 }
 
-// Who asks for labels wants to see them.
+// Requested labels are shown.
 void SegmentController::showLabels() {
   const render::Quantity quantity = bench_.overlay.quantity();
   if (render::info_of(quantity).subject != render::Subject::Segmentation) {
@@ -240,10 +240,11 @@ QString SegmentController::missing() const {
   }
   if (!live_.has_input() || live_.input()->disparity) return {};
   if (live_.input()->parameters.features == FeatureSet::ImageTruth) {
-    return tr("There is no true disparity of all views: labels go by images alone.");
+    return tr(
+        "There is no ground-truth disparity for all views: labels are based on the images alone.");
   }
   if (source_.isComing() && (is_live_ || live_.labeling(session_.view()))) {
-    return tr("Labels go by images alone until the disparity is estimated.");
+    return tr("Labels are based on the images alone until the disparity is estimated.");
   }
   return {};
 }
@@ -273,9 +274,9 @@ SegmentController::State SegmentController::state() const {
 
 void SegmentController::showState() {
   const State shown = state();
-  panel_->setState(shown.text, shown.mood,
-                   tr("What the segmentation of this view does, and how long it took.") + '\n' +
-                       edges_.origin());
+  panel_->setState(
+      shown.text, shown.mood,
+      tr("State of the segmentation of this view, and how long it took.") + '\n' + edges_.origin());
   const QString sentence = missing();
   panel_->setNote(sentence.isEmpty() ? scores_ : sentence);
   bench_.commands.refresh();
@@ -302,7 +303,7 @@ void SegmentController::showScores(const LabelingScores& scores) {
   QStringList parts;
   const auto of_view = scores.view.share();
   const auto of_all = scores.all_views.share();
-  if (of_view) parts << tr("right: %1 of this view").arg(percent(*of_view));
+  if (of_view) parts << tr("correct: %1 of this view").arg(percent(*of_view));
   if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
   if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
   scores_ = parts.join(", ");

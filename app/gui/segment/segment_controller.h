@@ -19,9 +19,9 @@
 
 namespace episcope {
 
-/// Segments from what is painted, while painting goes on: the view that is looked at, live or when
-/// asked, and all views as a job. Shows the state and how good the labels are, and gives the
-/// overlay the maps of the segmentation.
+/// Segments from scribbles while painting continues: the current view, live or on request, and all
+/// views as a job. Shows the state and the quality of the labels, and provides the overlay with
+/// maps of the segmentation.
 class SegmentController : public QObject, public MapProvider {
   Q_OBJECT
 

@@ -4,7 +4,7 @@
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/segment/segment_controller.h"
-#include "app/session/labels/segmentation_file.h"
+#include "app/session/labels/save_segmentation.h"
 #include "app/session/picture/picture.h"
 #include "engine/io/grid/image_file.h"
 

@@ -78,7 +78,7 @@ void Overlay::update(Parts parts) {
     if (!stage_.colorBar()->isRangeLocked()) edited_ranges_.clear();
   }
   if (parts.has_any(Part::Scene | Part::Estimates)) {
-    // Who ran a method wants to see what it found.
+    // A new result is shown.
     const std::size_t count = session_.estimates().size();
     if (count > std::exchange(known_estimates_, count) && quantity_ == Quantity::View) {
       quantity_ = Quantity::Disparity;
@@ -235,7 +235,7 @@ void Overlay::showCaption(const MapChoice& choice) const {
   QString caption = tr("view (v %1, u %2)").arg(view.v).arg(view.u);
   if (choice.quantity != Quantity::View) caption += tr(" · %1").arg(describe(choice));
   if (choice.quantity != Quantity::View && picture_.isNull() && is_up_to_date_) {
-    caption += tr(" · no such map of this view");
+    caption += tr(" · no such map for this view");
   }
   const bool has_sides =
       choice.quantity != Quantity::Difference && (is_flipped_ || session_.compared());

@@ -15,7 +15,7 @@
 namespace episcope {
 
 /// Draws a quantity over the view: which one, how opaque, in which range; flips to the other result
-/// while asked to. Pictures are made in the background: what was drawn stays until they are there.
+/// on request. Pictures are made in the background: what was drawn stays until they are ready.
 class Overlay : public QObject {
   Q_OBJECT
 

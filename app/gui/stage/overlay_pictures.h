@@ -12,8 +12,8 @@
 
 namespace episcope {
 
-/// Pictures of maps in their colours, made in the background one at a time; the newest used are
-/// kept, since flips and wipes go to and fro.
+/// Pictures of maps in their colours, made in the background one at a time. The most recently used
+/// are kept, since flips and wipes alternate between two.
 class OverlayPictures {
  public:
   struct Entry {

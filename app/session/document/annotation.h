@@ -8,8 +8,8 @@
 
 namespace episcope {
 
-/// The document painted on a light field, with the journal that outlives a crash. The journal
-/// begins with the first edit, so that who only looks leaves no file.
+/// The document painted on a light field, with the journal that survives a crash. The journal
+/// begins with the first edit, so that merely looking leaves no file.
 class Annotation {
  public:
   /// Keeps journals in `folder`; none if that is empty.
@@ -26,9 +26,9 @@ class Annotation {
   /// IoError if it cannot be kept: then there will be none.
   void keep_journal();
   [[nodiscard]] bool has_journal() const { return journal_.has_value(); }
-  /// Gives up the journal, which can no longer be written.
+  /// Abandons the journal, which can no longer be written.
   void drop_journal();
-  /// The session ends as it should, or its changes are not wanted: the journal is removed.
+  /// The session ended normally or its changes were discarded: the journal is removed.
   void finish();
 
  private:

@@ -28,9 +28,9 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) {
-    throw IoError(folder, "the folder cannot be made (" + error.message() +
-                              "), so that nothing painted would outlive a crash; make it or allow "
-                              "writing");
+    throw IoError(folder, "the folder cannot be created (" + error.message() +
+                              "), so nothing painted could be recovered after a crash; create it "
+                              "or make its parent writable");
   }
 }
 

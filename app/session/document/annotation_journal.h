@@ -41,7 +41,7 @@ class AnnotationJournal {
   [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
   /// Waits until everything is on the disk. Throws IoError.
   void flush() { log_->flush(); }
-  /// Ends the journal and removes the file: the session ended as it should.
+  /// Ends the journal and removes the file: the session ended normally.
   void finish();
 
  private:
@@ -55,14 +55,14 @@ class AnnotationJournal {
   std::uintmax_t first_bytes_ = 0;  ///< Of the file when it was last written anew.
 };
 
-/// What a session that died left.
+/// What a crashed session left behind.
 struct RecoveredAnnotation {
   JournalOwner owner;
   AnnotationDocument document;  ///< With its history.
 };
 
-/// Reads a journal: the document after the last step that is whole. Throws IoError if not even the
-/// document that it began with can be read.
+/// Reads a journal: the document after the last complete step. Throws IoError if not even the
+/// initial document can be read.
 [[nodiscard]] RecoveredAnnotation read_journal(const std::filesystem::path& path);
 
 struct LeftJournal {
@@ -71,8 +71,8 @@ struct LeftJournal {
   std::filesystem::file_time_type last_change;
 };
 
-/// Journals in `folder` whose session died with unsaved changes, the latest first. Those of living
-/// sessions are passed over, and those that hold nothing unsaved or nothing readable are removed.
+/// Journals in `folder` whose session crashed with unsaved changes, the latest first. Those of
+/// running sessions are skipped; those with nothing unsaved or nothing readable are removed.
 [[nodiscard]] std::vector<LeftJournal> left_journals(const std::filesystem::path& folder);
 
 /// Removes a journal that the user does not want or that was recovered.

@@ -13,8 +13,8 @@ namespace episcope {
 /// One step.
 [[nodiscard]] io::LogRecord step_record(const DocumentEvent& event);
 
-/// The document that records lead to, up to the first that makes no sense. Throws InvalidInput if
-/// the first two do not.
+/// The document that the records lead to, up to the first invalid one. Throws InvalidInput if one
+/// of the first two is.
 [[nodiscard]] RecoveredAnnotation replay(const std::vector<io::LogRecord>& records);
 
 }  // namespace episcope

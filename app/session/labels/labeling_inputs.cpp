@@ -12,9 +12,10 @@ namespace {
 
 void require_all_views(const DisparityField& field, const LightField& lf, const std::string& what) {
   if (field.disparity.grid() == lf.grid()) return;
-  throw InvalidInput(what + " covers " + std::to_string(field.disparity.grid().count()) + " of " +
-                     std::to_string(lf.grid().count()) +
-                     " views, but labels are carried along the rays of all; use one of all views");
+  throw InvalidInput(
+      what + " covers " + std::to_string(field.disparity.grid().count()) + " of " +
+      std::to_string(lf.grid().count()) +
+      " views, but labels are carried along the rays of all views; use one that covers them");
 }
 
 /// A field of the scene that lives as long as the scene's truth does.
@@ -51,12 +52,12 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
                       kLabelingEstimator);
 }
 
-bool has_edge_weights(const Scene& scene) {
+bool has_edge_probabilities(const Scene& scene) {
   return scene.find_companion(CompanionKind::EdgeProbabilities) != nullptr;
 }
 
-std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
-                                                          const Progress& progress) {
+std::shared_ptr<const ViewStack<float>> find_edge_probabilities(const Scene& scene,
+                                                                const Progress& progress) {
   const Companion* file = scene.find_companion(CompanionKind::EdgeProbabilities);
   if (!file) return nullptr;
   return std::make_shared<const ViewStack<float>>(

@@ -13,8 +13,8 @@
 
 namespace episcope {
 
-/// The disparity that a segmentation goes by: it carries places along the rays, and is a feature if
-/// the parameters say so.
+/// The disparity of a segmentation: it carries positions along the rays, and is a feature if the
+/// parameters say so.
 struct LabelingDisparity {
   std::shared_ptr<const DisparityField> field;
   std::string origin;    ///< "truth", "epi_c", or the file it was read from.
@@ -34,9 +34,9 @@ inline constexpr const char* kLabelingEstimator = "epi_c";
                                                         const Progress& progress);
 
 /// Whether EDGE_WEIGHTS lie beside the light field.
-[[nodiscard]] bool has_edge_weights(const Scene& scene);
+[[nodiscard]] bool has_edge_probabilities(const Scene& scene);
 /// EDGE_WEIGHTS that lie beside the light field; null if there are none. Throws IoError, Cancelled.
-[[nodiscard]] std::shared_ptr<const ViewStack<float>> find_edge_weights(const Scene& scene,
-                                                                        const Progress& progress);
+[[nodiscard]] std::shared_ptr<const ViewStack<float>> find_edge_probabilities(
+    const Scene& scene, const Progress& progress);
 
 }  // namespace episcope

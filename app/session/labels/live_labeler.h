@@ -23,12 +23,12 @@ enum class LiveState : std::uint8_t {
   Failed      ///< `sentence` says why.
 };
 
-/// Segments the view that is looked at, in the background, of which only the newest request
-/// matters: a new one cancels that under way, within 200 ms. It has a thread of its own, of lower
-/// priority than the owner's. All members are for the owner's thread.
+/// Segments the current view in the background. Only the newest request matters: it cancels the one
+/// before within 200 ms. Works on a thread of its own, of lower priority than the owner's. All
+/// members are for the owner's thread.
 class LiveLabeler {
  public:
-  /// Views whose labels are kept, so that going to and fro need not wait.
+  /// Number of views whose labels are kept, so that returning to one need not wait.
   static constexpr std::size_t kKeptViews = 12;
 
   /// `post` brings closures to the owner's thread; `on_changed` is called there after each change

@@ -11,7 +11,7 @@ namespace episcope {
 
 using LabelingPtr = std::shared_ptr<const Labeling>;
 
-/// What a segmentation goes by: a snapshot that nobody changes.
+/// The input of a segmentation: an immutable snapshot.
 struct LabelingInput {
   LightFieldPtr light_field;
   std::shared_ptr<const DisparityField> disparity;  ///< Null: images alone.

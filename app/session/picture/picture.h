@@ -31,7 +31,7 @@ inline constexpr int kEpiRowHeight = 8;
                                                int y);
 [[nodiscard]] RgbaImage vertical_epi_picture(const LightField& light_field, ViewIndex view, int x);
 
-/// What a user may set otherwise than the quantity says.
+/// What a user may override in the colours of a quantity.
 struct ShadingChoice {
   std::optional<Interval> range;
   std::string color_map{};  ///< Empty = the quantity's own.

@@ -21,7 +21,7 @@ struct FinishedEstimate {
   Interval display_range;  ///< Disparities that 98 % of the pixels of one view lie in.
 };
 
-/// Note of an estimate that somebody asked for before the method was done.
+/// Note of an estimate that was requested before the method was done.
 inline constexpr const char* kTakenEarly = "ended early";
 
 /// Runs a method of the registry. What was ended early (Progress::finish_requested) says so

@@ -9,7 +9,7 @@
 
 namespace episcope {
 
-/// What there is to tell about a scene beyond its shape. Linear in its pixels.
+/// Facts about a scene beyond its shape. Linear in its pixels.
 struct SceneSummary {
   struct Truth {
     std::string views;  ///< "all", "centre", or "4,4".

@@ -2,6 +2,22 @@
 #include "engine/core/light_field/scene.h"
 
 namespace episcope {
+namespace {
+
+std::string with_author(const std::string& text, bool was_chosen) {
+  return was_chosen ? text + ", as chosen by hand" : text;
+}
+
+}  // namespace
+
+std::string order_text(const ConventionReport& report) {
+  return with_author(report.order, report.order_was_chosen);
+}
+
+std::string units_text(const ConventionReport& report) {
+  const std::string text = with_author(report.units, report.units_were_chosen);
+  return report.units_check.empty() ? text : text + "; " + report.units_check;
+}
 
 const char* companion_name(CompanionKind kind) {
   switch (kind) {

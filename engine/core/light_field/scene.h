@@ -15,10 +15,13 @@ namespace episcope {
 
 /// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
-  std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
-  std::string order;        ///< "as stored", "u reversed (file h axis)", …
-  std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
-  std::string units;        ///< How depth was turned into disparity, and what spoke for it.
+  std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;              ///< "as stored", "u reversed (file h axis)", …
+  std::string order_check;        ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
+  std::string units;              ///< How depth was turned into disparity,
+  std::string units_check;        ///< and what spoke for it; may be empty.
+  bool order_was_chosen = false;  ///< The user overruled the reader,
+  bool units_were_chosen = false;     ///< and here.
   std::vector<std::string> warnings;  ///< A sentence each.
   double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
                         ///< by it.
@@ -26,6 +29,10 @@ struct ConventionReport {
   bool reversed_v = false;     ///< and rows.
   bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.
 };
+
+/// Sentences for users: `order`, or `units` with its check, and who chose it.
+[[nodiscard]] std::string order_text(const ConventionReport& report);
+[[nodiscard]] std::string units_text(const ConventionReport& report);
 
 /// What is painted on one view: 0 = unpainted, else a label id.
 struct ViewScribbles {

@@ -120,6 +120,8 @@ CameraGrid settle_units(const DepthMaps& maps, const LightField::Samples& sample
         return warp_errors(samples, view, field.view(view)).best();
       });
   report.units = finding.text;
+  report.units_check = finding.check;
+  report.units_were_chosen = units != Units::Auto;
   report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());
   return finding.camera;
 }

@@ -90,14 +90,13 @@ UnitsFinding find_units(const DepthFacts& facts, Units choice,
   prefer(all, [&](const Reading& one) { return holds_zero_depth(one, facts.depth); });
   const Reading& taken = best_by_warping(all, warp_error);
 
-  UnitsFinding finding{taken.camera, {}, {}};
+  UnitsFinding finding{taken.camera, {}, {}, {}};
   finding.text = "d = dH·focalLength/Z − shift with " + taken.name + ": " +
                  number(taken.disparity.min) + " … " + number(taken.disparity.max) +
                  " px for depth " + number(facts.depth.min) + " … " + number(facts.depth.max);
-  if (choice != Units::Auto) finding.text += ", as chosen by hand";
   if (std::isfinite(taken.error)) {
-    finding.text +=
-        "; this warps the views onto each other best (" + number(taken.error) + " grey levels)";
+    finding.check =
+        "this warps the views onto each other best (" + number(taken.error) + " grey levels)";
   }
   if (!taken.is_plausible()) {
     finding.warnings.push_back(

@@ -21,7 +21,8 @@ struct DepthFacts {
 
 struct UnitsFinding {
   CameraGrid camera;  ///< Gives px per view step.
-  std::string text;
+  std::string text;   ///< As ConventionReport::units,
+  std::string check;  ///< and `units_check`.
   std::vector<std::string> warnings;
 };
 

@@ -120,7 +120,8 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
                       : "not checked (too little depth or texture); " + expected.reason;
   if (choice != Flip::Auto) {
     finding.flip = chosen_flip(choice);
-    finding.order = flip_text(finding.flip) + ", as chosen by hand";
+    finding.order = flip_text(finding.flip);
+    finding.was_chosen = true;
     if (checked.is_decided && !(finding.flip == checked.flip)) {
       finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
       finding.warnings.push_back("The order of views was chosen by hand (" +
@@ -146,6 +147,7 @@ void put_in_order(LightField::Samples& samples, GroundTruth& truth, const Expect
       find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
   report.order = finding.order;
   report.order_check = finding.check;
+  report.order_was_chosen = finding.was_chosen;
   report.reversed_u = finding.flip.u;
   report.reversed_v = finding.flip.v;
   report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());

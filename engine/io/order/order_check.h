@@ -26,8 +26,9 @@ struct OrderEvidence {
 
 struct OrderFinding {
   ViewFlip flip;
-  std::string order;  ///< As ConventionReport::order,
-  std::string check;  ///< and `order_check`.
+  std::string order;        ///< As ConventionReport::order,
+  std::string check;        ///< `order_check`
+  bool was_chosen = false;  ///< and `order_was_chosen`.
   std::vector<std::string> warnings;
 };
 

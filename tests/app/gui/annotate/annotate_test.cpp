@@ -368,7 +368,7 @@ void AnnotateTest::whileTheFirstIsRead_theHintSaysSo() {
   QVERIFY(!f.window.findChild<LabelPalette*>()->isEnabled());
 
   f.window.bench().stage.showPreview(QImage(96, 96, QImage::Format_RGB32), "being read");
-  QVERIFY2(hint->text().contains("being read"), qPrintable(hint->text()));
+  QVERIFY2(hint->text().contains("still loading"), qPrintable(hint->text()));
 
   f.window.bench().stage.endPreview();
   QVERIFY(hint->text().startsWith("Open "));

@@ -59,7 +59,7 @@ void apply(MainWindow& window, QDialog* dialog) {
 }
 
 QString order_shown(const MainWindow& window) {
-  const auto* label = window.findChild<QLabel*>("info.Order");
+  const auto* label = window.findChild<QLabel*>("info.order");
   return label ? label->text() : QString();
 }
 
@@ -222,7 +222,7 @@ void ConventionsTest::gridOfOddNames_opensByPattern() {
   apply(f.window, dialog);
 
   QVERIFY(f.window.bench().session.light_field()->grid() == (GridShape{3, 4}));
-  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.Names"), kPatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.names"), kPatience);
 }
 
 void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {

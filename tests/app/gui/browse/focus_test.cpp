@@ -156,8 +156,8 @@ void FocusTest::whatIsPainted_isNotLost() {
   f.clickApply();
 
   const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
-  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("painted"), qPrintable(messages->text()),
-                            kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("unsaved scribbles"),
+                            qPrintable(messages->text()), kPatience);
   QCOMPARE(f.baked(), 0.0);
   QVERIFY(f.window.bench().document.hasUnsavedChanges());
 }

@@ -167,7 +167,7 @@ void ResultsTest::resultOfOtherSamples_isOpenedWithAWarning() {
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 2U, kPatience);
   const MessageBar* messages = f.window.findChild<MessageBar*>("messageBar");
-  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("other samples"),
+  QTRY_VERIFY2_WITH_TIMEOUT(messages->text().contains("different samples"),
                             qPrintable(messages->text()), kPatience);
   QCOMPARE(messages->severity(), Severity::Warning);
 }

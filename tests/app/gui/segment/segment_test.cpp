@@ -61,7 +61,7 @@ void SegmentTest::live_labelsTheViewAndShowsIt() {
   QVERIFY2(f.accuracy() > 0.75, qPrintable(QString::number(f.accuracy())));
   QVERIFY(f.segment().labeler().input()->disparity);
   QVERIFY2(f.panel().state().startsWith("idle"), qPrintable(f.panel().state()));
-  QTRY_VERIFY(f.panel().note().startsWith("right:"));
+  QTRY_VERIFY(f.panel().note().startsWith("correct:"));
 }
 
 void SegmentTest::stroke_andUndo_giveNewLabels() {
@@ -165,7 +165,7 @@ void SegmentTest::labels_areComparedWithThoseOfAnotherFile() {
   Segmenting f;
   f.trigger("segment.update");
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
-  QTRY_VERIFY(f.panel().note().startsWith("right:"));
+  QTRY_VERIFY(f.panel().note().startsWith("correct:"));
   const QString before = f.panel().note();
   // All that is there is the thing in the middle.
   Scene other = *f.window.bench().session.scene();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/session/labels/segmentation_file.h"
+#include "app/session/labels/save_segmentation.h"
 
 #include "app/session/run/result_source.h"
 #include "engine/core/error.h"
