@@ -19,7 +19,9 @@ run_preset() {
   echo "== $preset =="
   cmake --preset "$preset" "$@" >/dev/null || return 1
   cmake --build --preset "$preset" || return 1
-  [ -n "$all" ] || export EPISCOPE_PASSED="$here/build/$preset/passed"
+  if [ -z "$all" ]; then
+    export EPISCOPE_BUILD="$here/build/$preset" EPISCOPE_PASSED="$here/build/passed"
+  fi
   ctest --preset "$preset" --parallel 2 --no-tests=error || return 1
 }
 

@@ -15,6 +15,21 @@ if(EPISCOPE_SANITIZE)
   target_link_options(episcope_options INTERFACE "-fsanitize=${EPISCOPE_SANITIZE}")
 endif()
 
+# episcope_precompile(target): saves a third of the time of a first build. Not with tests, which prove
+# that headers stand alone, nor with ccache, which saves more.
+function(episcope_precompile target)
+  if(EPISCOPE_TESTS OR EPISCOPE_CCACHE)
+    return()
+  endif()
+  set(headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <map> <memory> <optional>
+              <span> <string> <variant> <vector>)
+  get_target_property(links ${target} LINK_LIBRARIES)
+  if(links MATCHES "Qt6::Widgets")
+    list(APPEND headers <QAction> <QLayout> <QString> <QWidget>)
+  endif()
+  target_precompile_headers(${target} PRIVATE ${headers})
+endfunction()
+
 # episcope_add_library(name [LIGHT] [LINK public targets] [PRIVATE_LINK …]): a library without sources
 # yet; its rooms bring them. A light one leaves heavy work to others, and is optimised little: that
 # saves a quarter of the time that it takes to compile.
@@ -26,6 +41,7 @@ function(episcope_add_library name)
   if(ARG_LIGHT)
     target_compile_options(${name} PRIVATE -O1)
   endif()
+  episcope_precompile(${name})
 endfunction()
 
 # episcope_room(library [PAIRS a …] [SOURCES b.cpp …] [HEADERS c.h …] [KERNELS d …]): what a folder

@@ -15,6 +15,8 @@ class QMouseEvent;
 
 namespace episcope {
 
+class CloudScene;
+
 enum class CloudPreset { Front, Tilted, Side };
 
 /// A point cloud drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click picks a
@@ -48,11 +50,10 @@ class PointCloudView : public QOpenGLWidget {
   void paintGL() override;
 
  private:
-  class Scene;
   void releaseContext();
   bool handleMouse(const QMouseEvent& event);
 
-  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<CloudScene> scene_;
   std::optional<QPointF> press_;  // of the left button, until it is dragged
 };
 

@@ -35,7 +35,7 @@ QString edit_text(EditKind kind) {
 
 }  // namespace
 
-void AnnotateController::addHistoryCommands() {
+void AnnotateController::addModeCommand() {
   bench_.commands.add({.id = "annotate.mode",
                        .menu = Menu::Annotate,
                        .text = tr("Annotate"),
@@ -47,17 +47,11 @@ void AnnotateController::addHistoryCommands() {
                        .bar = BarSection::Files,
                        .enabled = [this] { return hasDocument(); },
                        .checked = [this] { return is_annotating_; }});
-  using Next = const Edit* (*)(const AnnotationDocument&);
-  const auto edit = [this](Next next) {
-    const AnnotationDocument* document = std::as_const(document_).document();
-    return document ? next(*document) : nullptr;
-  };
-  const auto undone = [edit] {
-    return edit([](const AnnotationDocument& document) { return document.history().next_undo(); });
-  };
-  const auto redone = [edit] {
-    return edit([](const AnnotationDocument& document) { return document.history().next_redo(); });
-  };
+}
+
+void AnnotateController::addHistoryCommands() {
+  const auto undone = [this] { return hasDocument() ? history().next_undo() : nullptr; };
+  const auto redone = [this] { return hasDocument() ? history().next_redo() : nullptr; };
   bench_.commands.add(
       {.id = "annotate.undo",
        .menu = Menu::Annotate,
@@ -149,7 +143,12 @@ void AnnotateController::addSizeCommands() {
                        .checked = [this] { return protects_others_; }});
 }
 
+const History<Edit>& AnnotateController::history() const {
+  return std::as_const(document_).document()->history();
+}
+
 void AnnotateController::addCommands() {
+  addModeCommand();
   addHistoryCommands();
   addToolCommands();
   addSizeCommands();

@@ -40,10 +40,13 @@ class AnnotateController : public QObject {
 
  private:
   void addCommands();
+  void addModeCommand();
   void addHistoryCommands();
   void addToolCommands();
   void addSizeCommands();
   [[nodiscard]] bool hasDocument() const;
+  /// Precondition: there is a document.
+  [[nodiscard]] const History<Edit>& history() const;
 
   void connectTools();
   void connectPanel();

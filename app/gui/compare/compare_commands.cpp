@@ -35,7 +35,6 @@ void CompareController::addOverlayCommands() {
 }
 
 void CompareController::addChoiceCommands() {
-  const auto has_other = [this] { return session_.compared() != nullptr; };
   bench_.commands.add({.id = "compare.next_map",
                        .menu = Menu::Compare,
                        .text = tr("Next map"),
@@ -58,6 +57,10 @@ void CompareController::addChoiceCommands() {
              if (mode_ == CompareMode::Single || !is_held) overlay_.setFlipped(is_held);
            }});
   bench_.commands.hearHeldKeys(canvas_);
+}
+
+void CompareController::addPairCommands() {
+  const auto has_other = [this] { return session_.compared() != nullptr; };
   bench_.commands.add(
       {.id = "compare.difference",
        .menu = Menu::Compare,
@@ -116,6 +119,7 @@ void CompareController::addCommands() {
   addOverlayCommands();
   addModeCommands();
   addChoiceCommands();
+  addPairCommands();
   for (const char* id :
        {"compare.wipe", "compare.sides", "compare.tiles", "compare.difference", "compare.swap"}) {
     bar_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));

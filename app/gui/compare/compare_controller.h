@@ -55,6 +55,7 @@ class CompareController : public QObject {
   void addCommands();
   void addOverlayCommands();
   void addChoiceCommands();
+  void addPairCommands();
   void addModeCommands();
   void connectWall();
   void update(Parts parts);
