@@ -28,6 +28,8 @@ function(episcope_precompile target)
     list(APPEND headers <QAction> <QLayout> <QString> <QWidget>)
   endif()
   target_precompile_headers(${target} PRIVATE ${headers})
+  # GCC 12 warns wrongly of std::string, and of precompiled system headers as if they were ours.
+  target_compile_options(${target} PRIVATE -Wno-array-bounds -Wno-restrict)
 endfunction()
 
 # episcope_add_library(name [LIGHT] [LINK public targets] [PRIVATE_LINK …]): a library without sources
