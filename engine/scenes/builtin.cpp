@@ -98,6 +98,8 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   scene.convention.format = "built-in scene";
   scene.convention.order = "canonical order";
   scene.convention.order_check = "exact by construction";
+  scene.convention.sign = "checked";
+  scene.convention.sign_check = "exact by construction";
   scene.convention.units = "exact disparity by eq. 1";
   return scene;
 }

@@ -2,6 +2,7 @@
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/input/input.h"
 #include "app/cli/output/json.h"
+#include "app/cli/output/scene_json.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/scene/scene_summary.h"
 #include "engine/core/parameter/parameter.h"
@@ -12,73 +13,6 @@
 namespace episcope::cli {
 namespace {
 
-void add_camera(Json& json, const LightFieldInfo& info) {
-  if (const auto& camera = info.camera; camera.is_known()) {
-    json["camera"] = Json::object({{"baseline", camera.baseline},
-                                   {"focal_length", camera.focal_length},
-                                   {"shift", camera.shift}});
-    if (camera.cam_distance) json["camera"]["cam_distance"] = *camera.cam_distance;
-  }
-}
-
-/// Keys of what there is; what is missing has no key.
-void add_truth(Json& json, const Scene& scene, const SceneSummary& summary) {
-  if (const auto& promised = scene.light_field->info().disparity_range) {
-    json["disparity_promised"] = interval_json(*promised);
-  }
-  if (summary.truth) {
-    json["truth"] = Json::object({{"views", summary.truth->views},
-                                  {"valid_percent", summary.truth->valid_percent},
-                                  {"disparity_center", interval_json(summary.truth->center)},
-                                  {"disparity", interval_json(summary.truth->all)}});
-  }
-  if (summary.has_layers) json["truth_layers"] = 2;
-  if (!summary.label_ids.empty()) {
-    json["labels"] = Json::object({{"views", summary.label_views}, {"ids", summary.label_ids}});
-  }
-  if (summary.painted_percent > 0) {
-    Json views = Json::array();
-    for (const ViewScribbles& one : scene.scribbles.views) views.push_back(view_json(one.view));
-    json["scribbles"] = Json::object({{"view", view_json(scene.scribbles.views.front().view)},
-                                      {"views", views},
-                                      {"painted_percent", summary.painted_percent},
-                                      {"ids", summary.scribble_ids}});
-  }
-  if (!scene.truth->regions.empty()) {
-    json["regions"] = Json::array();
-    for (const auto& [name, mask] : scene.truth->regions) json["regions"].push_back(name);
-  }
-}
-
-Json scene_json(const Scene& scene, const std::string& input) {
-  const SceneSummary summary = summarize(scene);
-  const LightField& light_field = *scene.light_field;
-  Json json;
-  json["input"] = input;
-  json["name"] = light_field.info().name;
-  json["format"] = scene.convention.format;
-  json["views"] = Json::object({{"v", light_field.grid().v}, {"u", light_field.grid().u}});
-  json["height"] = light_field.height();
-  json["width"] = light_field.width();
-  json["channels"] = light_field.channels();
-  json["sample_type"] = summary.sample_type;
-  json["bytes"] = light_field.byte_size();
-  add_camera(json, light_field.info());
-  add_truth(json, scene, summary);
-  json["companions"] = Json::array();
-  for (const auto& companion : scene.companions) {
-    json["companions"].push_back(Json::object({{"kind", companion_name(companion.kind)},
-                                               {"path", companion.path.string()},
-                                               {"shape", companion.shape}}));
-  }
-  json["focus"] = scene.convention.focus_px;
-  json["order"] = order_text(scene.convention);
-  json["order_check"] = scene.convention.order_check;
-  json["units"] = units_text(scene.convention);
-  json["warnings"] = scene.convention.warnings;
-  return json;
-}
-
 void print_line(const std::string& label, const std::string& text) {
   constexpr std::size_t column = 12;
   if (!text.empty()) std::cout << label << std::string(column - label.size(), ' ') << text << '\n';
@@ -88,6 +22,25 @@ std::string ids_text(const std::vector<int>& ids) {
   std::string text;
   for (const int id : ids) text += (text.empty() ? "" : ", ") + std::to_string(id);
   return text;
+}
+
+void print_positions(const LightFieldInfo& info) {
+  if (info.positions.empty()) return;
+  const CameraPosition first = info.positions.front();
+  const CameraPosition last = info.positions.back();
+  std::ostringstream text;
+  text << "x " << first.x << " … " << last.x << ", y " << first.y << " … " << last.y << ' '
+       << (info.position_unit.empty() ? "(unit not known)" : info.position_unit)
+       << ", first to last view";
+  print_line("positions", text.str());
+}
+
+void print_valid(const LightField& light_field) {
+  if (light_field.valid().empty()) return;
+  std::ostringstream text;
+  text.precision(4);
+  text << valid_percent(light_field) << " % of the pixels; the others are dark or empty";
+  print_line("valid", text.str());
 }
 
 void print_shape(const LightField& light_field, const SceneSummary& summary) {
@@ -160,7 +113,9 @@ void print_scene(const Scene& scene) {
   print_line("name", scene.light_field->info().name);
   print_line("format", scene.convention.format);
   print_shape(*scene.light_field, summary);
+  print_valid(*scene.light_field);
   print_camera(scene.light_field->info());
+  print_positions(scene.light_field->info());
   print_truth(scene, summary);
   for (const auto& companion : scene.companions) {
     print_line("beside it", std::string(companion_name(companion.kind)) + ", " + companion.shape +
@@ -173,7 +128,12 @@ void print_scene(const Scene& scene) {
       "order",
       order_text(scene.convention) +
           (scene.convention.order_check.empty() ? "" : " (" + scene.convention.order_check + ")"));
+  print_line(
+      "sign",
+      sign_text(scene.convention) +
+          (scene.convention.sign_check.empty() ? "" : " (" + scene.convention.sign_check + ")"));
   print_line("units", units_text(scene.convention));
+  print_line("files", files_text(scene.convention));
   for (const auto& warning : scene.convention.warnings) print_line("warning", warning);
 }
 

@@ -2,6 +2,7 @@
 #include "app/gui/browse/scene_info.h"
 
 #include "app/session/scene/scene_range.h"
+#include "app/session/scene/scene_summary.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/schema_text.h"
 
@@ -119,6 +120,9 @@ SceneInfo describe(const Scene& scene) {
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
                        with_minus(utf8(convention.order_check)), "order"});
+  info.rows.push_back({text("Sign"),
+                       convention.sign.empty() ? text("not known") : utf8(convention.sign),
+                       with_minus(utf8(convention.sign_check)), "sign"});
   info.rows.push_back({text("Camera"), camera_text(light_field.info().camera),
                        units_check_text(convention), "camera"});
   info.rows.push_back({text("Format"), utf8(convention.format), {}, "format"});
@@ -127,6 +131,9 @@ SceneInfo describe(const Scene& scene) {
   }
   for (const Companion& companion : scene.companions) {
     info.rows.push_back({schema_text(companion_name(companion.kind)), utf8(companion.shape), {}});
+  }
+  if (const std::string files = files_text(convention); !files.empty()) {
+    info.rows.push_back({text("Files"), utf8(files), {}, "files"});
   }
   info.rows.push_back({text("Source"), utf8(light_field.info().source), {}, "source"});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);

@@ -103,4 +103,23 @@ SceneSummary summarize(const Scene& scene) {
   return summary;
 }
 
+double valid_percent(const LightField& light_field) {
+  const ViewStack<std::uint8_t>& valid = light_field.valid();
+  if (valid.empty()) return 100;
+  const auto invalid = std::count(valid.data(), valid.data() + valid.size(), std::uint8_t{0});
+  return 100 * (1 - static_cast<double>(invalid) / static_cast<double>(valid.size()));
+}
+
+std::string files_text(const ConventionReport& report) {
+  std::string used;
+  std::string unused;
+  for (const FileUse& use : report.files) {
+    std::string& text = use.is_used ? used : unused;
+    text += (text.empty() ? "" : ", ") + std::to_string(use.count) + " " + use.kind;
+    if (!use.is_used && use.kind != use.example) text += " (" + use.example + ")";
+  }
+  if (unused.empty()) return used;
+  return (used.empty() ? "" : used + "; ") + "not used: " + unused;
+}
+
 }  // namespace episcope

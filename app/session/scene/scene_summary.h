@@ -29,4 +29,10 @@ struct SceneSummary {
 
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
+/// Share of pixels of all views that hold something that was seen, in percent.
+[[nodiscard]] double valid_percent(const LightField& light_field);
+
+/// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)". Empty if no folder was read.
+[[nodiscard]] std::string files_text(const ConventionReport& report);
+
 }  // namespace episcope

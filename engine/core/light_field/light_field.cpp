@@ -26,8 +26,8 @@ void convert(const T* in, std::size_t count, float* out) {
 
 }  // namespace
 
-LightField::LightField(Samples samples, LightFieldInfo info)
-    : samples_(std::move(samples)), info_(std::move(info)) {
+LightField::LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid)
+    : samples_(std::move(samples)), valid_(std::move(valid)), info_(std::move(info)) {
   std::visit(
       [this](const auto& stack) {
         grid_ = stack.grid();
@@ -45,6 +45,10 @@ LightField::LightField(Samples samples, LightFieldInfo info)
     throw InvalidInput(fmt::format(
         "the light field has {} channels, but 1 (grey) or 3 (RGB) are expected", channels_));
   }
+  const bool fits = valid_.grid() == grid_ && valid_.first() == ViewIndex{} &&
+                    valid_.height() == height_ && valid_.width() == width_ &&
+                    valid_.channels() == 1;
+  if (!valid_.empty() && !fits) throw InvalidInput("the mask of valid pixels does not fit");
 }
 
 SampleType LightField::sample_type() const {

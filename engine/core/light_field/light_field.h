@@ -12,10 +12,17 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace episcope {
 
 enum class SampleType { UInt8, UInt16, Float32 };
+
+/// Where a camera stands on the plane of cameras, in `LightFieldInfo::position_unit`.
+struct CameraPosition {
+  double x = 0;
+  double y = 0;
+};
 
 /// What is known about a light field besides its samples.
 struct LightFieldInfo {
@@ -25,6 +32,9 @@ struct LightFieldInfo {
   /// Disparity range that the files promise (`disp_min`/`disp_max` of a cfg); never from truth.
   std::optional<Interval> disparity_range;
   Reading reading{};  ///< How it was read from `source`.
+  /// As stored in names or files of the camera, view by view in canonical order; empty = unknown.
+  std::vector<CameraPosition> positions{};
+  std::string position_unit{};  ///< "mm"; empty = unknown.
 };
 
 /// A 4D light field: equally sized views on a regular camera grid, `[v][u][y][x][c]`, immutable.
@@ -35,9 +45,10 @@ class LightField {
  public:
   using Samples = std::variant<ViewStack<std::uint8_t>, ViewStack<std::uint16_t>, ViewStack<float>>;
 
-  /// Throws InvalidInput if the stack is empty, has other than 1 or 3 channels or does not begin at
-  /// view (0, 0).
-  LightField(Samples samples, LightFieldInfo info);
+  /// `valid`: 0 where a pixel holds nothing that was seen (vignetting, weight 0), of the shape of
+  /// the views; empty = all valid. Throws InvalidInput if the stack is empty, has other than 1 or 3
+  /// channels or does not begin at view (0, 0), or if `valid` does not fit.
+  LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid = {});
 
   [[nodiscard]] const LightFieldInfo& info() const { return info_; }
   [[nodiscard]] GridShape grid() const { return grid_; }
@@ -70,8 +81,15 @@ class LightField {
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
 
+  /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
+  [[nodiscard]] const ViewStack<std::uint8_t>& valid() const { return valid_; }
+  [[nodiscard]] bool is_valid(ViewIndex index, int y, int x) const {
+    return valid_.empty() || valid_.view(index).at(y, x) != 0;
+  }
+
  private:
   Samples samples_;
+  ViewStack<std::uint8_t> valid_;
   LightFieldInfo info_;
   GridShape grid_;
   int height_ = 0;

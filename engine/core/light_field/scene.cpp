@@ -14,6 +14,10 @@ std::string order_text(const ConventionReport& report) {
   return with_author(report.order, report.order_was_chosen);
 }
 
+std::string sign_text(const ConventionReport& report) {
+  return report.sign.empty() ? "not known" : report.sign;
+}
+
 std::string units_text(const ConventionReport& report) {
   const std::string text = with_author(report.units, report.units_were_chosen);
   return report.units_check.empty() ? text : text + "; " + report.units_check;

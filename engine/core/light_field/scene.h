@@ -13,14 +13,25 @@
 
 namespace episcope {
 
+/// What became of the files of a folder that share a kind.
+struct FileUse {
+  std::string kind;  ///< "views", "labels"; of files not used: "*.txt", "depth_#.npy".
+  int count = 0;
+  std::string example;  ///< Name of the first of them.
+  bool is_used = true;
+};
+
 /// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
-  std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
-  std::string order;              ///< "as stored", "u reversed (file h axis)", …
-  std::string order_check;        ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
-  std::string units;              ///< How depth was turned into disparity,
-  std::string units_check;        ///< and what spoke for it; may be empty.
-  bool order_was_chosen = false;  ///< The user overruled the reader,
+  std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;        ///< "as stored", "u reversed (file h axis)", …
+  std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
+  std::string sign;  ///< "checked" if near and far are told apart; empty = not known.
+  std::string sign_check;             ///< The evidence, with numbers, or why there is none.
+  std::vector<FileUse> files;         ///< Every file of the folder: used as what, or not used.
+  std::string units;                  ///< How depth was turned into disparity,
+  std::string units_check;            ///< and what spoke for it; may be empty.
+  bool order_was_chosen = false;      ///< The user overruled the reader,
   bool units_were_chosen = false;     ///< and here.
   std::vector<std::string> warnings;  ///< A sentence each.
   double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
@@ -30,8 +41,9 @@ struct ConventionReport {
   bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.
 };
 
-/// Sentences for users: `order`, or `units` with its check, and who chose it.
+/// Sentences for users: `order`, `sign`, or `units` with its check, and who chose it.
 [[nodiscard]] std::string order_text(const ConventionReport& report);
+[[nodiscard]] std::string sign_text(const ConventionReport& report);
 [[nodiscard]] std::string units_text(const ConventionReport& report);
 
 /// What is painted on one view: 0 = unpainted, else a label id.

@@ -11,10 +11,12 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, scene.convention,
                progress);
+  scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
-  scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info));
+  scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),
+                                                   std::move(parts.valid));
   if (!options.needs_truth) parts.truth = {};
   scene.truth = std::make_shared<GroundTruth>(std::move(parts.truth));
 }

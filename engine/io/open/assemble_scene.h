@@ -11,6 +11,9 @@ struct SceneParts {
   GroundTruth truth;
   LightFieldInfo info;
   ExpectedOrder expected;
+  /// 0 = a pixel that holds nothing that was seen, in the order of views as stored; empty = none.
+  ViewStack<std::uint8_t> valid{};
+  std::vector<FileUse> files{};  ///< What became of the files of the folder (FolderAccount).
 };
 
 /// The last step of reading a light field: brings the parts into canonical order, sets samples that

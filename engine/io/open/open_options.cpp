@@ -22,6 +22,12 @@ Names<Units> names_of(Units) {
           {Units::WithoutWidth, "without-width", "dH does not include the image width"}};
 }
 
+Names<Mosaic> names_of(Mosaic) {
+  return {{Mosaic::Auto, "auto", "automatic: detected and checked"},
+          {Mosaic::Lenslets, "lenslets", "lenslets side by side (ESLF)"},
+          {Mosaic::Views, "views", "views side by side"}};
+}
+
 Schema<OpenOptions> open_schema() {
   using O = OpenOptions;
   Schema<O> schema;

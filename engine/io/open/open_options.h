@@ -20,6 +20,10 @@ enum class Flip { Auto, None, U, V, Both };
 enum class Units { Auto, WithWidth, WithoutWidth };
 [[nodiscard]] Names<Units> names_of(Units);
 
+/// How one image holds all views.
+enum class Mosaic { Auto, Lenslets, Views };
+[[nodiscard]] Names<Mosaic> names_of(Mosaic);
+
 /// Of which views maps of disparity and depth are read, where there are any of all.
 enum class MapViews { All, Center };
 
@@ -29,9 +33,19 @@ struct OpenOptions {
   Flip flip = Flip::Auto;
   Units units = Units::Auto;
   std::string
-      pattern{};        ///< Image grids: file name with {row} and {col} or {index}; empty = detect.
-  bool snake = false;   ///< Image grids: every second row was captured right to left.
-  double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.
+      pattern{};  ///< Image grids: file name with {row} and {col} or {index}; empty = detect.
+  std::string
+      grid{};  ///< Rows and columns of views, "9x9", where files do not tell; empty = found.
+  std::string crop{};  ///< Views to keep around the centre, "9x9", or "all"; empty = all that are
+                       ///< filled.
+  Mosaic mosaic = Mosaic::Auto;
+  int lenslet = 0;        ///< Mosaics of lenslets: pixels a side of a lenslet; 0 = found.
+  std::string dataset{};  ///< Files of several arrays: which holds the light field; empty = found.
+  std::string axes{};     ///< Arrays: their axes in C order, as "vuyxc"; empty = found.
+  int frame = 0;          ///< Sequences of light fields: which one, from 0.
+  bool equalise = false;  ///< Bring all views to the brightness of the centre view.
+  bool snake = false;     ///< Image grids: every second row was captured right to left.
+  double focus_px = 0;    ///< Focus plane to bake in after reading (shear.h), px per view step.
 
   /// Without, no truth nor labels are given: only the map of the centre view is then read, by which
   /// units and the order of views are settled.
