@@ -23,15 +23,15 @@ struct FileUse {
 
 /// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
-  std::string format;       ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
-  std::string order;        ///< "as stored", "u reversed (file h axis)", …
-  std::string order_check;  ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
-  std::string sign;  ///< "checked" if near and far are told apart; empty = not known.
-  std::string sign_check;             ///< The evidence, with numbers, or why there is none.
-  std::vector<FileUse> files;         ///< Every file of the folder: used as what, or not used.
-  std::string units;                  ///< How depth was turned into disparity,
-  std::string units_check;            ///< and what spoke for it; may be empty.
-  bool order_was_chosen = false;      ///< The user overruled the reader,
+  std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
+  std::string order;              ///< "as stored", "u reversed (file h axis)", …
+  std::string order_check;        ///< "checked against truth: 1.7 grey levels, reversed 4.3", …
+  std::string sign;               ///< "checked" if near and far are told apart; empty = not known.
+  std::string sign_check;         ///< The evidence, with numbers, or why there is none.
+  std::vector<FileUse> files;     ///< Every file of the folder: used as what, or not used.
+  std::string units;              ///< How depth was turned into disparity,
+  std::string units_check;        ///< and what spoke for it; may be empty.
+  bool order_was_chosen = false;  ///< The user overruled the reader,
   bool units_were_chosen = false;     ///< and here.
   std::vector<std::string> warnings;  ///< A sentence each.
   double focus_px = 0;  ///< Focus plane that was baked in (shear.h): stored disparities were larger
