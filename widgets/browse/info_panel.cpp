@@ -30,6 +30,14 @@ QLabel* make_value(const QString& text, QWidget* parent) {
   return label;
 }
 
+QToolButton* make_button(QAction* action, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName("info.action");
+  button->setAutoRaise(true);
+  button->setDefaultAction(action);
+  return button;
+}
+
 }  // namespace
 
 InfoPanel::InfoPanel(QWidget* parent)
@@ -87,11 +95,13 @@ void InfoPanel::rebuild() {
     if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
     grid->addWidget(key, line, 0);
     grid->addWidget(value, line++, 1);
-    if (row.check.isEmpty()) continue;
-    auto* check = make_value(row.check, body);
-    check->setObjectName("info.check");
-    check->setPalette(theme::text_palette(theme::muted_text(palette())));
-    grid->addWidget(check, line++, 1);
+    if (!row.check.isEmpty()) {
+      auto* check = make_value(row.check, body);
+      check->setObjectName("info.check");
+      check->setPalette(theme::text_palette(theme::muted_text(palette())));
+      grid->addWidget(check, line++, 1);
+    }
+    if (row.action) grid->addWidget(make_button(row.action, body), line++, 1, Qt::AlignLeft);
   }
   for (const auto& warning : warnings_) {
     auto* icon = new QLabel(body);

@@ -20,6 +20,7 @@ struct InfoRow {
   QString value;
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
   QString id{};   ///< "order": the value is the object "info.order"; may be empty.
+  QAction* action = nullptr;  ///< A command that changes it, as a link below; may be null.
 };
 
 /// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; what

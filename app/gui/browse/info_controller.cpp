@@ -10,11 +10,13 @@
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "engine/io/open/reader.h"
+#include "engine/io/order/order_check.h"
 #include "widgets/browse/info_panel.h"
 #include "widgets/style/theme.h"
 
 #include <QAction>
 
+#include <algorithm>
 #include <exception>
 #include <string>
 #include <vector>
@@ -53,6 +55,14 @@ InfoController::InfoController(const Workbench& bench)
        .section = section::kOpen,
        .enabled = [this] { return !bench_.opener.reopenable().isEmpty(); }});
   panel_->setConventionsAction(conventions);
+  reverse_ = bench.commands.add(
+      {.id = "file.reverse_sign",
+       .menu = Menu::File,
+       .text = tr("Reverse near and far"),
+       .tip = tr("Reverses the order of views along both axes: what was near is far"),
+       .run = [this] { reverseSign(); },
+       .section = section::kOpen,
+       .enabled = [this] { return canReverseSign(); }});
   connect(&bench.stage, &Stage::previewChanged, this, &InfoController::show);
   connect(&bench.opener, &SceneOpener::changed, &bench.commands, &Commands::refresh);
   bench.session.on_changed([this](Parts parts) {
@@ -63,11 +73,25 @@ InfoController::InfoController(const Workbench& bench)
 
 void InfoController::show() {
   if (const auto& scene = bench_.session.scene()) {
-    const SceneInfo info = describe(*scene);
+    SceneInfo info = describe(*scene);
+    const auto sign = std::ranges::find(info.rows, QString("sign"), &InfoRow::id);
+    if (sign != info.rows.end() && canReverseSign()) sign->action = reverse_;
     panel_->setInfo(info.title, info.rows, info.warnings);
   } else {
     panel_->setInfo(bench_.stage.isPreviewing() ? tr("Opening …") : tr("Nothing is open"), {}, {});
   }
+}
+
+bool InfoController::canReverseSign() const {
+  return bench_.session.scene() && !bench_.opener.hasFailed() &&
+         !bench_.opener.reopenable().isEmpty();
+}
+
+void InfoController::reverseSign() {
+  const ConventionReport& report = bench_.session.scene()->convention;
+  io::OpenOptions options = io::open_schema().parse(bench_.session.reading_options());
+  options.flip = io::flip_choice({!report.reversed_u, !report.reversed_v});
+  bench_.opener.reopenWith(io::given_options(options));
 }
 
 void InfoController::askForConventions() {

@@ -5,6 +5,8 @@
 
 #include <QObject>
 
+class QAction;
+
 namespace episcope {
 
 class InfoPanel;
@@ -20,9 +22,12 @@ class InfoController : public QObject {
  private:
   void show();
   void askForConventions();
+  [[nodiscard]] bool canReverseSign() const;
+  void reverseSign();
 
   Workbench bench_;
   InfoPanel* panel_;
+  QAction* reverse_ = nullptr;
 };
 
 }  // namespace episcope

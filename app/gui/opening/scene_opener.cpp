@@ -3,6 +3,7 @@
 
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/queued_post.h"
+#include "app/gui/opening/reading_question.h"
 #include "app/gui/opening/remembered_conventions.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/picture/picture.h"
@@ -45,6 +46,26 @@ using ScenePtr = std::shared_ptr<const Scene>;
 ScenePtr read_as_told(const std::string& input, const LoadOptions& options,
                       const Progress& progress) {
   return std::make_shared<const Scene>(load_scene(input, options, progress));
+}
+
+ParameterSet with_option(ParameterSet given, const std::string& key, const std::string& text) {
+  std::erase_if(given, [&](const auto& option) { return option.first == key; });
+  given.emplace_back(key, parse_parameter(io::open_schema().description(key), text));
+  return given;
+}
+
+// What came of reading: a scene, or a question.
+struct Opened {
+  ScenePtr scene;
+  std::optional<io::Undecided> question;
+};
+
+Opened read_or_question(const std::function<ScenePtr()>& read) {
+  try {
+    return {read(), {}};
+  } catch (const io::Undecided& question) {
+    return {nullptr, question};
+  }
 }
 
 // The user is told of conventions that no longer fit the file; they are not used.
@@ -140,23 +161,46 @@ void SceneOpener::start(const Load& load) {
   loading_name_ = short_name(load.input);
   last_failure_.clear();
   if (!session_.scene()) stage_.canvas()->showLoading(loading_name_, -1);
-  loading_job_ = jobs_.start<ScenePtr>(
+  loading_job_ = jobs_.start<Opened>(
       Lane::Load, tr("Opening %1").arg(loading_name_),
       [path = load.input.toStdString(), options = loadOptions(number, load.given),
        is_remembered = load.is_remembered](const Progress& progress) {
-        return is_remembered ? read_as_remembered(path, options, progress)
-                             : read_as_told(path, options, progress);
+        return read_or_question([&] {
+          return is_remembered ? read_as_remembered(path, options, progress)
+                               : read_as_told(path, options, progress);
+        });
       },
-      [this, number, load](const ScenePtr& read) {
+      [this, number, load](const Opened& opened) {
+        if (opened.question) {
+          if (number == number_) ask(load, *opened.question);
+          return;
+        }
         // Painting may have gone on while this was read.
-        guards_.leave([this, number, load, read] {
+        guards_.leave([this, number, load, scene = opened.scene] {
           if (number != number_) return;
-          finish(load.input, read);
+          finish(load.input, scene);
           if (load.then) load.then();
         });
       },
       [this, number, input = load.input] { end(number, input); });
   emit changed();
+}
+
+void SceneOpener::ask(const Load& load, const io::Undecided& question) {
+  last_failure_ = QString::fromUtf8(question.what());
+  auto* dialog = new ReadingQuestion(question, stage_.canvas()->window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, load, key = question.option(), dialog] {
+    Load again = load;
+    again.is_remembered = false;
+    again.given = with_option(load.given, key, dialog->chosen());
+    again.then = [input = load.input, given = again.given, then = load.then] {
+      remember_conventions(input, given);
+      if (then) then();
+    };
+    this->load(std::move(again));
+  });
+  dialog->open();
 }
 
 void SceneOpener::showLoading(quint64 job, double fraction) {

@@ -4,6 +4,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/session/scene/load_scene.h"
 #include "app/session/session.h"
+#include "engine/io/open/undecided.h"
 
 #include <QObject>
 #include <QString>
@@ -17,8 +18,9 @@ namespace episcope {
 class LeaveGuards;
 class Stage;
 
-/// Opens light fields in the background. The centre view is shown as soon as it is read; what was
-/// open stays until everything is loaded, and if loading fails or is cancelled.
+/// Opens light fields in the background, and asks where files do not tell how. The centre view is
+/// shown as soon as it is read; what was open stays until everything is loaded, and if loading
+/// fails or is cancelled.
 class SceneOpener : public QObject {
   Q_OBJECT
 
@@ -64,6 +66,7 @@ class SceneOpener : public QObject {
   void showLoading(quint64 job, double fraction);
   void finish(const QString& input, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const QString& input);
+  void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
 
   Session& session_;

@@ -106,6 +106,12 @@ ViewFlip chosen_flip(Flip choice) {
 
 }  // namespace
 
+Flip flip_choice(ViewFlip flip) {
+  if (flip.u && flip.v) return Flip::Both;
+  if (flip.u) return Flip::U;
+  return flip.v ? Flip::V : Flip::None;
+}
+
 OrderFinding find_order(const LightField::Samples& samples, const std::vector<OrderEvidence>& truth,
                         const ExpectedOrder& expected, Flip choice, const Progress& progress) {
   progress.check();

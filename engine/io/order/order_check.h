@@ -41,6 +41,9 @@ struct OrderFinding {
                                       const ExpectedOrder& expected, Flip choice,
                                       const Progress& progress);
 
+/// The choice that reverses these axes.
+[[nodiscard]] Flip flip_choice(ViewFlip flip);
+
 /// Brings stored views and truth into canonical order, as `find_order` determines it with the
 /// disparity of the truth, and adds to `report`. Throws Cancelled.
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,

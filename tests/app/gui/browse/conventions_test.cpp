@@ -83,6 +83,7 @@ class ConventionsTest : public QObject {
 
  private slots:
   void chosenOrder_readsTheFileAgain();
+  void reversedSign_isRememberedAndReversesBack();
   void choice_isRememberedForItsFileOnly();
   void allAutomatic_forgetsTheChoice();
   void chosenUnits_areShownAsSetByTheUser();
@@ -109,6 +110,30 @@ void ConventionsTest::chosenOrder_readsTheFileAgain() {
   QVERIFY(std::equal(first.data, first.data + first.size(), after.data));
   QTRY_VERIFY2_WITH_TIMEOUT(order_shown(f.window).contains("(set by you)"),
                             qPrintable(order_shown(f.window)), kPatience);
+}
+
+void ConventionsTest::reversedSign_isRememberedAndReversesBack() {
+  WindowFixture f;
+  f.openSmall();
+  const ConventionReport first = f.window.bench().session.scene()->convention;
+  const auto press = [&f] {
+    const auto before = f.window.bench().session.generation();
+    auto* button = f.window.findChild<QToolButton*>("info.action");
+    QVERIFY(button && button->isEnabled());
+    QTest::mouseClick(button, Qt::LeftButton);
+    QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.generation() > before, kScenePatience);
+  };
+
+  press();
+  const ConventionReport& reversed = f.window.bench().session.scene()->convention;
+  QCOMPARE(reversed.reversed_u, !first.reversed_u);
+  QCOMPARE(reversed.reversed_v, !first.reversed_v);
+  QCOMPARE(remembered_conventions(f.path("edge/lf.h5")).size(), std::size_t{1});
+
+  press();
+  const ConventionReport& back = f.window.bench().session.scene()->convention;
+  QCOMPARE(back.reversed_u, first.reversed_u);
+  QCOMPARE(back.reversed_v, first.reversed_v);
 }
 
 void ConventionsTest::choice_isRememberedForItsFileOnly() {
