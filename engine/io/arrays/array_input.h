@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/arrays/number_type.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+using ArrayShape = std::vector<std::size_t>;
+
+/// "9×9×512×512×3".
+[[nodiscard]] std::string array_shape_text(const ArrayShape& shape);
+
+/// Product of the lengths, or 2^63 if it is larger.
+[[nodiscard]] std::size_t element_count(const ArrayShape& shape);
+
+/// An array in a file, of which blocks are read when they are needed.
+class ArrayInput {
+ public:
+  virtual ~ArrayInput() = default;
+  ArrayInput(const ArrayInput&) = delete;
+  ArrayInput& operator=(const ArrayInput&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// Lengths of the axes in the order of rows in C: the last axis is contiguous in the file.
+  [[nodiscard]] const ArrayShape& shape() const { return shape_; }
+  [[nodiscard]] NumberType type() const { return type_; }
+  /// Whether a block costs everything before it, as in compressed files: to be read once, from the
+  /// front to the end.
+  [[nodiscard]] virtual bool is_sequential() const { return false; }
+
+  /// Reads `count[i]` elements from `start[i]` on along each axis, converted as `convert_numbers`.
+  /// Throws IoError.
+  template <class T>
+  void read(const ArrayShape& start, const ArrayShape& count, T* out) const;
+
+ protected:
+  ArrayInput(std::filesystem::path path, ArrayShape shape, NumberType type)
+      : path_(std::move(path)), shape_(std::move(shape)), type_(type) {}
+
+  /// As `read`, without conversion, in the byte order of this machine.
+  virtual void read_block(const ArrayShape& start, const ArrayShape& count,
+                          std::uint8_t* out) const = 0;
+
+ private:
+  std::filesystem::path path_;
+  ArrayShape shape_;
+  NumberType type_;
+};
+
+/// An array whose elements follow each other in the file.
+class LinearArray : public ArrayInput {
+ protected:
+  using ArrayInput::ArrayInput;
+  /// Elements `first` to `first + count`, in the byte order of this machine.
+  virtual void read_elements(std::size_t first, std::size_t count, std::uint8_t* out) const = 0;
+
+ private:
+  void read_block(const ArrayShape& start, const ArrayShape& count,
+                  std::uint8_t* out) const override;
+};
+
+}  // namespace episcope::io
