@@ -4,7 +4,6 @@
 #include "engine/core/error.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace episcope::io {
@@ -21,27 +20,13 @@ class Undecided : public IoError {
  public:
   /// `reason`: what is not certain, and why. The option and its values are added to it.
   Undecided(const std::filesystem::path& path, const std::string& reason, std::string option,
-            std::vector<ReadingChoice> choices)
-      : IoError(path, reason + "; give " + alternatives(option, choices)),
-        reason_(reason),
-        option_(std::move(option)),
-        choices_(std::move(choices)) {}
+            std::vector<ReadingChoice> choices);
 
   [[nodiscard]] const std::string& reason() const { return reason_; }
   [[nodiscard]] const std::string& option() const { return option_; }
   [[nodiscard]] const std::vector<ReadingChoice>& choices() const { return choices_; }
 
  private:
-  static std::string alternatives(const std::string& option,
-                                  const std::vector<ReadingChoice>& choices) {
-    std::string text;
-    for (const ReadingChoice& choice : choices) {
-      text += text.empty() ? "" : ", or ";
-      text += "--" + option + " " + choice.value + " (" + choice.label + ")";
-    }
-    return text;
-  }
-
   std::string reason_;
   std::string option_;
   std::vector<ReadingChoice> choices_;
