@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+
+namespace episcope::io {
+
+/// Pictures of one channel for looking at the motion between views, `[y][x]`.
+
+/// The middle of a picture, of at most `side` by `side` px.
+[[nodiscard]] Image<float> middle_of(const Image<float>& picture, int side);
+
+/// Means over squares of k by k px, with the smallest whole k that brings the larger side to at
+/// most `side` px.
+[[nodiscard]] Image<float> reduced(const Image<float>& picture, int side);
+
+/// The difference of Gaussian blurs of 0.8 and 4 px, brought to mean 0 and variance 1: brightness,
+/// contrast and slow changes over the picture are gone. All 0 for a picture without texture.
+[[nodiscard]] Image<float> band_passed(const Image<float>& picture);
+
+}  // namespace episcope::io

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/list_layout.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/core/text/text_table.h"
+#include "engine/io/order/arrangement.h"
+#include "engine/io/order/parallax_axis.h"
+#include "engine/io/order/warp_check.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <set>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kShortList = 128;
+constexpr double kWorstFit = 0.35;
+/// Views of less contrast, against the median, hold nothing.
+constexpr double kLeastContrast = 0.1;
+/// Pairs that are less alike than this share of the range tell no distance any more.
+constexpr double kSaturation = 0.6;
+constexpr double kNegligible = 0.005;
+constexpr int kFarthest = 32;
+
+/// The views of a long list that tell its arrangements apart: neighbours of the middle one, in the
+/// list and in every arrangement.
+std::set<int> telling_views(int count) {
+  std::set<int> chosen;
+  const auto add = [&](int index) {
+    if (index >= 0 && index < count) chosen.insert(index);
+  };
+  const int middle = count / 2;
+  for (int i = -12; i <= 12; ++i) add(middle + i);
+  for (const Arrangement& one : arrangements(count)) {
+    const int turned = 2 * (one.period - 1 - middle % one.period) + 1;
+    for (const int row : {-2, -1, 1, 2}) {
+      for (const int i : {-1, 0, 1}) add(middle + row * one.period + i);
+    }
+    if (one.snake) add(middle + turned);
+    if (chosen.size() > kShortList) break;
+  }
+  return chosen;
+}
+
+/// Views of the list that hold something, by index.
+using Pictures = std::map<int, MotionPictures>;
+
+Pictures load(int count, const GreyViewOfList& view, const Progress& progress) {
+  std::vector<int> wanted;
+  if (count <= kShortList) {
+    for (int i = 0; i < count; ++i) wanted.push_back(i);
+  } else {
+    const std::set<int> chosen = telling_views(count);
+    wanted.assign(chosen.begin(), chosen.end());
+  }
+  std::vector<MotionPictures> loaded(wanted.size());
+  parallel_for(static_cast<int>(wanted.size()), progress, [&](int i) {
+    const auto at = static_cast<std::size_t>(i);
+    loaded[at] = MotionPictures(view(wanted[at]));
+  });
+  std::vector<double> contrasts;
+  for (const MotionPictures& one : loaded) contrasts.push_back(one.contrast);
+  std::ranges::sort(contrasts);
+  const double least = kLeastContrast * contrasts[contrasts.size() / 2];
+  Pictures pictures;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (loaded[i].contrast > least) pictures.emplace(wanted[i], std::move(loaded[i]));
+  }
+  return pictures;
+}
+
+double correlation(const Image<float>& a, const Image<float>& b) {
+  double sum = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    float row = 0;
+    for (int x = 0; x < a.width(); ++x) row += a.at(y, x) * b.at(y, x);
+    sum += row;
+  }
+  return sum / static_cast<double>(a.size());
+}
+
+/// Roots of 1 − correlation, which grow about linearly as long as views are alike.
+Unlikeness unlikeness(const Pictures& pictures, std::size_t scale, const Progress& progress) {
+  Unlikeness found;
+  for (auto one = pictures.begin(); one != pictures.end(); ++one) {
+    for (auto other = std::next(one); other != pictures.end(); ++other) {
+      found.pairs.push_back({one->first, other->first});
+    }
+  }
+  found.values.resize(found.pairs.size());
+  parallel_for(static_cast<int>(found.pairs.size()), progress, [&](int i) {
+    const auto& [a, b] = found.pairs[static_cast<std::size_t>(i)];
+    found.values[static_cast<std::size_t>(i)] =
+        1 - correlation(pictures.at(a).scales[scale], pictures.at(b).scales[scale]);
+  });
+  const double least = std::ranges::min(found.values);
+  const double most = least + kSaturation * std::max(1 - least, 0.0);
+  for (double& value : found.values) value = std::sqrt(std::clamp(value, 0.0, most));
+  return found;
+}
+
+struct Fit {
+  Arrangement arrangement;
+  double unexplained = 1;
+};
+
+std::vector<Fit> fits(const std::vector<Arrangement>& tried, const Unlikeness& pairs) {
+  std::vector<Fit> found;
+  for (const Arrangement& one : tried) found.push_back({one, pairs.unexplained(one)});
+  std::ranges::stable_sort(found, {}, &Fit::unexplained);
+  return found;
+}
+
+/// How little the best arrangement leaves unexplained, against the next one.
+double ambiguity(const std::vector<Fit>& found) {
+  const double next = found.size() > 1 ? found[1].unexplained : 1;
+  return (found[0].unexplained + kNegligible) / (next + kNegligible);
+}
+
+/// The arrangements that explain about as much as the best one.
+std::vector<Arrangement> near_best(const std::vector<Fit>& found) {
+  const double most = std::max(2 * found[0].unexplained, found[0].unexplained + 0.05);
+  std::vector<Arrangement> near;
+  for (const Fit& fit : found) {
+    if (fit.unexplained <= most) near.push_back(fit.arrangement);
+  }
+  return near;
+}
+
+/// Only pairs that are close in the list tell apart arrangements that differ within short rows.
+std::vector<Fit> refined(const std::vector<Fit>& found, const Unlikeness& all) {
+  const std::vector<Arrangement> near = near_best(found);
+  if (near.size() < 2) return found;
+  const int reach = 2 * std::ranges::min(near, {}, &Arrangement::period).period;
+  Unlikeness close;
+  for (std::size_t i = 0; i < all.pairs.size(); ++i) {
+    if (all.pairs[i][1] - all.pairs[i][0] > reach) continue;
+    close.pairs.push_back(all.pairs[i]);
+    close.values.push_back(all.values[i]);
+  }
+  std::vector<Fit> better = fits(near, close);
+  return ambiguity(better) < ambiguity(found) ? better : found;
+}
+
+/// All arrangements, the best first, at the scale at which the best one stands out most.
+std::vector<Fit> fits(int count, const Pictures& pictures, const Progress& progress) {
+  std::vector<Fit> clearest;
+  for (std::size_t scale = 0; scale < MotionPictures::kScales; ++scale) {
+    progress.check();
+    const Unlikeness pairs = unlikeness(pictures, scale, progress);
+    std::vector<Fit> found = refined(fits(arrangements(count), pairs), pairs);
+    if (clearest.empty() || ambiguity(found) < ambiguity(clearest)) clearest = std::move(found);
+  }
+  return clearest;
+}
+
+/// Pairs of views in a row (or column) of the arrangement, `step` apart; a few, spread over all.
+std::vector<std::array<int, 2>> neighbours(const Pictures& pictures, const Arrangement& arrangement,
+                                           bool is_along_row, int step) {
+  std::vector<std::array<int, 2>> all;
+  for (auto one = pictures.begin(); one != pictures.end(); ++one) {
+    const Arrangement::Place p = arrangement.place(one->first);
+    for (auto other = std::next(one); other != pictures.end(); ++other) {
+      const Arrangement::Place q = arrangement.place(other->first);
+      const int along = std::abs(is_along_row ? p.column - q.column : p.row - q.row);
+      const int across = std::abs(is_along_row ? p.row - q.row : p.column - q.column);
+      if (along == step && across == 0) all.push_back({one->first, other->first});
+    }
+  }
+  std::vector<std::array<int, 2>> few;
+  const std::size_t stride = std::max<std::size_t>((all.size() + 4) / 5, 1);
+  for (std::size_t i = stride / 2; i < all.size(); i += stride) few.push_back(all[i]);
+  return few;
+}
+
+/// The motion between views along rows or columns of the arrangement, at the distance at which it
+/// is clearest.
+AxisEvidence motion(const Pictures& pictures, const Arrangement& arrangement, bool is_along_row) {
+  AxisEvidence clearest;
+  for (int step = 1; step <= kFarthest; step *= 2) {
+    AxisEvidence evidence;
+    for (const auto& [i, j] : neighbours(pictures, arrangement, is_along_row, step)) {
+      evidence.add(pictures.at(i), pictures.at(j));
+    }
+    if (std::abs(evidence.score()) > std::abs(clearest.score())) clearest = evidence;
+  }
+  return clearest;
+}
+
+std::string percent(double share) {
+  return fixed_text(100 * share, 0) + " %";
+}
+
+std::string motion_text(const char* which, const AxisEvidence& evidence) {
+  return fmt::format("{} {} of the difference is motion along x and {} along y", which,
+                     percent(evidence.gone_along_x()), percent(evidence.gone_along_y()));
+}
+
+ListLayout layout_of(int count, const Arrangement& one, bool is_along_x) {
+  const int other = count / one.period;
+  ListLayout layout;
+  layout.grid = is_along_x ? GridShape{other, one.period} : GridShape{one.period, other};
+  if (other == 1) return layout;
+  layout.order = one.snake ? (is_along_x ? ListOrder::SnakeRows : ListOrder::SnakeColumns)
+                           : (is_along_x ? ListOrder::Rows : ListOrder::Columns);
+  return layout;
+}
+
+/// The arrangement with the image axes along which it runs; not decided if these contradict it.
+ListLayout with_axes(int count, const Arrangement& one, const Pictures& pictures) {
+  const AxisEvidence in_rows = motion(pictures, one, true);
+  ListLayout layout = layout_of(count, one, !in_rows.is_y());
+  if (one.period == count) {
+    layout.is_decided = in_rows.is_decided();
+    layout.evidence = motion_text("between neighbours", in_rows);
+    return layout;
+  }
+  const AxisEvidence across = motion(pictures, one, false);
+  layout.is_decided = (in_rows.is_x() && across.is_y()) || (in_rows.is_y() && across.is_x());
+  layout.evidence = motion_text("between neighbours in the list", in_rows) + ", " +
+                    motion_text(fmt::format("between views {} apart", one.period).c_str(), across);
+  return layout;
+}
+
+std::string fit_text(int count, const Fit& fit) {
+  const int rows = count / fit.arrangement.period;
+  const std::string name = rows == 1 ? "a line"
+                                     : fmt::format("{} lines of {}{}", rows, fit.arrangement.period,
+                                                   fit.arrangement.snake ? " in snake order" : "");
+  return fmt::format("{}: {} unexplained", name, percent(fit.unexplained));
+}
+
+}  // namespace
+
+ViewIndex ListLayout::place(int index) const {
+  const bool is_by_rows = order == ListOrder::Rows || order == ListOrder::SnakeRows;
+  const bool is_snake = order == ListOrder::SnakeRows || order == ListOrder::SnakeColumns;
+  const Arrangement::Place at = Arrangement{is_by_rows ? grid.u : grid.v, is_snake}.place(index);
+  return is_by_rows ? ViewIndex{at.row, at.column} : ViewIndex{at.column, at.row};
+}
+
+std::string layout_text(const ListLayout& layout) {
+  const std::string grid = fmt::format("{}×{}", layout.grid.v, layout.grid.u);
+  if (layout.grid.v == 1 || layout.grid.u == 1) return grid;
+  switch (layout.order) {
+    case ListOrder::Rows:
+      return grid + ", row by row";
+    case ListOrder::Columns:
+      return grid + ", column by column";
+    case ListOrder::SnakeRows:
+      return grid + ", row by row in snake order";
+    case ListOrder::SnakeColumns:
+      return grid + ", column by column in snake order";
+  }
+  return grid;
+}
+
+ListLayout find_list_layout(int count, const GreyViewOfList& view, const Progress& progress) {
+  if (count < 2) throw InvalidInput("a list of views needs two views at least");
+  const Pictures pictures = load(count, view, progress);
+  ListLayout unknown;
+  unknown.grid = {1, count};
+  if (pictures.size() < 2) {
+    unknown.evidence = "the views hold no texture";
+    return unknown;
+  }
+  if (count == 2) return with_axes(2, {2, false}, pictures);
+
+  const std::vector<Fit> found = fits(count, pictures, progress);
+  std::string compared = fit_text(count, found[0]);
+  if (found.size() > 1) compared += ", " + fit_text(count, found[1]);
+  compared = "differences between views by distance, as " + compared;
+  std::optional<ListLayout> best;
+  for (const Fit& fit : found) {
+    const bool is_near_best =
+        fit.unexplained + kNegligible < 1.5 * (found[0].unexplained + kNegligible);
+    if (fit.unexplained > kWorstFit || !is_near_best) break;
+    progress.check();
+    ListLayout layout = with_axes(count, fit.arrangement, pictures);
+    layout.evidence = compared + "; " + layout.evidence;
+    if (best && best->is_decided && layout.is_decided) {
+      layout.is_decided = false;
+      layout.evidence = compared + ": too alike to tell";
+      return layout;
+    }
+    if (!best || layout.is_decided) best = std::move(layout);
+  }
+  if (best) return *best;
+  unknown.evidence = compared + ": none fits";
+  return unknown;
+}
+
+ListLayout find_list_layout(const LightField::Samples& samples, const Progress& progress) {
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  return find_list_layout(
+      grid.count(), [&](int i) { return grey_levels(samples, grid.view_at(i)); }, progress);
+}
+
+}  // namespace episcope::io
