@@ -20,9 +20,9 @@ constexpr std::size_t kMostFiles = 200'000;
 using Key = std::vector<long>;
 
 bool has_map_suffix(const fs::path& path) {
-  constexpr std::array<std::string_view, 15> suffixes{
-      ".npy", ".npz",  ".pfm", ".png", ".tif", ".tiff", ".exr", ".bmp",
-      ".pgm", ".jpg", ".jpeg", ".mat", ".h5",  ".hdf5", ".gif"};
+  constexpr std::array<std::string_view, 15> suffixes{".npy",  ".npz", ".pfm", ".png",  ".tif",
+                                                      ".tiff", ".exr", ".bmp", ".pgm",  ".jpg",
+                                                      ".jpeg", ".mat", ".h5",  ".hdf5", ".gif"};
   return std::ranges::find(suffixes, lower_suffix(path)) != suffixes.end();
 }
 
@@ -146,7 +146,7 @@ std::vector<MapSet::Entry> match_numbers(const std::vector<KeyedFile>& files,
   for (std::size_t i = 0; i < shift.size(); ++i) shift[i] -= least[i];
   std::vector<MapSet::Entry> shifted = match(shift);
   return files.size() == views.view_of.size() && shifted.size() > entries.size() ? shifted
-                                                                               : entries;
+                                                                                 : entries;
 }
 
 /// Where views are counted and maps have rows and columns, or the other way round: all or none.

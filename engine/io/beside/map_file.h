@@ -20,13 +20,13 @@ namespace episcope::io {
 /// where the file holds as many. Values that are not finite are invalid. Throws IoError.
 [[nodiscard]] DisparityField read_values(const std::filesystem::path& path, GridShape grid);
 
-/// Labels of one view as stored.
+/// Labels as stored, of one view, at view (0, 0), or of all views.
 struct StoredLabels {
-  Image<std::int32_t> numbers;  ///< Labels, or colours as 0xRRGGBB.
+  ViewStack<std::int32_t> numbers;  ///< Labels, or colours as 0xRRGGBB.
   bool are_colors = false;
 };
 /// Throws IoError.
-[[nodiscard]] StoredLabels read_stored_labels(const std::filesystem::path& path);
+[[nodiscard]] StoredLabels read_stored_labels(const std::filesystem::path& path, GridShape grid);
 
 [[nodiscard]] constexpr std::int32_t packed(Rgb color) {
   return (color[0] << 16) | (color[1] << 8) | color[2];

@@ -31,8 +31,8 @@ std::vector<std::string> words_of(const std::string& name) {
       is_inside = false;
       continue;
     }
-    const bool is_hump = i > 0 && is_upper(name[i]) && is_letter(name[i - 1]) &&
-                         !is_upper(name[i - 1]);
+    const bool is_hump =
+        i > 0 && is_upper(name[i]) && is_letter(name[i - 1]) && !is_upper(name[i - 1]);
     if (!is_inside || is_hump) words.emplace_back();
     words.back() += to_lower(name[i]);
     is_inside = true;
@@ -51,11 +51,11 @@ constexpr std::array<std::string_view, 2> kInvalidWords{"invalid", "invalidmask"
 constexpr std::array<std::string_view, 3> kValidWords{"valid", "validity", "validmask"};
 constexpr std::array<std::string_view, 2> kMaskWords{"mask", "masks"};
 constexpr std::array<std::string_view, 14> kLabelWords{
-    "label",    "labels",   "lbl",      "labelmap",  "seg",       "segs",       "segmentation",
+    "label",    "labels",    "lbl",      "labelmap",  "seg",      "segs",      "segmentation",
     "semantic", "semantics", "objectid", "objectids", "instance", "instances", "classes"};
 constexpr std::array<std::string_view, 9> kDisparityWords{
-    "disp", "disps", "disparity", "disparities", "dispmap", "dispmaps", "disparitymap",
-    "disparitymaps", "gtdisp"};
+    "disp",     "disps",        "disparity",     "disparities", "dispmap",
+    "dispmaps", "disparitymap", "disparitymaps", "gtdisp"};
 constexpr std::array<std::string_view, 5> kDepthWords{"depth", "depths", "depthmap", "depthmaps",
                                                       "gtdepth"};
 /// "mask_center.png" is no region of that name.
@@ -63,17 +63,17 @@ constexpr std::array<std::string_view, 10> kMapOwners{"center", "centre", "view"
                                                       "image",  "img",    "lf",   "u",     "v"};
 /// Of what a method has computed, which is no truth.
 constexpr std::array<std::string_view, 12> kResultWords{
-    "local",  "estimate",   "estimates",   "estimated", "result",  "results",
-    "pred",   "prediction", "predictions", "predicted", "output",  "outputs"};
-constexpr std::array<std::string_view, 6> kTruthWords{"gt",          "truth",       "groundtruth",
+    "local", "estimate",   "estimates",   "estimated", "result", "results",
+    "pred",  "prediction", "predictions", "predicted", "output", "outputs"};
+constexpr std::array<std::string_view, 6> kTruthWords{"gt",         "truth",       "groundtruth",
                                                       "annotation", "annotations", "maps"};
 
 }  // namespace
 
 const char* kind_text(MapKind kind) {
-  constexpr const char* texts[] = {"disparity maps", "depth maps", "labels",
-                                   "masks of valid pixels", "masks of invalid pixels",
-                                   "region masks"};
+  constexpr const char* texts[] = {
+      "disparity maps",          "depth maps",  "labels", "masks of valid pixels",
+      "masks of invalid pixels", "region masks"};
   return texts[static_cast<int>(kind)];
 }
 

@@ -2,6 +2,7 @@
 #include "engine/io/open/folder_account.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -22,6 +23,15 @@ std::string kind_of(const std::string& name) {
   return kind;
 }
 
+void count_one(std::vector<FileUse>& uses, FileUse one) {
+  const auto found = std::ranges::find(uses, one.kind, &FileUse::kind);
+  if (found == uses.end()) {
+    uses.push_back(std::move(one));
+  } else {
+    ++found->count;
+  }
+}
+
 }  // namespace
 
 FolderAccount::FolderAccount(const fs::path& folder) {
@@ -39,32 +49,30 @@ void FolderAccount::add_folder(const fs::path& folder) {
 
 void FolderAccount::use(const fs::path& file, const std::string& kind) {
   files_[file] = true;
-  const auto found = std::ranges::find(used_, kind, &FileUse::kind);
-  if (found == used_.end()) {
-    used_.push_back({kind, 1, file.filename().string(), true});
-  } else {
-    ++found->count;
-  }
+  count_one(used_, {kind, 1, file.filename().string(), true});
 }
 
 void FolderAccount::use(const std::vector<fs::path>& files, const std::string& kind) {
   for (const fs::path& file : files) use(file, kind);
 }
 
+void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::string& kind) {
+  for (const fs::path& file : files) {
+    bool& is_noted = files_[file];
+    if (!is_noted) count_one(left_out_, {kind, 1, file.filename().string(), false});
+    is_noted = true;
+  }
+}
+
 std::vector<FileUse> FolderAccount::uses() const {
   std::vector<FileUse> unused;
-  for (const auto& [path, is_used] : files_) {
-    if (is_used) continue;
+  for (const auto& [path, is_noted] : files_) {
+    if (is_noted) continue;
     const std::string name = path.filename().string();
-    const std::string kind = kind_of(name);
-    const auto found = std::ranges::find(unused, kind, &FileUse::kind);
-    if (found == unused.end()) {
-      unused.push_back({kind, 1, name, false});
-    } else {
-      ++found->count;
-    }
+    count_one(unused, {kind_of(name), 1, name, false});
   }
   std::vector<FileUse> all = used_;
+  all.insert(all.end(), left_out_.begin(), left_out_.end());
   all.insert(all.end(), unused.begin(), unused.end());
   return all;
 }
