@@ -3,23 +3,41 @@
 
 #include "engine/io/beside/disparity_beside.h"
 #include "engine/io/beside/labels_beside.h"
+#include "engine/io/beside/map_file.h"
 #include "engine/io/beside/masks_beside.h"
 
 #include <utility>
 
 namespace episcope::io {
 
+namespace {
+
+/// Removes what is no truth, or belongs to no view, from the sets.
+void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
+  for (MapSet& set : sets) {
+    notes.account.leave_out(set.strays, std::string(kind_text(set.kind)) + " of no view");
+    set.strays.clear();
+    std::erase_if(set.entries, [&](const MapSet::Entry& entry) {
+      const OwnFile own = own_file(entry.file);
+      if (own == OwnFile::Scribbles) notes.account.use(entry.file, "scribbles");
+      if (own == OwnFile::Segmentation) notes.account.leave_out({entry.file}, "segmentations");
+      if (own == OwnFile::Result) notes.account.leave_out({entry.file}, "results");
+      return own != OwnFile::None;
+    });
+  }
+  std::erase_if(sets, [](const MapSet& set) { return set.entries.empty(); });
+}
+
+}  // namespace
+
 FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
                         const Progress& progress) {
-  const MapsBeside maps = find_maps(views.files, views.folder);
+  MapsBeside maps = find_maps(views.files, views.folder);
   FoundBeside found{{}, {}, views.camera};
   if (maps.sets.empty()) return found;
   progress.step("reading truth");
   for (const std::filesystem::path& folder : maps.folders) notes.account.add_folder(folder);
-  for (const MapSet& set : maps.sets) {
-    if (set.strays.empty()) continue;
-    notes.account.leave_out(set.strays, std::string(kind_text(set.kind)) + " of no view");
-  }
+  set_aside(maps.sets, notes);
   DisparityBeside disparity = read_disparity_beside(maps.sets, views, notes, progress.part(0, 0.6));
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;

@@ -69,11 +69,12 @@ std::string warp_text(const SettledUnit& settled) {
 }
 
 std::string side_text(const NearSide& side) {
+  const bool larger = side.larger_is_nearer();
   return fmt::format(
-      "{} values are nearer: where two pixels meet in another view, the one of larger disparity "
-      "differs by {}, the other by {} grey levels ({} pairs)",
-      side.larger_is_nearer() ? "larger" : "smaller", grey(side.larger), grey(side.smaller),
-      side.points);
+      "{} values are nearer: they hide others in other views (grey error {}, the hidden ones {}, "
+      "{} pairs)",
+      larger ? "larger" : "smaller", grey(larger ? side.larger : side.smaller),
+      grey(larger ? side.smaller : side.larger), side.points);
 }
 
 std::string fit_text(const DepthFit& fit) {

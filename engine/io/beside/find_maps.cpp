@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/beside/find_maps.h"
 
+#include "engine/io/beside/baseline_file.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -241,6 +243,7 @@ void match(const std::vector<fs::path>& files, const ViewKeys& views, MapSet& se
 struct Place {
   fs::path folder;
   std::optional<MapKind> kind;
+  std::string prefix = {};  ///< Of patterns: "disparity/".
 };
 
 std::vector<Place> places_of(const fs::path& folder) {
@@ -249,19 +252,23 @@ std::vector<Place> places_of(const fs::path& folder) {
     for (const fs::path& inner : map_folders_in(outer)) {
       if (fs::equivalent(inner, folder)) continue;
       const auto kind = map_kind(inner.filename().string());
-      places.push_back({inner, kind});
+      const std::string prefix = inner.filename().string() + "/";
+      places.push_back({inner, kind, prefix});
       for (const fs::path& deep : map_folders_in(inner)) {
         const auto own = map_kind(deep.filename().string());
-        places.push_back({deep, own ? own : kind});
+        places.push_back({deep, own ? own : kind, prefix + deep.filename().string() + "/"});
       }
     }
   };
   add_inside(folder);
+  std::error_code error;
   const fs::path whole = fs::absolute(folder).lexically_normal();
   const fs::path clean = whole.has_filename() ? whole : whole.parent_path();
   if (is_inner_folder(clean)) {
     places.push_back({clean.parent_path(), std::nullopt});
     add_inside(clean.parent_path());
+  } else if (fs::exists(folder / kBaselineFile, error)) {
+    places.push_back({clean.parent_path(), std::nullopt});
   }
   return places;
 }
@@ -290,7 +297,9 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
       const auto own = map_kind(file.stem().string());
       const auto kind = own ? own : place.kind;
       if (!kind) continue;
-      groups[{*kind, numbered_name(file.filename().string()).text}].push_back(file);
+      const std::string pattern =
+          place.prefix + numbered_name(file.stem().string()).text + lower_suffix(file);
+      groups[{*kind, pattern}].push_back(file);
     }
     for (const auto& [key, files] : groups) {
       MapSet set{key.first, key.second, {}, {}};

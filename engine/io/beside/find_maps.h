@@ -35,9 +35,10 @@ struct MapsBeside {
 };
 
 /// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
-/// folders inside it (`is_map_folder`) and, if the folder is called lf, views or the like, beside
-/// it. Numbers of names are those of the views, or count them row by row; they may begin at another
-/// number. A single map without such numbers belongs to the centre view. Linear in the files.
+/// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
+/// it has a `kBaselineFile`. Numbers of names are those of the views, or count them row by row;
+/// they may begin at another number. A single map without such numbers belongs to the centre view.
+/// Linear in the files.
 [[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder);
 
 }  // namespace episcope::io

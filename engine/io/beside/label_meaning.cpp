@@ -27,9 +27,10 @@ std::optional<std::map<std::int32_t, std::size_t>> count_values(
   for (const std::int32_t* run = labels.data(); run != end;) {
     const std::int32_t* next = std::find_if(run, end, [&](std::int32_t v) { return v != *run; });
     counts[*run] += static_cast<std::size_t>(next - run);
-    if (counts.size() > most) return std::nullopt;
+    if (counts.size() > most + 1) return std::nullopt;  // kNoMap is none of them
     run = next;
   }
+  counts.erase(kNoMap);
   return std::map<std::int32_t, std::size_t>(counts.begin(), counts.end());
 }
 
@@ -96,6 +97,7 @@ Stored mark_none(ViewStack<std::int32_t>& labels) {
   std::int32_t below = 0;  // the largest but 255
   bool has_none = false;
   std::for_each(labels.data(), end, [&](std::int32_t label) {
+    if (label == kNoMap) return;
     stored.least = std::min(stored.least, label);
     stored.most = std::max(stored.most, label);
     if (label != kNone) below = std::max(below, label);
@@ -149,6 +151,7 @@ std::optional<LabelMeaning> name_colors(ViewStack<std::int32_t>& labels) {
       meaning.infos.push_back({next, fmt::format("label {}", next), unpacked(color)});
     }
   }
+  ids[kNoMap] = 0;
   replace_by(labels, ids);
   if (is_urban) meaning.infos = urban_infos();
   meaning.text =
@@ -160,6 +163,7 @@ LabelMeaning name_numbers(ViewStack<std::int32_t>& labels, const LabelHints& hin
   const Stored stored = mark_none(labels);
   std::map<std::int32_t, std::int32_t> colors = colors_of(labels, hints.colors);
   colors.erase(-1);
+  colors.erase(kNoMap);
   std::optional<int> offset = urban_offset(colors);
   if (offset && *offset != 0 && *offset != 1) offset.reset();
   LabelMeaning meaning;

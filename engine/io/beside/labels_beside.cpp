@@ -75,7 +75,7 @@ Found read_first(const std::vector<const MapSet*>& sets, const BesideViews& view
   return {};
 }
 
-/// Numbers and what pictures of the same labels tell about them.
+/// What numbers mean, also by pictures of the same labels.
 LabelMeaning name_with_pictures(Found& found, const std::vector<const MapSet*>& sets,
                                 const BesideViews& views, const BesideNotes& notes) {
   LabelHints hints{has_urban_name(*found.set, views), has_urban_size(views), {}};
@@ -86,6 +86,7 @@ LabelMeaning name_with_pictures(Found& found, const std::vector<const MapSet*>& 
     if (!hints.colors.empty()) twin = set;
   }
   LabelMeaning meaning = name_numbers(found.maps.numbers, hints);
+  found.outcome.tell(labels_text(meaning), notes);
   if (twin != nullptr) notes.account.use(twin->files(), "pictures of these labels");
   return meaning;
 }
@@ -114,10 +115,10 @@ LabelsBeside read_labels_beside(const std::vector<MapSet>& sets, const BesideVie
         continue;
       }
       meaning = std::move(*named);
+      found.outcome.tell(labels_text(meaning), notes);
     } else {
       meaning = name_with_pictures(found, ranked.fit, views, notes);
     }
-    found.outcome.tell(labels_text(meaning), notes);
     note_raise(meaning, notes.report);
     return {std::move(found.maps.numbers), std::move(meaning.infos)};
   }

@@ -171,6 +171,19 @@ StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
   return std::visit([&](const auto& image) { return labels_of(image, path); }, decode_image(path));
 }
 
+OwnFile own_file(const fs::path& path) {
+  if (!is_hdf5(path) || !has_hdf5_signature(path)) return OwnFile::None;
+  try {
+    const Hdf5Input file(path);
+    if (file.has(kTrueLabels)) return OwnFile::None;
+    if (file.has("SCRIBBLES")) return OwnFile::Scribbles;
+    if (file.has("LABELS")) return OwnFile::Segmentation;
+    return file.has("estimate") ? OwnFile::Result : OwnFile::None;
+  } catch (const IoError&) {
+    return OwnFile::None;  // what is wrong with it is said when it is read
+  }
+}
+
 Image<std::uint8_t> read_mask(const fs::path& path) {
   StoredLabels stored = read_stored_labels(path, {1, 1});
   const ViewStack<std::int32_t>& numbers = stored.numbers;

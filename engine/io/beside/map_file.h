@@ -36,6 +36,11 @@ struct StoredLabels {
           static_cast<std::uint8_t>(color)};
 }
 
+/// What this program has written itself may lie beside views too, and is no truth.
+enum class OwnFile { None, Scribbles, Segmentation, Result };
+/// None for files that are no HDF5 files, or that hold true labels as well.
+[[nodiscard]] OwnFile own_file(const std::filesystem::path& path);
+
 /// What is not 0 in an image or array of one view. Throws IoError.
 [[nodiscard]] Image<std::uint8_t> read_mask(const std::filesystem::path& path);
 

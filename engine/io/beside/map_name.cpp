@@ -98,9 +98,9 @@ std::string region_name(const std::string& name) {
   if (region.ends_with(suffix)) region.resize(region.size() - suffix.size());
   const std::vector<std::string> words = words_of(region);
   const bool is_of_a_map = words.empty() || has_one_of(words, kMapOwners) ||
-                           has_one_of(words, kValidWords) || has_one_of(words, kInvalidWords) ||
-                           has_one_of(words, kDisparityWords) || has_one_of(words, kDepthWords) ||
-                           has_one_of(words, kTruthWords);
+                           has_one_of(words, kLabelWords) || has_one_of(words, kValidWords) ||
+                           has_one_of(words, kInvalidWords) || has_one_of(words, kDisparityWords) ||
+                           has_one_of(words, kDepthWords) || has_one_of(words, kTruthWords);
   return is_of_a_map ? std::string() : region;
 }
 

@@ -147,7 +147,7 @@ LabelMaps read_label_set(const MapSet& set, const BesideViews& views, SetOutcome
   }
   const Place place = place_of(entries, views.grid());
   maps.numbers = ViewStack<std::int32_t>(place.grid, views.height(), views.width(), 1, place.first);
-  std::fill_n(maps.numbers.data(), maps.numbers.size(), 0);
+  std::fill_n(maps.numbers.data(), maps.numbers.size(), kNoMap);
   std::atomic<bool> has_colors = false;
   std::vector<std::uint8_t> are_levels(static_cast<std::size_t>(views.grid().count()), 0);
   outcome = try_all(entries, progress, [&](const MapSet::Entry& entry) {

@@ -23,6 +23,11 @@ std::string kind_of(const std::string& name) {
   return kind;
 }
 
+/// The same for all ways to write a path.
+fs::path key_of(const fs::path& path) {
+  return fs::absolute(path).lexically_normal();
+}
+
 void count_one(std::vector<FileUse>& uses, FileUse one) {
   const auto found = std::ranges::find(uses, one.kind, &FileUse::kind);
   if (found == uses.end()) {
@@ -43,12 +48,12 @@ void FolderAccount::add_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_regular_file(error)) files_.try_emplace(entry.path(), false);
+    if (!is_hidden && entry.is_regular_file(error)) files_.try_emplace(key_of(entry.path()), false);
   }
 }
 
 void FolderAccount::use(const fs::path& file, const std::string& kind) {
-  files_[file] = true;
+  files_[key_of(file)] = true;
   count_one(used_, {kind, 1, file.filename().string(), true});
 }
 
@@ -58,7 +63,7 @@ void FolderAccount::use(const std::vector<fs::path>& files, const std::string& k
 
 void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::string& kind) {
   for (const fs::path& file : files) {
-    bool& is_noted = files_[file];
+    bool& is_noted = files_[key_of(file)];
     if (!is_noted) count_one(left_out_, {kind, 1, file.filename().string(), false});
     is_noted = true;
   }
