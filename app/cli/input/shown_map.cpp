@@ -102,6 +102,7 @@ void take_scene(const ShownMap& shown, Scene scene, LoadedMap& loaded) {
   loaded.source.light_field = scene.light_field;
   loaded.source.truth = scene.truth;
   loaded.source.true_labels = true_labels_of(scene.truth);
+  loaded.source.label_infos = scene.scribbles.labels;
   if (shown.quantity == Quantity::Probability && shown.kind != ShownKind::Labels) {
     loaded.source.labeling = read_archive_probabilities(scene, loaded.source.view);
   }

@@ -44,7 +44,10 @@ std::optional<MapSource> map_source(Session& session, const MapChoice& choice, V
   MapSource source{.quantity = choice.quantity, .view = view, .light_field = session.light_field()};
   const Subject subject = render::info_of(choice.quantity).subject;
   if (subject == Subject::Truth) source.truth = session.scene()->truth;
-  if (subject == Subject::TrueLabels) source.true_labels = session.true_labels();
+  if (subject == Subject::TrueLabels) {
+    source.true_labels = session.true_labels();
+    source.label_infos = session.scene()->scribbles.labels;
+  }
   if (subject == Subject::Result || subject == Subject::Error || subject == Subject::ResultPair) {
     const EstimateEntry* entry = session.find_estimate(choice.estimate);
     if (!entry) return std::nullopt;

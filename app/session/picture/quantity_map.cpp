@@ -61,6 +61,7 @@ Map truth_map(const MapSource& source) {
 Map labels_map(const MapSource& source) {
   auto made = std::make_shared<QuantityMap>();
   made->labels = source.true_labels->view(source.view);
+  made->label_infos = source.label_infos;
   made->owner = source.true_labels;
   return made;
 }

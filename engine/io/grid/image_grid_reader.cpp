@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/image_grid_reader.h"
 
+#include "engine/io/beside/beside.h"
 #include "engine/io/grid/grid_names.h"
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
@@ -68,12 +70,25 @@ Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& op
       },
       progress.part(0, 0.9));
   scale_float_samples(samples, report);
+  FolderAccount account(folder);
+  account.use(grid.views.files, "views");
   GroundTruth truth;
-  if (extras.read_truth) truth.field = extras.read_truth(samples, info.camera, report);
+  if (extras.read_truth) {
+    truth.field = extras.read_truth(samples, info.camera, report);
+  } else {
+    FoundBeside beside = read_beside(
+        {grid.views, folder, samples, info.camera, options.map_views(), options.needs_truth},
+        {account, report}, progress.part(0.9, 1));
+    truth = std::move(beside.truth);
+    info.camera = beside.camera;
+    scene.scribbles.labels = std::move(beside.label_infos);
+  }
   assemble({std::move(samples),
             std::move(truth),
             std::move(info),
-            {{}, "rows and columns follow from the names"}},
+            {{}, "rows and columns follow from the names"},
+            {},
+            account.uses()},
            options, scene, progress);
   return scene;
 }

@@ -2,6 +2,7 @@
 #include "engine/io/open/folder_account.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -22,6 +23,20 @@ std::string kind_of(const std::string& name) {
   return kind;
 }
 
+/// The same for all ways to write a path.
+fs::path key_of(const fs::path& path) {
+  return fs::absolute(path).lexically_normal();
+}
+
+void count_one(std::vector<FileUse>& uses, FileUse one) {
+  const auto found = std::ranges::find(uses, one.kind, &FileUse::kind);
+  if (found == uses.end()) {
+    uses.push_back(std::move(one));
+  } else {
+    ++found->count;
+  }
+}
+
 }  // namespace
 
 FolderAccount::FolderAccount(const fs::path& folder) {
@@ -33,38 +48,36 @@ void FolderAccount::add_folder(const fs::path& folder) {
   if (!fs::is_directory(folder, error)) return;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_regular_file(error)) files_.try_emplace(entry.path(), false);
+    if (!is_hidden && entry.is_regular_file(error)) files_.try_emplace(key_of(entry.path()), false);
   }
 }
 
 void FolderAccount::use(const fs::path& file, const std::string& kind) {
-  files_[file] = true;
-  const auto found = std::ranges::find(used_, kind, &FileUse::kind);
-  if (found == used_.end()) {
-    used_.push_back({kind, 1, file.filename().string(), true});
-  } else {
-    ++found->count;
-  }
+  files_[key_of(file)] = true;
+  count_one(used_, {kind, 1, file.filename().string(), true});
 }
 
 void FolderAccount::use(const std::vector<fs::path>& files, const std::string& kind) {
   for (const fs::path& file : files) use(file, kind);
 }
 
+void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::string& kind) {
+  for (const fs::path& file : files) {
+    bool& is_noted = files_[key_of(file)];
+    if (!is_noted) count_one(left_out_, {kind, 1, file.filename().string(), false});
+    is_noted = true;
+  }
+}
+
 std::vector<FileUse> FolderAccount::uses() const {
   std::vector<FileUse> unused;
-  for (const auto& [path, is_used] : files_) {
-    if (is_used) continue;
+  for (const auto& [path, is_noted] : files_) {
+    if (is_noted) continue;
     const std::string name = path.filename().string();
-    const std::string kind = kind_of(name);
-    const auto found = std::ranges::find(unused, kind, &FileUse::kind);
-    if (found == unused.end()) {
-      unused.push_back({kind, 1, name, false});
-    } else {
-      ++found->count;
-    }
+    count_one(unused, {kind_of(name), 1, name, false});
   }
   std::vector<FileUse> all = used_;
+  all.insert(all.end(), left_out_.begin(), left_out_.end());
   all.insert(all.end(), unused.begin(), unused.end());
   return all;
 }

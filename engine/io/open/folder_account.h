@@ -26,13 +26,18 @@ class FolderAccount {
   void use(const std::filesystem::path& file, const std::string& kind);
   void use(const std::vector<std::filesystem::path>& files, const std::string& kind);
 
-  /// Used kinds in the order of their first use, then files not used: those that differ in numbers
-  /// only are one kind ("depth_#.npy").
+  /// Notes files that were looked at but not used, with the reason in a kind: "depth maps, as no
+  /// camera is known". Files that were used stay so.
+  void leave_out(const std::vector<std::filesystem::path>& files, const std::string& kind);
+
+  /// Used kinds in the order of their first use, then those left out, then other files not used:
+  /// those that differ in numbers only are one kind ("depth_#.npy").
   [[nodiscard]] std::vector<FileUse> uses() const;
 
  private:
   std::vector<FileUse> used_;
-  std::map<std::filesystem::path, bool> files_;  ///< And whether they were used.
+  std::vector<FileUse> left_out_;
+  std::map<std::filesystem::path, bool> files_;  ///< And whether they were noted.
 };
 
 }  // namespace episcope::io

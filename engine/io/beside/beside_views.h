@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/io/beside/find_maps.h"
+#include "engine/io/open/folder_account.h"
+#include "engine/io/open/open_options.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Views, as stored, beside which maps lie.
+struct BesideViews {
+  const ViewFiles& files;
+  std::filesystem::path folder;  ///< Of the views.
+  const LightField::Samples& samples;
+  CameraGrid camera;  ///< As far as it is known.
+  MapViews map_views = MapViews::All;
+  bool needs_truth = true;
+
+  [[nodiscard]] GridShape grid() const { return files.grid; }
+  [[nodiscard]] int height() const;
+  [[nodiscard]] int width() const;
+  [[nodiscard]] int center() const {  ///< Number of the centre view.
+    const ViewIndex center = grid().center();
+    return center.v * grid().u + center.u;
+  }
+};
+
+/// Where readers of maps tell what they found.
+struct BesideNotes {
+  FolderAccount& account;
+  ConventionReport& report;
+};
+
+/// What reading the files of a set came to.
+struct SetOutcome {
+  std::vector<std::filesystem::path> read;
+  std::vector<std::filesystem::path> failed;
+  std::string first_error;  ///< A sentence that names the file.
+
+  /// Adds to the account, and a warning if files failed.
+  void tell(const std::string& kind, const BesideNotes& notes) const;
+};
+
+/// Throws IoError unless a map has the size of the views.
+void require_view_size(const std::filesystem::path& path, int height, int width,
+                       const BesideViews& views);
+
+/// The entries to read: all, or that of the centre view alone, or of the first.
+[[nodiscard]] std::vector<MapSet::Entry> entries_to_read(const MapSet& set,
+                                                         const BesideViews& views);
+
+/// Sets of one kind that `can_hold` the wanted data, those of most views first, then arrays before
+/// images; the others go to `unfit`.
+struct RankedSets {
+  std::vector<const MapSet*> fit;
+  std::vector<const MapSet*> unfit;
+};
+[[nodiscard]] RankedSets rank_sets(const std::vector<MapSet>& sets, MapKind kind,
+                                   bool (*can_hold)(const std::filesystem::path&));
+
+}  // namespace episcope::io

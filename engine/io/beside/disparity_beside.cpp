@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/beside/disparity_beside.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/text_table.h"
+#include "engine/io/beside/baseline_file.h"
+#include "engine/io/beside/depth_fit.h"
+#include "engine/io/beside/map_file.h"
+#include "engine/io/beside/map_scale.h"
+#include "engine/io/beside/near_side.h"
+#include "engine/io/beside/read_set.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Maps as stored, and where from.
+struct StoredMaps {
+  DisparityField field;
+  const MapSet* set = nullptr;
+
+  /// The map by which the others are judged.
+  [[nodiscard]] ViewIndex at(GridShape grid) const {
+    return field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  }
+};
+
+StoredMaps read_first(const std::vector<const MapSet*>& sets, const std::string& kind,
+                      const BesideViews& views, const BesideNotes& notes,
+                      const Progress& progress) {
+  StoredMaps found;
+  for (const MapSet* set : sets) {
+    if (found.set != nullptr) {
+      notes.account.leave_out(set->files(), kind + " once more");
+      continue;
+    }
+    SetOutcome outcome;
+    found.field = read_value_set(*set, views, outcome, progress);
+    if (!found.field.empty()) found.set = set;
+    outcome.tell(kind, notes);
+  }
+  return found;
+}
+
+void scale(DisparityField& field, double factor) {
+  if (factor == 1) return;
+  std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                [&](float& value) { value = static_cast<float>(factor * value); });
+}
+
+std::string grey(double error) {
+  return fixed_text(error, 2);
+}
+
+std::string warp_text(const SettledUnit& settled) {
+  const Explanation& found = settled.explanation;
+  std::string text = "mean grey error of neighbouring views after warping " + grey(found.error) +
+                     ", unwarped " + grey(found.unwarped);
+  if (settled.unit.factor != 1 && settled.first.error != found.error) {
+    text += ", with the values as stored " + grey(settled.first.error);
+  }
+  return text;
+}
+
+std::string side_text(const NearSide& side) {
+  const bool larger = side.larger_is_nearer();
+  return fmt::format(
+      "{} values are nearer: they hide others in other views (grey error {}, the hidden ones {}, "
+      "{} pairs)",
+      larger ? "larger" : "smaller", grey(larger ? side.larger : side.smaller),
+      grey(larger ? side.smaller : side.larger), side.points);
+}
+
+std::string fit_text(const DepthFit& fit) {
+  return fmt::format("{:.1f} % of the depth map agree within 0.01 px with d = {:.6g}/Z {} {:.6g}",
+                     100 * fit.exact_share, fit.a, fit.b < 0 ? "+" : "−", std::abs(fit.b));
+}
+
+/// Whether values are to be negated.
+bool is_reversed(const NearSide& side, const DepthFit& fit) {
+  if (side.is_decided()) return !side.larger_is_nearer();
+  return fit.is_exact() && fit.a < 0;
+}
+
+void append(std::string& text, const std::string& more) {
+  text += (text.empty() ? "" : "; ") + more;
+}
+
+DepthFit fit_of(const StoredMaps& depth, const StoredMaps& maps, ViewIndex at, double factor) {
+  const bool has_both = depth.field.contains(at) && maps.field.contains(at);
+  if (!has_both) return {};
+  return fit_depth(maps.field.view(at), factor, depth.field.view(at));
+}
+
+/// Depth maps of the view by which the disparity is judged.
+StoredMaps read_one_depth(const RankedSets& sets, const BesideViews& views, ViewIndex at) {
+  for (const MapSet* set : sets.fit) {
+    const int view = at.v * views.grid().u + at.u;
+    MapSet one{set->kind, set->pattern, {{view, set->file_of(view)}}, {}};
+    if (one.entries.front().file.empty()) continue;
+    SetOutcome outcome;
+    StoredMaps maps{read_value_set(one, views, outcome, Progress(1)), set};
+    if (!maps.field.empty()) return maps;
+  }
+  return {};
+}
+
+void tell_depth(const RankedSets& sets, const MapSet* used, const DepthFit& fit,
+                const BesideNotes& notes) {
+  for (const MapSet* set : sets.fit) {
+    if (set == used && fit.is_exact()) {
+      notes.account.use(set->files(), "depth maps");
+    } else {
+      notes.account.leave_out(set->files(), "depth maps, as disparity is there");
+    }
+  }
+}
+
+DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const BesideViews& views,
+                               const BesideNotes& notes) {
+  const ViewIndex at = maps.at(views.grid());
+  std::vector<MapUnit> units = common_units(views.grid(), views.width());
+  if (const auto stated = stated_unit(views.folder, notes.account)) {
+    units.insert(units.begin(), *stated);
+  }
+  const SettledUnit settled = settle_unit(views.samples, at, maps.field.view(at), units);
+  const double factor = settled.unit.factor;
+  NearSide side;
+  if (settled.explanation.is_good()) {
+    side = find_near_side(views.samples, at, maps.field.view(at), factor, settled.explanation);
+  }
+  const StoredMaps depth = read_one_depth(depths, views, at);
+  const DepthFit fit = fit_of(depth, maps, at, factor);
+  tell_depth(depths, depth.set, fit, notes);
+
+  const double sign = is_reversed(side, fit) ? -1 : 1;
+  scale(maps.field, sign * factor);
+  ConventionReport& report = notes.report;
+  report.units = "disparity of " + maps.set->pattern + ": " + settled.unit.text +
+                 (sign < 0 ? ", negative = nearer" : "");
+  report.units_check = warp_text(settled);
+  if (side.is_decided()) append(report.units_check, side_text(side));
+  if (fit.is_exact()) append(report.units_check, fit_text(fit));
+  DisparityBeside found{std::move(maps.field), views.camera};
+  if (fit.is_exact() && sign * fit.a > 0 && !views.camera.is_known()) {
+    found.camera = DepthFit{sign * fit.a, sign * fit.b, fit.exact_share, fit.pixels}.camera();
+    append(report.units_check, "the camera follows from disparity and depth");
+  }
+  return found;
+}
+
+DisparityBeside from_depth(const RankedSets& sets, const BesideViews& views,
+                           const BesideNotes& notes, const Progress& progress) {
+  if (!views.camera.is_known()) {
+    for (const MapSet* set : sets.fit) {
+      notes.account.leave_out(set->files(), "depth maps, as no camera parameters are known");
+    }
+    return {{}, views.camera};
+  }
+  StoredMaps maps = read_first(sets.fit, kind_text(MapKind::Depth), views, notes, progress);
+  if (maps.field.empty()) return {{}, views.camera};
+  ViewStack<float>& values = maps.field.disparity;
+  std::transform(values.data(), values.data() + values.size(), values.data(), [&](float depth) {
+    return static_cast<float>(views.camera.disparity_from_depth(depth));
+  });
+  tidy_valid(maps.field);
+  const ViewIndex at = maps.at(views.grid());
+  const SettledUnit settled =
+      settle_unit(views.samples, at, maps.field.view(at), {{1, "px per view step"}});
+  notes.report.units = "disparity from " + maps.set->pattern + " and the camera";
+  notes.report.units_check = warp_text(settled);
+  return {std::move(maps.field), views.camera};
+}
+
+void leave_pictures(const RankedSets& sets, const char* what, const BesideNotes& notes) {
+  for (const MapSet* set : sets.unfit) {
+    if (set->entries.empty()) continue;
+    notes.account.leave_out(set->files(), fmt::format("pictures of {}, of unknown scale", what));
+  }
+}
+
+}  // namespace
+
+DisparityBeside read_disparity_beside(const std::vector<MapSet>& sets, const BesideViews& views,
+                                      const BesideNotes& notes, const Progress& progress) {
+  const RankedSets disparities = rank_sets(sets, MapKind::Disparity, can_hold_values);
+  const RankedSets depths = rank_sets(sets, MapKind::Depth, can_hold_values);
+  leave_pictures(disparities, "disparity", notes);
+  leave_pictures(depths, "depth", notes);
+  StoredMaps maps =
+      read_first(disparities.fit, kind_text(MapKind::Disparity), views, notes, progress);
+  if (!maps.field.empty()) return from_disparity(std::move(maps), depths, views, notes);
+  return from_depth(depths, views, notes, progress);
+}
+
+}  // namespace episcope::io

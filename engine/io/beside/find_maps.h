@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/beside/map_name.h"
+#include "engine/io/grid/load_views.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Files of one kind, one folder and one form of names, and the views that they belong to.
+struct MapSet {
+  /// A file, and the number of its view, row by row.
+  struct Entry {
+    int view = 0;
+    std::filesystem::path file;
+  };
+  MapKind kind = MapKind::Disparity;
+  std::string pattern;  ///< "#_#_depth.npy".
+  std::vector<Entry> entries;
+  /// Files of such names that belong to no view.
+  std::vector<std::filesystem::path> strays;
+
+  [[nodiscard]] std::vector<std::filesystem::path> files() const;
+  /// The file of this view; empty if there is none.
+  [[nodiscard]] std::filesystem::path file_of(int view) const;
+};
+
+struct MapsBeside {
+  std::vector<MapSet> sets;
+  /// Folders that were looked at besides that of the views, and that hold maps.
+  std::vector<std::filesystem::path> folders;
+};
+
+/// Finds maps by their names (`map_kind`), without opening a file: in the folder of the views, in
+/// folders inside it (`is_map_folder`), and around it if it is called lf, views or the like or if
+/// it has a `kBaselineFile`. Numbers of names are those of the views, or count them row by row;
+/// they may begin at another number. A single map without such numbers belongs to the centre view.
+/// Linear in the files.
+[[nodiscard]] MapsBeside find_maps(const ViewFiles& views, const std::filesystem::path& folder);
+
+}  // namespace episcope::io

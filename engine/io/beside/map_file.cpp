@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/beside/map_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/arrays/npy_file.h"
+#include "engine/io/beside/map_name.h"
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/maps/foreign_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTrueLabels = "GT_LABELS";
+
+template <std::size_t N>
+bool has_suffix(const fs::path& path, const std::array<std::string_view, N>& suffixes) {
+  return std::ranges::find(suffixes, lower_suffix(path)) != suffixes.end();
+}
+
+template <class T>
+ViewStack<T> single(const Image<T>& image) {
+  ViewStack<T> stack({1, 1}, image.height(), image.width());
+  std::copy_n(image.data(), image.size(), stack.data());
+  return stack;
+}
+
+/// A 4-D array of maps of all views; empty for another number of axes.
+template <class T>
+ViewStack<T> read_grid(const NpyFile& file, GridShape grid) {
+  const ArrayShape& shape = file.shape();
+  if (shape.size() != 4) return {};
+  const bool fits = !file.header().is_fortran && shape[0] == static_cast<std::size_t>(grid.v) &&
+                    shape[1] == static_cast<std::size_t>(grid.u);
+  if (!fits) {
+    throw IoError(file.path(),
+                  fmt::format("the array has the shape {}, but maps of {}×{} views are expected in "
+                              "C order; save it again or remove it",
+                              array_shape_text(file.header().shape), grid.v, grid.u));
+  }
+  ViewStack<T> stack(grid, static_cast<int>(shape[2]), static_cast<int>(shape[3]));
+  file.read(ArrayShape(4, 0), shape, stack.data());
+  return stack;
+}
+
+DisparityField read_npy_values(const fs::path& path, GridShape grid) {
+  const NpyFile file(path);
+  DisparityField field;
+  field.disparity = read_grid<float>(file, grid);
+  if (field.empty()) field.disparity = single(read_map(file, file.header().is_fortran));
+  mark_invalid(field);
+  return field;
+}
+
+StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
+  const NpyFile file(path);
+  StoredLabels labels{read_grid<std::int32_t>(file, grid)};
+  if (labels.numbers.empty()) {
+    labels.numbers = single(read_label_map(file, file.header().is_fortran));
+  }
+  return labels;
+}
+
+/// GT_LABELS, or the only dataset.
+StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
+  const Hdf5Input file(path);
+  const std::vector<Hdf5Dataset> all = file.datasets();
+  if (!file.has(kTrueLabels) && all.size() != 1) {
+    throw IoError(path, fmt::format("{} datasets were found and none of them is {}; store the "
+                                    "labels alone",
+                                    all.size(), kTrueLabels));
+  }
+  const Hdf5Dataset labels = file.dataset(file.has(kTrueLabels) ? kTrueLabels : all.front().name);
+  const std::size_t rank = labels.shape.size();
+  const bool is_map = rank == 2;
+  const bool is_grid = rank == 4 && labels.shape[0] == static_cast<std::size_t>(grid.v) &&
+                       labels.shape[1] == static_cast<std::size_t>(grid.u);
+  if (!is_map && !is_grid) {
+    throw IoError(path, fmt::format("the dataset {} has the shape {}, but labels of one view or of "
+                                    "{}×{} views are expected; remove or replace it",
+                                    labels.name, shape_text(labels.shape), grid.v, grid.u));
+  }
+  StoredLabels stored{ViewStack<std::int32_t>(is_grid ? grid : GridShape{1, 1},
+                                              static_cast<int>(labels.shape[rank - 2]),
+                                              static_cast<int>(labels.shape[rank - 1]))};
+  file.read(labels.name, {Hdf5Shape(rank, 0), labels.shape}, stored.numbers.data());
+  return stored;
+}
+
+std::int32_t packed_level(float value, const fs::path& path) {
+  if (value != std::trunc(value)) {
+    throw IoError(path,
+                  "labels are expected to be whole numbers, but the image holds fractions; save "
+                  "labels as integers");
+  }
+  return static_cast<std::int32_t>(value);
+}
+
+template <class T>
+StoredLabels labels_of(const Image<T>& image, const fs::path& path) {
+  StoredLabels labels{ViewStack<std::int32_t>({1, 1}, image.height(), image.width())};
+  const T* in = image.data();
+  const std::size_t count = labels.numbers.size();
+  const int channels = image.channels();
+  for (std::size_t i = 0; i < count && !labels.are_colors && channels == 3; ++i) {
+    labels.are_colors = in[3 * i] != in[3 * i + 1] || in[3 * i] != in[3 * i + 2];
+  }
+  if (labels.are_colors && !std::is_same_v<T, std::uint8_t>) {
+    throw IoError(path, "colours of labels are expected in 8 bits; save labels as integers");
+  }
+  std::int32_t* out = labels.numbers.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const T* pixel = in + i * static_cast<std::size_t>(channels);
+    if constexpr (std::is_same_v<T, std::uint8_t>) {
+      out[i] = labels.are_colors ? packed({pixel[0], pixel[1], pixel[2]}) : pixel[0];
+    } else if constexpr (std::is_same_v<T, float>) {
+      out[i] = packed_level(pixel[0], path);
+    } else {
+      out[i] = pixel[0];
+    }
+  }
+  return labels;
+}
+
+bool is_hdf5(const fs::path& path) {
+  return has_suffix(path, std::array<std::string_view, 2>{".h5", ".hdf5"});
+}
+
+}  // namespace
+
+bool can_hold_values(const fs::path& path) {
+  return has_suffix(
+      path, std::array<std::string_view, 6>{".npy", ".pfm", ".tif", ".tiff", ".h5", ".hdf5"});
+}
+
+bool can_hold_labels(const fs::path& path) {
+  return has_suffix(path, std::array<std::string_view, 8>{".npy", ".png", ".tif", ".tiff", ".bmp",
+                                                          ".pgm", ".h5", ".hdf5"});
+}
+
+DisparityField read_values(const fs::path& path, GridShape grid) {
+  if (lower_suffix(path) == ".npy") return read_npy_values(path, grid);
+  DisparityField field = read_disparity_map(path, grid);
+  if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
+    return field;
+  }
+  // Of the centre view; here all single maps are at (0, 0).
+  const ViewStack<float>& map = field.disparity;
+  DisparityField moved{ViewStack<float>({1, 1}, map.height(), map.width()), {}};
+  std::copy_n(map.data(), map.size(), moved.disparity.data());
+  if (!field.valid.empty()) {
+    moved.valid = ViewStack<std::uint8_t>({1, 1}, map.height(), map.width());
+    std::copy_n(field.valid.data(), field.valid.size(), moved.valid.data());
+  }
+  return moved;
+}
+
+StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
+  if (lower_suffix(path) == ".npy") return read_npy_label_maps(path, grid);
+  if (is_hdf5(path)) return read_hdf5_labels(path, grid);
+  return std::visit([&](const auto& image) { return labels_of(image, path); }, decode_image(path));
+}
+
+OwnFile own_file(const fs::path& path) {
+  if (!is_hdf5(path) || !has_hdf5_signature(path)) return OwnFile::None;
+  try {
+    const Hdf5Input file(path);
+    if (file.has(kTrueLabels)) return OwnFile::None;
+    if (file.has("SCRIBBLES")) return OwnFile::Scribbles;
+    if (file.has("LABELS")) return OwnFile::Segmentation;
+    return file.has("estimate") ? OwnFile::Result : OwnFile::None;
+  } catch (const IoError&) {
+    return OwnFile::None;  // what is wrong with it is said when it is read
+  }
+}
+
+Image<std::uint8_t> read_mask(const fs::path& path) {
+  StoredLabels stored = read_stored_labels(path, {1, 1});
+  const ViewStack<std::int32_t>& numbers = stored.numbers;
+  Image<std::uint8_t> mask(numbers.height(), numbers.width());
+  std::transform(numbers.data(), numbers.data() + numbers.size(), mask.begin(),
+                 [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
+  return mask;
+}
+
+}  // namespace episcope::io

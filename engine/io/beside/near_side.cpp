@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/beside/near_side.h"
+
+#include "engine/io/order/warp_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kFarthest = 4;     ///< View steps.
+constexpr float kContrast = 15;  ///< Grey levels between the two pixels of a pair,
+constexpr double kGap = 1.5;     ///< and px between their places if both moved on.
+constexpr int kFewestPoints = 50;
+constexpr double kDistinct = 0.85;  ///< Of the larger error, at most.
+
+struct Sums {
+  double larger = 0;
+  double smaller = 0;
+  int points = 0;
+};
+
+/// One row or column of the view, and of the other view.
+struct Line {
+  std::vector<float> here;
+  std::vector<float> there;
+  std::vector<double> shift;  ///< NaN = invalid.
+};
+
+double sample(const std::vector<float>& line, double place) {
+  const auto i = static_cast<std::size_t>(place);
+  const std::size_t next = std::min(i + 1, line.size() - 1);
+  const double part = place - static_cast<double>(i);
+  return line[i] + part * (line[next] - line[i]);
+}
+
+/// `sign`: whether a larger shift means a larger disparity.
+void compare_pairs(const Line& line, double sign, Sums& sums) {
+  struct Extremes {
+    int least = -1;
+    int most = -1;
+  };
+  const int length = static_cast<int>(line.here.size());
+  std::vector<Extremes> at(line.here.size());
+  for (int i = 0; i < length; ++i) {
+    const double shift = line.shift[static_cast<std::size_t>(i)];
+    const double place = i - shift;
+    if (!(place >= 0 && place <= length - 1)) continue;  // NaN too
+    Extremes& cell = at[static_cast<std::size_t>(std::lround(place))];
+    const auto value = [&](int j) { return sign * line.shift[static_cast<std::size_t>(j)]; };
+    if (cell.least < 0 || sign * shift < value(cell.least)) cell.least = i;
+    if (cell.most < 0 || sign * shift > value(cell.most)) cell.most = i;
+  }
+  const auto error = [&](int i) {
+    const auto place = static_cast<std::size_t>(i);
+    return std::abs(line.here[place] - sample(line.there, i - line.shift[place]));
+  };
+  for (const Extremes& cell : at) {
+    if (cell.least == cell.most) continue;
+    const auto least = static_cast<std::size_t>(cell.least);
+    const auto most = static_cast<std::size_t>(cell.most);
+    if (std::abs(line.shift[most] - line.shift[least]) < kGap) continue;
+    if (std::abs(line.here[most] - line.here[least]) < kContrast) continue;
+    sums.larger += error(cell.most);
+    sums.smaller += error(cell.least);
+    ++sums.points;
+  }
+}
+
+struct Pair {
+  const Image<float>& here;
+  const Image<float>& there;
+  bool is_along_x;
+  double pixels;  ///< Shift of disparity 1.
+};
+
+void compare_views(const Pair& pair, const DisparityView& map, double factor, Sums& sums) {
+  const int lines = pair.is_along_x ? pair.here.height() : pair.here.width();
+  const int length = pair.is_along_x ? pair.here.width() : pair.here.height();
+  Line line;
+  line.here.resize(static_cast<std::size_t>(length));
+  line.there.resize(line.here.size());
+  line.shift.resize(line.here.size());
+  for (int l = 0; l < lines; ++l) {
+    for (int i = 0; i < length; ++i) {
+      const int y = pair.is_along_x ? l : i;
+      const int x = pair.is_along_x ? i : l;
+      const auto place = static_cast<std::size_t>(i);
+      line.here[place] = pair.here.at(y, x);
+      line.there[place] = pair.there.at(y, x);
+      line.shift[place] =
+          map.is_valid(y, x) ? pair.pixels * factor * map.disparity.at(y, x) : std::nan("");
+    }
+    compare_pairs(line, pair.pixels < 0 ? -1 : 1, sums);
+  }
+}
+
+}  // namespace
+
+bool NearSide::is_decided() const {
+  return points >= kFewestPoints &&
+         std::min(larger, smaller) < kDistinct * std::max(larger, smaller);
+}
+
+NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const DisparityView& map,
+                        double factor, const Explanation& explanation) {
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const Image<float> here = grey_levels(samples, at);
+  Sums sums;
+  for (const bool is_along_x : {true, false}) {
+    const bool is_u = is_along_x != explanation.is_transposed;
+    const bool is_reversed = is_along_x ? explanation.reversed_u : explanation.reversed_v;
+    for (const int direction : {-1, 1}) {
+      int steps = 0;
+      const auto neighbour = [&](int n) {
+        return is_u ? ViewIndex{at.v, at.u + direction * n} : ViewIndex{at.v + direction * n, at.u};
+      };
+      while (steps < kFarthest && grid.contains(neighbour(steps + 1))) ++steps;
+      if (steps == 0) continue;
+      const Image<float> there = grey_levels(samples, neighbour(steps));
+      const double pixels = (is_reversed ? -1.0 : 1.0) * direction * steps;
+      compare_views({here, there, is_along_x, pixels}, map, factor, sums);
+    }
+  }
+  if (sums.points == 0) return {};
+  return {sums.larger / sums.points, sums.smaller / sums.points, sums.points};
+}
+
+}  // namespace episcope::io
