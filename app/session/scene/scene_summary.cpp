@@ -110,12 +110,23 @@ double valid_percent(const LightField& light_field) {
   return 100 * (1 - static_cast<double>(invalid) / static_cast<double>(valid.size()));
 }
 
+namespace {
+
+/// Kinds of files that were used are plurals.
+std::string counted(const FileUse& use) {
+  const bool is_single = use.is_used && use.count == 1 && use.kind.ends_with('s');
+  const std::string kind = is_single ? use.kind.substr(0, use.kind.size() - 1) : use.kind;
+  return std::to_string(use.count) + " " + kind;
+}
+
+}  // namespace
+
 std::string files_text(const ConventionReport& report) {
   std::string used;
   std::string unused;
   for (const FileUse& use : report.files) {
     std::string& text = use.is_used ? used : unused;
-    text += (text.empty() ? "" : ", ") + std::to_string(use.count) + " " + use.kind;
+    text += (text.empty() ? "" : ", ") + counted(use);
     if (!use.is_used && use.kind != use.example) text += " (" + use.example + ")";
   }
   if (unused.empty()) return used;
