@@ -10,6 +10,7 @@
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/center_preview.h"
+#include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
@@ -160,20 +161,25 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
   return Interval{*min, *max};
 }
 
+/// Labels of the file or of labels.h5 beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
-                          const Progress& progress) {
+                          FolderAccount& account, const Progress& progress) {
   const bool has_own = file.has("GT_LABELS") || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
-  const std::filesystem::path beside = file.path().parent_path() / "labels.h5";
-  if (!std::filesystem::exists(beside)) return own;
+  const fs::path beside = file.path().parent_path() / "labels.h5";
+  if (!is_there(beside)) return own;
   const Hdf5Input labels(beside);
   // Where several light fields share a folder, labels that we wrote name theirs.
   const auto owner = labels.text("/", "light_field");
   if (owner && *owner != file.path().filename().string()) return own;
-  if (!has_own) return read_archive_labels(labels, shape, report, progress);
+  if (!has_own) {
+    account.use(beside, "labels");
+    return read_archive_labels(labels, shape, report, progress);
+  }
   // What was painted is saved beside the file and never into it.
   if (owner && labels.has("SCRIBBLES")) {
+    account.use(beside, "scribbles");
     own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
   }
   return own;
@@ -201,8 +207,10 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
   ArchiveLabels labels;
+  FolderAccount account(path.has_parent_path() ? path.parent_path() : fs::path("."));
+  account.use(path, "light field");
   if (options.needs_truth) {
-    labels = read_labels(file, layout.shape, report, progress.part(0.85, 0.95));
+    labels = read_labels(file, layout.shape, report, account, progress.part(0.85, 0.95));
   }
   GroundTruth truth{std::move(depth.field),
                     std::move(depth.foreground),
@@ -215,6 +223,10 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
+  for (const Companion& companion : scene.companions) {
+    account.use(companion.path, companion_name(companion.kind));
+  }
+  report.files = account.uses();
   return scene;
 }
 
@@ -225,10 +237,12 @@ bool is_hdf5_name(const fs::path& path) {
 
 /// The HDF5 file of a folder that holds a light field; empty if there is none.
 fs::path file_in(const fs::path& folder) {
-  if (fs::exists(folder / "lf.h5")) return folder / "lf.h5";
+  if (is_there(folder / "lf.h5")) return folder / "lf.h5";
   std::vector<fs::path> files;
+  std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder)) {
-    if (is_hdf5_name(entry.path()) && has_hdf5_signature(entry.path())) {
+    if (is_hdf5_name(entry.path()) && entry.is_regular_file(error) &&
+        has_hdf5_signature(entry.path())) {
       files.push_back(entry.path());
     }
   }
@@ -250,7 +264,7 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
   }
   // Labels, depth or a companion: the light field lies beside it.
   const fs::path beside = path.parent_path() / "lf.h5";
-  return fs::exists(beside) ? beside : path;
+  return is_there(beside) ? beside : path;
 }
 
 constexpr const char* kOptions[] = {"flip", "units"};

@@ -70,7 +70,7 @@ ViewStack<float> read_depth(const fs::path& path, int height, int width, ViewInd
 }
 
 ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, ViewIndex center) {
-  if (!fs::exists(path)) return {};
+  if (!is_there(path)) return {};
   const Image<std::int32_t> numbers = decode_numbers(path);
   if (numbers.height() != height || numbers.width() != width) {
     throw IoError(
@@ -85,8 +85,8 @@ ViewStack<std::uint8_t> read_mask(const fs::path& path, int height, int width, V
 }
 
 bool is_excerpt_folder(const fs::path& folder) {
-  return fs::is_directory(folder / "lf") && fs::exists(folder / "depth.bin") &&
-         fs::exists(folder / "attributes.dat");
+  return is_there(folder / "depth.bin") && is_there(folder / "attributes.dat") &&
+         fs::is_directory(folder / "lf");
 }
 
 Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
@@ -101,6 +101,9 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
   if (min != attributes.end() && max != attributes.end() && min->second < max->second) {
     extras.disparity_range = Interval{min->second, max->second};
   }
+  extras.files = {{folder / "attributes.dat", "camera attributes"},
+                  {folder / "depth.bin", "depth of the centre view"}};
+  if (is_there(folder / "mask.png")) extras.files.emplace_back(folder / "mask.png", "mask");
   extras.read_truth = [&](const LightField::Samples& samples, CameraGrid& camera,
                           ConventionReport& report) {
     if (!camera.is_known()) {
@@ -127,7 +130,7 @@ fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "units", "pattern", "snake"};
+constexpr const char* kOptions[] = {"flip", "units", "pattern", "snake", "grid"};
 
 }  // namespace
 

@@ -9,6 +9,8 @@
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/folder_account.h"
+#include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 
@@ -25,6 +27,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The folder of a scene, and what was read of it so far.
+struct SceneFolder {
+  fs::path path;
+  FolderAccount account;
+};
+
 int count_views(const fs::path& folder) {
   int count = 0;
   for (const auto& entry : fs::directory_iterator(folder)) {
@@ -38,17 +46,21 @@ GridShape square_grid(const fs::path& folder, int count) {
   const int side = static_cast<int>(std::lround(std::sqrt(count)));
   if (count > 0 && side * side == count) return {side, side};
   throw IoError(folder, fmt::format("there is no {} and the {} files input_Cam*.png do not form a "
-                                    "square grid; add the missing files",
+                                    "square grid; add the missing files or give the rows and "
+                                    "columns by --grid",
                                     kBenchmarkConfig, count));
 }
 
 /// Views by their index, row by row from the top left.
-ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& config) {
+ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& config,
+                     const std::optional<GridShape>& given) {
   const int count = count_views(folder);
   GridShape grid;
   const auto columns = config ? config->number("num_cams_x") : std::nullopt;
   const auto rows = config ? config->number("num_cams_y") : std::nullopt;
-  if (columns && rows) {
+  if (given) {
+    grid = *given;
+  } else if (columns && rows) {
     grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
       throw IoError(
@@ -63,7 +75,7 @@ ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& co
   ViewFiles views{grid, {}};
   for (int i = 0; i < grid.count(); ++i) {
     views.files.push_back(folder / view_file_name(i));
-    if (!fs::exists(views.files.back())) {
+    if (!is_there(views.files.back())) {
       throw IoError(
           views.files.back(),
           fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it",
@@ -180,12 +192,12 @@ void depth_to_disparity(const CameraGrid& camera, Image<float>& map) {
 }
 
 /// Of the centre view only where `views` says so.
-DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
-                          const CameraGrid& camera, MapViews views, ConventionReport& report,
-                          const Progress& progress) {
+DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const CameraGrid& camera,
+                          MapViews views, ConventionReport& report, const Progress& progress) {
+  const fs::path& folder = scene.path;
   const auto per_view = [&](int i) { return folder / disparity_file_name(i); };
   bool has_all = true;
-  for (int i = 0; i < grid.count() && has_all; ++i) has_all = fs::exists(per_view(i));
+  for (int i = 0; i < grid.count() && has_all; ++i) has_all = is_there(per_view(i));
   const auto make = [&](GridShape part, ViewIndex first) {
     return DisparityField{ViewStack<float>(part, size.height, size.width, 1, first),
                           ViewStack<std::uint8_t>(part, size.height, size.width, 1, first)};
@@ -199,7 +211,9 @@ DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
     for (int i = 0; i < part.count(); ++i) {
       progress.check();
       const ViewIndex view = part.view_at(i, first);
-      store(read_map(per_view(view.v * grid.u + view.u), size), view, field);
+      const fs::path file = per_view(view.v * grid.u + view.u);
+      store(read_map(file, size), view, field);
+      scene.account.use(file, "disparities");
       progress.report((i + 1.0) / part.count());
     }
     return field;
@@ -207,27 +221,29 @@ DisparityField read_truth(const fs::path& folder, GridShape grid, Size size,
   DisparityField field;
   const fs::path disparity = folder / "gt_disp_lowres.pfm";
   const fs::path depth = folder / "gt_depth_lowres.pfm";
-  if (fs::exists(disparity)) {
+  if (is_there(disparity)) {
     report.units = "disparity as stored in gt_disp_lowres.pfm";
     field = make({1, 1}, grid.center());
     store(read_map(disparity, size), grid.center(), field);
-  } else if (fs::exists(depth) && camera.is_known() && camera.cam_distance) {
+    scene.account.use(disparity, "disparity of the centre view");
+  } else if (is_there(depth) && camera.is_known() && camera.cam_distance) {
     report.units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
     field = make({1, 1}, grid.center());
     Image<float> map = read_map(depth, size);
     depth_to_disparity(camera, map);
     store(map, grid.center(), field);
+    scene.account.use(depth, "depth of the centre view");
   } else {
     report.units = "no truth in this folder";
   }
   return field;
 }
 
-void read_regions(const fs::path& folder, Size size, GroundTruth& truth) {
+void read_regions(SceneFolder& scene, Size size, GroundTruth& truth) {
   constexpr std::string_view prefix = "mask_";
   constexpr std::string_view suffix = "_lowres.png";
   std::set<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) files.insert(entry.path());
+  for (const auto& entry : fs::directory_iterator(scene.path)) files.insert(entry.path());
   for (const fs::path& path : files) {
     const std::string name = path.filename().string();
     if (!name.starts_with(prefix) || !name.ends_with(suffix) ||
@@ -241,12 +257,14 @@ void read_regions(const fs::path& folder, Size size, GroundTruth& truth) {
                    [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
     const std::size_t length = name.size() - prefix.size() - suffix.size();
     truth.regions.emplace(name.substr(prefix.size(), length), std::move(mask));
+    scene.account.use(path, "masks of regions");
   }
 }
 
-void read_object_ids(const fs::path& folder, GridShape grid, Size size, GroundTruth& truth) {
-  const fs::path path = folder / "objectids_lowres.png";
-  if (!fs::exists(path)) return;
+void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth& truth) {
+  const fs::path path = scene.path / "objectids_lowres.png";
+  if (!is_there(path)) return;
+  scene.account.use(path, "labels of the centre view");
   const Image<std::int32_t> ids = decode_numbers(path);
   require_size(path, ids, size);
   truth.labels = ViewStack<std::int32_t>({1, 1}, size.height, size.width, 1, grid.center());
@@ -254,18 +272,22 @@ void read_object_ids(const fs::path& folder, GridShape grid, Size size, GroundTr
 }
 
 bool is_benchmark_folder(const fs::path& folder) {
-  return fs::exists(folder / kBenchmarkConfig) || fs::exists(folder / view_file_name(0)) ||
+  return is_there(folder / kBenchmarkConfig) || is_there(folder / view_file_name(0)) ||
          count_views(folder) > 0;
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
+  SceneFolder files{folder, FolderAccount(folder)};
   std::optional<ConfigFile> config;
-  if (fs::exists(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
-  const ViewFiles views = view_files(folder, config);
+  if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
+  const std::optional<GridShape> given = given_grid(options);
+  const ViewFiles views = view_files(folder, config, given);
+  files.account.use(views.files, "views");
+  if (config) files.account.use(folder / kBenchmarkConfig, "parameters");
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "2016 benchmark folder";
-  if (!config) {
+  if (!config && !given) {
     report.warnings.push_back(
         fmt::format("There is no parameters.cfg: the grid of {}×{} views was inferred from the "
                     "number of files.",
@@ -292,18 +314,20 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
     info.camera = read_camera(folder, *config, size, report);
   }
   GroundTruth truth;
-  truth.field = read_truth(folder, views.grid, size, info.camera, options.map_views(), report,
+  truth.field = read_truth(files, views.grid, size, info.camera, options.map_views(), report,
                            progress.part(0.85, 0.95));
   if (options.needs_truth) {
-    read_object_ids(folder, views.grid, size, truth);
-    read_regions(folder, size, truth);
+    read_object_ids(files, views.grid, size, truth);
+    read_regions(files, size, truth);
   }
 
-  assemble({std::move(samples),
-            std::move(truth),
-            std::move(info),
-            {{}, "benchmark folders store views in canonical order"}},
-           options, scene, progress);
+  SceneParts parts;
+  parts.samples = std::move(samples);
+  parts.truth = std::move(truth);
+  parts.info = std::move(info);
+  parts.expected.reason = "benchmark folders store views in canonical order";
+  parts.files = files.account.uses();
+  assemble(std::move(parts), options, scene, progress);
   return scene;
 }
 
@@ -313,7 +337,7 @@ fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip"};
+constexpr const char* kOptions[] = {"flip", "grid"};
 
 }  // namespace
 

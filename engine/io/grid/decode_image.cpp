@@ -2,6 +2,7 @@
 #include "engine/io/grid/decode_image.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/png_check.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 
 namespace episcope::io {
 namespace {
@@ -36,7 +38,14 @@ Image<T> copy_rgb(const cv::Mat& decoded) {
                 "copy or export it again");
 }
 
+/// OpenCV decodes OpenEXR only where the environment says so, which it asks once.
+void allow_openexr() {
+  static const int is_set = setenv("OPENCV_IO_ENABLE_OPENEXR", "1", 0);
+  static_cast<void>(is_set);
+}
+
 cv::Mat read_mat(const std::filesystem::path& path) {
+  allow_openexr();
   require_readable_file(path);
   if (is_damaged_png(path)) refuse(path);  // the decoder would print a message of its own
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
@@ -63,11 +72,9 @@ AnyImage decode_image(const std::filesystem::path& path) {
 }
 
 bool is_image_name(const std::filesystem::path& path) {
-  constexpr std::array suffixes{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm", ".pgm"};
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return std::find(suffixes.begin(), suffixes.end(), suffix) != suffixes.end();
+  constexpr std::array suffixes{".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".ppm",
+                                ".pgm", ".pnm", ".webp", ".jp2", ".exr",  ".hdr"};
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
 std::string describe_image(const AnyImage& image) {

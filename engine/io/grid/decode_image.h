@@ -14,8 +14,9 @@ namespace episcope::io {
 /// dropped.
 using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<float>>;
 
-/// Decodes PNG, JPEG, TIFF, BMP, PPM. Orientation tags are ignored: views are taken as stored.
-/// Throws IoError.
+/// Decodes PNG, JPEG, JPEG 2000, WebP, TIFF, BMP, PPM, OpenEXR and Radiance HDR; a palette is
+/// resolved. The samples of the last two are linear. Orientation tags are ignored: views are taken
+/// as stored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path);
 
 /// Whether the suffix is one that `decode_image` reads.

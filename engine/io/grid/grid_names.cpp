@@ -3,292 +3,174 @@
 
 #include "engine/core/error.h"
 #include "engine/io/grid/decode_image.h"
-#include "engine/io/maps/parse_number.h"
+#include "engine/io/grid/image_list.h"
+#include "engine/io/grid/view_group.h"
+#include "engine/io/open/grid_option.h"
+#include "engine/io/open/undecided.h"
+#include "engine/io/order/list_layout.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
-#include <regex>
-#include <set>
 
 namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A file with the numbers found in its name.
-struct Numbered {
-  fs::path path;
-  std::vector<long> numbers;
-};
-
-/// Files that share all but the numbers of their names.
-struct Group {
-  std::string pattern;
-  std::vector<Numbered> files;
-};
-
-std::vector<fs::path> list_images(const fs::path& folder) {
-  std::vector<fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && entry.is_regular_file() && is_image_name(entry.path())) {
-      images.push_back(entry.path());
-    }
-  }
-  std::sort(images.begin(), images.end());
-  return images;
+std::vector<fs::path> left_out_of(const std::vector<fs::path>& images, const ViewFiles& views) {
+  std::vector<fs::path> taken = views.files;
+  const auto by_text = [](const fs::path& path) { return std::string_view(path.native()); };
+  std::ranges::sort(taken, {}, by_text);
+  std::vector<fs::path> left_out;
+  std::ranges::set_difference(images, taken, std::back_inserter(left_out), {}, by_text, by_text);
+  return left_out;
 }
 
-std::vector<std::string> tokens_of(const std::string& stem) {
-  std::vector<std::string> tokens;
-  std::size_t begin = 0;
-  while (begin <= stem.size()) {
-    const std::size_t end = std::min(stem.find('_', begin), stem.size());
-    if (end > begin) tokens.push_back(stem.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return tokens;
-}
-
-bool is_count(const std::string& text) {
-  return !text.empty() && text.size() < 10 &&
-         std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-/// out_<row>_<col>_<Y>_<X>, also with empty tokens between.
-std::optional<Numbered> stanford_name(const fs::path& path) {
-  const std::vector<std::string> tokens = tokens_of(path.stem().string());
-  if (tokens.size() != 5 || tokens[0] != "out" || !is_count(tokens[1]) || !is_count(tokens[2]) ||
-      !parse_number(tokens[3]) || !parse_number(tokens[4])) {
-    return std::nullopt;
-  }
-  return Numbered{path, {std::stol(tokens[1]), std::stol(tokens[2])}};
-}
-
-Group stanford_group(const std::vector<fs::path>& images) {
-  Group group{"out_{row}_{col}_{Y}_{X}", {}};
-  for (const fs::path& path : images) {
-    if (auto file = stanford_name(path)) group.files.push_back(std::move(*file));
-  }
-  return group;
-}
-
-/// Splits a name into its digits and what is around them, written with `#` for each number.
-std::pair<std::string, std::vector<long>> skeleton(const std::string& name) {
-  std::string text;
-  std::vector<long> numbers;
-  for (std::size_t i = 0; i < name.size();) {
-    std::size_t end = i;
-    while (end < name.size() && std::isdigit(static_cast<unsigned char>(name[end]))) ++end;
-    if (end == i) {
-      text += name[i++];
-    } else {
-      // Longer runs of digits are dates or serial numbers, and only the tail of those varies.
-      const std::size_t begin = end - i > 9 ? end - 9 : i;
-      text += name.substr(i, begin - i) + '#';
-      numbers.push_back(std::stol(name.substr(begin, end - begin)));
-      i = end;
-    }
-  }
-  return {text, numbers};
-}
-
-/// The largest set of files whose names differ in numbers only, with the numbers that vary.
-Group largest_group(const std::vector<fs::path>& images) {
-  std::map<std::string, std::vector<Numbered>> groups;
-  for (const fs::path& path : images) {
-    auto [text, numbers] = skeleton(path.filename().string());
-    if (!numbers.empty()) groups[text].push_back({path, numbers});
-  }
-  const auto largest = std::max_element(
-      groups.begin(), groups.end(),
-      [](const auto& a, const auto& b) { return a.second.size() < b.second.size(); });
-  if (largest == groups.end()) return {};
-  Group group{{}, std::move(largest->second)};
-  const std::vector<long> first = group.files.front().numbers;
-  std::vector<std::size_t> varying;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const bool varies =
-        std::any_of(group.files.begin(), group.files.end(),
-                    [&](const Numbered& file) { return file.numbers[i] != first[i]; });
-    if (varies && varying.size() < 2) varying.push_back(i);
-  }
-  for (Numbered& file : group.files) {
-    std::vector<long> kept;
-    for (const std::size_t i : varying) kept.push_back(file.numbers[i]);
-    file.numbers = std::move(kept);
-  }
-  std::size_t field = 0;
-  for (const char c : largest->first) {
-    if (c != '#') {
-      group.pattern += c;
-      continue;
-    }
-    const auto place = std::find(varying.begin(), varying.end(), field);
-    if (place == varying.end()) {
-      group.pattern += field < first.size() ? std::to_string(first[field]) : "";
-    } else if (varying.size() == 1) {
-      group.pattern += "{index}";
-    } else {
-      group.pattern += place == varying.begin() ? "{row}" : "{col}";
-    }
-    ++field;
-  }
-  return group;
-}
-
-/// Turns a pattern of the user's into a regular expression.
-struct Pattern {
-  std::regex expression;
-  bool is_column_first = false;
-
-  explicit Pattern(const std::string& text) {
-    std::string pattern;
-    for (std::size_t i = 0; i < text.size();) {
-      const std::string rest = text.substr(i);
-      const auto field = [&](const char* name) {
-        const bool is_here = rest.starts_with(name);
-        if (is_here) {
-          pattern += "0*([0-9]{1,9})";
-          i += std::string(name).size();
+/// A view as grey values of any range, reduced to about 512 px.
+Image<float> grey_view(const fs::path& path) {
+  constexpr int kSide = 512;
+  return std::visit(
+      [](const auto& image) {
+        const int step = std::max(1, std::max(image.height(), image.width()) / kSide);
+        Image<float> grey(image.height() / step, image.width() / step);
+        for (int y = 0; y < grey.height() * step; ++y) {
+          const auto* in = image.row(y);
+          float* out = grey.row(y / step);
+          for (int x = 0; x < grey.width() * step; ++x) {
+            for (int c = 0; c < image.channels(); ++c) {
+              out[x / step] += static_cast<float>(*in++);
+            }
+          }
         }
-        return is_here;
-      };
-      if (field("{row}") || field("{col}") || field("{index}")) continue;
-      const char c = text[i++];
-      if (c == '*') {
-        pattern += ".*";
-      } else {
-        if (std::string("\\^$.|?+()[]{}").find(c) != std::string::npos) pattern += '\\';
-        pattern += c;
-      }
-    }
-    expression = std::regex(pattern);
-    is_column_first = text.find("{col}") < text.find("{row}");
-  }
-};
-
-Group group_by_pattern(const std::vector<fs::path>& images, const std::string& text) {
-  const bool has_both =
-      text.find("{row}") != std::string::npos && text.find("{col}") != std::string::npos;
-  const bool has_index = text.find("{index}") != std::string::npos;
-  if (has_both == has_index) {
-    throw InvalidInput("the pattern '" + text +
-                       "' must contain {row} and {col}, or {index}, as in view_{row}_{col}.png");
-  }
-  const Pattern pattern(text);
-  Group group{text, {}};
-  for (const fs::path& path : images) {
-    std::smatch match;
-    const std::string name = path.filename().string();
-    if (!std::regex_match(name, match, pattern.expression)) continue;
-    Numbered file{path, {}};
-    for (std::size_t i = 1; i < match.size(); ++i) file.numbers.push_back(std::stol(match[i]));
-    if (pattern.is_column_first && has_both) std::swap(file.numbers[0], file.numbers[1]);
-    group.files.push_back(std::move(file));
-  }
-  return group;
+        return grey;
+      },
+      decode_image(path));
 }
 
-std::string tried(const Group& group, std::size_t images) {
-  return fmt::format("pattern {} matches {} of {} images", group.pattern, group.files.size(),
-                     images);
+/// Several grids that a list of `count` views could be, the squarest first, and the two lines.
+std::vector<ReadingChoice> possible_grids(int count) {
+  constexpr std::size_t kMostGrids = 4;
+  std::vector<ReadingChoice> choices;
+  const auto add = [&](int rows, int columns, const std::string& label) {
+    choices.push_back({fmt::format("{}x{}", rows, columns), label});
+  };
+  for (int rows = static_cast<int>(std::sqrt(count)); rows > 1; --rows) {
+    if (count % rows != 0 || choices.size() >= kMostGrids) continue;
+    const int columns = count / rows;
+    add(rows, columns, fmt::format("{} rows of {} views", rows, columns));
+    if (rows != columns) add(columns, rows, fmt::format("{} rows of {} views", columns, rows));
+  }
+  add(1, count, fmt::format("{} views in a row", count));
+  add(count, 1, fmt::format("{} views in a column", count));
+  return choices;
 }
 
-ViewFiles two_number_grid(const fs::path& folder, const Group& group, std::size_t images) {
-  std::set<long> rows;
-  std::set<long> columns;
-  std::map<std::pair<long, long>, fs::path> files;
-  for (const Numbered& file : group.files) {
-    rows.insert(file.numbers[0]);
-    columns.insert(file.numbers[1]);
-    const auto [place, is_new] = files.try_emplace({file.numbers[0], file.numbers[1]}, file.path);
-    if (!is_new) {
-      throw IoError(file.path, "this view has the same row and column as " +
-                                   place->second.filename().string() + "; remove one of the two");
-    }
+/// Moves the files of a list to where they lie in a grid.
+void arrange(PlacedViews& placed, const ListLayout& layout) {
+  std::vector<fs::path> files(placed.views.files.size());
+  std::vector<CameraPosition> positions(placed.positions.size());
+  for (int i = 0; i < layout.grid.count(); ++i) {
+    const ViewIndex at = layout.place(i);
+    const auto from = static_cast<std::size_t>(i);
+    const auto to = static_cast<std::size_t>(at.v * layout.grid.u + at.u);
+    files[to] = std::move(placed.views.files[from]);
+    if (!positions.empty()) positions[to] = placed.positions[from];
   }
-  ViewFiles views{{static_cast<int>(rows.size()), static_cast<int>(columns.size())}, {}};
-  for (const long row : rows) {
-    for (const long column : columns) {
-      const auto found = files.find({row, column});
-      if (found == files.end()) {
-        throw IoError(folder,
-                      fmt::format("the view of row {}, column {} is missing ({}, a grid of {}×{}); "
-                                  "add it or name a pattern",
-                                  row, column, tried(group, images), rows.size(), columns.size()));
-      }
-      views.files.push_back(found->second);
-    }
-  }
-  return views;
+  placed.views = {layout.grid, std::move(files)};
+  placed.positions = std::move(positions);
 }
 
-ViewFiles index_grid(const fs::path& folder, Group group, std::size_t images) {
-  std::sort(group.files.begin(), group.files.end(),
-            [](const Numbered& a, const Numbered& b) { return a.numbers < b.numbers; });
-  const std::size_t count = group.files.size();
-  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count))));
-  if (count >= 4 && side * side == count) {
-    ViewFiles views{{static_cast<int>(side), static_cast<int>(side)}, {}};
-    for (Numbered& file : group.files) views.files.push_back(std::move(file.path));
-    return views;
-  }
-  std::string gap;
-  for (std::size_t i = 1; i < count && gap.empty(); ++i) {
-    const long expected = group.files[i - 1].numbers[0] + 1;
-    if (group.files[i].numbers[0] > expected) {
-      gap = fmt::format("; the number {} is missing", expected);
-    }
-  }
-  throw IoError(folder, "the images do not form a square grid (" + tried(group, images) + gap +
-                            "); add the missing views or name a pattern with {row} and {col}");
+std::string size_text(const Image<float>& picture) {
+  return fmt::format("{}×{} px", picture.width(), picture.height());
 }
 
-void reverse_second_rows(ViewFiles& views) {
-  for (int v = 1; v < views.grid.v; v += 2) {
-    const auto row = views.files.begin() + static_cast<std::ptrdiff_t>(v) * views.grid.u;
-    std::reverse(row, row + views.grid.u);
+/// What the images of a list tell about their places.
+ListLayout look_for_layout(const ViewFiles& list, const Progress& progress) {
+  const Image<float> first = grey_view(list.files.front());
+  const auto view = [&](int index) {
+    const fs::path& path = list.files[static_cast<std::size_t>(index)];
+    Image<float> grey = grey_view(path);
+    if (grey.height() != first.height() || grey.width() != first.width()) {
+      throw IoError(path, "this view, reduced to " + size_text(grey) + ", differs in size from " +
+                              list.files.front().filename().string() + " with " + size_text(first) +
+                              "; all views must match");
+    }
+    return grey;
+  };
+  return find_list_layout(list.grid.count(), view, progress);
+}
+
+/// What a user says without a word about columns.
+ListLayout row_by_row(GridShape grid, const OpenOptions& options) {
+  ListLayout layout;
+  layout.grid = grid;
+  layout.order = options.snake ? ListOrder::SnakeRows : ListOrder::Rows;
+  layout.is_decided = true;
+  layout.evidence = "as given";
+  return layout;
+}
+
+ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const OpenOptions& options,
+                          const Progress& progress) {
+  const int count = list.grid.count();
+  if (const auto given = given_grid(options)) {
+    if (given->count() == count) return row_by_row(*given, options);
+    throw IoError(folder, fmt::format("{} views are in the list, but --grid {} has {}; give a grid "
+                                      "of {} views",
+                                      count, options.grid, given->count(), count));
   }
+  progress.step("looking for rows and columns");
+  ListLayout layout = look_for_layout(list, progress);
+  if (!layout.is_decided) {
+    throw Undecided(folder,
+                    fmt::format("the names number {} views in one line, and how these lie in rows "
+                                "and columns is not certain: {}",
+                                count, layout.evidence),
+                    "grid", possible_grids(count));
+  }
+  return layout;
 }
 
 }  // namespace
 
-int count_images(const fs::path& folder) {
-  return static_cast<int>(list_images(folder).size());
+NamedGrid name_grid(const fs::path& folder, const std::string& pattern) {
+  const std::vector<fs::path> images = list_images(folder);
+  const ViewNames names =
+      pattern.empty() ? find_view_names(folder, images) : match_view_names(images, pattern);
+  if (names.views.size() < 2) {
+    throw IoError(folder,
+                  fmt::format("the images do not form a grid of views: pattern {} matches "
+                              "{} of {} images{}; {}",
+                              pattern, names.views.size(), images.size(),
+                              images.empty() ? std::string()
+                                             : ", such as " + images.front().filename().string(),
+                              kPatternAdvice));
+  }
+  NamedGrid grid{place_views(folder, names), names.pattern, {}};
+  grid.left_out = left_out_of(images, grid.placed.views);
+  return grid;
 }
 
-NamedGrid name_grid(const fs::path& folder, const std::string& pattern, bool snake) {
-  const std::vector<fs::path> images = list_images(folder);
-  Group group;
-  if (!pattern.empty()) {
-    group = group_by_pattern(images, pattern);
-  } else {
-    group = stanford_group(images);
-    if (group.files.empty()) group = largest_group(images);
+std::string settle_grid(const fs::path& folder, PlacedViews& placed, const OpenOptions& options,
+                        const Progress& progress) {
+  if (!placed.is_list) {
+    const auto given = given_grid(options);
+    if (given && !(*given == placed.views.grid)) {
+      throw IoError(folder,
+                    fmt::format("the names give a grid of {}, but --grid says {}; leave "
+                                "--grid out, or number the views by --pattern with {{index}}",
+                                grid_text(placed.views.grid), grid_text(*given)));
+    }
+    if (options.snake) arrange(placed, row_by_row(placed.views.grid, options));
+    return {};
   }
-  if (group.files.size() < 2 || group.files.front().numbers.empty()) {
-    throw IoError(
-        folder,
-        "the images do not form a grid of views: " +
-            (pattern.empty()
-                 ? fmt::format("{} images were found, and their names give no row and column",
-                               images.size())
-                 : tried(group, images.size())) +
-            "; name a pattern such as view_{row}_{col}.png");
-  }
-  NamedGrid grid;
-  grid.pattern = group.pattern;
-  grid.left_out = static_cast<int>(images.size() - group.files.size());
-  grid.views = group.files.front().numbers.size() == 2
-                   ? two_number_grid(folder, group, images.size())
-                   : index_grid(folder, std::move(group), images.size());
-  if (snake) reverse_second_rows(grid.views);
-  return grid;
+  ListLayout layout = layout_of_list(folder, placed.views, options, progress);
+  if (options.snake) layout.order = ListOrder::SnakeRows;
+  arrange(placed, layout);
+  placed.is_list = false;
+  return layout_text(layout) + ": " + layout.evidence;
 }
 
 }  // namespace episcope::io

@@ -1,31 +1,35 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/io/grid/load_views.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/grid/view_names.h"
+#include "engine/io/open/open_options.h"
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace episcope::io {
 
 /// A folder of images understood as a grid of views.
 struct NamedGrid {
-  ViewFiles views;
-  std::string pattern;  ///< "out_{row}_{col}_*", "{row}_{col}.png", "{index}.png", … as matched.
-  int left_out = 0;     ///< Images in the folder that do not belong to the grid.
+  PlacedViews placed;
+  std::string pattern;                          ///< As in ViewNames.
+  std::vector<std::filesystem::path> left_out;  ///< Images of the folder that are no views.
 };
 
-/// Number of images directly in a folder.
-[[nodiscard]] int count_images(const std::filesystem::path& folder);
+/// Finds the place of every view from its name: by the option `pattern` if it is given, else by
+/// what the names have in common (view_group.h). A list of views is not yet a grid. Throws IoError
+/// that says which view is missing, which pattern was tried and how many files matched;
+/// InvalidInput for a wrong pattern.
+[[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const std::string& pattern);
 
-/// Finds row and column of every image from its name: Stanford names
-/// (`out_<row>_<col>_<Y>_<X>` with empty tokens skipped), two numbers that vary, or one number
-/// whose count is a square. `pattern`, if not empty, is a file name with `{row}` and `{col}` or
-/// `{index}`,
-/// `*` for anything; `snake` turns every second row round.
-/// Throws IoError that says which view is missing, which pattern was tried and how many files
-/// matched; InvalidInput for a pattern without the fields.
-[[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const std::string& pattern,
-                                  bool snake);
+/// Gives the views the rows and columns that they have in the end: those of the option `grid` for a
+/// list, or else those that the images themselves tell (list_layout.h); with the option `snake`
+/// every second row is turned round. Returns a sentence about what was found, empty if the names
+/// tell all. Throws Undecided if the images of a list tell nothing, IoError if there are not as
+/// many views as the option says, InvalidInput for a wrong option, Cancelled.
+std::string settle_grid(const std::filesystem::path& folder, PlacedViews& placed,
+                        const OpenOptions& options, const Progress& progress);
 
 }  // namespace episcope::io

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/grid/image_grid_reader.h"
 
+#include "engine/core/text/suffix.h"
 #include "engine/io/beside/beside.h"
 #include "engine/io/grid/grid_names.h"
+#include "engine/io/grid/image_list.h"
+#include "engine/io/grid/left_out.h"
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
@@ -20,17 +23,38 @@ namespace fs = std::filesystem;
 fs::path find_grid(const fs::path& path, const OpenOptions&) {
   const fs::path folder = scene_folder(path);
   if (folder.empty()) return {};
-  for (const char* name : {"lf", "views", "images", "rectified"}) {
-    if (fs::is_directory(folder / name) && count_images(folder / name) > 1) return folder / name;
-  }
-  return count_images(folder) > 0 ? folder : fs::path();
+  return count_images(views_folder(folder)) > 0 ? folder : fs::path();
 }
 
 Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
-  return read_image_grid(folder, options, progress);
+  ImageGridExtras extras;
+  extras.source = folder;
+  return read_image_grid(views_folder(folder), options, progress, extras);
 }
 
-constexpr const char* kOptions[] = {"flip", "pattern", "snake"};
+FolderAccount account_of(const fs::path& source, const fs::path& folder,
+                         const std::vector<fs::path>& views, const ImageGridExtras& extras) {
+  FolderAccount account(source);
+  account.add_folder(folder);
+  account.use(views, "views");
+  for (const auto& [file, kind] : extras.files) account.use(file, kind);
+  return account;
+}
+
+/// "image grid (out_{row}_{col}.png, snake order)".
+std::string format_of(const NamedGrid& grid, const OpenOptions& options) {
+  std::string format = "image grid (" + grid.pattern;
+  if (options.snake) format += ", snake order";
+  return format + ")";
+}
+
+/// Formats of float samples that are linear in light; their samples keep their scale.
+bool is_linear_format(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".exr" || suffix == ".hdr";
+}
+
+constexpr const char* kOptions[] = {"flip", "pattern", "snake", "grid"};
 
 }  // namespace
 
@@ -42,54 +66,54 @@ Reader image_grid_reader() {
           .read = read_grid};
 }
 
-Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
-                      const Progress& progress, const ImageGridExtras& extras) {
-  const NamedGrid grid = name_grid(folder, options.pattern, options.snake);
-  const GridShape shape = grid.views.grid;
+Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
+                      const ImageGridExtras& extras) {
+  NamedGrid grid = name_grid(folder, options.pattern);
+  const std::string evidence = settle_grid(folder, grid.placed, options, progress.part(0, 0.15));
+  const ViewFiles& views = grid.placed.views;
+  const bool is_linear = is_linear_format(views.files.front());
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = extras.format.empty()
-                      ? "image grid (" + grid.pattern + (options.snake ? ", snake order" : "") + ")"
-                      : extras.format;
+  report.format = extras.format.empty() ? format_of(grid, options) : extras.format;
+  if (is_linear) report.format += ", linear float samples";
   report.units = "no depth in an image grid";
-  if (grid.left_out > 0) {
-    report.warnings.push_back(fmt::format(
-        "{} images of the folder do not match the pattern and are ignored.", grid.left_out));
-  }
-  const std::filesystem::path& source = extras.source.empty() ? folder : extras.source;
+  report.warnings = grid.placed.warnings;
+  const fs::path& source = extras.source.empty() ? folder : extras.source;
   LightFieldInfo info{scene_name(source),
                       source.string(),
                       extras.camera,
                       extras.disparity_range,
-                      {.reader = extras.reader, .options = {}}};
+                      {.reader = extras.reader, .options = {}},
+                      grid.placed.positions};
   progress.step("reading views");
   LightField::Samples samples = load_views(
-      grid.views,
+      views,
       [&](const Image<std::uint8_t>& center) {
-        if (options.on_center_view) options.on_center_view(center, info, shape);
+        if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
-      progress.part(0, 0.9));
-  scale_float_samples(samples, report);
-  FolderAccount account(folder);
-  account.use(grid.views.files, "views");
-  GroundTruth truth;
+      progress.part(0.15, 0.9));
+  if (!is_linear) scale_float_samples(samples, report);
+  FolderAccount account = account_of(source, folder, views.files, extras);
+  SceneParts parts;
   if (extras.read_truth) {
-    truth.field = extras.read_truth(samples, info.camera, report);
+    parts.truth.field = extras.read_truth(samples, info.camera, report);
   } else {
-    FoundBeside beside = read_beside(
-        {grid.views, folder, samples, info.camera, options.map_views(), options.needs_truth},
-        {account, report}, progress.part(0.9, 1));
-    truth = std::move(beside.truth);
+    FoundBeside beside =
+        read_beside({views, folder, samples, info.camera, options.map_views(), options.needs_truth},
+                    {account, report}, progress.part(0.9, 1));
+    parts.truth = std::move(beside.truth);
     info.camera = beside.camera;
     scene.scribbles.labels = std::move(beside.label_infos);
   }
-  assemble({std::move(samples),
-            std::move(truth),
-            std::move(info),
-            {{}, "rows and columns follow from the names"},
-            {},
-            account.uses()},
-           options, scene, progress);
+  warn_of_left_out(grid.left_out, samples, report);
+  parts.samples = std::move(samples);
+  parts.info = std::move(info);
+  parts.expected.reason = evidence.empty() ? "rows and columns follow from the names" : evidence;
+  parts.files = account.uses();
+  assemble(std::move(parts), options, scene, progress);
+  if (!evidence.empty() && !report.order_check.ends_with(evidence)) {
+    report.order_check = evidence + "; " + report.order_check;
+  }
   return scene;
 }
 

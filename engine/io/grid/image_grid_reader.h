@@ -7,6 +7,8 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace episcope::io {
 
@@ -24,10 +26,12 @@ struct ImageGridExtras {
   /// Reads the disparity of the views as stored; may correct the camera. Empty = no truth.
   std::function<DisparityField(const LightField::Samples&, CameraGrid& camera, ConventionReport&)>
       read_truth;
+  /// Files beside the views that are read, and as what ("depth of the centre view").
+  std::vector<std::pair<std::filesystem::path, std::string>> files{};
 };
 
 /// Reads a folder of equally sized images, for readers of folders that hold one. Throws IoError,
-/// InvalidInput for a bad pattern, Cancelled.
+/// Undecided if nothing tells rows and columns, InvalidInput for a bad pattern, Cancelled.
 [[nodiscard]] Scene read_image_grid(const std::filesystem::path& folder, const OpenOptions& options,
                                     const Progress& progress, const ImageGridExtras& extras = {});
 

@@ -6,6 +6,9 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/open/center_preview.h"
 
+#include <fmt/format.h>
+
+#include <unistd.h>
 #include <algorithm>
 
 namespace episcope::io {
@@ -24,6 +27,18 @@ void store(const std::filesystem::path& path, const AnyImage& decoded, const Any
   std::copy_n(image->data(), image->size(), view.data);
 }
 
+/// More than there is would not be refused at once: the system would end the program later.
+void require_memory(const std::filesystem::path& path, GridShape grid, std::size_t view_bytes) {
+  const double needed = static_cast<double>(view_bytes) * grid.count();
+  const double there =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  if (needed <= there) return;
+  throw IoError(path.parent_path(),
+                fmt::format("its {} views need {:.0f} GB of memory, but this computer has {:.0f} "
+                            "GB; keep fewer of them in the folder, or make them smaller",
+                            grid.count(), needed / 1e9, there / 1e9));
+}
+
 }  // namespace
 
 LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
@@ -34,6 +49,7 @@ LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_ce
   const AnyImage first = decode_image(views.files[static_cast<std::size_t>(center_index)]);
   return std::visit(
       [&]<class T>(const Image<T>& image) -> LightField::Samples {
+        require_memory(views.files.front(), views.grid, image.size() * sizeof(T));
         if (on_center) on_center(preview_rgb(image.view()));
         ViewStack<T> stack(views.grid, image.height(), image.width(), image.channels());
         std::copy_n(image.data(), image.size(), stack.view(center).data);

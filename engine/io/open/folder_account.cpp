@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/open/folder_account.h"
 
+#include "engine/core/text/suffix.h"
+
 #include <algorithm>
+#include <unordered_map>
 #include <utility>
 
 namespace episcope::io {
@@ -9,8 +12,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::size_t kMostKinds = 20;  ///< Of files not used; more are told apart less finely.
+
 /// A name with # for each of its numbers.
-std::string kind_of(const std::string& name) {
+std::string kind_by_numbers(const std::string& name) {
   std::string kind;
   for (const char c : name) {
     const bool is_digit = c >= '0' && c <= '9';
@@ -21,6 +26,29 @@ std::string kind_of(const std::string& name) {
     }
   }
   return kind;
+}
+
+/// "*.txt".
+std::string kind_by_suffix(const std::string& name) {
+  return "*" + suffix_of(name);
+}
+
+std::string kind_of_others(const std::string&) {
+  return "*";
+}
+
+/// In the order of the first file of each kind.
+std::vector<FileUse> count_unused(const std::vector<std::string>& names,
+                                  std::string (*kind_of)(const std::string&)) {
+  std::vector<FileUse> kinds;
+  std::unordered_map<std::string, std::size_t> places;
+  for (const std::string& name : names) {
+    const std::string kind = kind_of(name);
+    const auto [place, is_new] = places.try_emplace(kind, kinds.size());
+    if (is_new) kinds.push_back({kind, 0, name, false});
+    ++kinds[place->second].count;
+  }
+  return kinds;
 }
 
 /// The same for all ways to write a path.
@@ -70,15 +98,18 @@ void FolderAccount::leave_out(const std::vector<fs::path>& files, const std::str
 }
 
 std::vector<FileUse> FolderAccount::uses() const {
-  std::vector<FileUse> unused;
+  std::vector<std::string> unused;
   for (const auto& [path, is_noted] : files_) {
-    if (is_noted) continue;
-    const std::string name = path.filename().string();
-    count_one(unused, {kind_of(name), 1, name, false});
+    if (!is_noted) unused.push_back(path.filename().string());
   }
   std::vector<FileUse> all = used_;
   all.insert(all.end(), left_out_.begin(), left_out_.end());
-  all.insert(all.end(), unused.begin(), unused.end());
+  for (const auto& kind_of : {kind_by_numbers, kind_by_suffix, kind_of_others}) {
+    const std::vector<FileUse> kinds = count_unused(unused, kind_of);
+    if (kinds.size() > kMostKinds) continue;
+    all.insert(all.end(), kinds.begin(), kinds.end());
+    break;
+  }
   return all;
 }
 

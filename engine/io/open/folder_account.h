@@ -31,7 +31,8 @@ class FolderAccount {
   void leave_out(const std::vector<std::filesystem::path>& files, const std::string& kind);
 
   /// Used kinds in the order of their first use, then those left out, then other files not used:
-  /// those that differ in numbers only are one kind ("depth_#.npy").
+  /// those that differ in numbers only are one kind ("depth_#.npy"). Where these would be more than
+  /// 20, those with the same suffix are one ("*.npy"), or all.
   [[nodiscard]] std::vector<FileUse> uses() const;
 
  private:

@@ -41,10 +41,17 @@ Schema<OpenOptions> open_schema() {
                "is converted to disparity"})
       .text("pattern", &O::pattern,
             {"Image names",
-             "File names of an image grid with {row} and {col}, or {index}; * matches anything: "
-             "view_{row}_{col}.png"})
+             "Whole file names of the views, with {row} and {col} or {index} for the numbers, {y} "
+             "and {x} for positions, * for anything and ? for one character: "
+             "view_{row}_{col}.png; or re: and a regular expression with groups of these names: "
+             "re:(?<row>[0-9]+)of(?<col>[0-9]+).*"})
       .toggle("snake", &O::snake,
               {"Snake", "Every other row of an image grid runs from right to left"})
+      .text(
+          "grid", &O::grid,
+          {"Grid of views",
+           "Rows and columns of views, where the files do not tell: 9x9, or 1x49 for a scan along "
+           "a line"})
       .real(
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},

@@ -8,6 +8,12 @@
 
 namespace episcope::io {
 
+/// Whether a file or folder can be reached; of a link that leads to itself, false.
+[[nodiscard]] inline bool is_there(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error);
+}
+
 /// The folder of a scene of images, if `path` is one, one of its images or its parameters.cfg; else
 /// empty.
 [[nodiscard]] inline std::filesystem::path scene_folder(const std::filesystem::path& path) {

@@ -125,6 +125,7 @@ void CommandLineTest::readingOptions_readBack() {
                            {"units", std::string("without-width")},
                            {"pattern", std::string("view_{row}_{col}.png")},
                            {"snake", true},
+                           {"grid", std::string("1x49")},
                            {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 

@@ -135,7 +135,8 @@ class ImageFolderTest : public QObject {
     const Scene read = open(options);
 
     QVERIFY(has_same_samples(scene, read));
-    QCOMPARE(read.convention.warnings.size(), std::size_t{1});
+    QCOMPARE(read.convention.files.back().example, std::string("thumbnail.png"));
+    QVERIFY(!read.convention.files.back().is_used);
     options.pattern = "view.png";
     QVERIFY_EXCEPTION_THROWN((void)open(options), InvalidInput);
   }
@@ -156,7 +157,8 @@ class ImageFolderTest : public QObject {
     for (int i = 0; i < 4; ++i) {
       Image<std::uint16_t> view(5, 6, 3);
       view.at(1, 2, 0) = static_cast<std::uint16_t>(40000 + i);
-      io::write_png(path(std::to_string(i) + ".png"), view.view());
+      io::write_png(path(std::to_string(i / 2) + "_" + std::to_string(i % 2) + ".png"),
+                    view.view());
     }
 
     const Scene read = open();

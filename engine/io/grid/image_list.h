@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace episcope::io {
+
+/// Images directly in a folder, by name. Hidden files, and links that lead nowhere or to
+/// themselves, are left out. Throws filesystem_error if the folder cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> list_images(const std::filesystem::path& folder);
+
+/// Number of images directly in a folder; 0 if there is no such folder.
+[[nodiscard]] int count_images(const std::filesystem::path& folder);
+
+/// The folder of views that a scene's folder has inside, named lf, views, images or rectified;
+/// else the folder itself.
+[[nodiscard]] std::filesystem::path views_folder(const std::filesystem::path& folder);
+
+}  // namespace episcope::io

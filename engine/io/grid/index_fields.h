@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/grid/name_parts.h"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What the numbers in the names of a group are.
+struct IndexFields {
+  enum class Form {
+    Grid,     ///< Row and column of every place of a full grid,
+    Gaps,     ///< of a grid with places that are missing,
+    List,     ///< or one index.
+    Unclear,  ///< Several numbers vary, and none or several pairs of them form a grid.
+    None      ///< No number varies, or there are less than two names.
+  };
+  Form form = Form::None;
+  std::optional<std::size_t> row{};
+  std::optional<std::size_t> column{};
+  std::optional<std::size_t> index{};
+  std::optional<std::size_t> y{};  ///< Positions of cameras.
+  std::optional<std::size_t> x{};
+  bool is_told_by_words = false;  ///< Which number is the row and which the column.
+};
+
+/// Finds row and column of a grid among the numbers of names. Negative numbers and those with a
+/// fraction anywhere are positions, never indices. An index runs in equal steps; of several pairs
+/// of numbers that form a full grid those beside words such as row and col come first, then those
+/// that begin at 0 or 1 without gaps, then neighbours; numbers that only repeat a pair in another
+/// form are passed over. One number that varies beside one that is constantly 0 or 1 and written
+/// alike is a single row or column. The first two positions behind row and column are y and x,
+/// unless words tell otherwise. Linear in the number of names.
+[[nodiscard]] IndexFields find_index_fields(const NameGroup& group);
+
+/// The pattern of the names with these fields: "out_{row}_{col}_{y}_{x}.png"; numbers that vary
+/// otherwise are "*".
+[[nodiscard]] std::string pattern_text(const NameGroup& group, const IndexFields& fields);
+
+}  // namespace episcope::io

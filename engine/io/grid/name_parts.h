@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// A number in the name of an image.
+struct NameNumber {
+  std::string text;          ///< As written, without its sign: "07", "369.230769".
+  double value = 0;          ///< Without its sign.
+  bool is_whole = true;      ///< Has neither a point nor an exponent.
+  bool has_minus = false;    ///< A "-" stands before it, and no digit before that,
+  bool may_be_dash = false;  ///< but a letter does: "view-3".
+
+  /// What it would be as an index: whole, of at most 18 digits.
+  [[nodiscard]] std::optional<long long> count() const;
+  /// What it would be as a position: with its sign.
+  [[nodiscard]] double position() const { return has_minus && value != 0 ? -value : value; }
+};
+
+/// Stands in a skeleton for each number, since no name can hold it.
+inline constexpr char kNumberMark = '/';
+
+/// The name of an image, without its folder: "out_03_-1.5.png" has the skeleton "out_/_/.png" and
+/// the numbers 3 and −1.5. Digits of the suffix are no numbers, and its letters count as lower
+/// case.
+struct NameParts {
+  std::string skeleton;
+  std::vector<NameNumber> numbers;
+};
+[[nodiscard]] NameParts split_name(const std::filesystem::path& path);
+
+/// An image with the numbers of its name.
+struct NumberedImage {
+  std::filesystem::path path;
+  std::vector<NameNumber> numbers;
+};
+
+/// Images whose names differ in numbers only, by name.
+struct NameGroup {
+  std::string skeleton;
+  std::vector<NumberedImage> images;
+};
+
+/// All images by skeleton, the largest group first. Names without numbers form groups too.
+[[nodiscard]] std::vector<NameGroup> group_by_name(
+    const std::vector<std::filesystem::path>& images);
+
+}  // namespace episcope::io

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/io/grid/load_views.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What the name of an image says of its place.
+struct NamedView {
+  std::filesystem::path path;
+  std::optional<long long> row{};
+  std::optional<long long> column{};
+  std::optional<long long> index{};  ///< Instead of row and column.
+  std::optional<double> y{};         ///< Position of the camera.
+  std::optional<double> x{};
+};
+
+/// The images whose names follow one pattern. Of all of them the same is known.
+struct ViewNames {
+  std::string pattern;  ///< "out_{row}_{col}_*.png", "{index}.png", …
+  std::vector<NamedView> views{};
+  bool is_chosen = false;  ///< A user named the pattern: then gaps in numbers are meant.
+  int images = 0;          ///< In the folder, for messages.
+};
+
+/// Views in their places.
+struct PlacedViews {
+  ViewFiles views;
+  bool is_list = false;  ///< One index: the grid is 1×N, and rows and columns are yet unknown.
+  std::vector<CameraPosition> positions;  ///< Row by row; empty = unknown.
+  std::vector<std::string> warnings;      ///< A sentence each: numbers in steps of two, …
+};
+
+/// Puts views into the places that their names give: rows and columns in the order of their
+/// numbers, whatever these are. Names with a row or a column only are a single column or row.
+/// Throws IoError that names views that are missing, or two views of one place; `folder` is for
+/// messages.
+[[nodiscard]] PlacedViews place_views(const std::filesystem::path& folder, const ViewNames& names);
+
+/// How to say what the names of views mean, for the ends of messages.
+inline constexpr const char* kPatternAdvice =
+    "name the numbers by --pattern, as in --pattern 'view_{row}_{col}.png'";
+
+}  // namespace episcope::io
