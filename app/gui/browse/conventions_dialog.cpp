@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/browse/conventions_dialog.h"
 
+#include "app/gui/browse/pattern_panel.h"
+#include "engine/io/open/open_options.h"
 #include "widgets/controls/elided_label.h"
 #include "widgets/estimate/parameter_form.h"
 
@@ -9,10 +11,17 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
 constexpr int kWidth = 460;
+constexpr int kWidthWithNames = 620;
+
+bool has_option(const std::vector<ParameterDescription>& options, const char* key) {
+  return std::ranges::find(options, key, &ParameterDescription::key) != options.end();
+}
 
 }  // namespace
 
@@ -41,13 +50,29 @@ ConventionsDialog::ConventionsDialog(const QString& path,
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(file);
   layout->addWidget(form_);
+  const bool has_names = has_option(options, "pattern");
+  if (has_names) {
+    layout->addWidget(makePatternPanel(path), 1);
+  } else {
+    layout->addStretch(1);
+  }
   layout->addWidget(note);
-  layout->addStretch(1);
   layout->addWidget(buttons);
   connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   connect(reset, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
-  resize(kWidth, sizeHint().height());
+  resize(has_names ? kWidthWithNames : kWidth, sizeHint().height());
+}
+
+PatternPanel* ConventionsDialog::makePatternPanel(const QString& path) {
+  auto* panel = new PatternPanel(path, this);
+  const auto show = [this, panel] {
+    const auto options = io::open_schema().parse(form_->modifiedValues());
+    panel->preview(options.pattern, options.snake);
+  };
+  connect(form_, &ParameterForm::valuesChanged, panel, show);
+  show();
+  return panel;
 }
 
 ParameterSet ConventionsDialog::given() const {

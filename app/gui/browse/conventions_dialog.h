@@ -8,9 +8,10 @@
 namespace episcope {
 
 class ParameterForm;
+class PatternPanel;
 
 /// Asks how to read a file where the automatic choice is wrong, with a row for each option that its
-/// reader supports.
+/// reader supports. Where names of files count it shows what a pattern makes of them.
 class ConventionsDialog : public QDialog {
   Q_OBJECT
 
@@ -23,6 +24,8 @@ class ConventionsDialog : public QDialog {
   [[nodiscard]] ParameterSet given() const;
 
  private:
+  [[nodiscard]] PatternPanel* makePatternPanel(const QString& path);
+
   ParameterForm* form_;
 };
 
