@@ -18,7 +18,9 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QRadioButton>
 #include <QToolButton>
+#include <QTreeWidget>
 
 namespace episcope::in_conventions_test {
 
@@ -76,6 +78,17 @@ QString write_odd_grid(const QString& folder) {
   return folder;
 }
 
+// Views of one colour each: nothing tells how they lie.
+QString write_plain_list(const QString& folder, int count) {
+  QDir().mkpath(folder);
+  for (int i = 0; i < count; ++i) {
+    QImage image(16, 12, QImage::Format_RGB888);
+    image.fill(QColor(20 * i, 90, 90));
+    image.save(folder + QString("/a%1.png").arg(i));
+  }
+  return folder;
+}
+
 }  // namespace
 
 class ConventionsTest : public QObject {
@@ -91,6 +104,9 @@ class ConventionsTest : public QObject {
   void cancel_changesNothing();
   void builtinScene_hasNoChoice();
   void gridOfOddNames_opensByPattern();
+  void pattern_isPreviewedWhileTyped();
+  void viewsThatTellNothing_areAskedFor();
+  void questionThatIsCancelled_opensNothing();
   void folderThatFailed_mayBeReadOtherwise();
   void rememberedChoiceThatNoLongerFits_isToldAndNotUsed();
 };
@@ -248,6 +264,62 @@ void ConventionsTest::gridOfOddNames_opensByPattern() {
 
   QVERIFY(f.window.bench().session.light_field()->grid() == (GridShape{3, 4}));
   QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QLabel*>("info.names"), kPatience);
+}
+
+void ConventionsTest::pattern_isPreviewedWhileTyped() {
+  WindowFixture f;
+  f.window.bench().opener.open(write_odd_grid(f.path("odd")));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kScenePatience);
+  QDialog* dialog = open_dialog(f.window);
+  QVERIFY(dialog);
+  auto* summary = dialog->findChild<QLabel*>("pattern.summary");
+  auto* names = dialog->findChild<QTreeWidget*>("pattern.names");
+  auto* line = dialog->findChild<QLineEdit*>("pattern.text");
+  QVERIFY(summary && names && line);
+  QTRY_COMPARE_WITH_TIMEOUT(names->topLevelItemCount(), 12, kPatience);
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().contains("4×3"), qPrintable(summary->text()),
+                            kPatience);
+
+  QTest::keyClicks(line, "take-{col}of{row}-final.png");
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().contains("12 of 12") && summary->text().contains("3×4"),
+                            qPrintable(summary->text()), kPatience);
+  QCOMPARE(names->topLevelItem(1)->text(0), QString("take-1of2-final.png"));
+  QCOMPARE(names->topLevelItem(1)->text(1), QString("2"));
+
+  QTest::keyClicks(line, "x");
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().contains("0 of 12"), qPrintable(summary->text()),
+                            kPatience);
+}
+
+void ConventionsTest::viewsThatTellNothing_areAskedFor() {
+  WindowFixture f;
+  const QString folder = write_plain_list(f.path("plain"), 6);
+  f.window.bench().opener.open(folder);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QDialog*>("readingQuestion"), kScenePatience);
+  auto* dialog = f.window.findChild<QDialog*>("readingQuestion");
+  QVERIFY(!f.window.bench().session.scene());
+
+  auto* choice = dialog->findChild<QRadioButton*>("readingQuestion.2x3");
+  QVERIFY(choice);
+  QTest::mouseClick(choice, Qt::LeftButton, {}, QPoint(10, choice->height() / 2));
+  QTest::mouseClick(dialog->findChild<QPushButton*>("readingQuestion.ok"), Qt::LeftButton);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kScenePatience);
+
+  QVERIFY(f.window.bench().session.light_field()->grid() == (GridShape{2, 3}));
+  QVERIFY(remembered_conventions(folder) == (ParameterSet{{"grid", "2x3"}}));
+}
+
+void ConventionsTest::questionThatIsCancelled_opensNothing() {
+  WindowFixture f;
+  const QString folder = write_plain_list(f.path("plain"), 6);
+  f.window.bench().opener.open(folder);
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<QDialog*>("readingQuestion"), kScenePatience);
+  QTest::keyClick(f.window.findChild<QDialog*>("readingQuestion"), Qt::Key_Escape);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.findChild<QDialog*>("readingQuestion"), kPatience);
+
+  QVERIFY(!f.window.bench().session.scene());
+  QVERIFY(f.window.bench().opener.hasFailed());
+  QVERIFY(remembered_conventions(folder).empty());
 }
 
 void ConventionsTest::folderThatFailed_mayBeReadOtherwise() {
