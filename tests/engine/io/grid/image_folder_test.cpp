@@ -84,7 +84,10 @@ class ImageFolderTest : public QObject {
       return name_in_form(form.toStdString(), row, column, index);
     });
 
-    const Scene read = open();
+    io::OpenOptions options;
+    if (form.startsWith("flat"))
+      options.grid = std::to_string(rows) + "x" + std::to_string(columns);
+    const Scene read = open(options);
 
     QCOMPARE(read.light_field->grid(), (GridShape{rows, columns}));
     QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
@@ -149,6 +152,7 @@ class ImageFolderTest : public QObject {
     });
     io::OpenOptions options;
     options.snake = true;
+    options.grid = "3x3";
 
     QVERIFY(has_same_samples(scene, open(options)));
   }
