@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <vector>
 
 namespace episcope::io {
 namespace {
 
 constexpr double kExact = 0.01;  ///< px
-constexpr int kRounds = 6;
+constexpr int kPairs = 200;
+constexpr std::size_t kSome = 2000;  ///< Points by which a pair is judged.
 
 struct Point {
   double inverse = 0;  ///< 1/Z
@@ -24,10 +26,11 @@ struct Line {
   }
 };
 
-Line least_squares(const std::vector<Point>& points, const Line& last, double limit) {
+/// Through the points that `last` explains.
+Line least_squares(const std::vector<Point>& points, const Line& last) {
   double n = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const Point& p : points) {
-    if (last.residual(p) > limit) continue;
+    if (last.residual(p) > kExact) continue;
     n += 1;
     x += p.inverse;
     y += p.disparity;
@@ -35,20 +38,39 @@ Line least_squares(const std::vector<Point>& points, const Line& last, double li
     xy += p.inverse * p.disparity;
   }
   const double spread = n * xx - x * x;
-  if (n < 2 || spread <= 1e-12 * n * xx) return {};
+  if (n < 2 || spread <= 1e-12 * n * xx) return last;
   Line line;
   line.a = (n * xy - x * y) / spread;
   line.b = (line.a * x - y) / n;
   return line;
 }
 
-double median_residual(const std::vector<Point>& points, const Line& line) {
-  std::vector<double> residuals;
-  residuals.reserve(points.size());
-  for (const Point& p : points) residuals.push_back(line.residual(p));
-  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
-  std::nth_element(residuals.begin(), middle, residuals.end());
-  return *middle;
+std::ptrdiff_t count_exact(const std::vector<Point>& points, const Line& line) {
+  return std::ranges::count_if(points, [&](const Point& p) { return line.residual(p) < kExact; });
+}
+
+/// Of lines through pairs of points, the one that explains most points.
+Line best_line(const std::vector<Point>& points) {
+  std::vector<Point> some;
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kSome);
+  for (std::size_t i = 0; i < points.size(); i += stride) some.push_back(points[i]);
+  std::mt19937 random(1);
+  Line best;
+  std::ptrdiff_t most = 0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const Point& p = some[random() % some.size()];
+    const Point& q = some[random() % some.size()];
+    const double run = p.inverse - q.inverse;
+    if (std::abs(run) < 1e-3 * std::max(p.inverse, q.inverse)) continue;
+    Line line;
+    line.a = (p.disparity - q.disparity) / run;
+    line.b = line.a * p.inverse - p.disparity;
+    const std::ptrdiff_t exact = count_exact(some, line);
+    if (exact <= most) continue;
+    most = exact;
+    best = line;
+  }
+  return best;
 }
 
 }  // namespace
@@ -71,12 +93,8 @@ DepthFit fit_depth(const DisparityView& disparity, double factor, const Disparit
     }
   }
   if (points.size() < 2) return {};
-  Line line = least_squares(points, {}, HUGE_VAL);
-  for (int round = 0; round < kRounds; ++round) {
-    line = least_squares(points, line, std::max(3 * median_residual(points, line), 1e-6));
-  }
-  const auto exact =
-      std::ranges::count_if(points, [&](const Point& p) { return line.residual(p) < kExact; });
+  const Line line = least_squares(points, best_line(points));
+  const std::ptrdiff_t exact = count_exact(points, line);
   return {line.a, line.b, static_cast<double>(exact) / static_cast<double>(points.size()),
           points.size()};
 }

@@ -22,8 +22,8 @@ struct DepthFit {
   [[nodiscard]] CameraGrid camera() const;
 };
 
-/// Least squares over pixels that are valid in both maps of the same size, without those that stand
-/// out. `factor` is applied to the disparity.
+/// Least squares over pixels that are valid in both maps of the same size and agree with the best
+/// of the lines through pairs of them (RANSAC, seeded). `factor` is applied to the disparity.
 [[nodiscard]] DepthFit fit_depth(const DisparityView& disparity, double factor,
                                  const DisparityView& depth);
 

@@ -146,7 +146,7 @@ class BesideTest : public QObject {
     QTest::newRow("upper case") << "{}_{}.png"
                                 << "{}_{}_Disparity.PFM"
                                 << "";
-    QTest::newRow("tiff") << "view_{}_{}.png"
+    QTest::newRow("tiff") << "cam_{}_{}.png"
                           << "disp_0{}_0{}.tiff"
                           << "";
     QTest::newRow("folder") << "{}_{}.png"
