@@ -174,12 +174,12 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   const auto owner = labels.text("/", "light_field");
   if (owner && *owner != file.path().filename().string()) return own;
   if (!has_own) {
-    account.use(beside, "labels");
+    account.use(beside, "label files");
     return read_archive_labels(labels, shape, report, progress);
   }
   // What was painted is saved beside the file and never into it.
   if (owner && labels.has("SCRIBBLES")) {
-    account.use(beside, "scribbles");
+    account.use(beside, "scribble files");
     own.scribbles = read_scribble_dataset(labels, shape, false, progress).scribbles;
   }
   return own;

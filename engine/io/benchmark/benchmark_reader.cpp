@@ -213,7 +213,7 @@ DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const C
       const ViewIndex view = part.view_at(i, first);
       const fs::path file = per_view(view.v * grid.u + view.u);
       store(read_map(file, size), view, field);
-      scene.account.use(file, "disparities");
+      scene.account.use(file, "disparity maps");
       progress.report((i + 1.0) / part.count());
     }
     return field;
@@ -225,14 +225,14 @@ DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const C
     report.units = "disparity as stored in gt_disp_lowres.pfm";
     field = make({1, 1}, grid.center());
     store(read_map(disparity, size), grid.center(), field);
-    scene.account.use(disparity, "disparity of the centre view");
+    scene.account.use(disparity, "disparity map of the centre view");
   } else if (is_there(depth) && camera.is_known() && camera.cam_distance) {
     report.units = "disparity from gt_depth_lowres.pfm and the camera of parameters.cfg";
     field = make({1, 1}, grid.center());
     Image<float> map = read_map(depth, size);
     depth_to_disparity(camera, map);
     store(map, grid.center(), field);
-    scene.account.use(depth, "depth of the centre view");
+    scene.account.use(depth, "depth map of the centre view");
   } else {
     report.units = "no truth in this folder";
   }
@@ -257,14 +257,14 @@ void read_regions(SceneFolder& scene, Size size, GroundTruth& truth) {
                    [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
     const std::size_t length = name.size() - prefix.size() - suffix.size();
     truth.regions.emplace(name.substr(prefix.size(), length), std::move(mask));
-    scene.account.use(path, "masks of regions");
+    scene.account.use(path, "region masks");
   }
 }
 
 void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth& truth) {
   const fs::path path = scene.path / "objectids_lowres.png";
   if (!is_there(path)) return;
-  scene.account.use(path, "labels of the centre view");
+  scene.account.use(path, "label map of the centre view");
   const Image<std::int32_t> ids = decode_numbers(path);
   require_size(path, ids, size);
   truth.labels = ViewStack<std::int32_t>({1, 1}, size.height, size.width, 1, grid.center());
@@ -283,7 +283,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   const std::optional<GridShape> given = given_grid(options);
   const ViewFiles views = view_files(folder, config, given);
   files.account.use(views.files, "views");
-  if (config) files.account.use(folder / kBenchmarkConfig, "parameters");
+  if (config) files.account.use(folder / kBenchmarkConfig, "parameter files");
   Scene scene;
   ConventionReport& report = scene.convention;
   report.format = "2016 benchmark folder";

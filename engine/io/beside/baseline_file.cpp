@@ -35,7 +35,7 @@ std::optional<MapUnit> stated_unit(const std::filesystem::path& folder, FolderAc
   text.resize(static_cast<std::size_t>(in.gcount()));
   const std::optional<double> baseline = number_after(text, "base_x");
   if (!baseline || *baseline <= 0) return std::nullopt;
-  account.use(path, "camera parameters");
+  account.use(path, "parameter files");
   return MapUnit{*baseline, fmt::format("px for a baseline of 1; that of neighbouring views is {} "
                                         "({})",
                                         *baseline, kBaselineFile)};

@@ -19,7 +19,7 @@ void set_aside(std::vector<MapSet>& sets, const BesideNotes& notes) {
     set.strays.clear();
     std::erase_if(set.entries, [&](const MapSet::Entry& entry) {
       const OwnFile own = own_file(entry.file);
-      if (own == OwnFile::Scribbles) notes.account.use(entry.file, "scribbles");
+      if (own == OwnFile::Scribbles) notes.account.use(entry.file, "scribble files");
       if (own == OwnFile::Segmentation) notes.account.leave_out({entry.file}, "segmentations");
       if (own == OwnFile::Result) notes.account.leave_out({entry.file}, "results");
       return own != OwnFile::None;

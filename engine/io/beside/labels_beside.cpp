@@ -48,7 +48,7 @@ ViewStack<std::int32_t> colors_from(const MapSet& pictures, const ViewStack<std:
   return colors.are_colors ? std::move(colors.numbers) : ViewStack<std::int32_t>();
 }
 
-/// The name of a kind in the account: "labels (classes of UrbanLF)".
+/// The name of a kind in the account: "label maps (classes of UrbanLF)".
 std::string labels_text(const LabelMeaning& meaning) {
   const std::string labels = kind_text(MapKind::Labels);
   return meaning.text.empty() ? labels : labels + " (" + meaning.text + ")";
@@ -87,7 +87,7 @@ LabelMeaning name_with_pictures(Found& found, const std::vector<const MapSet*>& 
   }
   LabelMeaning meaning = name_numbers(found.maps.numbers, hints);
   found.outcome.tell(labels_text(meaning), notes);
-  if (twin != nullptr) notes.account.use(twin->files(), "pictures of these labels");
+  if (twin != nullptr) notes.account.use(twin->files(), "label pictures");
   return meaning;
 }
 

@@ -72,7 +72,7 @@ constexpr std::array<std::string_view, 6> kTruthWords{"gt",         "truth",    
 
 const char* kind_text(MapKind kind) {
   constexpr const char* texts[] = {
-      "disparity maps",          "depth maps",  "labels", "masks of valid pixels",
+      "disparity maps",          "depth maps",  "label maps", "masks of valid pixels",
       "masks of invalid pixels", "region masks"};
   return texts[static_cast<int>(kind)];
 }

@@ -10,7 +10,7 @@ namespace episcope::io {
 
 /// What a map beside views may hold.
 enum class MapKind { Disparity, Depth, Labels, Valid, Invalid, Region };
-/// A plural: "disparity maps", "depth maps", "labels", "masks of valid pixels", …
+/// A plural: "disparity maps", "depth maps", "label maps", "masks of valid pixels", …
 [[nodiscard]] const char* kind_text(MapKind kind);
 
 /// What the words of a name say that the file, or the files of the folder, hold: "1_1_Disparity",

@@ -35,7 +35,8 @@ QString unwrapped(QString text) {
   // Methods, paths, the name of the light field, the program.
   static const QRegularExpression names("\\b(EPI|ST)_[A-Z_]+\\b|(/[\\w.-]+)+|\\bedge\\b|Episcope");
   static const QRegularExpression keys(
-      "\\b(Ctrl|Shift|Alt|Return|Enter|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|Left|Right|Tab|"
+      "\\b(Ctrl|Shift|Alt|Return|Enter|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|Left|Right|"
+      "Tab|"
       "F[0-9]+)\\b");
   return text.remove(tags).remove(names).remove(keys);
 }
@@ -66,8 +67,9 @@ int shown(const QStringList& plain) {
 
 /// Texts of the engine on this light field, not of the window: they are shown as they were made.
 bool is_of_the_scene(const QObject& object) {
-  static const QStringList names{"info.title", "info.order", "info.check", "info.format",
-                                 "info.source", "info.warning", "annotation.file", "method.reference"};
+  static const QStringList names{"info.title",   "info.order",      "info.check",
+                                 "info.format",  "info.source",     "info.files",
+                                 "info.warning", "annotation.file", "method.reference"};
   return names.contains(object.objectName());
 }
 
@@ -184,7 +186,8 @@ void TranslationTest::checker_findsBareWords() {
   QVERIFY(!has_word(open + "Default " + open + "auto" + close + close));
   QVERIFY(!has_word(open + "Run" + close + " (Ctrl+Return), 9×9"));
   QVERIFY(!has_word("EPI_L"));
-  QCOMPARE(tr("%1 px").arg(5), close.isEmpty() ? QString() : open + close + "5" + open + " px" + close);
+  QCOMPARE(tr("%1 px").arg(5),
+           close.isEmpty() ? QString() : open + close + "5" + open + " px" + close);
 }
 
 void TranslationTest::everyText_isTranslated() {

@@ -96,8 +96,8 @@ class BesideTest : public QObject {
     QCOMPARE(count_used(read, "views"), 9);
     QCOMPARE(count_used(read, "disparity maps"), 9);
     QCOMPARE(count_used(read, "depth maps"), 9);
-    QCOMPARE(count_used(read, "labels (classes of UrbanLF)"), 9);
-    QCOMPARE(count_used(read, "pictures of these labels"), 9);
+    QCOMPARE(count_used(read, "label maps (classes of UrbanLF)"), 9);
+    QCOMPARE(count_used(read, "label pictures"), 9);
   }
 
   void urbanReal_hasLabelsOfTheCenter_data() {
@@ -238,7 +238,7 @@ class BesideTest : public QObject {
     const Scene read = folder.open("scene/0.5");
 
     QVERIFY2(error_of(read, folder.scene) < 1e-6, describe(read.convention).c_str());
-    QCOMPARE(count_used(read, "camera parameters"), 1);
+    QCOMPARE(count_used(read, "parameter files"), 1);
   }
 
   void depthWithoutACamera_isNotUsed() {
@@ -373,7 +373,7 @@ class BesideTest : public QObject {
     const Scene read = folder.open();
 
     QVERIFY(read.truth->labels.empty());
-    QCOMPARE(count_used(read, "scribbles"), 1);
+    QCOMPARE(count_used(read, "scribble files"), 1);
     QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
   }
 
