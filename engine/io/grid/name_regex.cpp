@@ -87,7 +87,9 @@ std::regex compile(const std::string& expression, const std::string& as_given) {
       case std::regex_constants::error_brack:
         refuse(as_given, "lacks a ] or a [");
       case std::regex_constants::error_paren:
-        refuse(as_given, "lacks a ) or a (, or has a kind of group that is not known");
+        refuse(as_given,
+               "lacks a ) or a (, repeats nothing with *, + or ?, or has a kind of group that is "
+               "not known");
       case std::regex_constants::error_brace:
       case std::regex_constants::error_badbrace:
         refuse(as_given, "has a wrong {…}; a count such as {1,3} is expected");

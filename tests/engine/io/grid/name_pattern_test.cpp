@@ -80,7 +80,7 @@ void NamePatternTest::pattern_readsTheName_data() {
   row("view_{row}_{col}.png", "view_02_a.png", "no");
   row("c{col}r{row}_*.png", "c2r3_t17.png", "3,2");
   row("{row}_{col}.*", "-4_+2.tif", "-4,2");
-  row("*{index}.png", "take 7 of 12.png", "2");
+  row("*{index}.png", "take 7 of 12.png", "12");
   row("* {index} of *.png", "take 7 of 12.png", "7");
   row("?{index}?.png", "é12x.png", "12");
   row("out_{row}_{col}_{y}_{x}.png", "out_02_03_1.5_-2e1.png", "2,3 at 1.5,-20");
@@ -118,10 +118,10 @@ void NamePatternTest::wrongPattern_isExplained_data() {
   row("{row}_{row}_{col}.png", "the field row twice");
   row("{row}_{column}.png", "unknown field '{column}'");
   row("{row}_{col", "unknown field '{col'");
-  row("re:a(b", "the groups (?<row>");
+  row("re:a(b)", "the groups (?<row>");
   row("re:(?<row>.)(?<col>.)(b", "lacks a ) or a (");
   row("re:(?<row>.)(?<col>.)[a", "lacks a ] or a [");
-  row("re:(?<row>.)(?<col>.)*+", "repeats nothing");
+  row("re:*(?<index>.)", "repeats nothing");
   row("re:(?<line>.)", "unknown group 'line'; there are row, col, index, y and x");
   row("re:(?<index>.)\\1", "refers back");
   QTest::newRow("long") << QString("{index}") + QString(300, 'a') << "longer than 250";
