@@ -17,6 +17,7 @@ namespace {
 constexpr std::size_t kMostColors = 256;
 constexpr std::int32_t kNone = 255;  ///< In bytes.
 constexpr int kUrbanClasses = 14;
+constexpr const char* kUrbanKind = "UrbanLF label maps";
 constexpr int kMostInfos = 255;  ///< Ids that a user can paint with.
 
 /// Distinct values and how often they occur; nothing if there are more than `most`.
@@ -154,8 +155,7 @@ std::optional<LabelMeaning> name_colors(ViewStack<std::int32_t>& labels) {
   ids[kNoMap] = 0;
   replace_by(labels, ids);
   if (is_urban) meaning.infos = urban_infos();
-  meaning.text =
-      is_urban ? "colours of the classes of UrbanLF" : fmt::format("{} colours", counts->size());
+  meaning.kind = is_urban ? kUrbanKind : "coloured label maps";
   return meaning;
 }
 
@@ -173,7 +173,7 @@ LabelMeaning name_numbers(ViewStack<std::int32_t>& labels, const LabelHints& hin
   const bool is_urban = offset || (hints.is_urban_name && hints.is_urban_size && colors.empty() &&
                                    stored.most + raise <= kUrbanClasses);
   meaning.infos = is_urban ? urban_infos() : infos_by_color(colors, raise);
-  meaning.text = is_urban ? "classes of UrbanLF" : "";
+  if (is_urban) meaning.kind = kUrbanKind;
   return meaning;
 }
 

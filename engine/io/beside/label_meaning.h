@@ -14,9 +14,9 @@ namespace episcope::io {
 
 /// Labels as the engine has them: ids from 1 on, 0 = none.
 struct LabelMeaning {
-  std::vector<LabelInfo> infos;  ///< Names and colours, as far as they are known, by id.
-  bool raised = false;           ///< Stored ids began at 0 and were raised by one.
-  std::string text;              ///< "14 classes of UrbanLF", "5 colours", …
+  std::vector<LabelInfo> infos;     ///< Names and colours, as far as they are known, by id.
+  bool raised = false;              ///< Stored ids began at 0 and were raised by one.
+  std::string kind = "label maps";  ///< Or "UrbanLF label maps", "coloured label maps".
 };
 
 /// What else is known of stored labels.

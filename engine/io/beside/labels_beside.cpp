@@ -6,8 +6,6 @@
 #include "engine/io/beside/map_file.h"
 #include "engine/io/grid/decode_image.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -48,12 +46,6 @@ ViewStack<std::int32_t> colors_from(const MapSet& pictures, const ViewStack<std:
   return colors.are_colors ? std::move(colors.numbers) : ViewStack<std::int32_t>();
 }
 
-/// The name of a kind in the account: "label maps (classes of UrbanLF)".
-std::string labels_text(const LabelMeaning& meaning) {
-  const std::string labels = kind_text(MapKind::Labels);
-  return meaning.text.empty() ? labels : labels + " (" + meaning.text + ")";
-}
-
 struct Found {
   LabelMaps maps;
   const MapSet* set = nullptr;
@@ -86,7 +78,7 @@ LabelMeaning name_with_pictures(Found& found, const std::vector<const MapSet*>& 
     if (!hints.colors.empty()) twin = set;
   }
   LabelMeaning meaning = name_numbers(found.maps.numbers, hints);
-  found.outcome.tell(labels_text(meaning), notes);
+  found.outcome.tell(meaning.kind, notes);
   if (twin != nullptr) notes.account.use(twin->files(), "label pictures");
   return meaning;
 }
@@ -115,7 +107,7 @@ LabelsBeside read_labels_beside(const std::vector<MapSet>& sets, const BesideVie
         continue;
       }
       meaning = std::move(*named);
-      found.outcome.tell(labels_text(meaning), notes);
+      found.outcome.tell(meaning.kind, notes);
     } else {
       meaning = name_with_pictures(found, ranked.fit, views, notes);
     }

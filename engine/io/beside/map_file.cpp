@@ -22,6 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTrueLabels = "GT_LABELS";
+constexpr std::size_t kLongestSide = 65536;           ///< Longer ones are beyond every file, too.
+constexpr std::uintmax_t kLargestCompression = 1100;  ///< Of deflate: 1032.
 
 template <std::size_t N>
 bool has_suffix(const fs::path& path, const std::array<std::string_view, N>& suffixes) {
@@ -62,6 +64,23 @@ DisparityField read_npy_values(const fs::path& path, GridShape grid) {
   return field;
 }
 
+/// The first channel: maps are written as grey, or with the same value in all channels.
+DisparityField read_exr_values(const fs::path& path) {
+  const AnyImage decoded = decode_image(path);
+  const auto* image = std::get_if<Image<float>>(&decoded);
+  if (image == nullptr) {
+    throw IoError(path, "this picture has " + describe_image(decoded) +
+                            ", but a map needs 32-bit float samples; export it in that format");
+  }
+  DisparityField field;
+  field.disparity = ViewStack<float>({1, 1}, image->height(), image->width());
+  for (std::size_t i = 0; i < field.disparity.size(); ++i) {
+    field.disparity.data()[i] = image->data()[i * static_cast<std::size_t>(image->channels())];
+  }
+  mark_invalid(field);
+  return field;
+}
+
 StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
   const NpyFile file(path);
   StoredLabels labels{read_grid<std::int32_t>(file, grid)};
@@ -89,6 +108,13 @@ StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
     throw IoError(path, fmt::format("the dataset {} has the shape {}, but labels of one view or of "
                                     "{}×{} views are expected; remove or replace it",
                                     labels.name, shape_text(labels.shape), grid.v, grid.u));
+  }
+  std::uintmax_t count = 1;
+  for (const std::size_t length : labels.shape) count *= std::min(length, kLongestSide);
+  if (count == 0 || count / kLargestCompression > fs::file_size(path)) {
+    throw IoError(path, fmt::format("the dataset {} claims the shape {}, which this file cannot "
+                                    "hold; copy it again or remove it",
+                                    labels.name, shape_text(labels.shape)));
   }
   StoredLabels stored{ViewStack<std::int32_t>(is_grid ? grid : GridShape{1, 1},
                                               static_cast<int>(labels.shape[rank - 2]),
@@ -139,8 +165,8 @@ bool is_hdf5(const fs::path& path) {
 }  // namespace
 
 bool can_hold_values(const fs::path& path) {
-  return has_suffix(
-      path, std::array<std::string_view, 6>{".npy", ".pfm", ".tif", ".tiff", ".h5", ".hdf5"});
+  return has_suffix(path, std::array<std::string_view, 7>{".npy", ".pfm", ".tif", ".tiff", ".exr",
+                                                          ".h5", ".hdf5"});
 }
 
 bool can_hold_labels(const fs::path& path) {
@@ -150,6 +176,7 @@ bool can_hold_labels(const fs::path& path) {
 
 DisparityField read_values(const fs::path& path, GridShape grid) {
   if (lower_suffix(path) == ".npy") return read_npy_values(path, grid);
+  if (lower_suffix(path) == ".exr") return read_exr_values(path);
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
     return field;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -145,6 +146,12 @@ int count_used(const Scene& scene, const std::string& kind) {
 
 int count_unused(const Scene& scene, const std::string& kind) {
   return count(scene, kind, false);
+}
+
+bool warns_of(const Scene& scene, const std::string& text) {
+  return std::ranges::any_of(scene.convention.warnings, [&](const std::string& warning) {
+    return warning.find(text) != std::string::npos;
+  });
 }
 
 }  // namespace episcope::test

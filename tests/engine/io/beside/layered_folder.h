@@ -66,5 +66,7 @@ class LayeredFolder {
 /// How many files the report counts as this kind, used or not; 0 if it does not know the kind.
 [[nodiscard]] int count_used(const Scene& scene, const std::string& kind);
 [[nodiscard]] int count_unused(const Scene& scene, const std::string& kind);
+/// Whether a warning of the report contains this text.
+[[nodiscard]] bool warns_of(const Scene& scene, const std::string& text);
 
 }  // namespace episcope::test
