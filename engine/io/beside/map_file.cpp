@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTrueLabels = "GT_LABELS";
-constexpr std::size_t kLongestSide = 65536;           ///< Longer ones are beyond every file, too.
+constexpr std::size_t kLongestSide = 65536;           ///< In px.
 constexpr std::uintmax_t kLargestCompression = 1100;  ///< Of deflate: 1032.
 
 template <std::size_t N>
@@ -110,7 +110,9 @@ StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
                                     labels.name, shape_text(labels.shape), grid.v, grid.u));
   }
   std::uintmax_t count = 1;
-  for (const std::size_t length : labels.shape) count *= std::min(length, kLongestSide);
+  for (const std::size_t length : labels.shape) {
+    count = length > kLongestSide ? 0 : count * length;
+  }
   if (count == 0 || count / kLargestCompression > fs::file_size(path)) {
     throw IoError(path, fmt::format("the dataset {} claims the shape {}, which this file cannot "
                                     "hold; copy it again or remove it",
