@@ -2,6 +2,7 @@
 #include "engine/io/mosaic/find_mosaic.h"
 
 #include "engine/core/error.h"
+#include "engine/io/grid/image_list.h"
 #include "engine/io/grid/image_size.h"
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/open/reader.h"
@@ -23,29 +24,17 @@ constexpr std::size_t kMostOthers = 3;
 /// As many headers are read before an image counts as one among many.
 constexpr std::size_t kMostSiblings = 64;
 
-std::vector<fs::path> images_in(const fs::path& folder) {
-  std::vector<fs::path> images;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const bool is_hidden = entry.path().filename().string().starts_with('.');
-    if (!is_hidden && is_image_name(entry.path()) && entry.is_regular_file()) {
-      images.push_back(entry.path());
-    }
-  }
-  std::ranges::sort(images);
-  return images;
-}
-
 bool wants_mosaic(const OpenOptions& options) {
   return options.mosaic != Mosaic::Auto || options.lenslet > 0;
 }
 
-/// Whether a folder is a light field of another form; a grid of images counts only if it is in a
-/// folder inside, because any image makes its folder one.
+/// Whether a folder is a light field of another form. Any image makes its folder a grid of images:
+/// that counts only if the views are in a folder inside.
 bool is_other_form(const fs::path& folder, const OpenOptions& options) {
+  if (views_folder(folder) != folder) return true;
   return std::ranges::any_of(readers(), [&](const Reader& reader) {
-    if (std::string_view(reader.id) == "mosaic") return false;
-    const fs::path found = reader.find(folder, options);
-    return !found.empty() && (std::string_view(reader.id) != "image_grid" || found != folder);
+    const std::string_view id = reader.id;
+    return id != "mosaic" && id != "image_grid" && !reader.find(folder, options).empty();
   });
 }
 
@@ -65,12 +54,12 @@ fs::path find_by_file(const fs::path& path, const OpenOptions& options) {
   if (!is_image_name(path)) return {};
   if (wants_mosaic(options) || mosaic_name(path) != MosaicName::Plain) return path;
   const fs::path folder = scene_folder(path);
-  if (!is_largest(path, images_in(folder)) || is_other_form(folder, options)) return {};
+  if (!is_largest(path, list_images(folder)) || is_other_form(folder, options)) return {};
   return path;
 }
 
 fs::path find_in_folder(const fs::path& folder, const OpenOptions& options) {
-  const std::vector<fs::path> images = images_in(folder);
+  const std::vector<fs::path> images = list_images(folder);
   std::vector<fs::path> found;
   std::ranges::copy_if(images, std::back_inserter(found), [](const fs::path& image) {
     return mosaic_name(image) != MosaicName::Plain;
@@ -98,7 +87,7 @@ fs::path find_mosaic(const fs::path& path, const OpenOptions& options) {
 }
 
 bool is_only_mosaic(const fs::path& picture) {
-  const std::vector<fs::path> images = images_in(scene_folder(picture));
+  const std::vector<fs::path> images = list_images(scene_folder(picture));
   return std::ranges::all_of(images, [&](const fs::path& other) {
     return other.filename() == picture.filename() || mosaic_name(other) == MosaicName::Plain;
   });

@@ -7,12 +7,14 @@
 #include "engine/io/mosaic/picture_lines.h"
 #include "engine/io/mosaic/tile_count.h"
 #include "engine/io/open/grid_option.h"
+#include "engine/io/open/undecided.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace episcope::io {
 namespace {
@@ -64,14 +66,14 @@ Mosaic stated_kind(const OpenOptions& options, MosaicName name) {
   return options.lenslet > 0 || is_named ? Mosaic::Lenslets : Mosaic::Auto;
 }
 
-/// Lytro cameras give 14 px a lenslet, or 15; others are rarer.
+/// Lytro cameras give 14 px a lenslet, or 15.
 std::optional<Answer> eslf_by_size(const Question& question) {
-  for (const int side : {14, 15, 9, 8, 7}) {
+  for (const int side : {14, 15}) {
     if (question.height % side == 0 && question.width % side == 0) {
       return Answer{Mosaic::Lenslets,
                     {side, side},
-                    fmt::format("the name, and that {} divides both sides; the picture does not "
-                                "tell",
+                    fmt::format("the name says ESLF, and {} divides both sides; the picture itself "
+                                "does not tell",
                                 side)};
     }
   }
@@ -115,12 +117,26 @@ std::optional<Answer> find_answer(const Question& question) {
   return contradicts ? std::nullopt : found;
 }
 
+/// Sides of lenslets of cameras and of common data that divide both sides of the picture.
+std::vector<ReadingChoice> possible_lenslets(const Question& question) {
+  std::vector<ReadingChoice> choices;
+  for (const int side : {14, 15, 9, 8, 7, 5}) {
+    if (question.height % side != 0 || question.width % side != 0) continue;
+    choices.push_back(
+        {std::to_string(side), fmt::format("{0}×{0} views of {1}×{2} px", side,
+                                           question.width / side, question.height / side)});
+  }
+  return choices;
+}
+
 [[noreturn]] void refuse(const Question& question) {
   const std::string size = fmt::format("of {}×{} px", question.width, question.height);
   if (question.kind == Mosaic::Lenslets) {
+    const std::string reason = "no period of lenslets is found in this picture " + size;
+    auto choices = possible_lenslets(question);
+    if (!choices.empty()) throw Undecided(question.path, reason, "lenslet", std::move(choices));
     throw IoError(question.path,
-                  "no period of lenslets is found in this picture " + size +
-                      "; give the pixels along a side of a lenslet, for example --lenslet 14");
+                  reason + "; give the pixels along a side of a lenslet, for example --lenslet 14");
   }
   if (question.kind == Mosaic::Views) {
     throw IoError(question.path,

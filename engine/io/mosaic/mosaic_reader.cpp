@@ -20,11 +20,10 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string format_of(const MosaicLayout& layout) {
-  const bool is_lenslets = layout.kind == Mosaic::Lenslets;
-  const std::string what = is_lenslets
-                               ? "mosaic of lenslets of " + grid_text(layout.grid) + " px"
-                               : "mosaic of " + grid_text(layout.grid) + " views side by side";
-  return what + " (" + layout.evidence + ")";
+  const std::string grid = grid_text(layout.grid);
+  return layout.kind == Mosaic::Lenslets
+             ? fmt::format("mosaic of lenslets of {} px ({})", grid, layout.evidence)
+             : fmt::format("mosaic of {} views side by side ({})", grid, layout.evidence);
 }
 
 /// Of sizes that the grid does not divide.

@@ -15,7 +15,7 @@ namespace {
 constexpr int kCellsAcross = 20;
 constexpr int kSmallestCell = 8;
 constexpr int kStep = 2;
-constexpr int kGuard = 2;  ///< Cells around one, on each side.
+constexpr int kGuard = 3;  ///< Cells around one, on each side.
 constexpr float kEmpty = 0.1F;
 constexpr float kDarkest = 0.02F;  ///< About what black is in noisy photographs.
 constexpr double kFilled = 0.5;

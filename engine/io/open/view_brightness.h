@@ -13,7 +13,7 @@ struct ViewBrightness {
   ViewStack<float> cells;
   /// The median of up to 3×3 views at the centre, `[row][column]`.
   Image<float> reference;
-  /// The least reference of the 5×5 cells around: how bright a cell must be whatever parallax moves
+  /// The least reference of the 7×7 cells around: how bright a cell must be whatever parallax moves
   /// into it.
   Image<float> expected;
 

@@ -111,6 +111,10 @@ void CommandLineTest::overruledConventions_areNamed() {
                                 {"units", "without-width"},
                                 {"pattern", "a {row} {col}.png"},
                                 {"snake", true},
+                           {"grid", std::string("1x49")},
+                           {"crop", std::string("9x9")},
+                           {"mosaic", std::string("lenslets")},
+                           {"lenslet", 14},
                                 {"focus", -0.25}};
   QCOMPARE(reading_options_text({}), std::string());
   QCOMPARE(
@@ -126,6 +130,9 @@ void CommandLineTest::readingOptions_readBack() {
                            {"pattern", std::string("view_{row}_{col}.png")},
                            {"snake", true},
                            {"grid", std::string("1x49")},
+                           {"crop", std::string("9x9")},
+                           {"mosaic", std::string("lenslets")},
+                           {"lenslet", 14},
                            {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
