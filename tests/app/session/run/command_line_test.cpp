@@ -111,10 +111,6 @@ void CommandLineTest::overruledConventions_areNamed() {
                                 {"units", "without-width"},
                                 {"pattern", "a {row} {col}.png"},
                                 {"snake", true},
-                           {"grid", std::string("1x49")},
-                           {"crop", std::string("9x9")},
-                           {"mosaic", std::string("lenslets")},
-                           {"lenslet", 14},
                                 {"focus", -0.25}};
   QCOMPARE(reading_options_text({}), std::string());
   QCOMPARE(
