@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/io/grid/image_file.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/image_file.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
