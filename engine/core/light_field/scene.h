@@ -21,6 +21,15 @@ struct FileUse {
   bool is_used = true;
 };
 
+/// Which views were kept of those stored, in canonical order.
+struct ViewCrop {
+  GridShape stored;  ///< Empty: all views were kept.
+  ViewIndex first;   ///< Place of the first view that was kept,
+  GridShape kept;    ///< and how many there are from it.
+  /// Whether views were left out.
+  [[nodiscard]] bool leaves_out() const { return !(kept == stored); }
+};
+
 /// Which conversion to the canonical convention a reader made, and how it was checked.
 struct ConventionReport {
   std::string format;             ///< "archive (lf.h5)", "2016 benchmark folder", "image grid", …
@@ -38,7 +47,8 @@ struct ConventionReport {
                         ///< by it.
   bool reversed_u = false;     ///< Whether stored columns of views were reversed, for companions,
   bool reversed_v = false;     ///< and rows.
-  bool raised_labels = false;  ///< Whether stored labels began at 0 and were raised by one.
+  ViewCrop crop;               ///< Which views were kept, for companions,
+  bool raised_labels = false;  ///< and whether stored labels began at 0 and were raised by one.
 };
 
 /// Sentences for users: `order`, `sign`, or `units` with its check, and who chose it.

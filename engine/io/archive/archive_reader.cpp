@@ -13,6 +13,7 @@
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
+#include "engine/io/open/view_crop.h"
 
 #include <fmt/format.h>
 
@@ -222,6 +223,9 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
            scene, progress);
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));
+  if (report.crop.leaves_out()) {
+    scene.scribbles = cropped(std::move(scene.scribbles), report.crop);
+  }
   scene.companions = find_companions(path.parent_path(), *scene.light_field, report);
   for (const Companion& companion : scene.companions) {
     account.use(companion.path, companion_name(companion.kind));
@@ -267,7 +271,7 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
   return is_there(beside) ? beside : path;
 }
 
-constexpr const char* kOptions[] = {"flip", "units"};
+constexpr const char* kOptions[] = {"flip", "crop", "units"};
 
 }  // namespace
 

@@ -337,7 +337,7 @@ fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "grid"};
+constexpr const char* kOptions[] = {"flip", "crop", "grid"};
 
 }  // namespace
 

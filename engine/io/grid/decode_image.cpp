@@ -4,7 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/system_error.h"
-#include "engine/io/grid/png_check.h"
+#include "engine/io/grid/decode_png.h"
 
 #include <fmt/format.h>
 #include <opencv2/core/utils/logger.hpp>
@@ -46,8 +46,6 @@ void allow_openexr() {
 
 cv::Mat read_mat(const std::filesystem::path& path) {
   allow_openexr();
-  require_readable_file(path);
-  if (is_damaged_png(path)) refuse(path);  // the decoder would print a message of its own
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   cv::Mat decoded;
   try {
@@ -62,6 +60,8 @@ cv::Mat read_mat(const std::filesystem::path& path) {
 }  // namespace
 
 AnyImage decode_image(const std::filesystem::path& path) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png(path);
   const cv::Mat decoded = read_mat(path);
   if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);

@@ -54,7 +54,7 @@ bool is_linear_format(const fs::path& path) {
   return suffix == ".exr" || suffix == ".hdr";
 }
 
-constexpr const char* kOptions[] = {"flip", "pattern", "snake", "grid"};
+constexpr const char* kOptions[] = {"flip", "crop", "pattern", "snake", "grid"};
 
 }  // namespace
 

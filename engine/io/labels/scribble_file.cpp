@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/labels/scribble_dataset.h"
+#include "engine/io/open/view_crop.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,13 @@ constexpr const char* kOwner = "light_field";
 FieldShape shape_of(const Scene& scene) {
   const LightField& field = *scene.light_field;
   return {field.grid(), field.height(), field.width()};
+}
+
+/// With the views that were left out on opening.
+FieldShape stored_shape_of(const Scene& scene) {
+  FieldShape shape = shape_of(scene);
+  if (scene.convention.crop.leaves_out()) shape.grid = scene.convention.crop.stored;
+  return shape;
 }
 
 /// Name of the light-field file, if it is one that labels may lie beside.
@@ -73,20 +81,33 @@ std::uintmax_t file_bytes(const Scribbles& scribbles, const FieldShape& shape,
          (1 << 16);
 }
 
-/// In canonical order, on the views as they are stored.
-Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+/// In canonical order, on all views as they are stored.
+Scribbles read_stored(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+  const FieldShape shape = stored_shape_of(scene);
   StoredScribbles stored =
-      read_scribble_dataset(file, shape_of(scene), scene.convention.raised_labels, progress);
-  put_in_order(stored.scribbles, scene.light_field->grid(), flip_of(scene.convention));
+      read_scribble_dataset(file, shape, scene.convention.raised_labels, progress);
+  put_in_order(stored.scribbles, shape.grid, flip_of(scene.convention));
   return std::move(stored.scribbles);
+}
+
+/// On the views of the scene, as these are stored.
+Scribbles read_unmoved(const Hdf5Input& file, const Scene& scene, const Progress& progress) {
+  Scribbles stored = read_stored(file, scene, progress);
+  const ViewCrop& crop = scene.convention.crop;
+  return crop.leaves_out() ? cropped(std::move(stored), crop) : stored;
 }
 
 /// As they belong on the views as they are stored, where `former` may have more.
 Scribbles put_back(const Scribbles& scribbles, const Hdf5Input* former, const Scene& scene,
                    const Progress& progress) {
   const bool has_more = former && former->has(kScribbles);
-  return unsheared(scribbles, has_more ? read_unmoved(*former, scene, progress) : Scribbles(),
-                   scene.light_field->center(), scene.convention.focus_px);
+  const auto before = [&](auto& read) {
+    return has_more ? read(*former, scene, progress) : Scribbles();
+  };
+  const ViewCrop& crop = scene.convention.crop;
+  Scribbles unmoved = unsheared(scribbles, before(read_unmoved), scene.light_field->center(),
+                                scene.convention.focus_px);
+  return crop.leaves_out() ? uncropped(std::move(unmoved), before(read_stored), crop) : unmoved;
 }
 
 }  // namespace
@@ -100,13 +121,13 @@ Scribbles read_scribbles(const fs::path& path, const Scene& scene, const Progres
 void write_scribbles(const fs::path& path, const Scribbles& scribbles, const Scene& scene,
                      const Progress& progress) {
   progress.check();
-  const FieldShape shape = shape_of(scene);
-  require_fitting(path, scribbles, shape);
+  require_fitting(path, scribbles, shape_of(scene));
+  const FieldShape shape = stored_shape_of(scene);
   const std::unique_ptr<Hdf5Input> former = open_former(path, scene);
-  const Scribbles moved = scene.convention.focus_px == 0
-                              ? Scribbles()
-                              : put_back(scribbles, former.get(), scene, progress);
-  const Scribbles& stored = scene.convention.focus_px == 0 ? scribbles : moved;
+  const bool is_as_stored = scene.convention.focus_px == 0 && !scene.convention.crop.leaves_out();
+  const Scribbles moved =
+      is_as_stored ? Scribbles() : put_back(scribbles, former.get(), scene, progress);
+  const Scribbles& stored = is_as_stored ? scribbles : moved;
   AtomicFile target(path, file_bytes(stored, shape, path));
   Hdf5Output file(target);
   const std::string owner = owner_name(scene);

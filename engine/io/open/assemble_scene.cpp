@@ -2,17 +2,81 @@
 #include "engine/io/open/assemble_scene.h"
 
 #include "engine/io/maps/float_samples.h"
+#include "engine/io/open/black_corners.h"
+#include "engine/io/open/empty_pixels.h"
+#include "engine/io/open/filled_views.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 namespace episcope::io {
+namespace {
+
+GridShape grid_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
+}
+
+void crop_positions(std::vector<CameraPosition>& positions, const ViewCrop& crop) {
+  if (positions.size() != static_cast<std::size_t>(crop.stored.count())) return;
+  std::vector<CameraPosition> kept;
+  for (int i = 0; i < crop.kept.count(); ++i) {
+    const ViewIndex stored = crop.kept.view_at(i, crop.first);
+    kept.push_back(positions[static_cast<std::size_t>(stored.v * crop.stored.u + stored.u)]);
+  }
+  positions = std::move(kept);
+}
+
+/// Parts in canonical order.
+void crop_parts(SceneParts& parts, const ViewCrop& crop) {
+  std::visit([&](auto& stack) { stack = cropped(std::move(stack), crop); }, parts.samples);
+  crop_truth(parts.truth, crop);
+  crop_positions(parts.info.positions, crop);
+  parts.valid = cropped(std::move(parts.valid), crop);
+}
+
+ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBrightness& brightness) {
+  if (option == "all") return central_crop(stored, stored);
+  return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
+}
+
+/// Leaves out views that are dark, or that the user does not want, and marks dark pixels of the
+/// others.
+void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
+                        const Progress& progress) {
+  progress.step("looking for dark views");
+  ViewBrightness brightness = measure_brightness(parts.samples, parts.valid, progress);
+  const ViewCrop crop = find_crop(options.crop, grid_of(parts.samples), brightness);
+  if (crop.leaves_out()) {
+    if (options.crop.empty()) report.warnings.push_back(crop_text(crop, brightness));
+    crop_parts(parts, crop);
+    brightness.cells = cropped(std::move(brightness.cells), crop);
+    report.crop = crop;
+  }
+  const auto [height, width] = std::visit(
+      [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, parts.samples);
+  for (std::string text : {mark_empty_pixels(brightness, height, width, parts.valid, progress),
+                           mark_black_corners(parts.samples, parts.valid, progress)}) {
+    if (!text.empty()) report.warnings.push_back(std::move(text));
+  }
+  if (parts.valid.empty()) return;
+  const std::uint8_t* valid = parts.valid.data();
+  const bool is_whole =
+      std::all_of(valid, valid + parts.valid.size(), [](std::uint8_t pixel) { return pixel != 0; });
+  if (is_whole) parts.valid = {};
+}
+
+}  // namespace
 
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
+  const GridShape stored = grid_of(parts.samples);
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, scene.convention,
                progress);
+  reverse_views(parts.valid, stored, flip_of(scene.convention));
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
+  keep_what_was_seen(parts, options, scene.convention, progress);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
   scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),

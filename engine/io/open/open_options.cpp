@@ -5,6 +5,7 @@ namespace episcope::io {
 namespace {
 
 constexpr double kMaxFocus_px = 1000;
+constexpr int kLargestLenslet = 100;
 
 }  // namespace
 
@@ -52,6 +53,15 @@ Schema<OpenOptions> open_schema() {
           {"Grid of views",
            "Rows and columns of views, where the files do not tell: 9x9, or 1x49 for a scan along "
            "a line"})
+      .text(
+          "crop", &O::crop,
+          {"Views to keep",
+           "Rows and columns of views to keep around the centre: 9x9, or all; empty = the largest "
+           "grid whose views are filled"})
+      .choice("mosaic", &O::mosaic, {"Mosaic", "How one image holds all views"})
+      .integer("lenslet", &O::lenslet,
+               {"Lenslet", "Pixels along a side of a lenslet of a mosaic; 0 = detected", "px"},
+               {0, kLargestLenslet})
       .real(
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},

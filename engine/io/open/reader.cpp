@@ -6,6 +6,7 @@
 #include "engine/io/benchmark/benchmark_reader.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/image_grid_reader.h"
+#include "engine/io/mosaic/mosaic_reader.h"
 
 #include <algorithm>
 
@@ -14,8 +15,8 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {archive_reader(), benchmark_reader(), excerpt_reader(),
-                                    image_grid_reader()};
+  static const Reader kReaders[] = {mosaic_reader(), archive_reader(), benchmark_reader(),
+                                    excerpt_reader(), image_grid_reader()};
   return kReaders;
 }
 

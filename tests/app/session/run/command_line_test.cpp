@@ -126,6 +126,9 @@ void CommandLineTest::readingOptions_readBack() {
                            {"pattern", std::string("view_{row}_{col}.png")},
                            {"snake", true},
                            {"grid", std::string("1x49")},
+                           {"crop", std::string("9x9")},
+                           {"mosaic", std::string("lenslets")},
+                           {"lenslet", 14},
                            {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
+#include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_file.h"
-#include "engine/io/grid/png_check.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -234,7 +234,7 @@ class ContradictionTest : public QObject {
     QVERIFY(warns(read, "The file of probabilities (depth) is ignored"));
   }
 
-  void damagedPng_isFoundBeforeItIsDecoded_data() {
+  void damagedPng_isRefused_data() {
     QTest::addColumn<int>("kept");
     QTest::addColumn<int>("changed");
     QTest::addColumn<bool>("is_damaged");
@@ -243,9 +243,9 @@ class ContradictionTest : public QObject {
     QTest::newRow("cut in the middle") << 300 << -1 << true;
     QTest::newRow("cut after the signature") << 8 << -1 << true;
     QTest::newRow("one byte changed") << all << 200 << true;
-    QTest::newRow("no PNG") << all << 0 << false;
+    QTest::newRow("no PNG") << all << 0 << true;
   }
-  void damagedPng_isFoundBeforeItIsDecoded() {
+  void damagedPng_isRefused() {
     QFETCH(int, kept);
     QFETCH(int, changed);
     QFETCH(bool, is_damaged);
@@ -259,7 +259,11 @@ class ContradictionTest : public QObject {
     file.write(bytes);
     file.close();
 
-    QCOMPARE(io::is_damaged_png(path("view.png")), is_damaged);
+    if (is_damaged) {
+      QVERIFY_THROWS_EXCEPTION(IoError, (void)io::decode_image(path("view.png")));
+    } else {
+      QVERIFY(std::get<Image<std::uint8_t>>(io::decode_image(path("view.png"))).width() == 80);
+    }
   }
 
   void unknownCamera_staysUnknownInABenchmarkFolder() {

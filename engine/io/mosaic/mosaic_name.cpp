@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/mosaic/mosaic_name.h"
+
+#include "engine/io/grid/decode_image.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+namespace episcope::io {
+namespace {
+
+/// "eslf" and "flower_eslf", but not "heslf".
+bool ends_with_word(const std::string& stem, std::string_view word) {
+  if (!stem.ends_with(word)) return false;
+  if (stem.size() == word.size()) return true;
+  const char before = stem[stem.size() - word.size() - 1];
+  return before == '_' || before == '-' || before == '.' || before == ' ';
+}
+
+}  // namespace
+
+MosaicName mosaic_name(const std::filesystem::path& path) {
+  if (!is_image_name(path)) return MosaicName::Plain;
+  std::string stem = path.stem().string();
+  std::ranges::transform(stem, stem.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ends_with_word(stem, "eslf")) return MosaicName::Eslf;
+  for (const char* word : {"macpi", "lenslet", "lenslets"}) {
+    if (ends_with_word(stem, word)) return MosaicName::Lenslets;
+  }
+  return stem == "lf" ? MosaicName::Mosaic : MosaicName::Plain;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// What the name of a picture says about the views in it.
+enum class MosaicName {
+  Plain,     ///< Nothing.
+  Mosaic,    ///< "lf.bmp", "lf.png", …: all views, in a way that is not told.
+  Lenslets,  ///< "*_macpi.*", "*_lenslet.*", "*_lenslets.*".
+  Eslf       ///< "*_eslf.*": lenslets of a Lytro camera.
+};
+
+/// Regardless of case. Plain for a file that is no image.
+[[nodiscard]] MosaicName mosaic_name(const std::filesystem::path& path);
+
+}  // namespace episcope::io

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/mosaic/mosaic_reader.h"
+
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/maps/float_samples.h"
+#include "engine/io/mosaic/find_mosaic.h"
+#include "engine/io/mosaic/split_mosaic.h"
+#include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/center_preview.h"
+#include "engine/io/open/folder_account.h"
+#include "engine/io/open/grid_option.h"
+#include "engine/io/open/scene_folder.h"
+#include "engine/io/open/scene_name.h"
+
+#include <fmt/format.h>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string format_of(const MosaicLayout& layout) {
+  const std::string grid = grid_text(layout.grid);
+  return layout.kind == Mosaic::Lenslets
+             ? fmt::format("mosaic of lenslets of {} px ({})", grid, layout.evidence)
+             : fmt::format("mosaic of {} views side by side ({})", grid, layout.evidence);
+}
+
+/// Of sizes that the grid does not divide.
+void report_remainder(const AnyImage& picture, const MosaicLayout& layout,
+                      ConventionReport& report) {
+  const auto [height, width] = std::visit(
+      [](const auto& image) { return std::pair(image.height(), image.width()); }, picture);
+  const int rows = height - layout.height * layout.grid.v;
+  const int columns = width - layout.width * layout.grid.u;
+  if (rows == 0 && columns == 0) return;
+  report.warnings.push_back(
+      fmt::format("The picture has {}×{} px, which {} does not divide: the last {} columns and {} "
+                  "rows of pixels are left out.",
+                  width, height, grid_text(layout.grid), columns, rows));
+}
+
+std::vector<FileUse> account_of(const fs::path& path) {
+  // Mosaics beside it are light fields of their own.
+  FolderAccount account(is_only_mosaic(path) ? scene_folder(path) : path);
+  account.use(path, "picture of all views");
+  return account.uses();
+}
+
+Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  progress.step("reading the picture");
+  const AnyImage picture = decode_image(path);
+  progress.check();
+  const MosaicLayout layout = find_mosaic_layout(picture, path, options);
+  LightFieldInfo info{
+      scene_name(path), path.string(), {}, std::nullopt, {.reader = "mosaic", .options = {}}};
+  if (options.on_center_view) {
+    const AnyImage center = mosaic_view(picture, layout, layout.grid.center());
+    std::visit(
+        [&](const auto& view) {
+          options.on_center_view(preview_rgb(view.view()), info, layout.grid);
+        },
+        center);
+  }
+  Scene scene;
+  ConventionReport& report = scene.convention;
+  report.format = format_of(layout);
+  report.units = "no depth in a mosaic";
+  report_remainder(picture, layout, report);
+  progress.step("splitting the picture into views");
+  LightField::Samples samples = split_mosaic(picture, layout, progress.part(0.5, 0.8));
+  scale_float_samples(samples, report);
+  SceneParts parts;
+  parts.samples = std::move(samples);
+  parts.info = std::move(info);
+  parts.expected.reason = "mosaics hold rows and columns of views in order";
+  parts.files = account_of(path);
+  assemble(std::move(parts), options, scene, progress);
+  return scene;
+}
+
+constexpr const char* kOptions[] = {"flip", "grid", "crop", "mosaic", "lenslet"};
+
+}  // namespace
+
+Reader mosaic_reader() {
+  return {.id = "mosaic",
+          .name = "a mosaic of views",
+          .options = kOptions,
+          .find = find_mosaic,
+          .read = read_mosaic};
+}
+
+}  // namespace episcope::io
