@@ -25,6 +25,7 @@ struct Hdf5Dataset {
   std::string name;  ///< Path inside the file, without a leading slash.
   Hdf5Shape shape;
   Hdf5Type type = Hdf5Type::Other;  ///< `Integer`: any other width or sign.
+  Hdf5Shape chunk{};  ///< Of the blocks that are stored one by one; empty if there are none.
 };
 
 /// A block of a dataset: `count[i]` elements from `start[i]` on along each axis.
@@ -51,7 +52,7 @@ class Hdf5Input {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& name) const;
-  /// Datasets of the root group and of the groups directly in it, by name.
+  /// Datasets of the root group and of the groups in it, at most three deep, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
   /// Throws IoError, naming what the file holds, if there is no such dataset; also for a group.
   [[nodiscard]] Hdf5Dataset dataset(const std::string& name) const;
@@ -85,7 +86,8 @@ class Hdf5Input {
 /// names the target of `file`.
 class Hdf5Output {
  public:
-  explicit Hdf5Output(const AtomicFile& file);
+  /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
+  explicit Hdf5Output(const AtomicFile& file, std::size_t user_bytes = 0);
   ~Hdf5Output();
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
@@ -106,6 +108,8 @@ class Hdf5Output {
   void set_numbers(const std::string& object, const std::string& name,
                    const std::vector<double>& values);
   void set_text(const std::string& object, const std::string& name, const std::string& value);
+  /// As MATLAB writes text: ASCII, of fixed length, without an end.
+  void set_ascii(const std::string& object, const std::string& name, const std::string& value);
 
   /// Flushes and closes. Throws IoError if anything could not be written.
   void close();

@@ -129,6 +129,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"crop", std::string("9x9")},
                            {"mosaic", std::string("lenslets")},
                            {"lenslet", 14},
+                           {"dataset", std::string("s/LF")},
+                           {"axes", std::string("vuyxc")},
                            {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_maps.h"
+
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_samples.h"
+#include "engine/io/beside/map_name.h"
+#include "engine/io/beside/near_side.h"
+#include "engine/io/maps/foreign_result.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace episcope::io {
+namespace {
+
+std::optional<MapKind> kind_of(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return std::nullopt;
+  const std::string name = entry.name.substr(entry.name.rfind('/') + 1);
+  if (lower_case(name) == "gt") return MapKind::Disparity;
+  return map_kind(name);
+}
+
+/// The light field's layout without the letters that a map of this shape lacks.
+std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout& light_field,
+                                      IndexOrder order) {
+  ArrayLayout layout{entry.shape, {}};
+  ArrayShape shape;
+  std::string all;
+  for (const char letter : in_index_order(light_field.axes, order)) {
+    if (letter != 'c') all += letter;
+  }
+  std::string pixels;
+  for (const char letter : all) {
+    if (letter == 'y' || letter == 'x') pixels += letter;
+  }
+  for (const std::string& axes : {all, pixels, std::string("vuyx"), std::string("yx")}) {
+    layout.axes = in_index_order(axes, entry.order);
+    if (layout.axes.size() != entry.shape.size()) continue;
+    const auto fits = [&](char letter) {
+      return layout.length(letter) == light_field.length(letter);
+    };
+    if (std::ranges::all_of(axes, fits)) return layout;
+  }
+  return std::nullopt;
+}
+
+/// A map of one view belongs to the centre.
+template <class T>
+ViewStack<T> read_maps(const ArrayInput& array, const ArrayLayout& layout, GridShape grid,
+                       const Progress& progress) {
+  ViewStack<T> maps = read_map_stack<T>(array, layout, progress);
+  if (maps.grid().count() > 1 || grid.count() == 1) return maps;
+  ViewStack<T> center({1, 1}, maps.height(), maps.width(), 1, grid.center());
+  std::copy_n(maps.data(), maps.size(), center.data());
+  return center;
+}
+
+ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind kind) {
+  ViewStack<std::uint8_t> mask(numbers.grid(), numbers.height(), numbers.width(), 1,
+                               numbers.first());
+  std::transform(numbers.data(), numbers.data() + numbers.size(), mask.data(),
+                 [&](std::int32_t number) {
+                   return static_cast<std::uint8_t>((number != 0) == (kind == MapKind::Valid));
+                 });
+  return mask;
+}
+
+FileUse not_used(const ArrayEntry& entry) {
+  const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
+  return {entry.other_kind.empty() ? "array of " + shape : entry.other_kind, 1, entry.name, false};
+}
+
+}  // namespace
+
+ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
+                          const ArrayLayout& layout, bool wants_labels, const Progress& progress) {
+  ArrayMaps maps;
+  const GridShape grid = layout.grid();
+  for (const ArrayEntry& entry : file.entries()) {
+    if (&entry == &light_field || entry.name.starts_with(light_field.name + "/")) continue;
+    progress.check();
+    const auto kind = kind_of(entry);
+    const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
+    const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
+    if (axes && kind == MapKind::Disparity && maps.truth.field.empty()) {
+      maps.truth.field.disparity = read_maps<float>(*file.open(entry), *axes, grid, progress);
+      mark_invalid(maps.truth.field);
+      maps.disparity_name = entry.name;
+    } else if (axes && kind == MapKind::Labels && maps.truth.labels.empty()) {
+      if (wants_labels) {
+        maps.truth.labels = read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress);
+      }
+    } else if (axes && is_mask && axes->grid().count() == grid.count() && maps.valid.empty()) {
+      maps.valid =
+          mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress), *kind);
+    } else {
+      maps.uses.push_back(not_used(entry));
+      continue;
+    }
+    maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
+  }
+  return maps;
+}
+
+void settle_disparity(const std::string& name, const LightField::Samples& samples,
+                      DisparityField& field, ConventionReport& report) {
+  if (field.empty()) return;
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
+  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const SettledUnit settled = settle_unit(samples, at, field.view(at), common_units(grid, width));
+  const double factor = settled.unit.factor;
+  NearSide side;
+  if (settled.explanation.is_good()) {
+    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+  }
+  const bool is_reversed = side.is_decided() && !side.larger_is_nearer();
+  const double scale = is_reversed ? -factor : factor;
+  if (scale != 1) {
+    std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                  [&](float& value) { value = static_cast<float>(scale * value); });
+  }
+  report.units = fmt::format("disparity of {}: {}{}", name, settled.unit.text,
+                             is_reversed ? ", negative = nearer" : "");
+  report.units_check =
+      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
+                  settled.explanation.error, settled.explanation.unwarped);
+  if (!side.is_decided()) return;
+  report.units_check += fmt::format(
+      "; {} values hide others in other views (grey error {:.2f}, the hidden ones "
+      "{:.2f}, {} pairs)",
+      is_reversed ? "smaller" : "larger", std::min(side.larger, side.smaller),
+      std::max(side.larger, side.smaller), side.points);
+}
+
+}  // namespace episcope::io

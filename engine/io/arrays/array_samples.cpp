@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_samples.h"
+
+#include "engine/core/error.h"
+#include "engine/io/arrays/block_plan.h"
+#include "engine/io/arrays/move_block.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::size_t kBlockBytes = std::size_t{64} << 20;
+constexpr std::string_view kLetters = "vuyxc";
+
+/// Where the axes of a block lie among v, u, y, x, c; a list is a row of views.
+struct BlockAxes {
+  FiveAxes start{};
+  FiveAxes count{1, 1, 1, 1, 1};
+  FiveAxes stride{};
+};
+
+BlockAxes axes_of(const ArrayBlock& block, const ArrayLayout& layout) {
+  BlockAxes axes;
+  std::size_t stride = 1;
+  for (std::size_t axis = layout.axes.size(); axis-- > 0;) {
+    const char letter = layout.axes[axis] == 'n' ? 'u' : layout.axes[axis];
+    const std::size_t at = kLetters.find(letter);
+    axes.start[at] = block.start[axis];
+    axes.count[at] = block.count[axis];
+    axes.stride[at] = stride;
+    stride *= block.count[axis];
+  }
+  return axes;
+}
+
+template <class T>
+PlacedSamples<T> place_of(ViewStack<T>& stack, const BlockAxes& axes) {
+  PlacedSamples<T> placed{stack.data(), strides_of(stack)};
+  for (std::size_t i = 0; i < 4; ++i) placed.data += axes.start[i] * placed.stride[i];
+  return placed;
+}
+
+/// Chunks, with all channels of a pixel, so that its place in the views is visited once.
+ArrayShape unit_of(const ArrayInput& array, const ArrayLayout& layout) {
+  ArrayShape unit = array.unit();
+  const std::size_t channels = layout.axes.find('c');
+  const bool may_skip = !array.is_sequential();
+  if (channels != std::string::npos && may_skip) unit[channels] = array.shape()[channels];
+  return unit;
+}
+
+template <class T, class UseBlock>
+void for_each_block(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress,
+                    const UseBlock& use) {
+  const auto blocks = plan_blocks(array.shape(), unit_of(array, layout), kBlockBytes / sizeof(T));
+  LargeArray<T> samples;
+  std::size_t room = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    progress.check();
+    const std::size_t size = element_count(blocks[i].count);
+    if (size > room) {
+      samples = make_large<T>(size);
+      room = size;
+    }
+    array.read(blocks[i].start, blocks[i].count, samples.get());
+    use(samples.get(), axes_of(blocks[i], layout));
+    progress.report((i + 1.0) / static_cast<double>(blocks.size()));
+  }
+}
+
+void require_memory(const ArrayInput& array, std::size_t bytes) {
+  const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
+  const std::size_t memory = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  if (bytes < memory) return;
+  constexpr double kGigabyte = 1e9;
+  throw IoError(
+      array.path(),
+      fmt::format("the views need {:.1f} GB of memory, but this machine has {:.1f} GB; "
+                  "store fewer views or smaller ones",
+                  static_cast<double>(bytes) / kGigabyte, static_cast<double>(memory) / kGigabyte));
+}
+
+template <class T>
+ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress) {
+  const std::size_t stored = layout.length('c');
+  const std::size_t channels = std::min<std::size_t>(stored, 3);
+  require_memory(array, element_count(array.shape()) * sizeof(T));
+  ViewStack<T> stack(layout.grid(), layout.height(), layout.width(), static_cast<int>(channels));
+  ViewStack<std::uint8_t> valid;
+  if (stored == 4) {
+    valid = ViewStack<std::uint8_t>(layout.grid(), layout.height(), layout.width());
+    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  }
+  const bool views_are_fastest = layout.views_are_fastest();
+  for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
+    const std::size_t first = axes.start[4];
+    const std::size_t last = std::min(first + axes.count[4], channels);
+    FiveAxes count = axes.count;
+    if (first < last) {
+      PlacedSamples<T> place = place_of(stack, axes);
+      place.data += first;
+      count[4] = last - first;
+      move_block<T, T>({samples, axes.stride}, place, count, views_are_fastest,
+                       [](T sample) { return sample; });
+    }
+    if (stored < 4 || first + axes.count[4] < 4) return;
+    count[4] = 1;
+    move_block<T, std::uint8_t>({samples + (3 - first) * axes.stride[4], axes.stride},
+                                place_of(valid, axes), count, views_are_fastest,
+                                [](T weight) { return static_cast<std::uint8_t>(weight > 0); });
+  });
+  const std::uint8_t* end = valid.data() + valid.size();
+  if (std::find(valid.data(), const_cast<std::uint8_t*>(end), 0) == end) valid = {};
+  return {std::move(stack), std::move(valid)};
+}
+
+/// Integers that bytes can hold, as bytes.
+void narrow(LightField::Samples& samples) {
+  const auto& wide = std::get<ViewStack<std::uint16_t>>(samples);
+  constexpr std::uint16_t kLargest = std::numeric_limits<std::uint8_t>::max();
+  if (std::any_of(wide.data(), wide.data() + wide.size(),
+                  [](std::uint16_t sample) { return sample > kLargest; })) {
+    return;
+  }
+  ViewStack<std::uint8_t> bytes(wide.grid(), wide.height(), wide.width(), wide.channels());
+  std::transform(wide.data(), wide.data() + wide.size(), bytes.data(),
+                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
+  samples = std::move(bytes);
+}
+
+}  // namespace
+
+ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
+                          const Progress& progress) {
+  const NumberType type = array.type();
+  if (is_float(type)) return read_as<float>(array, layout, progress);
+  if (byte_size(type) == 1 && type != NumberType::Int8) {
+    return read_as<std::uint8_t>(array, layout, progress);
+  }
+  ArraySamples read = read_as<std::uint16_t>(array, layout, progress);
+  if (type != NumberType::UInt16) narrow(read.samples);
+  return read;
+}
+
+template <class T>
+ViewStack<T> read_map_stack(const ArrayInput& array, const ArrayLayout& layout,
+                            const Progress& progress) {
+  require_memory(array, element_count(array.shape()) * sizeof(T));
+  ViewStack<T> stack(layout.grid(), layout.height(), layout.width());
+  for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
+    move_block<T, T>({samples, axes.stride}, place_of(stack, axes), axes.count,
+                     layout.views_are_fastest(), [](T sample) { return sample; });
+  });
+  return stack;
+}
+
+template ViewStack<float> read_map_stack(const ArrayInput&, const ArrayLayout&, const Progress&);
+template ViewStack<std::int32_t> read_map_stack(const ArrayInput&, const ArrayLayout&,
+                                                const Progress&);
+
+}  // namespace episcope::io
