@@ -125,7 +125,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"units", std::string("without-width")},
                            {"pattern", std::string("view_{row}_{col}.png")},
                            {"snake", true},
-                           {Reading::kFocus, -0.1}};
+                           {Reading::kFocus, -0.1},
+                           {"equalise", true}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
   const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');
