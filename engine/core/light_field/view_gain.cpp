@@ -18,14 +18,15 @@ namespace episcope {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr int kBlocksAcross = 12;
-constexpr int kMinBlock = 6;  // px
-constexpr int kRowsOfBlock = 12;
+constexpr int kBlocksAcross = 10;
+constexpr int kMinBlock = 6;       // px
+constexpr int kSamplesAcross = 6;  // of a block, in each direction
+constexpr int kSamples = kSamplesAcross * kSamplesAcross;
+constexpr int kLeastSamples = kSamples * 4 / 5;  // that must count
+constexpr int kReach = 6;                        // px of disparity
 // Samples in [0, 1]: clipped above, and mean of a block that is too dark to tell a ratio.
 constexpr float kClipped = 0.98F;
 constexpr float kDark = 0.03F;
-// Share of the pixels of a block that may be clipped or invalid.
-constexpr double kTolerated = 0.02;
 constexpr std::size_t kMinBlocks = 8;
 constexpr int kSweeps = 200;
 // Channels and their sum.
@@ -33,109 +34,182 @@ constexpr int kMaxQuantities = 4;
 
 using Quantities = std::array<float, kMaxQuantities>;
 
-// Means of the blocks of one view; the last quantity is NaN where a block does not count.
-using Blocks = std::vector<Quantities>;
-
 template <class T>
 constexpr float kUnit = std::is_integral_v<T>
                             ? 1.0F / static_cast<float>(std::numeric_limits<T>::max())
                             : 1.0F;
 
+// Two neighbouring views: what a block of the one shows stands some px along `way` in the other.
+struct Pair {
+  ViewIndex from, to;
+  PixelIndex way;
+};
+
+// Compares blocks of two views of one light field.
 template <class T>
-class BlockMeans {
+class BlockRatios {
  public:
-  BlockMeans(const ViewStack<T>& stack, const ViewStack<std::uint8_t>& valid)
+  BlockRatios(const ViewStack<T>& stack, const ViewStack<std::uint8_t>& valid)
       : stack_(stack),
         valid_(valid),
-        side_(std::max(kMinBlock, std::min(stack.height(), stack.width()) / kBlocksAcross)),
-        row_step_(std::max(1, side_ / kRowsOfBlock)) {}
+        side_(std::max(kMinBlock, std::min(stack.height(), stack.width()) / kBlocksAcross)) {}
 
-  [[nodiscard]] Blocks of(ViewIndex view) const {
-    Blocks blocks;
+  // Logarithms of the ratios of each quantity, by blocks that can be compared.
+  [[nodiscard]] std::vector<Quantities> of(const Pair& pair) const {
+    std::vector<Quantities> ratios;
     for (int y = 0; y + side_ <= stack_.height(); y += side_) {
-      for (int x = 0; x + side_ <= stack_.width(); x += side_) blocks.push_back(mean(view, {y, x}));
+      for (int x = 0; x + side_ <= stack_.width(); x += side_) {
+        if (const auto ratio = best_match(pair, {y, x})) ratios.push_back(*ratio);
+      }
     }
-    return blocks;
+    return ratios;
   }
 
  private:
-  [[nodiscard]] Quantities mean(ViewIndex view, PixelIndex begin) const {
+  struct Match {
+    Quantities log_ratio;
+    float misfit = 0;
+  };
+
+  // Channels and their sum; empty where the sample does not count.
+  [[nodiscard]] std::optional<Quantities> sample(ViewIndex view, PixelIndex at) const {
+    if (at.y < 0 || at.x < 0 || at.y >= stack_.height() || at.x >= stack_.width()) return {};
+    if (!valid_.empty() && valid_.view(view).at(at.y, at.x) == 0) return {};
     const ImageView<const T> image = stack_.view(view);
-    Quantities sums{};
-    int left_out = 0, pixels = 0;
-    for (int y = begin.y; y < begin.y + side_; y += row_step_) {
-      const std::uint8_t* const known = valid_.empty() ? nullptr : valid_.view(view).row(y);
-      for (int x = begin.x; x < begin.x + side_; ++x) {
-        float largest = 0;
-        for (int c = 0; c < image.channels; ++c) {
-          const float sample = kUnit<T> * static_cast<float>(image.at(y, x, c));
-          sums[c] += sample;
-          largest = std::max(largest, sample);
-        }
-        left_out += largest >= kClipped || (known && known[x] == 0) ? 1 : 0;
-        ++pixels;
-      }
+    Quantities values{};
+    for (int c = 0; c < image.channels; ++c) {
+      values[c] = kUnit<T> * static_cast<float>(image.at(at.y, at.x, c));
+      if (!(values[c] < kClipped)) return {};
+      values[image.channels] += values[c];
     }
-    const int channels = image.channels;
-    for (int c = 0; c < channels; ++c) sums[c] /= static_cast<float>(pixels);
-    const float overall = std::accumulate(sums.begin(), sums.begin() + channels, 0.0F);
-    const bool counts = left_out <= kTolerated * pixels && overall > kDark * channels;
-    sums[channels] = counts ? overall : static_cast<float>(kNan);
-    return sums;
+    return values;
+  }
+
+  // Samples of a block that count, in the view that pairs begin with.
+  struct Block {
+    std::array<PixelIndex, kSamples> at;
+    std::array<Quantities, kSamples> values;
+    int count = 0;
+  };
+
+  [[nodiscard]] Block block_at(ViewIndex view, PixelIndex begin) const {
+    Block block;
+    for (int i = 0; i < kSamples; ++i) {
+      const PixelIndex at{begin.y + i / kSamplesAcross * side_ / kSamplesAcross,
+                          begin.x + i % kSamplesAcross * side_ / kSamplesAcross};
+      const auto values = sample(view, at);
+      if (!values) continue;
+      block.at[block.count] = at;
+      block.values[block.count++] = *values;
+    }
+    return block;
+  }
+
+  [[nodiscard]] std::optional<Match> match(const Pair& pair, const Block& block, int shift) const {
+    const int overall = stack_.channels();
+    std::array<std::array<float, 2>, kSamples> brightness;
+    Quantities from{}, to{};
+    int count = 0;
+    for (int i = 0; i < block.count; ++i) {
+      const PixelIndex at = block.at[i];
+      const auto there = sample(pair.to, {at.y + shift * pair.way.y, at.x + shift * pair.way.x});
+      if (!there) continue;
+      for (int q = 0; q <= overall; ++q) {
+        from[q] += block.values[i][q];
+        to[q] += (*there)[q];
+      }
+      brightness[count++] = {block.values[i][overall], (*there)[overall]};
+    }
+    const auto counted = static_cast<float>(count);
+    const bool is_dark =
+        std::min(from[overall], to[overall]) < kDark * counted * static_cast<float>(overall);
+    if (count < kLeastSamples || is_dark) return {};
+    Match match;
+    for (int q = 0; q <= overall; ++q) match.log_ratio[q] = std::log(to[q] / from[q]);
+    const float ratio = to[overall] / from[overall];
+    for (int i = 0; i < count; ++i) {
+      match.misfit += std::abs(brightness[i][1] - ratio * brightness[i][0]) / counted;
+    }
+    return match;
+  }
+
+  // Every other shift first, then those beside the best.
+  [[nodiscard]] std::optional<Quantities> best_match(const Pair& pair, PixelIndex begin) const {
+    const Block block = block_at(pair.from, begin);
+    if (block.count < kLeastSamples) return {};
+    std::optional<Match> best;
+    int best_shift = 0;
+    const auto look = [&](int shift) {
+      const auto other = match(pair, block, shift);
+      if (!other || (best && best->misfit <= other->misfit)) return;
+      best = other;
+      best_shift = shift;
+    };
+    for (int shift = -kReach; shift <= kReach; shift += 2) look(shift);
+    if (!best) return {};
+    for (const int shift : {best_shift - 1, best_shift + 1}) look(shift);
+    return best->log_ratio;
   }
 
   const ViewStack<T>& stack_;
   const ViewStack<std::uint8_t>& valid_;
   int side_;
-  int row_step_;
 };
 
-std::vector<Blocks> block_means(const LightField::Samples& samples,
-                                const ViewStack<std::uint8_t>& valid, const Progress& progress) {
-  return std::visit(
-      [&]<class T>(const ViewStack<T>& stack) {
-        const BlockMeans<T> means(stack, valid);
-        std::vector<Blocks> blocks(stack.grid().count());
-        parallel_for(stack.grid().count(), progress,
-                     [&](int i) { blocks[i] = means.of(stack.view_at(i)); });
-        return blocks;
-      },
-      samples);
+std::vector<Pair> pairs_of(GridShape grid) {
+  std::vector<Pair> pairs;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex view = grid.view_at(i);
+    const ViewIndex right{view.v, view.u + 1}, below{view.v + 1, view.u};
+    if (grid.contains(right)) pairs.push_back({view, right, {0, 1}});
+    if (grid.contains(below)) pairs.push_back({view, below, {1, 0}});
+  }
+  return pairs;
 }
 
-// What two neighbouring views say: the logarithm of their ratio, and how surely.
+// What two neighbouring views say of a quantity: the logarithm of their ratio, and how surely.
 struct Ratio {
   int from = 0, to = 0;
   double log_ratio = 0, weight = 0;
 };
 
-std::optional<Ratio> ratio_of(const std::vector<Blocks>& views, int from, int to, int quantity,
-                              int channels) {
+std::optional<Ratio> summed_up(const std::vector<Quantities>& blocks, int quantity) {
   std::vector<float> logs;
-  for (std::size_t i = 0; i < views[from].size(); ++i) {
-    const Quantities& a = views[from][i];
-    const Quantities& b = views[to][i];
-    if (!std::isfinite(a[channels] + b[channels]) || a[quantity] <= 0 || b[quantity] <= 0) continue;
-    logs.push_back(std::log(b[quantity] / a[quantity]));
+  for (const Quantities& block : blocks) {
+    if (std::isfinite(block[quantity])) logs.push_back(block[quantity]);
   }
   if (logs.size() < kMinBlocks) return {};
+  const auto count = static_cast<double>(logs.size());
   const float median = quantile(logs, 0.5);
   for (float& value : logs) value = std::abs(value - median);
   const double spread = quantile(logs, 0.5);
-  // As far as rounding lets ratios agree.
-  constexpr double kLeastSpread = 1e-4;
-  return Ratio{from, to, median,
-               static_cast<double>(logs.size()) / (spread * spread + kLeastSpread * kLeastSpread)};
+  constexpr double kLeastSpread = 1e-3;  // of rounding
+  return Ratio{0, 0, median, count / (spread * spread + kLeastSpread * kLeastSpread)};
 }
 
-std::vector<Ratio> ratios_of(const std::vector<Blocks>& views, GridShape grid, int quantity,
-                             int channels) {
-  std::vector<Ratio> ratios;
-  for (int i = 0; i < grid.count(); ++i) {
-    const bool has_right = i % grid.u + 1 < grid.u, has_below = i / grid.u + 1 < grid.v;
-    for (const int to : {has_right ? i + 1 : -1, has_below ? i + grid.u : -1}) {
-      if (to < 0) continue;
-      if (const auto ratio = ratio_of(views, i, to, quantity, channels)) ratios.push_back(*ratio);
+// By quantity.
+using Ratios = std::array<std::vector<Ratio>, kMaxQuantities>;
+
+Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint8_t>& valid,
+                   const Progress& progress) {
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const std::vector<Pair> pairs = pairs_of(grid);
+  std::vector<std::vector<Quantities>> blocks(pairs.size());
+  std::visit(
+      [&]<class T>(const ViewStack<T>& stack) {
+        const BlockRatios<T> ratios(stack, valid);
+        parallel_for(static_cast<int>(pairs.size()), progress,
+                     [&](int i) { blocks[i] = ratios.of(pairs[i]); });
+      },
+      samples);
+  Ratios ratios;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    for (int quantity = 0; quantity < kMaxQuantities; ++quantity) {
+      std::optional<Ratio> ratio = summed_up(blocks[i], quantity);
+      if (!ratio) continue;
+      ratio->from = pairs[i].from.v * grid.u + pairs[i].from.u;
+      ratio->to = pairs[i].to.v * grid.u + pairs[i].to.u;
+      ratios[quantity].push_back(*ratio);
     }
   }
   return ratios;
@@ -206,12 +280,12 @@ ViewGains measure_view_gains(const LightField::Samples& samples,
       samples);
   const GridShape grid = gains.grid;
   const int channels = gains.channels;
-  const std::vector<Blocks> views = block_means(samples, valid, progress);
+  const Ratios all = find_ratios(samples, valid, progress);
   const int center = grid.center().v * grid.u + grid.center().u;
   gains.channel.resize(static_cast<std::size_t>(grid.count()) * channels);
   gains.overall.resize(grid.count());
   for (int quantity = 0; quantity <= channels; ++quantity) {
-    const std::vector<Ratio> ratios = ratios_of(views, grid, quantity, channels);
+    const std::vector<Ratio>& ratios = all[quantity];
     std::vector<double> logs = spread_from(center, grid.count(), ratios);
     settle(center, ratios, logs);
     for (int i = 0; i < grid.count(); ++i) {

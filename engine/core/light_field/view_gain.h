@@ -24,14 +24,13 @@ struct ViewGains {
   }
 };
 
-/// Measures the gains of views against each other: the median, over blocks of about 1/12 of the
-/// image, of the ratio of the means of a block in two neighbouring views, and the gains that fit
-/// all these ratios best (least squares of their logarithms). Blocks in which either view has
-/// invalid, dark or clipped pixels do not count. Neighbours show almost the same in a block, and
-/// what differs by parallax goes either way: disparities of some px hardly enter.
+/// Measures the gains of views against each other: the median, over blocks of a tenth of the image,
+/// of the ratio of the brightness of a block in two neighbouring views, and the gains that fit all
+/// these ratios best (least squares of their logarithms). A block is compared where the other view
+/// shows it, within 6 px: where the ratio varies least from pixel to pixel, which does not depend
+/// on the gain. Invalid, dark or clipped pixels do not count.
 /// A gain is all that is measured: an offset would be confused with what parallax changes.
-/// `valid`: as LightField::valid. Linear in the size; views are read in some rows. Throws
-/// Cancelled.
+/// `valid`: as LightField::valid. 36 pixels of each block are looked at. Throws Cancelled.
 [[nodiscard]] ViewGains measure_view_gains(const LightField::Samples& samples,
                                            const ViewStack<std::uint8_t>& valid,
                                            const Progress& progress);

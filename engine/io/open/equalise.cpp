@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace episcope::io {
@@ -14,6 +15,15 @@ std::string difference_text(const ViewGains& gains) {
   const ViewIndex view = gains.most_different();
   return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
                      view_text(view), gains.of(view));
+}
+
+// Of any channel.
+double largest_difference(const ViewGains& gains) {
+  double largest = 0;
+  for (const double gain : gains.channel) {
+    if (!std::isnan(gain)) largest = std::max(largest, std::abs(gain - 1));
+  }
+  return largest;
 }
 
 int count_unknown(const ViewGains& gains) {
@@ -36,12 +46,13 @@ void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
     return;
   }
   const bool is_notable = std::abs(gains.of(gains.most_different()) - 1) > kNotableGain;
-  if (is_wanted) {
+  if (is_wanted && largest_difference(gains) > kMeasurableGain) {
     const double clipped = divide_by_gains(parts.samples, gains, progress.part(0.5, 1));
     report.gain = "evened out; it differed by " + difference_text(gains);
     if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
   } else {
     report.gain = "differs by " + difference_text(gains);
+    if (is_wanted) report.gain += "; too little to even it out";
   }
   if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
   if (is_wanted || !is_notable) return;
