@@ -15,7 +15,8 @@ namespace episcope {
 void clear_invalid(const LightField& light_field, ViewStack<float>& maps);
 void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps);
 
-/// Marks the results of invalid pixels as not valid; sets their confidence and number of layers to 0.
+/// Marks the results of invalid pixels as not valid; sets their confidence and number of layers to
+/// 0.
 void mark_invalid(const LightField& light_field, Estimate& estimate);
 
 /// Number of valid pixels of a view.

@@ -25,7 +25,7 @@ void pack_row(const float* samples, int width, int channels, std::uint32_t* out)
 
 void mark_invalid(const std::uint8_t* valid, int width, std::uint32_t* out) {
   for (int x = 0; x < width; ++x) {
-    if (valid[x] == 0) out[x] |= kInvalid;
+    if (valid[x] == 0) out[x] = kInvalid;
   }
 }
 

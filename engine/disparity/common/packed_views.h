@@ -9,8 +9,9 @@
 namespace episcope {
 
 /// All views with each pixel packed into one word: three channels of 10 bits, the first lowest,
-/// each round(1023·s) of a sample s in [0, 1]; grey three times; then a bit that is set where the
-/// pixel is not valid. A single gather then fetches a pixel whatever its type. 4 bytes per ray.
+/// each round(1023·s) of a sample s in [0, 1]; grey three times. Of a pixel that is not valid, a
+/// bit above them and nothing else is set. A single gather then fetches a pixel whatever its type.
+/// 4 bytes per ray.
 struct PackedViews {
   ViewStack<std::uint32_t> pixels;
   bool has_invalid = false;  ///< Whether any may be not valid.

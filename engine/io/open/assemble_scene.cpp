@@ -17,8 +17,8 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   equalise_views(parts, options.equalise, scene.convention, progress);
-  if (scene.convention.samples.empty())
-    scene.convention.samples = stored_samples_text(parts.samples);
+  std::string& samples_text = scene.convention.samples;
+  if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
   scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),
