@@ -22,10 +22,20 @@ struct Shift {
   float fraction_y = 0;
 };
 
-std::vector<Shift> shifts_of(GridShape grid, ViewIndex view, double focus_px) {
+bool shows_something(const LightField& light_field, ViewIndex view) {
+  if (light_field.valid().empty()) return true;
+  const auto* const valid = light_field.valid_of(view).data;
+  return std::any_of(valid, valid + light_field.valid().view_size(),
+                     [](std::uint8_t pixel) { return pixel != 0; });
+}
+
+// Of the views that show something, or of `view` alone.
+std::vector<Shift> shifts_of(const LightField& light_field, ViewIndex view, double focus_px) {
+  const GridShape grid = light_field.grid();
   std::vector<Shift> shifts;
   for (int v = 0; v < grid.v; ++v) {
     for (int u = 0; u < grid.u; ++u) {
+      if (!shows_something(light_field, {v, u}) && !(ViewIndex{v, u} == view)) continue;
       const double x = -focus_px * (u - view.u);
       const double y = -focus_px * (v - view.v);
       shifts.push_back({{v, u},
@@ -146,7 +156,7 @@ Image<float> refocus(const LightField& light_field, ViewIndex view, double focus
     throw InvalidInput(fmt::format("view {},{} lies outside the grid of {}×{} views", view.v,
                                    view.u, light_field.grid().v, light_field.grid().u));
   }
-  const auto shifts = shifts_of(light_field.grid(), view, focus_px);
+  const auto shifts = shifts_of(light_field, view, focus_px);
   return std::visit([&](const auto& stack) { return mean_of_views(stack, shifts); },
                     light_field.samples());
 }

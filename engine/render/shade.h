@@ -49,10 +49,10 @@ struct Shading {
 [[nodiscard]] Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid,
                                     double low = 0.01, double high = 0.99);
 
-/// The mean of all views sheared so that disparity `focus_px` is in focus, seen from `view`:
-/// synthetic aperture refocusing [Ng06]. `[y][x][c]` in [0, 1]. Samples between pixels are
-/// interpolated linearly, with 8-bit light fields to 1/256 px; those outside repeat the border.
-/// Throws InvalidInput if the view lies outside the grid.
+/// The mean of all views that show something (LightField::valid), sheared so that disparity
+/// `focus_px` is in focus, seen from `view`: synthetic aperture refocusing [Ng06]. `[y][x][c]` in
+/// [0, 1]. Samples between pixels are interpolated linearly, with 8-bit light fields to 1/256 px;
+/// those outside repeat the border. Throws InvalidInput if the view lies outside the grid.
 [[nodiscard]] Image<float> refocus(const LightField& light_field, ViewIndex view, double focus_px);
 
 }  // namespace episcope::render

@@ -80,6 +80,8 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["width"] = light_field.width();
   json["channels"] = light_field.channels();
   json["sample_type"] = summary.sample_type;
+  json["samples"] = samples_text(scene);
+  json["brightness"] = scene.convention.gain;
   json["bytes"] = light_field.byte_size();
   add_camera(json, light_field.info());
   add_truth(json, scene, summary);

@@ -113,7 +113,9 @@ void print_scene(const Scene& scene) {
   print_line("name", scene.light_field->info().name);
   print_line("format", scene.convention.format);
   print_shape(*scene.light_field, summary);
+  print_line("samples", samples_text(scene));
   print_valid(*scene.light_field);
+  print_line("brightness", scene.convention.gain);
   print_camera(scene.light_field->info());
   print_positions(scene.light_field->info());
   print_truth(scene, summary);

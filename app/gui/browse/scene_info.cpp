@@ -105,7 +105,15 @@ SceneInfo describe(const Scene& scene) {
                            .arg(light_field.height())
                            .arg(megabytes(light_field.byte_size())),
                        {}});
-  info.rows.push_back({text("Samples"), sample_text(light_field), {}});
+  info.rows.push_back({text("Samples"), sample_text(light_field), utf8(samples_text(scene))});
+  if (!light_field.valid().empty()) {
+    info.rows.push_back({text("Valid"),
+                         text("%1 % of the pixels").arg(number_text(valid_percent(light_field), 1)),
+                         text("The others are dark or empty and do not count.")});
+  }
+  if (!convention.gain.empty()) {
+    info.rows.push_back({text("Brightness"), with_minus(utf8(convention.gain)), {}, "gain"});
+  }
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back(
         {text("Disparity"),

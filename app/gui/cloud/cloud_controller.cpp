@@ -5,6 +5,7 @@
 #include "app/gui/stage/overlay.h"
 #include "app/session/picture/picture.h"
 #include "app/session/session.h"
+#include "engine/core/light_field/shown_disparity.h"
 #include "widgets/cloud/point_cloud_panel.h"
 #include "widgets/style/quantity_text.h"
 
@@ -110,9 +111,9 @@ void CloudController::startCloud(const std::optional<Coloring>& coloring) {
                                      ? map_picture(*make_map(coloring->source), coloring->shading)
                                      : render::shade_view(*light_field, view);
         progress.check();
-        const DisparityView map = estimate->field.view(view);
+        const ShownDisparity map(estimate->field.view(view), light_field->valid_of(view));
         return std::make_shared<const PointCloud>(make_point_cloud(
-            map, light_field->info().camera, colors, step_for(map.disparity.size())));
+            map.view(), light_field->info().camera, colors, step_for(map.view().disparity.size())));
       },
       [this, coloring](const CloudPtr& cloud) {
         if (coloring) {

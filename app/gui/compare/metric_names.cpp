@@ -32,6 +32,10 @@ constexpr MetricName kNames[] = {
      3},
     {"density", QT_TRANSLATE_NOOP("episcope::MetricTable", "dense"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Pixels with a value, in %"), 1},
+    {"shown", QT_TRANSLATE_NOOP("episcope::MetricTable", "shown"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels with ground truth that the light field shows, in %"),
+     1},
     {"mse_100_inset15", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE inner"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "Mean squared error ×100 without a border of 15 px, px²"),
@@ -109,12 +113,12 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
                             : text(
                                   "Protocol benchmark2016: without a border of 15 px, centre "
                                   "view");
+  const bool is_share =
+      key.starts_with("density") || key.starts_with("shown") || key == "layers_right";
   QString help = is_known ? text(found->help) : QString();
   if (is_known && layer) help += '\n' + text(layer->help);
-  return {
-      full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
-      is_known ? found->decimals : 3,
-      key.starts_with("density") || key == "layers_right" ? BestValue::Greatest : BestValue::Least};
+  return {full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
+          is_known ? found->decimals : 3, is_share ? BestValue::Greatest : BestValue::Least};
 }
 
 }  // namespace episcope

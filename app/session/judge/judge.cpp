@@ -65,6 +65,7 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
   const LightField& light_field = *scene.light_field;
   const ViewIndex view = asked_view.value_or(judged_view(scene));
   options.camera = light_field.info().camera;
+  options.shown = light_field.valid_of(view);
   if (compares_layers(estimate, truth)) {
     LayeredEvaluation layers = evaluate_layers(estimate.layered, truth, view, options);
     layers.foreground.metrics = layered_metrics(layers);

@@ -21,7 +21,8 @@ using EvaluationPtr = std::shared_ptr<const Evaluation>;
 
 /// The error of a result in one view, `judged_view` if none is given. Of a result in two layers
 /// against a truth in two layers, keys are those of `layered_metrics`, and the maps are those of
-/// the foreground. Region masks count in the centre view only; the camera is that of the scene,
+/// the foreground. Pixels that the light field does not show (LightField::valid) are not judged.
+/// Region masks count in the centre view only; the camera is that of the scene,
 /// whatever `options` say. Throws InvalidInput if scene or result lacks what is compared.
 [[nodiscard]] Evaluation judge(const Estimate& estimate, const Scene& scene,
                                EvaluationOptions options, std::optional<ViewIndex> view = {});

@@ -2,6 +2,7 @@
 #include "app/session/save/save_result.h"
 
 #include "app/session/run/result_source.h"
+#include "engine/core/light_field/shown_disparity.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/maps/pfm.h"
@@ -54,7 +55,8 @@ void save_map(const std::filesystem::path& path, const DisparityView& map) {
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
                       ViewIndex view, const DisparityView& map) {
   const Image<std::uint8_t> rgb = rgb_of(render::shade_view(light_field, view));
-  io::write_ply(path, {map, rgb.view(), light_field.info().camera});
+  const ShownDisparity shown(map, light_field.valid_of(view));
+  io::write_ply(path, {shown.view(), rgb.view(), light_field.info().camera});
 }
 
 }  // namespace episcope

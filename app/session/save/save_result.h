@@ -28,8 +28,8 @@ void save_result(const std::filesystem::path& path, const Estimate& estimate,
 /// Writes one map as PFM or TIFF; invalid pixels become NaN. Atomic. Throws IoError.
 void save_map(const std::filesystem::path& path, const DisparityView& map);
 
-/// Writes the valid pixels of a view as a coloured point cloud. Atomic. Throws IoError,
-/// InvalidInput if no pixel is valid.
+/// Writes the valid pixels of a view that the light field shows as a coloured point cloud. Atomic.
+/// Throws IoError, InvalidInput if no pixel is valid.
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
                       ViewIndex view, const DisparityView& map);
 

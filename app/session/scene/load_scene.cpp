@@ -27,7 +27,8 @@ LightFieldPtr renamed(const LightField& light_field, const std::string& name,
   info.reading = {scenes::kBuiltinReader, {}};
   auto samples = std::visit([](const auto& stack) { return LightField::Samples(stack.clone()); },
                             light_field.samples());
-  return std::make_shared<const LightField>(std::move(samples), std::move(info));
+  return std::make_shared<const LightField>(std::move(samples), std::move(info),
+                                            light_field.valid().clone());
 }
 
 Scene render_center_view(const std::string& id, const scenes::RenderOptions& options,

@@ -103,6 +103,11 @@ SceneSummary summarize(const Scene& scene) {
   return summary;
 }
 
+std::string samples_text(const Scene& scene) {
+  if (!scene.convention.samples.empty()) return scene.convention.samples;
+  return stored_samples_text(scene.light_field->samples());
+}
+
 double valid_percent(const LightField& light_field) {
   const ViewStack<std::uint8_t>& valid = light_field.valid();
   if (valid.empty()) return 100;

@@ -29,6 +29,9 @@ struct SceneSummary {
 
 [[nodiscard]] SceneSummary summarize(const Scene& scene);
 
+/// How samples were stored, and what estimators see of them.
+[[nodiscard]] std::string samples_text(const Scene& scene);
+
 /// Share of pixels of all views that hold something that was seen, in percent.
 [[nodiscard]] double valid_percent(const LightField& light_field);
 

@@ -86,6 +86,10 @@ class LightField {
   [[nodiscard]] bool is_valid(ViewIndex index, int y, int x) const {
     return valid_.empty() || valid_.view(index).at(y, x) != 0;
   }
+  /// The mask of one view; empty if all pixels of all views are valid.
+  [[nodiscard]] ImageView<const std::uint8_t> valid_of(ViewIndex index) const {
+    return valid_.empty() ? ImageView<const std::uint8_t>{} : valid_.view(index);
+  }
 
  private:
   Samples samples_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/light_field/scene.h"
 
+#include <variant>
+
 namespace episcope {
 namespace {
 
@@ -21,6 +23,16 @@ std::string sign_text(const ConventionReport& report) {
 std::string units_text(const ConventionReport& report) {
   const std::string text = with_author(report.units, report.units_were_chosen);
   return report.units_check.empty() ? text : text + "; " + report.units_check;
+}
+
+std::string stored_samples_text(const LightField::Samples& samples) {
+  if (std::holds_alternative<ViewStack<std::uint8_t>>(samples)) {
+    return "uint8 as stored, taken as gamma-encoded; estimators see value/255";
+  }
+  if (std::holds_alternative<ViewStack<std::uint16_t>>(samples)) {
+    return "uint16 as stored, taken as gamma-encoded; estimators see value/65535";
+  }
+  return "float32 as stored, taken as linear; estimators see the values";
 }
 
 const char* companion_name(CompanionKind kind) {

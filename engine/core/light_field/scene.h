@@ -38,6 +38,9 @@ struct ConventionReport {
   std::string sign;               ///< "checked" if near and far are told apart; empty = not known.
   std::string sign_check;         ///< The evidence, with numbers, or why there is none.
   std::vector<FileUse> files;     ///< Every file of the folder: used as what, or not used.
+  std::string samples;            ///< How samples were stored, and what estimators see of them.
+  std::string gain;               ///< How much the brightness of the views differs; empty = of
+                                  ///< built-in scenes and single views, not at all.
   std::string units;              ///< How depth was turned into disparity,
   std::string units_check;        ///< and what spoke for it; may be empty.
   bool order_was_chosen = false;  ///< The user overruled the reader,
@@ -55,6 +58,9 @@ struct ConventionReport {
 [[nodiscard]] std::string order_text(const ConventionReport& report);
 [[nodiscard]] std::string sign_text(const ConventionReport& report);
 [[nodiscard]] std::string units_text(const ConventionReport& report);
+
+/// "uint8 as stored, taken as gamma-encoded; estimators see value/255", …
+[[nodiscard]] std::string stored_samples_text(const LightField::Samples& samples);
 
 /// What is painted on one view: 0 = unpainted, else a label id.
 struct ViewScribbles {

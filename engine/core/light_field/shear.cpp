@@ -5,6 +5,7 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -96,6 +97,40 @@ void shear_view(ImageView<const T> in, const ViewOffset& offset, ImageView<T> ou
                             w[3] * at[3 * channels]);
     }
   }
+}
+
+/// Where samples of the view are valid: all that are interpolated must be.
+void shear_mask(ImageView<const std::uint8_t> in, const ViewOffset& offset,
+                ImageView<std::uint8_t> out) {
+  const auto taps_of = [](int at, const Offset& by, int extent) {
+    const bool is_whole = by.fraction == 0;
+    std::array<int, kTaps> taps{};
+    for (int k = 0; k < kTaps; ++k) {
+      taps[k] = std::clamp(at + by.whole + (is_whole ? 0 : k - 1), 0, extent - 1);
+    }
+    return taps;
+  };
+  for (int y = 0; y < in.height; ++y) {
+    const std::array<int, kTaps> rows = taps_of(y, offset.y, in.height);
+    for (int x = 0; x < in.width; ++x) {
+      const std::array<int, kTaps> columns = taps_of(x, offset.x, in.width);
+      out.at(y, x) = std::ranges::all_of(rows, [&](int row) {
+        return std::ranges::all_of(columns, [&](int column) { return in.at(row, column) != 0; });
+      });
+    }
+  }
+}
+
+ViewStack<std::uint8_t> sheared_mask(const LightField& light_field, double focus_px,
+                                     const Progress& progress) {
+  const ViewStack<std::uint8_t>& in = light_field.valid();
+  if (in.empty()) return {};
+  ViewStack<std::uint8_t> out(in.grid(), in.height(), in.width());
+  parallel_for(in.grid().count(), progress, [&](int i) {
+    const ViewIndex view = in.view_at(i);
+    shear_mask(in.view(view), offset_of(view, light_field.center(), focus_px), out.view(view));
+  });
+  return out;
 }
 
 void require_in_sight(const LightField& light_field, double focus_px) {
@@ -242,8 +277,8 @@ LightFieldPtr sheared(const LightField& light_field, double focus_px, const Prog
         return LightField::Samples(std::move(out));
       },
       light_field.samples());
-  return std::make_shared<const LightField>(std::move(samples),
-                                            moved(light_field.info(), focus_px));
+  return std::make_shared<const LightField>(std::move(samples), moved(light_field.info(), focus_px),
+                                            sheared_mask(light_field, focus_px, progress));
 }
 
 DisparityField sheared(const DisparityField& field, ViewIndex center, double focus_px,

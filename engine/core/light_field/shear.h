@@ -15,7 +15,8 @@ namespace episcope {
 /// a = −1/2) to keep the views sharp; outside the image its border is repeated. All functions are
 /// linear in the size.
 
-/// Throws InvalidInput if `focus_px` is not finite or moves a view out of the image; Cancelled.
+/// A sample that an invalid pixel entered is invalid. Throws InvalidInput if `focus_px` is not
+/// finite or moves a view out of the image; Cancelled.
 [[nodiscard]] LightFieldPtr sheared(const LightField& light_field, double focus_px,
                                     const Progress& progress);
 

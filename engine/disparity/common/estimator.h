@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/run_options.h"
 
 #include <functional>
@@ -46,7 +47,8 @@ struct Estimator {
 
 /// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`, or
 /// for a method with a choice of devices `estimate(light_field, P, RunOptions, Progress)`, returns
-/// an Estimate with maps, confidence, range and notes; the rest is filled in here.
+/// an Estimate with maps, confidence, range and notes; the rest is filled in here. Pixels that the
+/// light field marks as invalid get no valid result.
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
@@ -76,6 +78,7 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
         return estimate(light_field, parameters, options.views, limited);
       }
     }();
+    mark_invalid(light_field, result);
     result.parameters = schema.values(parameters);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <string>
 
 namespace episcope {
@@ -99,6 +100,13 @@ std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, 
   return seen;
 }
 
+// Means of `counts` costs each; `worst` where there is none.
+void divide(const float* sums, const float* counts, float worst, std::span<float> out) {
+  for (std::size_t x = 0; x < out.size(); ++x) {
+    out[x] = counts[x] > 0 ? sums[x] / counts[x] : worst;
+  }
+}
+
 }  // namespace
 
 Names<Interpolation> names_of(Interpolation) {
@@ -140,6 +148,7 @@ struct MatchingCostRows::State {
   int tile_rows = 0;
   int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
   std::vector<float> reference_samples, noise, samples, lines, sums;
+  std::vector<float> counts;  // Of the views in each sum; empty: all samples are valid.
 
   State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
         const std::vector<float>& disparities);
@@ -164,7 +173,7 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
       reference(view),
       cost(wanted),
       labels(static_cast<int>(disparities.size())),
-      planes(lf) {
+      planes(lf, InvalidSamples::AsNan) {
   check(lf, view, wanted, disparities);
   row_shifts = make_shifts(lf.grid().v, view.v, lf.height(), wanted.interpolation, disparities);
   column_shifts = make_shifts(lf.grid().u, view.u, lf.width(), wanted.interpolation, disparities);
@@ -181,6 +190,7 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
   sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
+  if (!lf.valid().empty()) counts.resize(sums.size());
 }
 
 void MatchingCostRows::State::read_reference(const Tile& tile) {
@@ -264,6 +274,9 @@ void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, 
   work.noise_lost = static_cast<float>(work.channels * std::max(lost, 0.0));
   work.cap = static_cast<float>(cost.cap);
   work.costs = sums.data() + static_cast<std::size_t>(label) * cost_pitch;
+  if (!counts.empty()) {
+    work.seen = counts.data() + static_cast<std::size_t>(label) * cost_pitch;
+  }
   work.cost_pitch = static_cast<long>(labels) * cost_pitch;
   kernel.add(work);
 }
@@ -294,13 +307,17 @@ void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> 
   const bool cross = cost.views == MatchedViews::CrossHair;
   for (int row = 0; row < tile.rows; ++row) {
     for (int label = 0; label < labels; ++label) {
-      const float* sum =
-          sums.data() + (static_cast<std::size_t>(row) * labels + label) * cost_pitch;
+      const std::size_t first = (static_cast<std::size_t>(row) * labels + label) * cost_pitch;
+      const float* sum = sums.data() + first;
       const float* columns =
           columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
       const float rows =
           rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
       float* out = costs.row(y + row, label) + tile.x;
+      if (!counts.empty()) {
+        divide(sum, counts.data() + first, worst, std::span(out, tile.columns));
+        continue;
+      }
       for (int x = 0; x < tile.columns; ++x) {
         const float views = cross ? columns[x] + rows - 2 : columns[x] * rows - 1;
         out[x] = views > 0 ? sum[x] / views : worst;
@@ -325,6 +342,7 @@ void MatchingCostRows::compute(int y, VolumeView<float> costs, const Progress& p
                              std::min(kTileColumns, costs.width - x)};
       s.read_reference(tile);
       std::fill(s.sums.begin(), s.sums.end(), 0.0F);
+      std::fill(s.counts.begin(), s.counts.end(), 0.0F);
       for (int v = 0; v < grid.v; ++v) {
         for (int u = 0; u < grid.u; ++u) {
           const bool on_cross = v == s.reference.v || u == s.reference.u;

@@ -59,7 +59,9 @@ class MatchingCostRows {
 /// ρ(x, d) = 1/n Σ min(ε, |I_n(x + d v_n) − I_c(x)|) over the n views whose sample lies within the
 /// image, samples in [0, 1], Euclidean norm over the channels, v_n the way from the reference to
 /// view n (canonical u and v axes: a point moves by −d per step). Labels are disparities, px per
-/// view step. Where no view sees the point at a label, the cost is the largest possible.
+/// view step. Where no view sees the point at a label, the cost is the largest possible. Samples
+/// that an invalid pixel (LightField::valid) enters count as outside the image; an invalid pixel of
+/// the reference costs the largest possible at every label.
 /// With `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
 /// interpolation: what noise it averages away is put back. Otherwise, where noise outweighs
 /// texture, labels that move views by whole pixels cost more than those between (Σw² = 0.41 at half

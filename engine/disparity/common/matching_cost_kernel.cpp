@@ -37,11 +37,13 @@ struct Line {
   const float* reference[3];
   const float* noise;
   float* costs;
+  float* seen;
 };
 
 Line make_line(const MatchingTile& tile, int y) {
   Line line{};
   line.costs = tile.costs + y * tile.cost_pitch;
+  line.seen = tile.seen ? tile.seen + y * tile.cost_pitch : nullptr;
   line.noise = tile.noise + static_cast<long>(y) * tile.reference_pitch;
   for (int c = 0; c < tile.channels; ++c) {
     const float* row = tile.samples[c] + static_cast<long>(y) * tile.sample_pitch;
@@ -94,14 +96,37 @@ void add_line(const MatchingTile& tile, const Line& line) {
   }
 }
 
+// With a count of what is not NaN.
+template <int kTaps, int kChannels>
+void add_known(const MatchingTile& tile, const Line& line) {
+  Vec weights[kTaps];
+  for (int i = 0; i < kTaps; ++i) weights[i] = splat(tile.column_weights[i]);
+  const Vec lost = splat(tile.noise_lost), cap = splat(tile.cap), one = splat(1);
+  const Vec numbers = lane_numbers();
+  for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
+    const Vec off = distance<kTaps, kChannels>(line, x, weights, lost);
+    const Vec column = numbers + static_cast<float>(x);
+    const IntVec seen = (off == off) & (column >= static_cast<float>(tile.first_column)) &
+                        (column < static_cast<float>(tile.last_column));
+    store(line.costs + x, load(line.costs + x) + choose(seen, least(off, cap), Vec{}));
+    store(line.seen + x, load(line.seen + x) + choose(seen, one, Vec{}));
+  }
+}
+
+template <int kTaps, int kChannels>
+void add_either(const MatchingTile& tile, const Line& line) {
+  if (line.seen) return add_known<kTaps, kChannels>(tile, line);
+  add_line<kTaps, kChannels>(tile, line);
+}
+
 template <int kTaps>
 void add_rows(const MatchingTile& tile) {
   for (int y = tile.first_row; y < tile.last_row; ++y) {
     const Line line = make_line(tile, y);
     if (tile.channels == 3) {
-      add_line<kTaps, 3>(tile, line);
+      add_either<kTaps, 3>(tile, line);
     } else {
-      add_line<kTaps, 1>(tile, line);
+      add_either<kTaps, 1>(tile, line);
     }
   }
 }

@@ -34,6 +34,9 @@ struct MatchingTile {
   float noise_lost = 0;          ///< How much of it is added to squared differences.
   float cap = 0;
   float* costs = nullptr;  ///< Added to.
+  /// Where samples may be NaN, which costs nothing: 1 is added for every other one, in the layout
+  /// of `costs`. Null: none is NaN.
+  float* seen = nullptr;
   long cost_pitch = 0;
 };
 

@@ -9,6 +9,8 @@
 namespace episcope {
 namespace {
 
+constexpr std::uint32_t kInvalid = 1U << 30;
+
 std::uint32_t quantised(float sample) {
   return static_cast<std::uint32_t>(std::clamp(sample, 0.0F, 1.0F) * 1023 + 0.5F);
 }
@@ -21,17 +23,25 @@ void pack_row(const float* samples, int width, int channels, std::uint32_t* out)
   }
 }
 
+void mark_invalid(const std::uint8_t* valid, int width, std::uint32_t* out) {
+  for (int x = 0; x < width; ++x) {
+    if (valid[x] == 0) out[x] = kInvalid;
+  }
+}
+
 }  // namespace
 
-ViewStack<std::uint32_t> pack_views(const LightField& lf, const Progress& progress) {
-  ViewStack<std::uint32_t> packed(lf.grid(), lf.height(), lf.width());
+PackedViews pack_views(const LightField& lf, const Progress& progress) {
+  PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), lf.height(), lf.width()),
+                     !lf.valid().empty()};
   parallel_for(lf.grid().count(), progress, [&](int i) {
     const ViewIndex view = lf.grid().view_at(i);
-    const ImageView<std::uint32_t> out = packed.view(view);
+    const ImageView<std::uint32_t> out = packed.pixels.view(view);
     std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
     for (int y = 0; y < lf.height(); ++y) {
       lf.read_row(view, y, 0, lf.width(), row.data());
       pack_row(row.data(), lf.width(), lf.channels(), out.row(y));
+      if (packed.has_invalid) mark_invalid(lf.valid().view(view).row(y), lf.width(), out.row(y));
     }
   });
   return packed;

@@ -9,10 +9,16 @@
 namespace episcope {
 
 /// All views with each pixel packed into one word: three channels of 10 bits, the first lowest,
-/// each round(1023·s) of a sample s in [0, 1]; grey three times. A single gather then fetches a
-/// pixel whatever its type. 4 bytes per ray. Throws Cancelled.
-[[nodiscard]] ViewStack<std::uint32_t> pack_views(const LightField& light_field,
-                                                  const Progress& progress);
+/// each round(1023·s) of a sample s in [0, 1]; grey three times. Of a pixel that is not valid, a
+/// bit above them and nothing else is set. A single gather then fetches a pixel whatever its type.
+/// 4 bytes per ray.
+struct PackedViews {
+  ViewStack<std::uint32_t> pixels;
+  bool has_invalid = false;  ///< Whether any may be not valid.
+};
+
+/// Throws Cancelled.
+[[nodiscard]] PackedViews pack_views(const LightField& light_field, const Progress& progress);
 
 /// Channel `c` of a packed pixel, in units of 1/1023.
 [[nodiscard]] inline int packed_channel(std::uint32_t packed, int c) {

@@ -3,9 +3,25 @@
 
 #include "engine/core/light_field/gradient_magnitude.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace episcope {
+namespace {
+
+// What an invalid pixel holds is no edge, nor where it begins.
+void ignore_invalid(ImageView<const std::uint8_t> valid, Image<float>& weights) {
+  for (int y = 0; y < valid.height; ++y) {
+    const std::uint8_t* const here = valid.row(y);
+    const std::uint8_t* const below = valid.row(std::min(y + 1, valid.height - 1));
+    for (int x = 0; x < valid.width; ++x) {
+      const int right = std::min(x + 1, valid.width - 1);
+      if (here[x] == 0 || here[right] == 0 || below[x] == 0) weights.at(y, x) = 1;
+    }
+  }
+}
+
+}  // namespace
 
 Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta) {
   Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
@@ -13,6 +29,7 @@ Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double bet
   gradient_magnitude(lf, view, weights.view());
   const auto strength = static_cast<float>(-beta);
   for (float& weight : weights) weight = std::exp(strength * weight);
+  if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
   return weights;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/disparity/epi/epi_c.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/epi/replace_occluded.h"
 #include "engine/solvers/ordering/ordering_terms.h"
@@ -75,8 +76,9 @@ class ViewStep {
     const ImageView<const float> here = std::as_const(work_.u).view(view);
     const OrderingPull pull{curvature_.view(), force_.view()};
     for (const ViewIndex way : kWays) {
-      if (!work_.u.contains(neighbour(view, way))) continue;
-      const ImageView<const float> there = std::as_const(work_.u).view(neighbour(view, way));
+      const ViewIndex other = neighbour(view, way);
+      if (!work_.u.contains(other) || count_valid(work_.light_field, other) == 0) continue;
+      const ImageView<const float> there = std::as_const(work_.u).view(other);
       progress.check();
       add_pull_on_from(here, here, there, step_along(way), work_.penalty(), pull);
       const ViewIndex back{-way.v, -way.u};

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/denoise.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/matching_cost.h"
 #include "engine/disparity/common/packed_views.h"
 
@@ -56,12 +57,12 @@ class DirectionalData {
     return volume;
   }
 
-  [[nodiscard]] double mean_weight() const {
+  [[nodiscard]] double mean_weight(std::size_t pixels) const {
     double sum = 0;
     for (const Direction& direction : directions_) {
       sum = std::accumulate(direction.weight.begin(), direction.weight.end(), sum);
     }
-    return sum / (2.0 * static_cast<double>(directions_[0].weight.size()));
+    return sum / (2.0 * static_cast<double>(pixels));
   }
 
   // The mean of the directions that agree with the label.
@@ -107,7 +108,7 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
       estimate_directions(lf, parameters.tensor, progress.part(0, 0.06));
   if (parameters.line_check.is_on) {
     progress.step("checking lines");
-    const ViewStack<std::uint32_t> views = pack_views(lf, progress.part(0.06, 0.07));
+    const PackedViews views = pack_views(lf, progress.part(0.06, 0.07));
     reduce_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
     reduce_confidence(views, directions.vertical, progress.part(0.085, 0.1));
   }
@@ -123,8 +124,9 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
   const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
-  label_globally(lf, {view, labels, costs.view(), data.mean_weight(), place}, parameters.labeling,
-                 estimate, progress.part(0.12, 1));
+  const double scale = data.mean_weight(std::max<std::size_t>(1, count_valid(lf, view)));
+  label_globally(lf, {view, labels, costs.view(), scale, place}, parameters.labeling, estimate,
+                 progress.part(0.12, 1));
   return estimate;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/tensor/structure_tensor.h"
 
 #include <algorithm>
@@ -233,6 +234,7 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
     const auto merge = [&](int u) { return merge_into(maps, parameters.fusion_power, u); };
     run_vertical(maps, scales, search, merge, progress.part(half, 1));
   }
+  clear_invalid(lf, estimate.confidence);
   return estimate;
 }
 
@@ -259,6 +261,8 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
     const auto store = [&](int u) { return store_column_into(vertical, u); };
     run_vertical(vertical, scales, search, store, progress.part(0.55, 1));
   }
+  clear_invalid(lf, directions.horizontal.confidence);
+  clear_invalid(lf, directions.vertical.confidence);
   return directions;
 }
 

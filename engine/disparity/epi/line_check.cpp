@@ -16,8 +16,6 @@
 namespace episcope {
 namespace {
 
-using PackedViews = ViewStack<std::uint32_t>;
-
 // The smallest difference distinguishable from rounding and resampling.
 constexpr float kMinDifference = 1.0F / 255;
 constexpr int kTextureRadius = 2;
@@ -29,8 +27,8 @@ LineArm arm_of(const PackedViews& views, ViewIndex from, ViewIndex way) {
   arm.step = -(way.u + way.v);  // a point moves by −d per step of u or v
   for (int k = 1; k <= kMaxArmViews; ++k) {
     const ViewIndex view{from.v + k * way.v, from.u + k * way.u};
-    if (!views.contains(view)) break;
-    arm.views[arm.count++] = views.view(view).data;
+    if (!views.pixels.contains(view)) break;
+    arm.views[arm.count++] = views.pixels.view(view).data;
   }
   return arm;
 }
@@ -43,10 +41,11 @@ ResidualRow around(const PackedViews& views, ViewIndex view) {
     if (arm.count > 0) row.arms[row.arm_count++] = arm;
   }
   // One view that agrees may do so by chance; small grids have no more.
-  const int longest = std::max(views.grid().u, views.grid().v);
+  const int longest = std::max(views.pixels.grid().u, views.pixels.grid().v);
   row.min_views = std::clamp(longest / 2, 1, 2);
-  row.height = views.height();
-  row.width = views.width();
+  row.height = views.pixels.height();
+  row.width = views.pixels.width();
+  row.has_invalid = views.has_invalid;
   return row;
 }
 
@@ -57,7 +56,7 @@ class Residuals {
       : views_(views),
         disparity_(disparity),
         kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kResidualKernel)),
-        own_(views.width() + kResidualSlack),
+        own_(views.pixels.width() + kResidualSlack),
         slopes_(own_.size()),
         residual_(own_.size()) {}
 
@@ -71,7 +70,7 @@ class Residuals {
 
   // `width` residuals, valid until the next call.
   const float* row(int y) {
-    std::copy_n(views_.view(view_).row(y), row_.width, own_.data());
+    std::copy_n(views_.pixels.view(view_).row(y), row_.width, own_.data());
     std::copy_n(disparity_.view(view_).row(y), row_.width, slopes_.data());
     row_.y = y;
     kernel_.row(row_);
@@ -91,11 +90,11 @@ class Residuals {
 // Median residual of the centre view.
 float noise_variance(const PackedViews& views, const ViewStack<float>& disparity) {
   Residuals residuals(views, disparity);
-  residuals.begin(views.grid().center());
+  residuals.begin(views.pixels.grid().center());
   std::vector<float> all;
-  for (int y = 0; y < views.height(); ++y) {
+  for (int y = 0; y < views.pixels.height(); ++y) {
     const float* const row = residuals.row(y);
-    std::copy_if(row, row + views.width(), std::back_inserter(all),
+    std::copy_if(row, row + views.pixels.width(), std::back_inserter(all),
                  [](float value) { return std::isfinite(value); });
   }
   return all.empty() ? 0 : quantile(all, 0.5);
@@ -191,7 +190,7 @@ void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress&
 }
 
 void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
-  const int height = views.height(), width = views.width();
+  const int height = views.pixels.height(), width = views.pixels.width();
   const ViewStack<float>& disparity = estimate.field.disparity;
   const float variance = noise_variance(views, disparity);
   const float noise = kMinDifference * kMinDifference + variance;
@@ -201,7 +200,7 @@ void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progr
             trust = std::vector<float>(width)](int i) mutable {
       const ViewIndex view = grid.view_at(i, disparity.first());
       residuals.begin(view);
-      texture.begin(views.view(view));
+      texture.begin(views.pixels.view(view));
       const ImageView<float> confidence = estimate.confidence.view(view);
       for (int y = 0; y < height; ++y) {
         if (y % 16 == 0) progress.check();

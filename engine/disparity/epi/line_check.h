@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
-
-#include <cstdint>
+#include "engine/disparity/common/packed_views.h"
 
 namespace episcope {
 
@@ -28,13 +26,15 @@ namespace episcope {
 /// px, `own` that of the pixel, along each axis the smaller of its two differences. A pixel without
 /// texture of its own beside a strong edge has been given the edge's orientation.
 ///
+/// Pixels of other views that are not valid (LightField::valid) do not count for t_line.
+///
 /// The estimate must cover the centre view. Memory: 4 bytes per ray of the light field. Throws
 /// Cancelled. Evidence: tests/accuracy/tuning.md.
 void reduce_confidence(const LightField& light_field, Estimate& estimate, const Progress& progress);
 
 /// The same with views that are already packed (pack_views), for several estimates of one light
 /// field.
-void reduce_confidence(const ViewStack<std::uint32_t>& packed_views, Estimate& estimate,
+void reduce_confidence(const PackedViews& packed_views, Estimate& estimate,
                        const Progress& progress);
 
 /// Whether a method lowers confidence in this way.

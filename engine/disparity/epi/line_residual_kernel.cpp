@@ -29,6 +29,10 @@ inline IntVec gather(const std::uint32_t* from, IntVec index) {
   return values;
 }
 
+inline IntVec is_valid(IntVec packed) {
+  return (packed >> (3 * kBits) & 1) == 0;
+}
+
 // Where the lines of some pixels meet a view.
 struct Meeting {
   IntVec first, second;  // taps, as offsets from the start of the view
@@ -62,14 +66,20 @@ inline Vec squared_difference(const Colour& own, const std::uint32_t* view, cons
   return sum;
 }
 
-void residual_row(const ResidualRow& row) {
+inline IntVec both_valid(const std::uint32_t* view, const Meeting& where) {
+  return is_valid(gather(view, where.first)) & is_valid(gather(view, where.second));
+}
+
+template <bool kHasInvalid>
+void fill_row(const ResidualRow& row) {
   const float infinity = __builtin_inff();
   IntVec lane;
   for (int i = 0; i < kLanes; ++i) lane[i] = i;
   for (int x = 0; x < row.width; x += kLanes) {
     const IntVec column = least(lane + x, IntVec{} + (row.width - 1));
     const Vec disparity = load(row.disparity + x);
-    const Colour own = unpack(gather(row.own + x, lane));
+    const IntVec packed = gather(row.own + x, lane);
+    const Colour own = unpack(packed);
     Vec best = splat(infinity);
     for (int a = 0; a < row.arm_count; ++a) {
       const LineArm& arm = row.arms[a];
@@ -80,15 +90,23 @@ void residual_row(const ResidualRow& row) {
         const Meeting where = meet(row, arm, shift, column);
         seen &= where.inside;
         const Vec square = squared_difference(own, arm.views[k], where);
-        sum += choose(seen, square, splat(0));
-        count += choose(seen, splat(1), splat(0));
+        IntVec known = seen;
+        if constexpr (kHasInvalid) known &= both_valid(arm.views[k], where);
+        sum += choose(known, square, splat(0));
+        count += choose(known, splat(1), splat(0));
       }
       const Vec mean = sum / greatest(count, splat(1));
       const IntVec counts = count >= static_cast<float>(row.min_views);
       best = choose(counts, least(best, mean), best);
     }
+    if constexpr (kHasInvalid) best = choose(is_valid(packed), best, splat(infinity));
     store(row.residual + x, best * (kUnit * kUnit));
   }
+}
+
+void residual_row(const ResidualRow& row) {
+  if (row.has_invalid) return fill_row<true>(row);
+  fill_row<false>(row);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct ResidualRow {
   int arm_count = 0;
   int min_views = 1;  ///< An arm with fewer views that see the line does not count.
   int y = 0, height = 0, width = 0;
+  bool has_invalid = false;  ///< Whether samples may be marked as not valid: these do not count.
 };
 
 /// Least mean squared difference along an arm, samples in [0, 1], squares summed over channels;

@@ -149,9 +149,10 @@ struct DoubleOrientation::State {
 
 DoubleOrientation::State::State(const LightField& lf, Direction dir, const TensorScales& scales,
                                 const DoubleSearch& wanted)
-    : direction(dir), search(wanted), samples(lf) {
+    : direction(dir), search(wanted), samples(lf, InvalidSamples::AsNan) {
   block.rows = views_along(lf, dir);
   block.channels = lf.channels();
+  block.has_invalid = !lf.valid().empty();
   make_filters(scales);
   choose_steps();
   allocate();

@@ -80,8 +80,15 @@ Sources sources_of(const DoubleBlock& block, int row, int step) {
   return sources;
 }
 
+// A product that an invalid sample entered, NaN, counts nothing.
+template <bool kHasInvalid>
+inline Vec known_or_zero(Vec product) {
+  if constexpr (kHasInvalid) return choose(product == product, product, Vec{});
+  return product;
+}
+
 // Products of the whitened derivatives at one vector of lanes, channels summed, toned down.
-template <int kRadius, int kChannels>
+template <int kRadius, int kChannels, bool kHasInvalid>
 void multiply_row(const Sources& from, const SecondOrderFilters& filters, long begin, long end,
                   float* __restrict const* out) {
   const float* const even = filters.views[0].values + kRadius;
@@ -113,7 +120,7 @@ void multiply_row(const Sources& from, const SecondOrderFilters& filters, long b
     // As in the first-order tensor: a silhouette must not drown the texture beside it.
     const Vec weight =
         filters.contrast_energy * reciprocal(sums[0] + sums[3] + sums[5] + filters.contrast_energy);
-    for (int j = 0; j < 6; ++j) store(out[j] + n, weight * sums[j]);
+    for (int j = 0; j < 6; ++j) store(out[j] + n, known_or_zero<kHasInvalid>(weight * sums[j]));
   }
 }
 
@@ -149,10 +156,18 @@ void filter(const float* in, long begin, long end, long stride, const Taps& taps
   }
 }
 
+template <bool kHasInvalid>
+auto multiply_row_of(int radius, int channels) {
+  if (radius == 1) {
+    return channels == 1 ? multiply_row<1, 1, kHasInvalid> : multiply_row<1, 3, kHasInvalid>;
+  }
+  return channels == 1 ? multiply_row<2, 1, kHasInvalid> : multiply_row<2, 3, kHasInvalid>;
+}
+
 void accumulate(const DoubleBlock& block, const SecondOrderFilters& filters, int step) {
   const int radius = filters.views[0].radius;
-  const auto run = radius == 1 ? (block.channels == 1 ? multiply_row<1, 1> : multiply_row<1, 3>)
-                               : (block.channels == 1 ? multiply_row<2, 1> : multiply_row<2, 3>);
+  const auto run = block.has_invalid ? multiply_row_of<true>(radius, block.channels)
+                                     : multiply_row_of<false>(radius, block.channels);
   for (int row = block.first_product; row < block.last_product; ++row) {
     const long plane = (row - block.first_product) * block.pitch;
     float* out[6];

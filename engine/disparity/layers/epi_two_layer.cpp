@@ -2,6 +2,7 @@
 #include "engine/disparity/layers/epi_two_layer.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
@@ -296,6 +297,7 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   estimate.layered.foreground.disparity = std::move(layers.near);
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
+  clear_invalid(lf, estimate.layered.layers);
   solve_views(lf, parameters, estimate, progress.part(0.4, 0.98));
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;

@@ -27,6 +27,9 @@ constexpr double kResidualOfNoise = 2.8;
 // Of the guided filter, variance of samples in [0, 1].
 constexpr double kRegularization = 1e-3;
 
+// In place of the residual of a pixel that is not valid.
+constexpr float kNothingSeen = -1;
+
 // The residuals of prepare_stereo: over all pixels, and of the quarter that matches best.
 struct Residuals {
   double median = 0, lower_quartile = 0;
@@ -42,16 +45,22 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   parallel_for_workers(rows, progress, [&] {
     return [&, matching = MatchingCostRows(lf, costs.view, probe, labels),
             row = Volume<float>(1, static_cast<int>(labels.size()), lf.width())](int i) mutable {
-      matching.compute((2 * i + 1) * lf.height() / (2 * rows), row.view(), progress);
+      const int y = (2 * i + 1) * lf.height() / (2 * rows);
+      matching.compute(y, row.view(), progress);
       float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
       std::fill_n(out, lf.width(), static_cast<float>(kUncapped));
       for (int label = 0; label < row.layers(); ++label) {
         const float* cost = row.view().row(0, label);
         for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
       }
+      for (int x = 0; x < lf.width(); ++x) {
+        if (!lf.is_valid(costs.view, y, x)) out[x] = kNothingSeen;
+      }
     };
   });
+  std::erase(least, kNothingSeen);
   Residuals residuals;
+  if (least.empty()) return residuals;
   residuals.median = quantile(least, 0.5);
   residuals.lower_quartile = quantile(least, 0.25);
   return residuals;

@@ -2,10 +2,10 @@
 #include "engine/disparity/stereo/stereo_global.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/sub_label.h"
 
 #include <algorithm>
-#include <numeric>
 #include <vector>
 
 namespace episcope {
@@ -50,8 +50,12 @@ ViewStack<float> confidence_map(const Estimate& estimate, const StereoCosts& ste
   return confidence;
 }
 
-double mean_of(const Image<float>& image) {
-  return std::accumulate(image.begin(), image.end(), 0.0) / static_cast<double>(image.size());
+double mean_of_valid(const Image<float>& image, const LightField& lf, ViewIndex view) {
+  double sum = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) sum += lf.is_valid(view, y, x) ? image.at(y, x) : 0;
+  }
+  return sum / static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
 }
 
 }  // namespace
@@ -94,8 +98,9 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
   };
   const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
-  label_globally(lf, {stereo.view, stereo.labels, costs, unit * mean_of(means), place},
-                 parameters.labeling, estimate, progress.part(0.31, 0.99));
+  const double scale = unit * mean_of_valid(means, lf, stereo.view);
+  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,
+                 estimate, progress.part(0.31, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));
   return estimate;
 }

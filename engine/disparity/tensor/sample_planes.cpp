@@ -6,10 +6,22 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace episcope {
 
-SamplePlanes::SamplePlanes(const LightField& light_field) : light_field_(light_field) {}
+SamplePlanes::SamplePlanes(const LightField& light_field, InvalidSamples invalid)
+    : light_field_(light_field),
+      invalid_as_nan_(invalid == InvalidSamples::AsNan && !light_field.valid().empty()) {}
+
+void SamplePlanes::invalidate(ViewIndex view, int y, int x0, int x1, float* const* out) const {
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+  const std::uint8_t* const valid = light_field_.valid().view(view).row(y);
+  for (int x = x0; x < x1; ++x) {
+    if (valid[x] != 0) continue;
+    for (int c = 0; c < light_field_.channels(); ++c) out[c][x - x0] = kNan;
+  }
+}
 
 void SamplePlanes::read(ViewIndex view, int y, int x0, int x1, float* const* out) {
   const int channels = light_field_.channels();
@@ -17,6 +29,7 @@ void SamplePlanes::read(ViewIndex view, int y, int x0, int x1, float* const* out
     const std::uint8_t* row = light_field_.view<std::uint8_t>(view).row(y);
     EPISCOPE_CHOOSE_KERNEL(best_isa(), kSampleKernel)
         .deinterleave(row + static_cast<std::size_t>(x0) * channels, x1 - x0, channels, out);
+    if (invalid_as_nan_) invalidate(view, y, x0, x1, out);
     return;
   }
   interleaved_.resize(static_cast<std::size_t>(x1 - x0) * channels);
@@ -24,6 +37,7 @@ void SamplePlanes::read(ViewIndex view, int y, int x0, int x1, float* const* out
   for (int i = 0; i < x1 - x0; ++i) {
     for (int c = 0; c < channels; ++c) out[c][i] = interleaved_[i * channels + c];
   }
+  if (invalid_as_nan_) invalidate(view, y, x0, x1, out);
 }
 
 void SamplePlanes::read_clamped(ViewIndex view, int y, int x0, int x1, float* const* out) {

@@ -105,9 +105,10 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
       direction(dir),
       search(std::move(wanted)),
       set(make_tensor_filters(views_along(lf, dir), lf.channels(), scales)),
-      planes(lf) {
+      planes(lf, InvalidSamples::AsNan) {
   block.rows = views_along(lf, dir);
   block.channels = lf.channels();
+  block.has_invalid = !lf.valid().empty();
   size_block();
   allocate();
 }

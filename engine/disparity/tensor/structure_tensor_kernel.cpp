@@ -120,8 +120,15 @@ inline void multiply_add(Group& sum, float tap, const float* from) {
   for (int k = 0; k < kGroup; ++k) sum.at[k] += tap * load(from + k * kLanes);
 }
 
+// A product that an invalid sample entered, NaN, counts nothing.
+template <bool kHasInvalid>
+inline Vec known_or_zero(Vec product) {
+  if constexpr (kHasInvalid) return choose(product == product, product, Vec{});
+  return product;
+}
+
 // Products of the gradient at a group of lanes, all channels summed, toned down and stored.
-template <int kChannels>
+template <int kChannels, bool kHasInvalid>
 inline void products_group(const RowSources& along, const RowSources& across, float contrast,
                            long n, float* __restrict const* out) {
   Group xx{}, xs{}, ss{};
@@ -138,9 +145,9 @@ inline void products_group(const RowSources& along, const RowSources& across, fl
   for (int k = 0; k < kGroup; ++k) {
     // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
     const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
-    store(out[0] + k * kLanes, weight * xx.at[k]);
-    store(out[1] + k * kLanes, weight * xs.at[k]);
-    store(out[2] + k * kLanes, weight * ss.at[k]);
+    store(out[0] + k * kLanes, known_or_zero<kHasInvalid>(weight * xx.at[k]));
+    store(out[1] + k * kLanes, known_or_zero<kHasInvalid>(weight * xs.at[k]));
+    store(out[2] + k * kLanes, known_or_zero<kHasInvalid>(weight * ss.at[k]));
   }
 }
 
@@ -224,15 +231,20 @@ struct RowWork {
   Window window;
 };
 
-template <int kChannels>
+template <int kChannels, bool kHasInvalid>
 void fill_products(const RowWork& work, float contrast, int row, int chunk,
                    ChunkProducts& products) {
   const Window window = clip(work.window, chunk);
   for (int n = window.begin; n < window.end; n += kGroupLanes) {
     float* const out[3] = {products.values[0][row] + n, products.values[1][row] + n,
                            products.values[2][row] + n};
-    products_group<kChannels>(work.along, work.across, contrast, chunk + n, out);
+    products_group<kChannels, kHasInvalid>(work.along, work.across, contrast, chunk + n, out);
   }
+}
+
+auto fill_products_of(const TensorBlock& block) {
+  if (block.has_invalid) return block.channels == 1 ? fill_products<1, true> : fill_products<3, true>;
+  return block.channels == 1 ? fill_products<1, false> : fill_products<3, false>;
 }
 
 void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
@@ -246,7 +258,7 @@ void accumulate(const TensorBlock& block, const TensorFilters& filters, const Sh
     if (work[r].window.begin < whole.begin) whole.begin = work[r].window.begin;
     if (work[r].window.end > whole.end) whole.end = work[r].window.end;
   }
-  const auto fill = block.channels == 1 ? fill_products<1> : fill_products<3>;
+  const auto fill = fill_products_of(block);
   // Chunks begin at whole vectors of the planes.
   const int first = whole.begin / kLanes * kLanes - kLanes;
   for (int chunk = first; chunk < whole.end; chunk += kChunk) {

@@ -38,7 +38,9 @@ struct TensorBlock {
   int length = 0;                   ///< Lanes of payload.
   int first_row = 0, last_row = 0;  ///< Rows [first, last) whose result is wanted.
 
-  float* samples = nullptr;  ///< [c][row][lane].
+  float* samples = nullptr;  ///< [c][row][lane]; NaN = invalid, if `has_invalid`.
+  /// Whether samples may be NaN: gradients that one of them enters then count nothing.
+  bool has_invalid = false;
   float* line = nullptr;     ///< Two rows of scratch.
   float* along[2] = {};   ///< [c][row][lane] d/dx of the samples; [1]: half a pixel to the right.
   float* across[2] = {};  ///< [c][row][lane] smoothed along x; [1] likewise.

@@ -2,6 +2,7 @@
 #include "engine/evaluation/metrics/metrics.h"
 
 #include "engine/core/error.h"
+#include "engine/core/light_field/shown_disparity.h"
 #include "engine/evaluation/metrics/region_metrics.h"
 
 #include <fmt/format.h>
@@ -116,11 +117,27 @@ void require_comparable(const DisparityView& estimate, const DisparityView& trut
   }
 }
 
+/// Percentage of the pixels with truth that the light field shows.
+std::optional<double> shown_percentage(const DisparityView& truth, const DisparityView& shown) {
+  double all = 0, seen = 0;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      all += truth.is_valid(y, x) ? 1 : 0;
+      seen += shown.is_valid(y, x) ? 1 : 0;
+    }
+  }
+  if (all == 0) return std::nullopt;
+  return 100 * seen / all;
+}
+
 /// None if no pixel can be judged.
-std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate, const DisparityView& truth,
+std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
+                                          const DisparityView& whole_truth,
                                           const std::map<std::string, Image<std::uint8_t>>& regions,
                                           const EvaluationOptions& options) {
-  require_comparable(estimate, truth);
+  require_comparable(estimate, whole_truth);
+  const ShownDisparity shown(whole_truth, options.shown);
+  const DisparityView& truth = shown.view();
   const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
   Evaluation evaluation =
       measure_errors(estimate, truth, is_benchmark ? kBenchmarkBorder : 0, options.invalid);
@@ -136,6 +153,9 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate, const D
            mse_100(evaluation, options.invalid, kBenchmarkBorder));
   }
   append(evaluation.metrics, "density", density(evaluation));
+  if (!options.shown.empty()) {
+    append(evaluation.metrics, "shown", shown_percentage(whole_truth, truth));
+  }
   if (is_benchmark) append_region_metrics(evaluation, {estimate, truth, regions, options});
   return evaluation;
 }
@@ -152,12 +172,13 @@ bool has_value(const DisparityField& field, ViewIndex view, int y, int x) {
 }
 
 std::optional<double> layers_right(const LayeredDisparity& estimate, const GroundTruth& truth,
-                                   ViewIndex view) {
+                                   ViewIndex view, ImageView<const std::uint8_t> shown) {
   if (estimate.layers.empty() || !estimate.layers.contains(view)) return std::nullopt;
   const ImageView<const std::uint8_t> layers = estimate.layers.view(view);
   double judged = 0, right = 0;
   for (int y = 0; y < layers.height; ++y) {
     for (int x = 0; x < layers.width; ++x) {
+      if (!shown.empty() && shown.at(y, x) == 0) continue;
       const bool near = has_value(truth.foreground, view, y, x);
       const bool far = has_value(truth.background, view, y, x);
       if (!near && !far && !has_value(truth.field, view, y, x)) continue;
@@ -198,7 +219,8 @@ Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
       "no pixel of the " + size_text(truth.disparity) + " px can be evaluated by " +
       protocol_name(options.protocol) +
       (options.protocol == Protocol::Benchmark2016 ? ", which ignores a border of 15 px" : "") +
-      ": the truth has no value there");
+      ": the truth has no value there" +
+      (options.shown.empty() ? "" : ", or the light field shows nothing"));
 }
 
 LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const GroundTruth& truth,
@@ -217,7 +239,7 @@ LayeredEvaluation evaluate_layers(const LayeredDisparity& estimate, const Ground
       evaluate(near, truth.foreground.view(view), regions, options),
       evaluate(estimate.background.view(view), truth.background.view(view), regions, options),
       {},
-      layers_right(estimate, truth, view)};
+      layers_right(estimate, truth, view, options.shown)};
   if (truth.field.contains(view)) {
     evaluation.single = evaluate_if_any(near, truth.field.view(view), regions, options);
   }

@@ -38,6 +38,9 @@ struct EvaluationOptions {
   InvalidEstimates invalid = InvalidEstimates::Bad;
   /// For the angular error of normals; absent from the numbers unless `camera.is_known()`.
   CameraGrid camera{};
+  /// Pixels of the judged view that the light field shows, 0 = not, which are not judged; empty =
+  /// all. Borrowed.
+  ImageView<const std::uint8_t> shown{};
 };
 
 /// Pixels that `Protocol::Benchmark2016` ignores on each side.
@@ -61,6 +64,7 @@ struct Evaluation {
 ///
 /// Keys of vmv2013: mse_100 over all pixels with truth, mse_100_inset15 without a border of 15 px,
 /// density (% of the judged pixels that have a value).
+/// With `options.shown`, either protocol adds "shown" (% of the pixels with truth that are shown).
 /// Keys of benchmark2016: mse_100; badpix_0010, badpix_0030, badpix_0070 (% with |error| strictly
 /// above); q_25_100 (sorted(|error|·100)[⌊0.25·n⌋]); density; and for the regions there are:
 /// discontinuities_0070, bumpiness_planes_100_0050, bumpiness_contin_surfaces_100_0050 (region

@@ -4,6 +4,7 @@
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/black_corners.h"
 #include "engine/io/open/empty_pixels.h"
+#include "engine/io/open/equalise.h"
 #include "engine/io/open/filled_views.h"
 
 #include <algorithm>
@@ -77,6 +78,9 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress);
+  equalise_views(parts, options.equalise, scene.convention, progress);
+  std::string& samples_text = scene.convention.samples;
+  if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
   scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),

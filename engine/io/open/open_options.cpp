@@ -73,7 +73,9 @@ Schema<OpenOptions> open_schema() {
       .real(
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},
-          {-kMaxFocus_px, kMaxFocus_px});
+          {-kMaxFocus_px, kMaxFocus_px})
+      .toggle("equalise", &O::equalise,
+              {"Equalise", "Bring all views to the brightness of the centre view"});
   return schema;
 }
 

@@ -25,7 +25,8 @@ std::span<const Reader> readers() {
 }
 
 bool Reader::has_option(std::string_view key) const {
-  return std::ranges::find(options, key) != options.end();
+  constexpr std::string_view kOfAll = "equalise";  // assemble_scene.h
+  return key == kOfAll || std::ranges::find(options, key) != options.end();
 }
 
 FoundReader find_reader(const fs::path& path, const OpenOptions& options) {

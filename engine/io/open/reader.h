@@ -18,7 +18,7 @@ struct Reader {
   const char* id;    ///< Stored with results: "archive".
   const char* name;  ///< As in a sentence: "a light field of the 2013 archive".
   /// Keys of the reading options (`open_schema`) that mean something to it, besides the focus
-  /// plane.
+  /// plane and what `assemble` does for all readers.
   std::span<const char* const> options;
   /// The file or folder that would be read for `path`, which may be it, beside it or around it;
   /// empty if the form is another. Throws IoError for a damaged file.
@@ -27,6 +27,7 @@ struct Reader {
   Scene (*read)(const std::filesystem::path& found, const OpenOptions& options,
                 const Progress& progress);
 
+  /// Whether the option means something to it; false for the focus plane.
   [[nodiscard]] bool has_option(std::string_view key) const;
 };
 

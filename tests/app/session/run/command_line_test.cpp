@@ -131,7 +131,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"lenslet", 14},
                            {"dataset", std::string("s/LF")},
                            {"axes", std::string("vuyxc")},
-                           {Reading::kFocus, -0.1}};
+                           {Reading::kFocus, -0.1},
+                           {"equalise", true}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
   const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');

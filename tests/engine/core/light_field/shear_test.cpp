@@ -129,6 +129,32 @@ class ShearTest : public QObject {
     }
   }
 
+  void invalidPixels_moveWithTheirView_data() {
+    QTest::addColumn<double>("focus");
+    QTest::addColumn<int>("first");
+    QTest::addColumn<int>("last");
+    // View u = 5 is fetched 2·focus further left; a cubic takes in two pixels to either side.
+    QTest::newRow("whole pixels") << 1.0 << 32 << 32;
+    QTest::newRow("between pixels") << 0.25 << 29 << 32;
+  }
+  void invalidPixels_moveWithTheirView() {
+    QFETCH(double, focus);
+    QFETCH(int, first);
+    QFETCH(int, last);
+    ViewStack<std::uint8_t> valid(kGrid, kHeight, kWidth);
+    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+    const ViewIndex view{2, 5};
+    valid.view(view).at(17, 30) = 0;
+    const LightField before(plane_of(0.6), {}, std::move(valid));
+
+    const LightFieldPtr after = sheared(before, focus, Progress());
+
+    for (int x = 0; x < kWidth; ++x) {
+      QCOMPARE(after->is_valid(view, 17, x), x < first || x > last);
+      QVERIFY(after->is_valid(view, 10, x) && after->is_valid(kCenter, 17, x));
+    }
+  }
+
   void borderThatLeft_isRepeated() {
     const LightField before(plane_of(0), {});
 

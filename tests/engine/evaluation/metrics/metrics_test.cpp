@@ -284,6 +284,42 @@ class MetricsTest : public QObject {
     QVERIFY_EXCEPTION_THROWN((void)evaluate_layers({}, truth, {0, 0}, {}), InvalidInput);
   }
 
+  void pixelsThatAreNotShown_areNotJudged_data() {
+    QTest::addColumn<QString>("protocol");
+    QTest::newRow("2013") << "vmv2013";
+    QTest::newRow("2016") << "benchmark2016";
+  }
+  void pixelsThatAreNotShown_areNotJudged() {
+    QFETCH(QString, protocol);
+    const auto truth = wavy_truth();
+    auto estimate = wavy_truth();
+    Image<std::uint8_t> shown(kSize, kSize, 1, 1);
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize / 2; ++x) {
+        shown.at(y, x) = 0;
+        estimate.at(y, x) = y % 2 == 0 ? kNan : 9.0F;
+      }
+    }
+    std::map<std::string, Image<std::uint8_t>> regions = everywhere("planes");
+    regions.merge(everywhere("discontinuities"));
+    EvaluationOptions options{parse_protocol(protocol.toStdString()), InvalidEstimates::Bad, {}};
+    options.shown = shown.view();
+
+    const auto evaluation = evaluate(whole(estimate), whole(truth), regions, options);
+
+    QCOMPARE(metric(evaluation, "mse_100"), 0.0);
+    QCOMPARE(metric(evaluation, "density"), 100.0);
+    QCOMPARE(metric(evaluation, "shown"), 50.0);
+    QCOMPARE(int{evaluation.judged.at(25, 20)}, 0);
+    if (options.protocol == Protocol::Benchmark2016) {
+      QCOMPARE(metric(evaluation, "discontinuities_0070"), 0.0);
+    }
+    shown = Image<std::uint8_t>(kSize, kSize);
+    options.shown = shown.view();
+    QVERIFY_EXCEPTION_THROWN((void)evaluate(whole(estimate), whole(truth), {}, options),
+                             InvalidInput);
+  }
+
   void layers_useRegionsInTheCentreViewAlone() {
     const auto field = [] {
       DisparityField made{ViewStack<float>({1, 3}, kSize, kSize),

@@ -116,7 +116,11 @@ void OpenOptionsTest::readers_nameOptionsThatThereAre() {
     QVERIFY2(reader.has_option("flip"), reader.id);
     QVERIFY2(!reader.has_option("snak"), reader.id);
     QVERIFY2(!reader.has_option(Reading::kFocus), reader.id);  // that of all
-    for (const char* key : reader.options) named.insert(schema.description(key).key);
+    QVERIFY2(reader.has_option("equalise"), reader.id);
+    for (const ParameterDescription& option : schema.descriptions()) {
+      if (reader.has_option(option.key)) named.insert(option.key);
+    }
+    for (const char* key : reader.options) QCOMPARE(schema.description(key).key, std::string(key));
   }
 
   // Every option means something to somebody.

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/common/invalid_pixels.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+template <class T>
+void clear(const LightField& light_field, ViewStack<T>& maps) {
+  if (light_field.valid().empty() || maps.empty()) return;
+  for (int i = 0; i < maps.grid().count(); ++i) {
+    const ViewIndex view = maps.grid().view_at(i, maps.first());
+    const std::uint8_t* const valid = light_field.valid().view(view).data;
+    T* const map = maps.view(view).data;
+    for (std::size_t n = 0; n < maps.view_size(); ++n) {
+      if (valid[n] == 0) map[n] = 0;
+    }
+  }
+}
+
+void mark(const LightField& light_field, DisparityField& field) {
+  if (light_field.valid().empty() || field.empty()) return;
+  const ViewStack<float>& maps = field.disparity;
+  if (field.valid.empty()) {
+    field.valid =
+        ViewStack<std::uint8_t>(maps.grid(), maps.height(), maps.width(), 1, maps.first());
+    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
+  }
+  clear(light_field, field.valid);
+}
+
+}  // namespace
+
+void clear_invalid(const LightField& light_field, ViewStack<float>& maps) {
+  clear(light_field, maps);
+}
+
+void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps) {
+  clear(light_field, maps);
+}
+
+void mark_invalid(const LightField& light_field, Estimate& estimate) {
+  mark(light_field, estimate.field);
+  mark(light_field, estimate.layered.foreground);
+  mark(light_field, estimate.layered.background);
+  clear(light_field, estimate.layered.layers);
+  clear(light_field, estimate.confidence);
+}
+
+std::size_t count_valid(const LightField& light_field, ViewIndex view) {
+  const auto pixels = static_cast<std::size_t>(light_field.height()) * light_field.width();
+  if (light_field.valid().empty()) return pixels;
+  const std::uint8_t* const valid = light_field.valid().view(view).data;
+  return pixels - std::count(valid, valid + pixels, 0);
+}
+
+}  // namespace episcope

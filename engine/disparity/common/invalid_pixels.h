@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/light_field.h"
+
+#include <cstdint>
+
+namespace episcope {
+
+/// What pixels that hold nothing (LightField::valid) mean for estimates. A light field without a
+/// mask leaves everything as it is.
+
+/// Sets maps of some views of the light field to 0 where its pixels are invalid.
+void clear_invalid(const LightField& light_field, ViewStack<float>& maps);
+void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps);
+
+/// Marks the results of invalid pixels as not valid; sets their confidence and number of layers to
+/// 0.
+void mark_invalid(const LightField& light_field, Estimate& estimate);
+
+/// Number of valid pixels of a view.
+[[nodiscard]] std::size_t count_valid(const LightField& light_field, ViewIndex view);
+
+}  // namespace episcope

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/open/equalise.h"
+
+#include "engine/core/light_field/view_gain.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::io {
+namespace {
+
+std::string difference_text(const ViewGains& gains) {
+  const ViewIndex view = gains.most_different();
+  return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
+                     view_text(view), gains.of(view));
+}
+
+// Of any channel.
+double largest_difference(const ViewGains& gains) {
+  double largest = 0;
+  for (const double gain : gains.channel) {
+    if (!std::isnan(gain)) largest = std::max(largest, std::abs(gain - 1));
+  }
+  return largest;
+}
+
+int count_unknown(const ViewGains& gains) {
+  int unknown = 0;
+  for (const double gain : gains.overall) unknown += std::isnan(gain) ? 1 : 0;
+  return unknown;
+}
+
+}  // namespace
+
+void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
+                    const Progress& progress) {
+  const ViewGains gains =
+      measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1));
+  const int views = gains.grid.count();
+  if (views == 1) return;
+  const int unknown = count_unknown(gains);
+  if (unknown == views - 1) {
+    report.gain = "not known: the views are too dark, too bright or too small to compare";
+    return;
+  }
+  const bool is_notable = std::abs(gains.of(gains.most_different()) - 1) > kNotableGain;
+  if (is_wanted && largest_difference(gains) > kMeasurableGain) {
+    const double clipped = divide_by_gains(parts.samples, gains, progress.part(0.5, 1));
+    report.gain = "evened out; it differed by " + difference_text(gains);
+    if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
+  } else {
+    report.gain = "differs by " + difference_text(gains);
+    if (is_wanted) report.gain += "; too little to even it out";
+  }
+  if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
+  if (is_wanted || !is_notable) return;
+  report.warnings.push_back("The brightness of the views differs by " + difference_text(gains) +
+                            "; --equalise evens it out.");
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/open/assemble_scene.h"
+
+namespace episcope::io {
+
+/// Gains that differ by less from 1 are within the accuracy of their measurement.
+inline constexpr double kMeasurableGain = 0.01;
+/// Gains of the views that differ by more than this from 1 are warned of.
+inline constexpr double kNotableGain = 0.02;
+
+/// Tells `report` how much the brightness of the views differs from that of the centre view
+/// (measure_view_gains), and with `is_wanted` takes it out, unless all gains are within
+/// kMeasurableGain. Of a single view there is nothing to
+/// tell. Throws Cancelled.
+void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
+                    const Progress& progress);
+
+}  // namespace episcope::io
