@@ -33,8 +33,8 @@ double divisor_of(const Value& value, ConventionReport& report) {
   const auto& a = std::get<ViewStack<float>>(before);
   const auto& b = std::get<ViewStack<float>>(samples);
   const std::size_t i = std::max_element(a.data(), a.data() + a.size()) - a.data();
-  // To the last place of a float.
-  return std::round(1e4 * a.data()[i] / b.data()[i]) / 1e4;
+  // A float has seven places.
+  return std::round(100 * a.data()[i] / b.data()[i]) / 100.0;
 }
 
 }  // namespace
