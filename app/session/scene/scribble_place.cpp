@@ -15,7 +15,11 @@ fs::path label_place(const LightField& light_field) {
   const fs::path source = light_field.info().source;
   std::error_code ignored;
   if (fs::is_directory(source, ignored)) return source / "labels.h5";
-  return fs::is_regular_file(source, ignored) ? source.parent_path() / "labels.h5" : fs::path();
+  if (!fs::is_regular_file(source, ignored)) return {};
+  const bool is_archive = light_field.info().reading.reader == io::kArchiveReader;
+  // Several light fields of other forms may share a folder.
+  const std::string name = is_archive ? "labels.h5" : source.stem().string() + "_labels.h5";
+  return source.parent_path() / name;
 }
 
 bool is_writable(const fs::path& path) {

@@ -8,15 +8,15 @@
 
 namespace episcope {
 
-/// Where the scribbles of a light field are kept: labels.h5 in the folder that it lies in. Empty
-/// for scenes that come from no file.
+/// Where the scribbles of a light field are kept: labels.h5 in its folder, or beside an archive
+/// file; <stem>_labels.h5 beside a file of another form. Empty for scenes that come from no file.
 [[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
 
 /// Whether a file can be made or written over there, as far as permissions tell.
 [[nodiscard]] bool is_writable(const std::filesystem::path& path);
 
 /// Reads scribbles that were saved beside a light field whose format knows of no labels. Where
-/// labels.h5 does not fit, that is a warning. Throws Cancelled.
+/// that file does not fit, that is a warning. Throws Cancelled.
 void read_kept_scribbles(Scene& scene, const Progress& progress);
 
 }  // namespace episcope

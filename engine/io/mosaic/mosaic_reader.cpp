@@ -43,7 +43,7 @@ void report_remainder(const AnyImage& picture, const MosaicLayout& layout,
 std::vector<FileUse> account_of(const fs::path& path) {
   // Mosaics beside it are light fields of their own.
   FolderAccount account(is_only_mosaic(path) ? scene_folder(path) : path);
-  account.use(path, "picture of all views");
+  account.use(path, "mosaics");
   return account.uses();
 }
 
