@@ -148,11 +148,11 @@ LightField::Samples read_samples(const Hdf5Input& file, Layout layout, const Ope
 
 ExpectedOrder expected_order(const Hdf5Input& file) {
   if (file.text("/", "convention") || file.text(kLightField, "convention")) {
-    return {{}, "the file states its order in the attribute convention"};
+    return {{}, "the file states its order in the attribute convention", true};
   }
   const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
-  if (is_raw) return {{true, false}, "raw files of the archive store h reversed"};
-  return {{}, "the file has no attributes of the archive"};
+  if (is_raw) return {{true, false}, "raw files of the archive store h reversed", true};
+  return {{}, "the file has no attributes of the archive", true};
 }
 
 std::optional<Interval> stated_range(const Hdf5Input& file) {

@@ -6,6 +6,7 @@
 #include "engine/io/open/empty_pixels.h"
 #include "engine/io/open/equalise.h"
 #include "engine/io/open/filled_views.h"
+#include "engine/io/open/order_parts.h"
 
 #include <algorithm>
 #include <utility>
@@ -71,10 +72,7 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
 
 void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
               const Progress& progress) {
-  const GridShape stored = grid_of(parts.samples);
-  put_in_order(parts.samples, parts.truth, parts.expected, options.flip, scene.convention,
-               progress);
-  reverse_views(parts.valid, stored, flip_of(scene.convention));
+  bring_in_order(parts, options, scene.convention, progress);
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress);

@@ -80,6 +80,10 @@ Image<float> reduced(const Image<float>& picture, int side) {
   return small;
 }
 
+Image<float> smoothed(const Image<float>& picture) {
+  return blurred(picture, 0.7);
+}
+
 Image<float> band_passed(const Image<float>& picture) {
   Image<float> fine = blurred(picture, 0.8);
   const Image<float> coarse = blurred(picture, 4);

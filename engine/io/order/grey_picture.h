@@ -14,6 +14,9 @@ namespace episcope::io {
 /// most `side` px.
 [[nodiscard]] Image<float> reduced(const Image<float>& picture, int side);
 
+/// A Gaussian blur of 0.7 px, against noise and aliasing; the border is repeated.
+[[nodiscard]] Image<float> smoothed(const Image<float>& picture);
+
 /// The difference of Gaussian blurs of 0.8 and 4 px, brought to mean 0 and variance 1: brightness,
 /// contrast and slow changes over the picture are gone. All 0 for a picture without texture.
 [[nodiscard]] Image<float> band_passed(const Image<float>& picture);

@@ -21,6 +21,8 @@ namespace {
 
 constexpr int kShortList = 128;
 constexpr double kWorstFit = 0.35;
+constexpr double kWorstLine = 0.2;  ///< A grid with gaps resembles a line more than another grid.
+constexpr double kGoodFit = 0.1;
 /// Views of less contrast, against the median, hold nothing.
 constexpr double kLeastContrast = 0.1;
 /// Pairs that are less alike than this share of the range tell no distance any more.
@@ -148,15 +150,29 @@ std::vector<Fit> refined(const std::vector<Fit>& found, const Unlikeness& all) {
   return ambiguity(better) < ambiguity(found) ? better : found;
 }
 
+/// Adds arrangements whose last row is not full, at least one of which explains more than the best
+/// of the others: a list with missing views must not be taken for another grid.
+void add_unfilled(int count, const Unlikeness& pairs, std::vector<Fit>& found) {
+  for (int period = 2; period <= count / 2; ++period) {
+    if (count % period != 0) found.push_back({{period}, pairs.unexplained({period})});
+  }
+  std::ranges::stable_sort(found, {}, &Fit::unexplained);
+}
+
 /// All arrangements, the best first, at the scale at which the best one stands out most.
 std::vector<Fit> fits(int count, const Pictures& pictures, const Progress& progress) {
   std::vector<Fit> clearest;
+  Unlikeness clearest_pairs;
   for (std::size_t scale = 0; scale < MotionPictures::kScales; ++scale) {
     progress.check();
-    const Unlikeness pairs = unlikeness(pictures, scale, progress);
+    Unlikeness pairs = unlikeness(pictures, scale, progress);
     std::vector<Fit> found = refined(fits(arrangements(count), pairs), pairs);
-    if (clearest.empty() || ambiguity(found) < ambiguity(clearest)) clearest = std::move(found);
+    if (clearest.empty() || ambiguity(found) < ambiguity(clearest)) {
+      clearest = std::move(found);
+      clearest_pairs = std::move(pairs);
+    }
   }
+  if (clearest[0].unexplained > kGoodFit) add_unfilled(count, clearest_pairs, clearest);
   return clearest;
 }
 
@@ -229,10 +245,12 @@ ListLayout with_axes(int count, const Arrangement& one, const Pictures& pictures
 }
 
 std::string fit_text(int count, const Fit& fit) {
-  const int rows = count / fit.arrangement.period;
-  const std::string name = rows == 1 ? "a line"
-                                     : fmt::format("{} lines of {}{}", rows, fit.arrangement.period,
-                                                   fit.arrangement.snake ? " in snake order" : "");
+  const int period = fit.arrangement.period;
+  const int rows = (count + period - 1) / period;
+  const int missing = rows * period - count;
+  std::string name = rows == 1 ? "a line" : fmt::format("{} lines of {}", rows, period);
+  if (fit.arrangement.snake) name += " in snake order";
+  if (missing > 0) name += fmt::format(", {} of them missing", missing);
   return fmt::format("{}: {} unexplained", name, percent(fit.unexplained));
 }
 
@@ -280,7 +298,12 @@ ListLayout find_list_layout(int count, const GreyViewOfList& view, const Progres
   for (const Fit& fit : found) {
     const bool is_near_best =
         fit.unexplained + kNegligible < 1.5 * (found[0].unexplained + kNegligible);
-    if (fit.unexplained > kWorstFit || !is_near_best) break;
+    const bool is_line = fit.arrangement.period == count;
+    if (fit.unexplained > (is_line ? kWorstLine : kWorstFit) || !is_near_best) break;
+    if (count % fit.arrangement.period != 0) {
+      unknown.evidence = compared + ": rows that are not full";
+      return unknown;
+    }
     progress.check();
     ListLayout layout = with_axes(count, fit.arrangement, pictures);
     layout.evidence = compared + "; " + layout.evidence;

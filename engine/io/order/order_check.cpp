@@ -3,6 +3,7 @@
 
 #include "engine/core/text/text_table.h"
 #include "engine/io/order/epi_slopes.h"
+#include "engine/io/order/sign_check.h"
 #include "engine/io/order/warp_check.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,14 @@ struct Checked {
   bool is_decided = false;
   std::string text;
   std::string warning = {};
+  bool is_sign_known = false;
+  std::string sign_text = {};
+
+  /// Whether another order contradicts what was found.
+  [[nodiscard]] bool contradicts(ViewFlip other) const {
+    if (is_sign_known) return !(flip == other);
+    return is_decided && (flip.u != flip.v) != (other.u != other.v);
+  }
 };
 
 /// Of a single map; the layers of a transparent scene explain views only together.
@@ -66,9 +75,11 @@ Checked check_by_truth(const LightField::Samples& samples, const std::vector<Ord
   if (errors.u.is_decided()) checked.flip.u = errors.u.says_reversed();
   if (errors.v.is_decided()) checked.flip.v = errors.v.says_reversed();
   if (checked.is_decided) {
-    checked.text = "checked against truth, mean grey error after warping: " +
-                   axis_text("u", errors.u, checked.flip.u) + ", " +
-                   axis_text("v", errors.v, checked.flip.v);
+    const std::string errors_text =
+        axis_text("u", errors.u, checked.flip.u) + ", " + axis_text("v", errors.v, checked.flip.v);
+    checked.text = "checked against truth, mean grey error after warping: " + errors_text;
+    checked.is_sign_known = true;
+    checked.sign_text = "by truth: " + errors_text;
   }
   if (truth.size() == 1) checked.warning = poor_truth(errors);
   return checked;
@@ -89,6 +100,25 @@ Checked check_by_slopes(const LightField::Samples& samples, ViewFlip expected,
   return checked;
 }
 
+/// Near and far: what the slopes leave open, or, where they are undecided, all that is known.
+void add_occlusion(const LightField::Samples& samples, Checked& checked, const Progress& progress) {
+  const SignFinding sign = check_sign(samples, checked.flip, checked.is_decided, progress);
+  checked.is_sign_known = sign.is_decided;
+  checked.sign_text = sign.is_decided ? "by " + sign.evidence : sign.evidence;
+  if (!sign.is_decided) return;
+  checked.text = checked.is_decided ? checked.text + "; direction checked by " + sign.evidence
+                                    : "checked by " + sign.evidence;
+  checked.flip = sign.flip;
+  checked.is_decided = true;
+}
+
+std::string not_checked_text(GridShape grid) {
+  if (grid.count() == 1) return "not checked (a single view)";
+  if (grid.v == 1) return "not checked (one row of views)";
+  if (grid.u == 1) return "not checked (one column of views)";
+  return "not checked (too little depth or texture)";
+}
+
 /// The truth of one view: the disparity, or the two layers of a transparent scene.
 std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex center) {
   std::vector<OrderEvidence> found;
@@ -102,6 +132,26 @@ std::vector<OrderEvidence> evidence_of(const GroundTruth& truth, ViewIndex cente
 
 ViewFlip chosen_flip(Flip choice) {
   return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
+}
+
+GridShape grid_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
+}
+
+/// The order chosen by a user, and what the check has to say to it.
+void follow(ViewFlip chosen, const Checked& checked, OrderFinding& finding) {
+  finding.flip = chosen;
+  finding.order = flip_text(chosen);
+  finding.was_chosen = true;
+  if (!(chosen == checked.flip)) {
+    finding.sign = "";
+    finding.sign_check = "the order was chosen by hand";
+    if (checked.is_sign_known) finding.sign_check += ", against the check " + checked.sign_text;
+  }
+  if (!checked.contradicts(chosen)) return;
+  finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
+  finding.warnings.push_back("The order of views was chosen by hand (" + flip_text(chosen) +
+                             "), but the check favours \"" + flip_text(checked.flip) + "\".");
 }
 
 }  // namespace
@@ -118,22 +168,18 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
   Checked checked = check_by_truth(samples, truth, expected.flip);
   OrderFinding finding;
   if (!checked.warning.empty()) finding.warnings.push_back(checked.warning);
-  if (!checked.is_decided) checked = check_by_slopes(samples, expected.flip, progress);
+  if (!checked.is_decided) {
+    checked = check_by_slopes(samples, expected.flip, progress);
+    add_occlusion(samples, checked, progress);
+  }
 
   finding.flip = checked.flip;
-  finding.check = checked.is_decided
-                      ? checked.text
-                      : "not checked (too little depth or texture); " + expected.reason;
+  finding.check = checked.is_decided ? checked.text
+                                     : not_checked_text(grid_of(samples)) + "; " + expected.reason;
+  finding.sign = checked.is_sign_known ? "checked" : "";
+  finding.sign_check = checked.sign_text;
   if (choice != Flip::Auto) {
-    finding.flip = chosen_flip(choice);
-    finding.order = flip_text(finding.flip);
-    finding.was_chosen = true;
-    if (checked.is_decided && !(finding.flip == checked.flip)) {
-      finding.check = "the check favours \"" + flip_text(checked.flip) + "\": " + checked.text;
-      finding.warnings.push_back("The order of views was chosen by hand (" +
-                                 flip_text(finding.flip) + "), but the check favours \"" +
-                                 flip_text(checked.flip) + "\".");
-    }
+    follow(chosen_flip(choice), checked, finding);
     return finding;
   }
   finding.order = flip_text(finding.flip);
@@ -148,12 +194,14 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
                   Flip choice, ConventionReport& report, const Progress& progress) {
   progress.step("checking the order of views");
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const OrderFinding finding =
       find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);
   report.order = finding.order;
   report.order_check = finding.check;
   report.order_was_chosen = finding.was_chosen;
+  report.sign = finding.sign;
+  report.sign_check = finding.sign_check;
   report.reversed_u = finding.flip.u;
   report.reversed_v = finding.flip.v;
   report.warnings.insert(report.warnings.end(), finding.warnings.begin(), finding.warnings.end());

@@ -16,6 +16,8 @@ namespace episcope::io {
 struct ExpectedOrder {
   ViewFlip flip;
   std::string reason;  ///< "raw files of the archive store h reversed", …
+  /// Rows and columns are beyond doubt: motion along the other axis is reported, not corrected.
+  bool are_axes_known = false;
 };
 
 /// A disparity map as stored, by which neighbouring views can be warped.
@@ -29,13 +31,16 @@ struct OrderFinding {
   std::string order;        ///< As ConventionReport::order,
   std::string check;        ///< `order_check`
   bool was_chosen = false;  ///< and `order_was_chosen`.
+  std::string sign;         ///< As ConventionReport::sign
+  std::string sign_check;   ///< and `sign_check`.
   std::vector<std::string> warnings;
 };
 
-/// Determines which view axes to reverse: by warping with the truth if there is any, else by the
-/// sign of the correlation of EPI slopes, else as expected. A `choice` other than Auto takes
-/// precedence, but is checked, and a contradiction is reported in the warnings. Nothing is reversed
-/// yet. Throws Cancelled.
+/// Determines which view axes to reverse: by warping with the truth if there is any. Else the sign
+/// of the correlation of EPI slopes tells whether the axes agree, and occlusion whether near and
+/// far do; what remains open is as expected. A `choice` other than Auto takes precedence, but is
+/// checked, and a contradiction is reported in the warnings. Nothing is reversed yet. Throws
+/// Cancelled.
 [[nodiscard]] OrderFinding find_order(const LightField::Samples& samples,
                                       const std::vector<OrderEvidence>& truth,
                                       const ExpectedOrder& expected, Flip choice,

@@ -24,6 +24,7 @@ class AxisEvidence {
 
   [[nodiscard]] bool is_x() const;
   [[nodiscard]] bool is_y() const;
+  [[nodiscard]] bool has_pairs() const { return scales_[0].blocks + scales_[1].blocks > 0; }
   [[nodiscard]] bool is_decided() const { return is_x() || is_y(); }
 
   /// Sums over blocks, of the roots of mean squared differences.

@@ -127,6 +127,27 @@ class ListLayoutTest : public QObject {
     QVERIFY2(!found.is_decided, io::layout_text(found).c_str());
   }
 
+  void listsWithGaps_areNotTakenForOtherGrids_data() {
+    QTest::addColumn<int>("rows");
+    QTest::addColumn<int>("missing");
+    QTest::newRow("7x7 without the last view") << 7 << 1;
+    QTest::newRow("7x7 without the last two") << 7 << 2;
+    QTest::newRow("9x9 without the last view") << 9 << 1;
+    QTest::newRow("9x9 without the last two") << 9 << 2;
+  }
+  void listsWithGaps_areNotTakenForOtherGrids() {
+    QFETCH(int, rows);
+    QFETCH(int, missing);
+    const GridShape grid{rows, rows};
+    const LightField::Samples list =
+        rearranged(layered_views({.grid = grid}), {1, grid.count() - missing},
+                   [&](int i) { return grid.view_at(i); });
+
+    const ListLayout found = io::find_list_layout(list, Progress(2));
+
+    QVERIFY2(!found.is_decided, io::layout_text(found).c_str());
+  }
+
   void darkViews_doNotCount() {
     ViewStack<std::uint8_t> views = layered_views({.grid = {7, 7}});
     for (const ViewIndex corner : {ViewIndex{0, 0}, {0, 6}, {6, 0}, {6, 6}, {0, 1}}) {

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/camera_positions.h"
+
+#include <cmath>
+#include <utility>
+
+namespace episcope::io {
+namespace {
+
+/// Change from one end of the grid to the other, summed over rows or columns.
+CameraPosition change(const std::vector<CameraPosition>& positions, GridShape grid, bool is_u) {
+  CameraPosition sum;
+  const int lines = is_u ? grid.v : grid.u;
+  for (int i = 0; i < lines; ++i) {
+    const int first = is_u ? i * grid.u : i;
+    const int last = is_u ? first + grid.u - 1 : (grid.v - 1) * grid.u + i;
+    const CameraPosition& a = positions[static_cast<std::size_t>(first)];
+    const CameraPosition& b = positions[static_cast<std::size_t>(last)];
+    sum.x += b.x - a.x;
+    sum.y += b.y - a.y;
+  }
+  return sum;
+}
+
+std::string direction(const char* name, CameraPosition change) {
+  const bool is_x = std::abs(change.x) >= std::abs(change.y);
+  const double along = is_x ? change.x : change.y;
+  if (along == 0 || !std::isfinite(along)) return {};
+  return std::string("camera ") + name + (along > 0 ? " = larger " : " = smaller ") +
+         (is_x ? "X" : "Y");
+}
+
+}  // namespace
+
+void reverse_positions(std::vector<CameraPosition>& positions, GridShape grid, ViewFlip flip) {
+  if (positions.size() != static_cast<std::size_t>(grid.count())) return;
+  std::vector<CameraPosition> moved;
+  for (int i = 0; i < grid.count(); ++i) {
+    const ViewIndex from = flipped(grid.view_at(i), grid, flip);
+    moved.push_back(positions[static_cast<std::size_t>(from.v * grid.u + from.u)]);
+  }
+  positions = std::move(moved);
+}
+
+std::string position_directions(const std::vector<CameraPosition>& positions, GridShape grid) {
+  if (positions.size() != static_cast<std::size_t>(grid.count())) return {};
+  const std::string right = direction("right", change(positions, grid, true));
+  const std::string down = direction("down", change(positions, grid, false));
+  return right.empty() || down.empty() ? right + down : right + ", " + down;
+}
+
+}  // namespace episcope::io
