@@ -1,6 +1,8 @@
 # Every find_package of the project. The headless build never looks for Qt or VTK.
 find_package(Threads REQUIRED)
 find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(ZLIB REQUIRED)
+find_package(Matio REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs ml)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)

@@ -11,7 +11,7 @@ namespace episcope::io {
 namespace {
 
 /// Numbers that are converted at a time.
-constexpr std::size_t kConvertedBytes = std::size_t{4} << 20;
+constexpr std::size_t kConvertedBytes = std::size_t{16} << 20;
 
 template <class T>
 constexpr bool is_stored_as(NumberType type) {

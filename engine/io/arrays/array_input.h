@@ -33,16 +33,24 @@ class ArrayInput {
   /// front to the end.
   [[nodiscard]] virtual bool is_sequential() const { return false; }
 
+  /// Lengths of the blocks that the file is made of: to be read as a whole.
+  [[nodiscard]] virtual ArrayShape unit() const { return ArrayShape(shape_.size(), 1); }
+
   /// Reads `count[i]` elements from `start[i]` on along each axis, converted as `convert_numbers`.
   /// Throws IoError.
   template <class T>
   void read(const ArrayShape& start, const ArrayShape& count, T* out) const;
 
+  /// Likewise, without conversion, in the byte order of this machine.
+  void read_raw(const ArrayShape& start, const ArrayShape& count, std::uint8_t* out) const {
+    read_block(start, count, out);
+  }
+
  protected:
   ArrayInput(std::filesystem::path path, ArrayShape shape, NumberType type)
       : path_(std::move(path)), shape_(std::move(shape)), type_(type) {}
 
-  /// As `read`, without conversion, in the byte order of this machine.
+  /// As `read_raw`.
   virtual void read_block(const ArrayShape& start, const ArrayShape& count,
                           std::uint8_t* out) const = 0;
 

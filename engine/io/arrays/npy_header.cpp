@@ -130,7 +130,8 @@ NpyHeader parse_npy_header(const std::filesystem::path& path, std::string_view b
 std::string npy_header(const ArrayShape& shape, NumberType type) {
   std::string code;
   for (const TypeCode& known : kCodes) {
-    if (known.type == type) code = (byte_size(type) == 1 ? "|" : "<") + std::string(known.code);
+    if (known.type != type) continue;
+    code = fmt::format("{}{}", byte_size(type) == 1 ? "|" : "<", known.code);
   }
   std::string lengths;
   for (const std::size_t length : shape) lengths += std::to_string(length) + ", ";

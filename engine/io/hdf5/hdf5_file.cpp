@@ -15,6 +15,7 @@
 namespace episcope::io {
 namespace {
 
+constexpr int kDeepestGroup = 3;
 constexpr std::size_t kChunkCacheLimit = std::size_t{256} << 20;
 
 Hdf5Type type_of(hid_t type) {
@@ -35,26 +36,29 @@ Hdf5Shape shape_of(hid_t space) {
   return {extent.begin(), extent.end()};
 }
 
+Hdf5Shape chunk_of(hid_t dataset, std::size_t rank) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  if (rank == 0 || !creation.ok() || H5Pget_layout(creation) != H5D_CHUNKED) return {};
+  std::vector<hsize_t> chunk(rank);
+  if (H5Pget_chunk(creation, static_cast<int>(rank), chunk.data()) < 0) return {};
+  return {chunk.begin(), chunk.end()};
+}
+
 Hdf5Dataset describe(hid_t dataset, const std::string& name) {
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
-  return {name, shape_of(space), type_of(type)};
+  const Hdf5Shape shape = shape_of(space);
+  return {name, shape, type_of(type), chunk_of(dataset, shape.size())};
 }
 
 /// Room for all chunks that the views of one row of chunks share: else a file whose chunks span
 /// several views would be decompressed once for every view.
 std::size_t chunk_cache_bytes(hid_t dataset) {
-  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (!creation.ok() || H5Pget_layout(creation) != H5D_CHUNKED) return 0;
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
   const Hdf5Handle type(H5Dget_type(dataset), H5Tclose);
   const Hdf5Shape shape = shape_of(space);
-  std::vector<hsize_t> chunk(shape.size());
-  if (shape.size() < 4 ||
-      H5Pget_chunk(creation, static_cast<int>(chunk.size()), chunk.data()) < 0) {
-    return 0;
-  }
-  if (chunk[0] == 1 && chunk[1] == 1) return 0;
+  const Hdf5Shape chunk = chunk_of(dataset, shape.size());
+  if (chunk.size() < 4 || (chunk[0] == 1 && chunk[1] == 1)) return 0;
   std::size_t bytes = H5Tget_size(type) * chunk[0];
   for (std::size_t axis = 1; axis < shape.size(); ++axis) {
     bytes *= (shape[axis] + chunk[axis] - 1) / chunk[axis] * chunk[axis];
@@ -63,10 +67,14 @@ std::size_t chunk_cache_bytes(hid_t dataset) {
 }
 
 hid_t open_with_cache(hid_t file, const std::string& name) {
-  Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-  if (!plain.ok()) return -1;
-  const std::size_t bytes = chunk_cache_bytes(plain);
-  if (bytes == 0) return plain.release();
+  std::size_t bytes = 0;
+  {
+    Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!plain.ok()) return -1;
+    bytes = chunk_cache_bytes(plain);
+    if (bytes == 0) return plain.release();
+  }
+  // The library keeps the cache of a dataset that is open: the first access must be closed.
   const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 100003, bytes, 1.0);
   return H5Dopen2(file, name.c_str(), access);
@@ -92,6 +100,18 @@ Listing list_group(hid_t file, const std::string& name) {
   const Hdf5Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
   if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &next, list_object, &listing);
   return listing;
+}
+
+/// Datasets of a group ("" for the root), then those of its groups.
+void add_datasets(hid_t file, const std::string& group, int depth,
+                  std::vector<std::string>& names) {
+  const Listing listing = list_group(file, group.empty() ? "/" : group);
+  const std::string prefix = group.empty() ? "" : group + "/";
+  for (const std::string& name : listing.datasets) names.push_back(prefix + name);
+  if (depth == 0) return;
+  for (const std::string& name : listing.groups) {
+    add_datasets(file, prefix + name, depth - 1, names);
+  }
 }
 
 bool is_group(hid_t file, const std::string& name) {
@@ -163,13 +183,8 @@ bool Hdf5Input::has(const std::string& name) const {
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   const Hdf5Lock session;
-  const Listing root = list_group(file_, "/");
-  std::vector<std::string> names = root.datasets;
-  for (const std::string& group : root.groups) {
-    for (const std::string& name : list_group(file_, group).datasets) {
-      names.push_back(group + "/" + name);
-    }
-  }
+  std::vector<std::string> names;
+  add_datasets(file_, "", kDeepestGroup, names);
   std::vector<Hdf5Dataset> found;
   for (const std::string& name : names) {
     const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);

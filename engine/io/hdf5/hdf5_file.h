@@ -25,6 +25,7 @@ struct Hdf5Dataset {
   std::string name;  ///< Path inside the file, without a leading slash.
   Hdf5Shape shape;
   Hdf5Type type = Hdf5Type::Other;  ///< `Integer`: any other width or sign.
+  Hdf5Shape chunk{};  ///< Of the blocks that are stored one by one; empty if there are none.
 };
 
 /// A block of a dataset: `count[i]` elements from `start[i]` on along each axis.
@@ -51,7 +52,7 @@ class Hdf5Input {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] bool has(const std::string& name) const;
-  /// Datasets of the root group and of the groups directly in it, by name.
+  /// Datasets of the root group and of the groups in it, at most three deep, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
   /// Throws IoError, naming what the file holds, if there is no such dataset; also for a group.
   [[nodiscard]] Hdf5Dataset dataset(const std::string& name) const;

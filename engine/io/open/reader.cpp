@@ -3,6 +3,9 @@
 
 #include "engine/io/archive/archive_reader.h"
 #include "engine/io/archive/excerpt_reader.h"
+#include "engine/io/arrays/hdf5_array_reader.h"
+#include "engine/io/arrays/matlab_reader.h"
+#include "engine/io/arrays/numpy_reader.h"
 #include "engine/io/benchmark/benchmark_reader.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/image_grid_reader.h"
@@ -14,7 +17,7 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {archive_reader(), benchmark_reader(), excerpt_reader(),
+  static const Reader kReaders[] = {matlab_reader(), hdf5_array_reader(), numpy_reader(), archive_reader(), benchmark_reader(), excerpt_reader(),
                                     image_grid_reader()};
   return kReaders;
 }

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_file.h"
+
+#include "engine/core/error.h"
+
+#include <fmt/format.h>
+
+namespace episcope::io {
+namespace {
+
+/// What deflate reaches at most.
+constexpr std::size_t kDensest = 1032;
+/// Light fields and maps are far from it, but for small or empty ones.
+constexpr std::size_t kDense = 200;
+constexpr std::size_t kSmall = std::size_t{64} << 20;
+
+}  // namespace
+
+void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
+                            NumberType type, std::uint64_t bytes) {
+  const std::size_t count = element_count(shape);
+  const std::size_t width = byte_size(type);
+  const std::size_t allowed = bytes * (count / kSmall * width > 0 ? kDense : kDensest) / width;
+  if (count <= allowed) return;
+  throw IoError(path, fmt::format("an array of {} {} samples is claimed by {} bytes, which cannot "
+                                  "hold it; the file is damaged or made to harm: choose another",
+                                  array_shape_text(shape), number_name(type), bytes));
+}
+
+}  // namespace episcope::io

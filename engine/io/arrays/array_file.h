@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/arrays/array_input.h"
+#include "engine/io/arrays/array_layout.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Something in a file of arrays.
+struct ArrayEntry {
+  std::string name;
+  ArrayShape shape;  ///< As stored; empty if it is no array of numbers.
+  NumberType type = NumberType::UInt8;
+  IndexOrder order = IndexOrder::C;
+  std::string stated_axes{};  ///< As its file says ("v,u,y,x,c"), in the order of indices.
+  std::string other_kind{};   ///< "struct", "text": what it is if it is no array of numbers.
+};
+
+/// A file of one or several arrays with names.
+class ArrayFile {
+ public:
+  virtual ~ArrayFile() = default;
+  ArrayFile(const ArrayFile&) = delete;
+  ArrayFile& operator=(const ArrayFile&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// "NumPy array", "MATLAB 7.3 file".
+  [[nodiscard]] const std::string& form() const { return form_; }
+  [[nodiscard]] const std::vector<ArrayEntry>& entries() const { return entries_; }
+  /// Throws IoError for an array that is damaged, or of another type than numbers.
+  [[nodiscard]] virtual std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const = 0;
+
+ protected:
+  ArrayFile(std::filesystem::path path, std::string form)
+      : path_(std::move(path)), form_(std::move(form)) {}
+  void add(ArrayEntry entry) { entries_.push_back(std::move(entry)); }
+
+ private:
+  std::filesystem::path path_;
+  std::string form_;
+  std::vector<ArrayEntry> entries_;
+};
+
+/// Throws IoError if samples of this shape cannot be in a file of `bytes`, even compressed as
+/// densely as can be.
+void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
+                            NumberType type, std::uint64_t bytes);
+
+}  // namespace episcope::io

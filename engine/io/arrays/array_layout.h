@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+#include "engine/io/arrays/array_input.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// In which order people index the axes of an array.
+enum class IndexOrder {
+  C,       ///< As in the file: the last axis is contiguous (NumPy, h5py).
+  Fortran  ///< Reversed: the first one is (MATLAB, NumPy in Fortran order).
+};
+
+/// The shape, or the letters of axes, in the other order of indices.
+[[nodiscard]] ArrayShape in_index_order(ArrayShape stored, IndexOrder order);
+[[nodiscard]] std::string in_index_order(std::string axes, IndexOrder order);
+
+/// What the axes of an array mean: a letter each, v and u for rows and columns of views, y and x
+/// for those of pixels, c for channels, n for views in a list.
+struct ArrayLayout {
+  ArrayShape shape;  ///< As stored: the last axis is contiguous.
+  std::string axes;  ///< Of `shape`.
+
+  [[nodiscard]] bool has(char letter) const { return axes.find(letter) != std::string::npos; }
+  /// 1 for an axis that the array lacks.
+  [[nodiscard]] std::size_t length(char letter) const;
+  /// In elements of the file; 0 for an axis that the array lacks.
+  [[nodiscard]] std::size_t stride(char letter) const;
+  /// Whether all views of a pixel lie together, not all pixels of a view.
+  [[nodiscard]] bool views_are_fastest() const;
+  [[nodiscard]] int height() const { return static_cast<int>(length('y')); }
+  [[nodiscard]] int width() const { return static_cast<int>(length('x')); }
+  /// Of a list: 1×N.
+  [[nodiscard]] GridShape grid() const;
+  /// With rows and columns of views exchanged.
+  [[nodiscard]] ArrayLayout crossed() const;
+};
+
+/// Every meaning that an array of this shape can have as a light field: channels are 1, 3 or 4;
+/// rows and columns of views lie side by side, as those of pixels do; views have more rows and
+/// columns than their grid. Rows are taken to come before columns in the order of indices, but for
+/// arrays of pixels before views with channels first, as MATLAB's in other programs, in which
+/// columns come first. Arrays of 3 axes are lists of grey views; of 4, grey views or lists.
+[[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
+
+/// The layout that `axes` states, in the order of indices ("vuyxc", "v,u,y,x"; s and t as in
+/// MATLAB's light fields: t for rows, s for columns of views). Throws InvalidInput that names
+/// `path` and shape if they do not fit each other.
+[[nodiscard]] ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& stored,
+                                        const std::string& axes, IndexOrder order);
+
+/// "9×9×512×512×3 (vuyxc)", in the order of indices.
+[[nodiscard]] std::string layout_text(const ArrayLayout& layout, IndexOrder order);
+
+}  // namespace episcope::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/arrays/array_file.h"
+#include "engine/io/arrays/array_layout.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// What lies beside the light field in a file of arrays.
+struct ArrayMaps {
+  GroundTruth truth;              ///< In the order of views as stored.
+  ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
+  std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
+};
+
+/// Reads disparity ("disp…", "gt"), labels ("label…", "seg…") and masks ("valid…", "mask…") of the
+/// centre view or of all views, whose axes are those of the light field without channels. What has
+/// another name or shape is noted as not used; so is depth, which needs a camera.
+/// Throws IoError, Cancelled.
+[[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
+                                        const ArrayLayout& layout, bool wants_labels,
+                                        const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_samples.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/io/arrays/block_plan.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace episcope::io {
+namespace {
+
+constexpr std::size_t kBlockBytes = std::size_t{64} << 20;
+constexpr std::string_view kLetters = "vuyxc";
+/// Pixels that are moved at a time: those of all views stay in the cache meanwhile.
+constexpr std::size_t kTileRows = 4;
+constexpr std::size_t kTileColumns = 32;
+
+using Five = std::array<std::size_t, 5>;  ///< Along v, u, y, x, c.
+
+/// A block of an array in memory, or the views that it belongs to.
+template <class T>
+struct Placed {
+  T* data = nullptr;
+  Five stride{};
+};
+
+template <class From, class To, class Convert>
+void move_tile(Placed<const From> from, Placed<To> to, const Five& count, const Convert& convert) {
+  for (std::size_t v = 0; v < count[0]; ++v) {
+    for (std::size_t u = 0; u < count[1]; ++u) {
+      for (std::size_t y = 0; y < count[2]; ++y) {
+        const From* in = from.data + v * from.stride[0] + u * from.stride[1] + y * from.stride[2];
+        To* out = to.data + v * to.stride[0] + u * to.stride[1] + y * to.stride[2];
+        for (std::size_t x = 0; x < count[3]; ++x, in += from.stride[3], out += to.stride[3]) {
+          for (std::size_t c = 0; c < count[4]; ++c) {
+            out[c * to.stride[4]] = convert(in[c * from.stride[4]]);
+          }
+        }
+      }
+    }
+  }
+}
+
+/// Moves a block in tiles that the cache holds.
+template <class From, class To, class Convert>
+void move_block(Placed<const From> from, Placed<To> to, const Five& count, bool views_are_fastest,
+                const Convert& convert) {
+  Five tile = count;
+  tile[2] = std::min(kTileRows, count[2]);
+  tile[3] = std::min(kTileColumns, count[3]);
+  if (!views_are_fastest) tile[0] = tile[1] = 1;
+  const auto rows = static_cast<int>((count[2] + tile[2] - 1) / tile[2]);
+  parallel_for(rows, Progress(), [&](int row) {
+    const std::size_t y = static_cast<std::size_t>(row) * tile[2];
+    for (std::size_t v = 0; v < count[0]; v += tile[0]) {
+      for (std::size_t u = 0; u < count[1]; u += tile[1]) {
+        for (std::size_t x = 0; x < count[3]; x += tile[3]) {
+          const Five at{v, u, y, x, 0};
+          Five part = tile;
+          Placed<const From> in = from;
+          Placed<To> out = to;
+          for (std::size_t axis = 0; axis < 4; ++axis) {
+            part[axis] = std::min(tile[axis], count[axis] - at[axis]);
+            in.data += at[axis] * from.stride[axis];
+            out.data += at[axis] * to.stride[axis];
+          }
+          move_tile(in, out, part, convert);
+        }
+      }
+    }
+  });
+}
+
+/// Where the axes of a block lie among v, u, y, x, c; a list is a row of views.
+struct BlockAxes {
+  Five start{};
+  Five count{1, 1, 1, 1, 1};
+  Five stride{};
+};
+
+BlockAxes axes_of(const ArrayBlock& block, const ArrayLayout& layout) {
+  BlockAxes axes;
+  std::size_t stride = 1;
+  for (std::size_t axis = layout.axes.size(); axis-- > 0;) {
+    const char letter = layout.axes[axis] == 'n' ? 'u' : layout.axes[axis];
+    const std::size_t at = kLetters.find(letter);
+    axes.start[at] = block.start[axis];
+    axes.count[at] = block.count[axis];
+    axes.stride[at] = stride;
+    stride *= block.count[axis];
+  }
+  return axes;
+}
+
+template <class T>
+Five strides_of(const ViewStack<T>& stack) {
+  const auto c = static_cast<std::size_t>(stack.channels());
+  const std::size_t row = c * static_cast<std::size_t>(stack.width());
+  const std::size_t view = stack.view_size();
+  return {view * static_cast<std::size_t>(stack.grid().u), view, row, c, 1};
+}
+
+template <class T>
+Placed<T> place_of(ViewStack<T>& stack, const BlockAxes& axes) {
+  Placed<T> placed{stack.data(), strides_of(stack)};
+  for (std::size_t i = 0; i < 4; ++i) placed.data += axes.start[i] * placed.stride[i];
+  return placed;
+}
+
+/// Chunks, with all channels of a pixel, so that its place in the views is visited once.
+ArrayShape unit_of(const ArrayInput& array, const ArrayLayout& layout) {
+  ArrayShape unit = array.unit();
+  const std::size_t channels = layout.axes.find('c');
+  const bool may_skip = !array.is_sequential();
+  if (channels != std::string::npos && may_skip) unit[channels] = array.shape()[channels];
+  return unit;
+}
+
+template <class T, class UseBlock>
+void for_each_block(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress,
+                    const UseBlock& use) {
+  const auto blocks = plan_blocks(array.shape(), unit_of(array, layout), kBlockBytes / sizeof(T));
+  LargeArray<T> samples;
+  std::size_t room = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    progress.check();
+    const std::size_t size = element_count(blocks[i].count);
+    if (size > room) {
+      samples = make_large<T>(size);
+      room = size;
+    }
+    array.read(blocks[i].start, blocks[i].count, samples.get());
+    use(samples.get(), axes_of(blocks[i], layout));
+    progress.report((i + 1.0) / static_cast<double>(blocks.size()));
+  }
+}
+
+void require_memory(const ArrayInput& array, std::size_t bytes) {
+  const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
+  const std::size_t memory = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  if (bytes < memory) return;
+  constexpr double kGigabyte = 1e9;
+  throw IoError(
+      array.path(),
+      fmt::format("the views need {:.1f} GB of memory, but this machine has {:.1f} GB; "
+                  "store fewer views or smaller ones",
+                  static_cast<double>(bytes) / kGigabyte, static_cast<double>(memory) / kGigabyte));
+}
+
+template <class T>
+ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress) {
+  const std::size_t stored = layout.length('c');
+  const std::size_t channels = std::min<std::size_t>(stored, 3);
+  require_memory(array, element_count(array.shape()) * sizeof(T));
+  ViewStack<T> stack(layout.grid(), layout.height(), layout.width(), static_cast<int>(channels));
+  ViewStack<std::uint8_t> valid;
+  if (stored == 4) {
+    valid = ViewStack<std::uint8_t>(layout.grid(), layout.height(), layout.width());
+    std::fill_n(valid.data(), valid.size(), std::uint8_t{1});
+  }
+  const bool views_are_fastest = layout.views_are_fastest();
+  for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
+    const std::size_t first = axes.start[4];
+    const std::size_t last = std::min(first + axes.count[4], channels);
+    Five count = axes.count;
+    if (first < last) {
+      Placed<T> place = place_of(stack, axes);
+      place.data += first;
+      count[4] = last - first;
+      move_block<T, T>({samples, axes.stride}, place, count, views_are_fastest,
+                       [](T sample) { return sample; });
+    }
+    if (stored < 4 || first + axes.count[4] < 4) return;
+    count[4] = 1;
+    move_block<T, std::uint8_t>({samples + (3 - first) * axes.stride[4], axes.stride},
+                                place_of(valid, axes), count, views_are_fastest,
+                                [](T weight) { return static_cast<std::uint8_t>(weight > 0); });
+  });
+  const std::uint8_t* end = valid.data() + valid.size();
+  if (std::find(valid.data(), const_cast<std::uint8_t*>(end), 0) == end) valid = {};
+  return {std::move(stack), std::move(valid)};
+}
+
+/// Integers that bytes can hold, as bytes.
+void narrow(LightField::Samples& samples) {
+  const auto& wide = std::get<ViewStack<std::uint16_t>>(samples);
+  constexpr std::uint16_t kLargest = std::numeric_limits<std::uint8_t>::max();
+  if (std::any_of(wide.data(), wide.data() + wide.size(),
+                  [](std::uint16_t sample) { return sample > kLargest; })) {
+    return;
+  }
+  ViewStack<std::uint8_t> bytes(wide.grid(), wide.height(), wide.width(), wide.channels());
+  std::transform(wide.data(), wide.data() + wide.size(), bytes.data(),
+                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
+  samples = std::move(bytes);
+}
+
+}  // namespace
+
+ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
+                          const Progress& progress) {
+  const NumberType type = array.type();
+  if (is_float(type)) return read_as<float>(array, layout, progress);
+  if (byte_size(type) == 1 && type != NumberType::Int8) {
+    return read_as<std::uint8_t>(array, layout, progress);
+  }
+  ArraySamples read = read_as<std::uint16_t>(array, layout, progress);
+  if (type != NumberType::UInt16) narrow(read.samples);
+  return read;
+}
+
+template <class T>
+ViewStack<T> read_map_stack(const ArrayInput& array, const ArrayLayout& layout,
+                            const Progress& progress) {
+  require_memory(array, element_count(array.shape()) * sizeof(T));
+  ViewStack<T> stack(layout.grid(), layout.height(), layout.width());
+  for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
+    move_block<T, T>({samples, axes.stride}, place_of(stack, axes), axes.count,
+                     layout.views_are_fastest(), [](T sample) { return sample; });
+  });
+  return stack;
+}
+
+template ViewStack<float> read_map_stack(const ArrayInput&, const ArrayLayout&, const Progress&);
+template ViewStack<std::int32_t> read_map_stack(const ArrayInput&, const ArrayLayout&,
+                                                const Progress&);
+
+}  // namespace episcope::io

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/array_scene.h"
+
+#include "engine/core/error.h"
+#include "engine/io/arrays/array_maps.h"
+#include "engine/io/arrays/array_preview.h"
+#include "engine/io/arrays/array_samples.h"
+#include "engine/io/arrays/choose_layout.h"
+#include "engine/io/arrays/list_grid.h"
+#include "engine/io/maps/float_samples.h"
+#include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/scene_name.h"
+
+#include <fmt/format.h>
+
+namespace episcope::io {
+namespace {
+
+constexpr const char* kOptions[] = {"flip", "dataset", "axes"};
+
+/// As the light field itself says which pixels hold something, or a mask beside it.
+void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
+  if (valid.empty()) {
+    valid = std::move(mask);
+  } else if (!mask.empty()) {
+    std::transform(valid.data(), valid.data() + valid.size(), mask.data(), valid.data(),
+                   [](std::uint8_t a, std::uint8_t b) { return std::min(a, b); });
+  }
+}
+
+const ArrayEntry& light_field_of(const ArrayFile& file, const OpenOptions& options) {
+  const ArrayEntry* entry = find_light_field(file, options.dataset);
+  if (entry) return *entry;
+  throw IoError(file.path(),
+                "no array of this file has the shape of a light field; if one is, "
+                "name it with --dataset and its axes with --axes");
+}
+
+LightFieldInfo info_of(const ArrayFile& file, const char* reader) {
+  LightFieldInfo info;
+  info.name = scene_name(file.path());
+  info.source = file.path().string();
+  info.reading.reader = reader;
+  return info;
+}
+
+void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLayout& chosen,
+                 ConventionReport& report) {
+  const std::string name = entry.name.empty() ? "" : entry.name + ", ";
+  report.format =
+      fmt::format("{} ({}{} {}; axes {})", file.form(), name,
+                  layout_text(chosen.layout, entry.order), number_name(entry.type), chosen.reason);
+  if (!chosen.warning.empty()) report.warnings.push_back(chosen.warning);
+}
+
+}  // namespace
+
+std::span<const char* const> array_options() {
+  return kOptions;
+}
+
+Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,
+                       const Progress& progress) {
+  const ArrayEntry& entry = light_field_of(file, options);
+  ChosenLayout chosen = choose_layout(file, entry, options.axes);
+  const std::unique_ptr<ArrayInput> array = file.open(entry);
+  SceneParts parts;
+  parts.info = info_of(file, reader);
+  if (options.on_center_view && !array->is_sequential()) {
+    const GridShape grid = chosen.layout.grid();
+    options.on_center_view(array_preview(*array, chosen.layout, grid.center()), parts.info, grid);
+  }
+  progress.check();
+  check_layout(*array, entry.order, chosen, progress);
+
+  Scene scene;
+  progress.step("reading views");
+  ArraySamples read = read_samples(*array, chosen.layout, progress.part(0, 0.7));
+  scale_float_samples(read.samples, scene.convention);
+  progress.step("reading maps");
+  ArrayMaps maps =
+      read_array_maps(file, entry, chosen.layout, options.needs_truth, progress.part(0.7, 0.8));
+  parts.samples = std::move(read.samples);
+  parts.valid = std::move(read.valid);
+  combine(parts.valid, std::move(maps.valid));
+  parts.truth = std::move(maps.truth);
+  if (chosen.layout.has('n')) arrange_list(file.path(), options, parts, chosen.reason, progress);
+  report_form(file, entry, chosen, scene.convention);
+  parts.files = std::move(maps.uses);
+  parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
+  parts.expected = {{}, "arrays do not say how their views are ordered"};
+  assemble(std::move(parts), options, scene, progress.part(0.8, 1));
+  return scene;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/io/arrays/array_file.h"
+#include "engine/io/open/open_options.h"
+
+#include <span>
+
+namespace episcope::io {
+
+/// Keys of the reading options that every reader of arrays knows.
+[[nodiscard]] std::span<const char* const> array_options();
+
+/// Reads the light field of a file of arrays, and the maps beside it. A picture of the centre view
+/// is given first. Throws IoError, InvalidInput for options that do not fit, Cancelled.
+[[nodiscard]] Scene read_array_scene(const ArrayFile& file, const char* reader,
+                                     const OpenOptions& options, const Progress& progress);
+
+}  // namespace episcope::io

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/choose_layout.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/join.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_preview.h"
+#include "engine/io/order/parallax_axis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::io {
+namespace {
+
+constexpr int kWindow = 256;
+
+std::string last_part(const std::string& name) {
+  const std::size_t slash = name.rfind('/');
+  return lower_case(slash == std::string::npos ? name : name.substr(slash + 1));
+}
+
+bool is_light_field_name(const std::string& name) {
+  constexpr const char* kNames[] = {"lf",    "lightfield", "light_field", "light-field", "lf_rgb",
+                                    "views", "lf_data",    "lfs",         "lightfields"};
+  return std::ranges::find(kNames, last_part(name)) != std::end(kNames);
+}
+
+/// Words for maps and for what describes a camera.
+bool is_other_name(const std::string& name) {
+  constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
+  const std::string last = last_part(name);
+  return std::ranges::any_of(
+      kWords, [&](const char* word) { return last.find(word) != std::string::npos; });
+}
+
+std::string entry_text(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return entry.name + ", " + entry.other_kind;
+  return entry.name + ", " + array_shape_text(in_index_order(entry.shape, entry.order));
+}
+
+const ArrayEntry& named_entry(const ArrayFile& file, const std::string& name) {
+  for (const ArrayEntry& entry : file.entries()) {
+    if (entry.name == name && entry.other_kind.empty()) return entry;
+  }
+  throw InvalidInput(fmt::format(
+      "{}: there is no array {} in this file, which holds {}; name one of them with --dataset",
+      file.path().string(), name.substr(0, 80),
+      file.entries().empty() ? "none" : joined(file.entries(), "; ", entry_text)));
+}
+
+/// What moves between the centre and its neighbours along each axis of views.
+struct Parallax {
+  AxisEvidence along_u;
+  AxisEvidence along_v;
+};
+
+Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
+  const GridShape grid = layout.grid();
+  const ViewIndex center = grid.center();
+  std::vector<ViewIndex> views{center};
+  if (grid.u > 1) views.push_back({center.v, center.u - 1});
+  if (grid.v > 1) views.push_back({center.v - 1, center.u});
+  const std::vector<Image<float>> windows = array_windows(array, layout, views, kWindow);
+  const MotionPictures middle(windows.front());
+  Parallax parallax;
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    AxisEvidence& axis = views[i].u == center.u ? parallax.along_v : parallax.along_u;
+    axis.add(MotionPictures(windows[i]), middle);
+  }
+  return parallax;
+}
+
+}  // namespace
+
+bool can_be_light_field(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return false;
+  if (!entry.stated_axes.empty() && entry.shape.size() > 3) return true;
+  return !possible_layouts(entry.shape, entry.order).empty();
+}
+
+const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset) {
+  if (!dataset.empty()) return &named_entry(file, dataset);
+  std::vector<const ArrayEntry*> possible;
+  for (const ArrayEntry& entry : file.entries()) {
+    if (can_be_light_field(entry)) possible.push_back(&entry);
+  }
+  if (possible.size() <= 1) return possible.empty() ? nullptr : possible.front();
+  const auto only = [&](const auto& is_meant) -> const ArrayEntry* {
+    const auto count = std::ranges::count_if(possible, is_meant);
+    return count == 1 ? *std::ranges::find_if(possible, is_meant) : nullptr;
+  };
+  const auto has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
+  const auto has_five = [](const ArrayEntry* entry) { return entry->shape.size() == 5; };
+  const auto is_no_map = [](const ArrayEntry* entry) { return !is_other_name(entry->name); };
+  if (const ArrayEntry* entry = only(has_name)) return entry;
+  if (const ArrayEntry* entry = only(has_five)) return entry;
+  if (const ArrayEntry* entry = only(is_no_map)) return entry;
+  throw IoError(file.path(),
+                fmt::format("several arrays of this file can be the light field ({}); name it with "
+                            "--dataset {}",
+                            joined(possible, "; ", [](const auto* e) { return entry_text(*e); }),
+                            possible.front()->name));
+}
+
+ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
+                           const std::string& axes) {
+  if (!axes.empty()) {
+    return {stated_layout(file.path(), entry.shape, axes, entry.order), "as chosen", {}};
+  }
+  if (!entry.stated_axes.empty()) {
+    return {stated_layout(file.path(), entry.shape, entry.stated_axes, entry.order),
+            "as the file states",
+            {}};
+  }
+  const auto layouts = possible_layouts(entry.shape, entry.order);
+  if (layouts.size() == 1) return {layouts.front(), "by shape", {}};
+  const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
+  if (layouts.empty()) {
+    throw IoError(file.path(),
+                  fmt::format("the array {} has the shape {}, which is not that of a light field; "
+                              "if it is one, state its axes, as in --axes vuyxc",
+                              entry.name, shape));
+  }
+  throw IoError(
+      file.path(),
+      fmt::format("the array {} has the shape {}, which can mean {}; state its axes, as in "
+                  "--axes {}",
+                  entry.name, shape,
+                  joined(layouts, " or ",
+                         [&](const auto& l) { return in_index_order(l.axes, entry.order); }),
+                  in_index_order(layouts.front().axes, entry.order)));
+}
+
+void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chosen,
+                  const Progress& progress) {
+  if (chosen.reason != "by shape" || chosen.layout.has('n')) return;
+  progress.step("telling rows from columns of views");
+  const auto [along_u, along_v] = measure_parallax(array, chosen.layout);
+  const double score = along_u.score() - along_v.score();
+  const bool says_crossed = along_u.is_y() || along_v.is_x();
+  const bool says_straight = along_u.is_x() || along_v.is_y();
+  if (says_straight && !says_crossed) {
+    chosen.reason += fmt::format("; parallax agrees ({:.1f} σ)", score);
+  } else if (says_crossed && !says_straight) {
+    chosen.layout = chosen.layout.crossed();
+    chosen.reason += fmt::format("; rows and columns of views by parallax ({:.1f} σ)", -score);
+  } else {
+    chosen.reason += "; parallax does not tell rows from columns of views";
+    chosen.warning = fmt::format(
+        "The views differ too little to tell rows from columns of views; if they are exchanged, "
+        "state the axes as {}.",
+        in_index_order(chosen.layout.crossed().axes, order));
+  }
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/parallel/progress.h"
+#include "engine/io/arrays/array_file.h"
+#include "engine/io/arrays/array_layout.h"
+#include "engine/io/open/open_options.h"
+
+#include <string>
+
+namespace episcope::io {
+
+/// What the axes of a light field mean, and why.
+struct ChosenLayout {
+  ArrayLayout layout;
+  std::string reason;   ///< "by shape; parallax agrees (12.3 σ)".
+  std::string warning;  ///< A sentence where a doubt remains; else empty.
+};
+
+/// Whether its shape, or what its file states, is that of a light field.
+[[nodiscard]] bool can_be_light_field(const ArrayEntry& entry);
+
+/// The entry that holds the light field: the one that `dataset` names; else the only one with five
+/// axes, or called lf, light_field, views or the like, or the only one that can be a light field.
+/// Null if none can be. Throws IoError that names the option where several can be, InvalidInput for
+/// a `dataset` that is not there.
+[[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset);
+
+/// As `axes` states, else as the file states, else by shape. Throws IoError that lists what is
+/// possible and names the option if that leaves no meaning or several.
+[[nodiscard]] ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
+                                         const std::string& axes);
+
+/// Which of rows and columns of views come first is then checked by parallax, unless it was stated:
+/// between columns, points move along rows of pixels. Exchanges them if that fits clearly better.
+/// Throws IoError.
+void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chosen,
+                  const Progress& progress);
+
+}  // namespace episcope::io

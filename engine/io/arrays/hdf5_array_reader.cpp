@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/hdf5_array_reader.h"
+
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_scene.h"
+#include "engine/io/arrays/choose_layout.h"
+#include "engine/io/arrays/folder_file.h"
+#include "engine/io/arrays/hdf5_arrays.h"
+
+#include <algorithm>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kHdf5Reader = "hdf5";
+
+/// `[v][h][y][x]` or `[v][h][y][x][c]`, whose reader also explains what is wrong with it.
+bool is_archive_form(const ArrayEntry& light_field) {
+  if (light_field.shape.size() != 5 || !can_be_light_field(light_field)) return true;
+  const std::size_t last = light_field.shape.back();
+  const std::string& axes = light_field.stated_axes;
+  return (last == 1 || last == 3 || last == 4) && (axes.empty() || axes.starts_with("v,u,y,x"));
+}
+
+bool is_meant(const fs::path& path, const OpenOptions& options) {
+  if (!has_hdf5_signature(path)) return false;
+  const auto file = std::make_shared<const Hdf5Input>(path);
+  if (!options.dataset.empty() || !options.axes.empty()) return true;
+  // Results, and what lies beside a light field of the archive.
+  if (file->has("estimate")) return false;
+  if (path.filename() != "lf.h5" && fs::exists(path.parent_path() / "lf.h5")) return false;
+  const Hdf5Arrays arrays(file);
+  const auto& entries = arrays.entries();
+  const auto light_field = std::ranges::find(entries, "LF", &ArrayEntry::name);
+  if (light_field != entries.end()) return !is_archive_form(*light_field);
+  return std::ranges::any_of(entries, [](const ArrayEntry& entry) {
+    return entry.shape.size() == 5 && can_be_light_field(entry);
+  });
+}
+
+bool has_hdf5_name(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".h5" || suffix == ".hdf5";
+}
+
+fs::path find_hdf5_array(const fs::path& path, const OpenOptions& options) {
+  if (!fs::is_directory(path)) return is_meant(path, options) ? path : fs::path();
+  const fs::path file = only_file_in(path, has_hdf5_name);
+  return !file.empty() && is_meant(file, options) ? file : fs::path();
+}
+
+Scene read_hdf5_array(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  const Hdf5Arrays file(std::make_shared<const Hdf5Input>(path));
+  return read_array_scene(file, kHdf5Reader, options, progress);
+}
+
+}  // namespace
+
+Reader hdf5_array_reader() {
+  return {.id = kHdf5Reader,
+          .name = "an array of an HDF5 file",
+          .options = array_options(),
+          .find = find_hdf5_array,
+          .read = read_hdf5_array};
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/arrays/array_file.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace episcope::io {
+
+/// Whether a file begins as a MATLAB file of version 5 to 7, which is no HDF5 file.
+[[nodiscard]] bool is_mat5_file(const std::filesystem::path& path);
+
+/// Such a file; fields of structures are named "s/LF". Compressed variables are held in memory once
+/// they are read.
+class Mat5File : public ArrayFile {
+ public:
+  /// Throws IoError for a damaged file.
+  explicit Mat5File(const std::filesystem::path& path);
+  ~Mat5File() override;
+
+  [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const override;
+
+ private:
+  class Content;
+  std::unique_ptr<Content> content_;
+};
+
+}  // namespace episcope::io

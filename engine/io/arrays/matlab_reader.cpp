@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/matlab_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_scene.h"
+#include "engine/io/arrays/folder_file.h"
+#include "engine/io/arrays/hdf5_arrays.h"
+#include "engine/io/arrays/mat5_file.h"
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMatlabReader = "matlab";
+
+bool has_mat_name(const fs::path& path) {
+  return suffix_of(path) == ".mat";
+}
+
+fs::path find_matlab(const fs::path& path, const OpenOptions&) {
+  if (fs::is_directory(path)) return only_file_in(path, has_mat_name);
+  if (has_mat_name(path) || is_mat5_file(path)) return path;
+  return has_hdf5_signature(path) && is_matlab_hdf5(Hdf5Input(path)) ? path : fs::path();
+}
+
+Scene read_matlab(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  if (is_mat5_file(path)) {
+    return read_array_scene(Mat5File(path), kMatlabReader, options, progress);
+  }
+  if (!has_hdf5_signature(path)) {
+    throw IoError(path,
+                  "this is not a MATLAB file of version 5 or later, despite its name; choose "
+                  "another file");
+  }
+  const Hdf5Arrays file(std::make_shared<const Hdf5Input>(path));
+  return read_array_scene(file, kMatlabReader, options, progress);
+}
+
+}  // namespace
+
+Reader matlab_reader() {
+  return {.id = kMatlabReader,
+          .name = "a MATLAB file",
+          .options = array_options(),
+          .find = find_matlab,
+          .read = read_matlab};
+}
+
+}  // namespace episcope::io

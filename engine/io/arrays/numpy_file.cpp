@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/numpy_file.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/deflated_npy.h"
+#include "engine/io/arrays/npy_file.h"
+#include "engine/io/durable/system_error.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostBeside = 100;
+
+bool begins_as_npy(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string begin(kNpyPrefix, '\0');
+  return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && has_npy_magic(begin);
+}
+
+std::vector<fs::path> maps_beside(const fs::path& path) {
+  std::vector<fs::path> found;
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const fs::path& other = entry.path();
+    if (suffix_of(other) != ".npy" || other.filename() == path.filename()) continue;
+    // Where another light field lies there, whose maps these are would be a guess.
+    if (!is_map_name(other) || found.size() == kMostBeside) return {};
+    found.push_back(other);
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
+
+bool is_map_name(const fs::path& path) {
+  const std::string name = lower_case(path.stem().string());
+  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
+  return has("disp") || has("label") || has("depth") || has("valid") || has("mask") || name == "gt";
+}
+
+bool is_numpy_file(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  return suffix == ".npy" || suffix == ".npz" || begins_as_npy(path);
+}
+
+NumpyFile::NumpyFile(const fs::path& path)
+    : ArrayFile(path, suffix_of(path) == ".npz" ? "NumPy archive" : "NumPy array") {
+  require_readable_file(path);
+  if (suffix_of(path) != ".npz") {
+    add_source({path.stem().string(), path, {}}, true);
+    for (const fs::path& map : maps_beside(path)) add_source({map.stem().string(), map, {}}, false);
+    return;
+  }
+  if (!has_zip_signature(path)) {
+    throw IoError(path, "this is not an .npz file, despite its name; choose another file");
+  }
+  for (const ZipEntry& entry : list_zip(path)) {
+    if (!entry.name.ends_with(".npy")) continue;
+    add_source({entry.name.substr(0, entry.name.size() - 4), path, entry}, false);
+  }
+}
+
+void NumpyFile::add_source(Source source, bool is_needed) {
+  ArrayEntry entry{source.name, {}, {}, {}, {}, {}};
+  try {
+    const NpyHeader header = source.zipped ? read_zipped_header(source.path, *source.zipped)
+                                           : NpyFile(source.path).header();
+    entry.shape = stored_shape(header);
+    entry.type = header.type;
+    entry.order = header.is_fortran ? IndexOrder::Fortran : IndexOrder::C;
+  } catch (const IoError& error) {
+    if (is_needed) throw;
+    entry.other_kind = "no readable array of numbers";
+  }
+  add(std::move(entry));
+  sources_.push_back(std::move(source));
+}
+
+std::unique_ptr<ArrayInput> NumpyFile::open(const ArrayEntry& entry) const {
+  const auto source = std::ranges::find(sources_, entry.name, &Source::name);
+  if (!source->zipped) return std::make_unique<NpyFile>(source->path);
+  const ZipEntry& zipped = *source->zipped;
+  if (!zipped.is_deflated) {
+    return std::make_unique<NpyFile>(source->path, zipped.begin, zipped.stored);
+  }
+  require_plausible_size(path(), entry.shape, entry.type, zipped.stored);
+  return std::make_unique<DeflatedNpy>(source->path, zipped,
+                                       read_zipped_header(source->path, zipped));
+}
+
+}  // namespace episcope::io

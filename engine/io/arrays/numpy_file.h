@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/arrays/array_file.h"
+#include "engine/io/arrays/zip_file.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// `.npy` files and `.npz` archives of them, by name without suffix.
+class NumpyFile : public ArrayFile {
+ public:
+  /// An archive, or one `.npy` with those beside it that hold no light field. Throws IoError.
+  explicit NumpyFile(const std::filesystem::path& path);
+
+  [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const override;
+
+ private:
+  struct Source {
+    std::string name;
+    std::filesystem::path path;
+    std::optional<ZipEntry> zipped;
+  };
+  void add_source(Source source, bool is_needed);
+
+  std::vector<Source> sources_;
+};
+
+/// Whether a name is one of a map, as labels and disparity beside a light field have.
+[[nodiscard]] bool is_map_name(const std::filesystem::path& path);
+
+/// Whether a file can be one, by its suffix or how it begins.
+[[nodiscard]] bool is_numpy_file(const std::filesystem::path& path);
+
+}  // namespace episcope::io

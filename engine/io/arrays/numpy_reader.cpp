@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/numpy_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_scene.h"
+#include "engine/io/arrays/folder_file.h"
+#include "engine/io/arrays/npy_file.h"
+#include "engine/io/arrays/numpy_file.h"
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kNumpyReader = "numpy";
+
+/// Of the `.npy` files of a folder, most hold maps.
+bool can_hold_views(const fs::path& path) {
+  const std::string suffix = suffix_of(path);
+  if (suffix == ".npz") return true;
+  if (suffix != ".npy" || is_map_name(path)) return false;
+  try {
+    return NpyFile(path).shape().size() > 3;
+  } catch (const IoError&) {
+    return false;
+  }
+}
+
+fs::path find_numpy(const fs::path& path, const OpenOptions&) {
+  if (fs::is_directory(path)) return only_file_in(path, can_hold_views);
+  return is_numpy_file(path) ? path : fs::path();
+}
+
+Scene read_numpy(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  return read_array_scene(NumpyFile(path), kNumpyReader, options, progress);
+}
+
+}  // namespace
+
+Reader numpy_reader() {
+  return {.id = kNumpyReader,
+          .name = "a NumPy array",
+          .options = array_options(),
+          .find = find_numpy,
+          .read = read_numpy};
+}
+
+}  // namespace episcope::io
