@@ -4,7 +4,9 @@
 #include "app/session/scene/load_scene.h"
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/arrays/npy_file.h"
 #include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/maps/padding.h"
 #include "engine/io/maps/result_file.h"
 
 #include <algorithm>
@@ -37,12 +39,28 @@ bool is_foreign_hdf5_result(const fs::path& path) {
 /// The views that a map from elsewhere covers.
 GridShape grid_of_map(const fs::path& path) {
   GridShape grid{1, 1};
+  if (suffix_of(path) == ".npy") {
+    const io::NpyHeader header = io::NpyFile(path).header();
+    if (header.shape.size() != 4) return grid;
+    return {static_cast<int>(header.shape[0]), static_cast<int>(header.shape[1])};
+  }
   if (!io::has_hdf5_signature(path)) return grid;
   for (const auto& dataset : io::Hdf5Input(path).datasets()) {
     if (!is_map(dataset) || dataset.shape.size() != 4) continue;
     grid = {static_cast<int>(dataset.shape[0]), static_cast<int>(dataset.shape[1])};
   }
   return grid;
+}
+
+/// A map alone, or one of all views by its name: other arrays of four axes are grey light fields.
+bool is_npy_result(const fs::path& path) {
+  try {
+    const std::size_t axes = io::NpyFile(path).shape().size();
+    const std::string name = lower_case(path.stem().string());
+    return axes == 2 || (axes == 4 && name.find("disp") != std::string::npos);
+  } catch (const IoError&) {
+    return false;
+  }
 }
 
 std::string size_text(int first, int second) {
@@ -55,6 +73,7 @@ bool names_result(const std::string& path) {
   std::error_code ignored;
   if (!builtin_scene_id(path).empty() || !fs::is_regular_file(path, ignored)) return false;
   const std::string suffix = suffix_of(path);
+  if (suffix == ".npy") return is_npy_result(path);
   return suffix == ".pfm" || suffix == ".tif" || suffix == ".tiff" || io::is_result_file(path) ||
          is_foreign_hdf5_result(path);
 }
@@ -66,7 +85,13 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path) {
     throw IoError(path,
                   "holds a light field or true depth and no estimated disparity; name a result");
   }
-  return io::read_result(path, light_field.grid(), light_field.info().name);
+  Estimate estimate = io::read_result(path, light_field.grid(), light_field.info().name);
+  if (estimate.confidence.empty() && estimate.layered.layers.empty()) {
+    const std::string note =
+        io::remove_padding(estimate.field, light_field.height(), light_field.width());
+    if (!note.empty()) estimate.notes.push_back(note);
+  }
+  return estimate;
 }
 
 Estimate read_result_alone(const fs::path& path) {

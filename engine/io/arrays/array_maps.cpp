@@ -3,7 +3,11 @@
 
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/array_samples.h"
+#include "engine/io/beside/map_name.h"
+#include "engine/io/beside/near_side.h"
 #include "engine/io/maps/foreign_result.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -11,16 +15,11 @@
 namespace episcope::io {
 namespace {
 
-enum class MapKind { None, Disparity, Labels, Mask };
-
-MapKind kind_of(const std::string& path) {
-  const std::size_t slash = path.rfind('/');
-  const std::string name = lower_case(slash == std::string::npos ? path : path.substr(slash + 1));
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  if (has("valid") || has("mask")) return MapKind::Mask;
-  if (has("label") || has("seg")) return MapKind::Labels;
-  if (has("disp") || name == "gt") return MapKind::Disparity;
-  return MapKind::None;
+std::optional<MapKind> kind_of(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return std::nullopt;
+  const std::string name = entry.name.substr(entry.name.rfind('/') + 1);
+  if (lower_case(name) == "gt") return MapKind::Disparity;
+  return map_kind(name);
 }
 
 /// The light field's layout without the letters that a map of this shape lacks.
@@ -58,12 +57,19 @@ ViewStack<T> read_maps(const ArrayInput& array, const ArrayLayout& layout, GridS
   return center;
 }
 
-ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers) {
+ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind kind) {
   ViewStack<std::uint8_t> mask(numbers.grid(), numbers.height(), numbers.width(), 1,
                                numbers.first());
   std::transform(numbers.data(), numbers.data() + numbers.size(), mask.data(),
-                 [](std::int32_t number) { return static_cast<std::uint8_t>(number != 0); });
+                 [&](std::int32_t number) {
+                   return static_cast<std::uint8_t>((number != 0) == (kind == MapKind::Valid));
+                 });
   return mask;
+}
+
+FileUse not_used(const ArrayEntry& entry) {
+  const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
+  return {entry.other_kind.empty() ? "array of " + shape : entry.other_kind, 1, entry.name, false};
 }
 
 }  // namespace
@@ -73,33 +79,60 @@ ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
   ArrayMaps maps;
   const GridShape grid = layout.grid();
   for (const ArrayEntry& entry : file.entries()) {
-    if (&entry == &light_field) continue;
+    if (&entry == &light_field || entry.name.starts_with(light_field.name + "/")) continue;
     progress.check();
-    const bool is_array = entry.other_kind.empty();
-    MapKind kind = is_array ? kind_of(entry.name) : MapKind::None;
-    const auto axes = is_array ? map_layout(entry, layout, light_field.order) : std::nullopt;
-    const bool is_whole = axes && axes->grid().count() == grid.count();
-    if (!axes) kind = MapKind::None;
-    if (kind == MapKind::Disparity && maps.truth.field.empty()) {
+    const auto kind = kind_of(entry);
+    const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
+    const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
+    if (axes && kind == MapKind::Disparity && maps.truth.field.empty()) {
       maps.truth.field.disparity = read_maps<float>(*file.open(entry), *axes, grid, progress);
       mark_invalid(maps.truth.field);
-      maps.uses.push_back({"disparity (" + entry.name + ")", 1, entry.name, true});
-    } else if (kind == MapKind::Labels && maps.truth.labels.empty()) {
+      maps.disparity_name = entry.name;
+    } else if (axes && kind == MapKind::Labels && maps.truth.labels.empty()) {
       if (wants_labels) {
         maps.truth.labels = read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress);
       }
-      maps.uses.push_back({"labels (" + entry.name + ")", 1, entry.name, true});
-    } else if (kind == MapKind::Mask && is_whole && maps.valid.empty()) {
-      maps.valid = mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress));
-      maps.uses.push_back({"mask of valid pixels (" + entry.name + ")", 1, entry.name, true});
+    } else if (axes && is_mask && axes->grid().count() == grid.count() && maps.valid.empty()) {
+      maps.valid =
+          mask_of(read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress), *kind);
     } else {
-      const std::string what =
-          is_array ? "array of " + array_shape_text(in_index_order(entry.shape, entry.order))
-                   : entry.other_kind;
-      maps.uses.push_back({what, 1, entry.name, false});
+      maps.uses.push_back(not_used(entry));
+      continue;
     }
+    maps.uses.push_back({kind_text(*kind), 1, entry.name, true});
   }
   return maps;
+}
+
+void settle_disparity(const std::string& name, const LightField::Samples& samples,
+                      DisparityField& field, ConventionReport& report) {
+  if (field.empty()) return;
+  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
+  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const SettledUnit settled = settle_unit(samples, at, field.view(at), common_units(grid, width));
+  const double factor = settled.unit.factor;
+  NearSide side;
+  if (settled.explanation.is_good()) {
+    side = find_near_side(samples, at, field.view(at), factor, settled.explanation);
+  }
+  const bool is_reversed = side.is_decided() && !side.larger_is_nearer();
+  const double scale = is_reversed ? -factor : factor;
+  if (scale != 1) {
+    std::for_each(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                  [&](float& value) { value = static_cast<float>(scale * value); });
+  }
+  report.units = fmt::format("disparity of {}: {}{}", name, settled.unit.text,
+                             is_reversed ? ", negative = nearer" : "");
+  report.units_check =
+      fmt::format("mean grey error of neighbouring views after warping {:.2f}, unwarped {:.2f}",
+                  settled.explanation.error, settled.explanation.unwarped);
+  if (!side.is_decided()) return;
+  report.units_check += fmt::format(
+      "; {} values hide others in other views (grey error {:.2f}, the hidden ones "
+      "{:.2f}, {} pairs)",
+      is_reversed ? "smaller" : "larger", std::min(side.larger, side.smaller),
+      std::max(side.larger, side.smaller), side.points);
 }
 
 }  // namespace episcope::io

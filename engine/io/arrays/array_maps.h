@@ -16,14 +16,19 @@ struct ArrayMaps {
   GroundTruth truth;              ///< In the order of views as stored.
   ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
   std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
+  std::string disparity_name;     ///< Of the array that holds the disparity.
 };
 
-/// Reads disparity ("disp…", "gt"), labels ("label…", "seg…") and masks ("valid…", "mask…") of the
-/// centre view or of all views, whose axes are those of the light field without channels. What has
-/// another name or shape is noted as not used; so is depth, which needs a camera.
-/// Throws IoError, Cancelled.
+/// Reads disparity, labels and masks (by their names: `map_kind`, or "gt") of the centre view or of
+/// all views, whose axes are those of the light field without channels. What has another name or
+/// shape is noted as not used; so is depth, which needs a camera. Throws IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
                                         const ArrayLayout& layout, bool wants_labels,
                                         const Progress& progress);
+
+/// Brings disparity as stored into px per view step, positive = nearer, as the views speak for
+/// (`settle_unit`, `find_near_side`), and tells the report.
+void settle_disparity(const std::string& name, const LightField::Samples& samples,
+                      DisparityField& field, ConventionReport& report);
 
 }  // namespace episcope::io

@@ -2,8 +2,8 @@
 #include "engine/io/arrays/array_samples.h"
 
 #include "engine/core/error.h"
-#include "engine/core/parallel/parallel.h"
 #include "engine/io/arrays/block_plan.h"
+#include "engine/io/arrays/move_block.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -17,71 +17,12 @@ namespace {
 
 constexpr std::size_t kBlockBytes = std::size_t{64} << 20;
 constexpr std::string_view kLetters = "vuyxc";
-/// Pixels that are moved at a time: those of all views stay in the cache meanwhile.
-constexpr std::size_t kTileRows = 4;
-constexpr std::size_t kTileColumns = 32;
-
-using Five = std::array<std::size_t, 5>;  ///< Along v, u, y, x, c.
-
-/// A block of an array in memory, or the views that it belongs to.
-template <class T>
-struct Placed {
-  T* data = nullptr;
-  Five stride{};
-};
-
-template <class From, class To, class Convert>
-void move_tile(Placed<const From> from, Placed<To> to, const Five& count, const Convert& convert) {
-  for (std::size_t v = 0; v < count[0]; ++v) {
-    for (std::size_t u = 0; u < count[1]; ++u) {
-      for (std::size_t y = 0; y < count[2]; ++y) {
-        const From* in = from.data + v * from.stride[0] + u * from.stride[1] + y * from.stride[2];
-        To* out = to.data + v * to.stride[0] + u * to.stride[1] + y * to.stride[2];
-        for (std::size_t x = 0; x < count[3]; ++x, in += from.stride[3], out += to.stride[3]) {
-          for (std::size_t c = 0; c < count[4]; ++c) {
-            out[c * to.stride[4]] = convert(in[c * from.stride[4]]);
-          }
-        }
-      }
-    }
-  }
-}
-
-/// Moves a block in tiles that the cache holds.
-template <class From, class To, class Convert>
-void move_block(Placed<const From> from, Placed<To> to, const Five& count, bool views_are_fastest,
-                const Convert& convert) {
-  Five tile = count;
-  tile[2] = std::min(kTileRows, count[2]);
-  tile[3] = std::min(kTileColumns, count[3]);
-  if (!views_are_fastest) tile[0] = tile[1] = 1;
-  const auto rows = static_cast<int>((count[2] + tile[2] - 1) / tile[2]);
-  parallel_for(rows, Progress(), [&](int row) {
-    const std::size_t y = static_cast<std::size_t>(row) * tile[2];
-    for (std::size_t v = 0; v < count[0]; v += tile[0]) {
-      for (std::size_t u = 0; u < count[1]; u += tile[1]) {
-        for (std::size_t x = 0; x < count[3]; x += tile[3]) {
-          const Five at{v, u, y, x, 0};
-          Five part = tile;
-          Placed<const From> in = from;
-          Placed<To> out = to;
-          for (std::size_t axis = 0; axis < 4; ++axis) {
-            part[axis] = std::min(tile[axis], count[axis] - at[axis]);
-            in.data += at[axis] * from.stride[axis];
-            out.data += at[axis] * to.stride[axis];
-          }
-          move_tile(in, out, part, convert);
-        }
-      }
-    }
-  });
-}
 
 /// Where the axes of a block lie among v, u, y, x, c; a list is a row of views.
 struct BlockAxes {
-  Five start{};
-  Five count{1, 1, 1, 1, 1};
-  Five stride{};
+  FiveAxes start{};
+  FiveAxes count{1, 1, 1, 1, 1};
+  FiveAxes stride{};
 };
 
 BlockAxes axes_of(const ArrayBlock& block, const ArrayLayout& layout) {
@@ -99,16 +40,8 @@ BlockAxes axes_of(const ArrayBlock& block, const ArrayLayout& layout) {
 }
 
 template <class T>
-Five strides_of(const ViewStack<T>& stack) {
-  const auto c = static_cast<std::size_t>(stack.channels());
-  const std::size_t row = c * static_cast<std::size_t>(stack.width());
-  const std::size_t view = stack.view_size();
-  return {view * static_cast<std::size_t>(stack.grid().u), view, row, c, 1};
-}
-
-template <class T>
-Placed<T> place_of(ViewStack<T>& stack, const BlockAxes& axes) {
-  Placed<T> placed{stack.data(), strides_of(stack)};
+PlacedSamples<T> place_of(ViewStack<T>& stack, const BlockAxes& axes) {
+  PlacedSamples<T> placed{stack.data(), strides_of(stack)};
   for (std::size_t i = 0; i < 4; ++i) placed.data += axes.start[i] * placed.stride[i];
   return placed;
 }
@@ -168,9 +101,9 @@ ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const P
   for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
     const std::size_t first = axes.start[4];
     const std::size_t last = std::min(first + axes.count[4], channels);
-    Five count = axes.count;
+    FiveAxes count = axes.count;
     if (first < last) {
-      Placed<T> place = place_of(stack, axes);
+      PlacedSamples<T> place = place_of(stack, axes);
       place.data += first;
       count[4] = last - first;
       move_block<T, T>({samples, axes.stride}, place, count, views_are_fastest,

@@ -16,7 +16,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr const char* kOptions[] = {"flip", "dataset", "axes"};
+constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes"};
 
 /// As the light field itself says which pixels hold something, or a mask beside it.
 void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
@@ -85,10 +85,11 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   combine(parts.valid, std::move(maps.valid));
   parts.truth = std::move(maps.truth);
   if (chosen.layout.has('n')) arrange_list(file.path(), options, parts, chosen.reason, progress);
+  settle_disparity(maps.disparity_name, parts.samples, parts.truth.field, scene.convention);
   report_form(file, entry, chosen, scene.convention);
   parts.files = std::move(maps.uses);
   parts.files.insert(parts.files.begin(), {"light field", 1, entry.name, true});
-  parts.expected = {{}, "arrays do not say how their views are ordered"};
+  parts.expected.reason = "arrays do not say how their views are ordered";
   assemble(std::move(parts), options, scene, progress.part(0.8, 1));
   return scene;
 }

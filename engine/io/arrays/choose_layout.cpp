@@ -5,6 +5,7 @@
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/array_preview.h"
+#include "engine/io/open/undecided.h"
 #include "engine/io/order/parallax_axis.h"
 
 #include <fmt/format.h>
@@ -39,6 +40,26 @@ bool is_other_name(const std::string& name) {
 std::string entry_text(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return entry.name + ", " + entry.other_kind;
   return entry.name + ", " + array_shape_text(in_index_order(entry.shape, entry.order));
+}
+
+/// "rows of views, columns of views, rows, columns, channels".
+std::string axes_text(const std::string& letters) {
+  return joined(letters, ", ", [](char letter) -> std::string {
+    switch (letter) {
+      case 'v':
+        return "rows of views";
+      case 'u':
+        return "columns of views";
+      case 'y':
+        return "rows of pixels";
+      case 'x':
+        return "columns of pixels";
+      case 'c':
+        return "channels";
+      default:
+        return "a list of views";
+    }
+  });
 }
 
 const ArrayEntry& named_entry(const ArrayFile& file, const std::string& name) {
@@ -98,11 +119,10 @@ const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dat
   if (const ArrayEntry* entry = only(has_name)) return entry;
   if (const ArrayEntry* entry = only(has_five)) return entry;
   if (const ArrayEntry* entry = only(is_no_map)) return entry;
-  throw IoError(file.path(),
-                fmt::format("several arrays of this file can be the light field ({}); name it with "
-                            "--dataset {}",
-                            joined(possible, "; ", [](const auto* e) { return entry_text(*e); }),
-                            possible.front()->name));
+  std::vector<ReadingChoice> choices;
+  for (const ArrayEntry* entry : possible) choices.push_back({entry->name, entry_text(*entry)});
+  throw Undecided(file.path(), "several arrays of this file can be the light field", "dataset",
+                  std::move(choices));
 }
 
 ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
@@ -124,14 +144,15 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
                               "if it is one, state its axes, as in --axes vuyxc",
                               entry.name, shape));
   }
-  throw IoError(
-      file.path(),
-      fmt::format("the array {} has the shape {}, which can mean {}; state its axes, as in "
-                  "--axes {}",
-                  entry.name, shape,
-                  joined(layouts, " or ",
-                         [&](const auto& l) { return in_index_order(l.axes, entry.order); }),
-                  in_index_order(layouts.front().axes, entry.order)));
+  std::vector<ReadingChoice> choices;
+  for (const ArrayLayout& layout : layouts) {
+    const std::string letters = in_index_order(layout.axes, entry.order);
+    choices.push_back({letters, axes_text(letters)});
+  }
+  throw Undecided(file.path(),
+                  fmt::format("the array {} has the shape {}, which can mean several things",
+                              entry.name, shape),
+                  "axes", std::move(choices));
 }
 
 void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chosen,

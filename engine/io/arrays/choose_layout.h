@@ -22,12 +22,12 @@ struct ChosenLayout {
 
 /// The entry that holds the light field: the one that `dataset` names; else the only one with five
 /// axes, or called lf, light_field, views or the like, or the only one that can be a light field.
-/// Null if none can be. Throws IoError that names the option where several can be, InvalidInput for
+/// Null if none can be. Throws Undecided where several can be, InvalidInput for
 /// a `dataset` that is not there.
 [[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset);
 
-/// As `axes` states, else as the file states, else by shape. Throws IoError that lists what is
-/// possible and names the option if that leaves no meaning or several.
+/// As `axes` states, else as the file states, else by shape. Throws IoError if that leaves no
+/// meaning, Undecided if several.
 [[nodiscard]] ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
                                          const std::string& axes);
 

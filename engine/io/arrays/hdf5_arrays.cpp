@@ -37,7 +37,8 @@ ArrayEntry describe(const Hdf5Input& file, const Hdf5Dataset& dataset, bool is_m
   }
   entry.shape = dataset.shape;
   entry.type = number_type(dataset.type);
-  entry.stated_axes = file.text(dataset.name, "axes").value_or("");
+  // The attribute names axes in the order of HDF5.
+  entry.stated_axes = in_index_order(file.text(dataset.name, "axes").value_or(""), entry.order);
   return entry;
 }
 

@@ -3,11 +3,13 @@
 
 #include "engine/core/error.h"
 #include "engine/io/open/grid_option.h"
+#include "engine/io/open/undecided.h"
 #include "engine/io/order/list_layout.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 namespace episcope::io {
 namespace {
@@ -27,6 +29,19 @@ void arrange(ViewStack<T>& stack, const ListLayout& layout) {
     std::copy_n(stack.view({0, i}).data, stack.view_size(), grid.view(layout.place(i)).data);
   }
   stack = std::move(grid);
+}
+
+/// A row, a column, and the grids of several.
+std::vector<ReadingChoice> grid_choices(int count) {
+  std::vector<ReadingChoice> choices{
+      {fmt::format("1x{}", count), fmt::format("{} views in a row", count)},
+      {fmt::format("{}x1", count), fmt::format("{} views in a column", count)}};
+  for (int rows = 2; rows < count; ++rows) {
+    if (count % rows != 0) continue;
+    choices.push_back({fmt::format("{}x{}", rows, count / rows),
+                       fmt::format("{} rows of {} views", rows, count / rows)});
+  }
+  return choices;
 }
 
 }  // namespace
@@ -49,9 +64,11 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
     progress.step("arranging the views of the list");
     layout = find_list_layout(parts.samples, progress);
     if (!layout.is_decided) {
-      throw IoError(path, fmt::format("the array is a list of {} views, and how they lie on a grid "
-                                      "is not certain ({}); state it, as in --grid 1x{}",
-                                      count, layout.evidence, count));
+      throw Undecided(path,
+                      fmt::format("the array is a list of {} views, and how they lie on a grid is "
+                                  "not certain ({})",
+                                  count, layout.evidence),
+                      "grid", grid_choices(count));
     }
     reason +=
         fmt::format("; list of {} views, {}: {}", count, layout_text(layout), layout.evidence);

@@ -11,7 +11,7 @@ namespace episcope::io {
 
 /// Puts views (and maps of all views) that were read as a list, 1×N, onto their grid: the one that
 /// the options state, row by row, else the one that the views themselves speak for. `reason` is
-/// continued. Throws IoError that names the option where the views do not tell; InvalidInput if the
+/// continued. Throws Undecided where the views do not tell; InvalidInput if the
 /// grid does not have as many places; Cancelled.
 void arrange_list(const std::filesystem::path& path, const OpenOptions& options, SceneParts& parts,
                   std::string& reason, const Progress& progress);

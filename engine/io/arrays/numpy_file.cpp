@@ -5,6 +5,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/deflated_npy.h"
 #include "engine/io/arrays/npy_file.h"
+#include "engine/io/beside/map_name.h"
 #include "engine/io/durable/system_error.h"
 
 #include <algorithm>
@@ -31,7 +32,7 @@ std::vector<fs::path> maps_beside(const fs::path& path) {
     const fs::path& other = entry.path();
     if (suffix_of(other) != ".npy" || other.filename() == path.filename()) continue;
     // Where another light field lies there, whose maps these are would be a guess.
-    if (!is_map_name(other) || found.size() == kMostBeside) return {};
+    if (!map_kind(other.stem().string()) || found.size() == kMostBeside) return {};
     found.push_back(other);
   }
   std::ranges::sort(found);
@@ -39,12 +40,6 @@ std::vector<fs::path> maps_beside(const fs::path& path) {
 }
 
 }  // namespace
-
-bool is_map_name(const fs::path& path) {
-  const std::string name = lower_case(path.stem().string());
-  const auto has = [&](const char* word) { return name.find(word) != std::string::npos; };
-  return has("disp") || has("label") || has("depth") || has("valid") || has("mask") || name == "gt";
-}
 
 bool is_numpy_file(const fs::path& path) {
   const std::string suffix = suffix_of(path);

@@ -30,9 +30,6 @@ class NumpyFile : public ArrayFile {
   std::vector<Source> sources_;
 };
 
-/// Whether a name is one of a map, as labels and disparity beside a light field have.
-[[nodiscard]] bool is_map_name(const std::filesystem::path& path);
-
 /// Whether a file can be one, by its suffix or how it begins.
 [[nodiscard]] bool is_numpy_file(const std::filesystem::path& path);
 

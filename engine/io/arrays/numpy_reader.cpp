@@ -7,6 +7,7 @@
 #include "engine/io/arrays/folder_file.h"
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/arrays/numpy_file.h"
+#include "engine/io/beside/map_name.h"
 
 namespace episcope::io {
 namespace {
@@ -19,7 +20,7 @@ constexpr const char* kNumpyReader = "numpy";
 bool can_hold_views(const fs::path& path) {
   const std::string suffix = suffix_of(path);
   if (suffix == ".npz") return true;
-  if (suffix != ".npy" || is_map_name(path)) return false;
+  if (suffix != ".npy" || map_kind(path.stem().string())) return false;
   try {
     return NpyFile(path).shape().size() > 3;
   } catch (const IoError&) {

@@ -86,7 +86,8 @@ class Hdf5Input {
 /// names the target of `file`.
 class Hdf5Output {
  public:
-  explicit Hdf5Output(const AtomicFile& file);
+  /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
+  explicit Hdf5Output(const AtomicFile& file, std::size_t user_bytes = 0);
   ~Hdf5Output();
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
@@ -107,6 +108,8 @@ class Hdf5Output {
   void set_numbers(const std::string& object, const std::string& name,
                    const std::vector<double>& values);
   void set_text(const std::string& object, const std::string& name, const std::string& value);
+  /// As MATLAB writes text: ASCII, of fixed length, without an end.
+  void set_ascii(const std::string& object, const std::string& name, const std::string& value);
 
   /// Flushes and closes. Throws IoError if anything could not be written.
   void close();

@@ -11,13 +11,15 @@
 
 namespace episcope::io {
 
-Hdf5Output::Hdf5Output(const AtomicFile& file) : path_(file.target()) {
+Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
   const Hdf5Lock session;
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   use_logging_write_driver(access, log_);
-  file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  H5Pset_userblock(creation, user_bytes);
+  file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access);
   require(file_ >= 0);
 }
 
@@ -99,6 +101,15 @@ void Hdf5Output::set_text(const std::string& object, const std::string& name,
   H5Tset_size(type, value.size() + 1);
   H5Tset_cset(type, H5T_CSET_UTF8);
   set_attribute(object, name, type, {}, value.c_str());
+}
+
+void Hdf5Output::set_ascii(const std::string& object, const std::string& name,
+                           const std::string& value) {
+  const Hdf5Lock session;
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type, value.size());
+  H5Tset_strpad(type, H5T_STR_NULLPAD);
+  set_attribute(object, name, type, {}, value.data());
 }
 
 void Hdf5Output::set_attribute(const std::string& object, const std::string& name,

@@ -3,6 +3,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_samples.h"
+#include "engine/io/arrays/npy_file.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -21,13 +24,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string suffix_of(const fs::path& path) {
-  std::string suffix = path.extension().string();
-  std::transform(suffix.begin(), suffix.end(), suffix.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return suffix;
-}
 
 DisparityField center_field(const fs::path& path, const Image<float>& map, GridShape grid) {
   if (map.channels() != 1) {
@@ -59,9 +55,13 @@ Hdf5Dataset find_map(const Hdf5Input& file) {
     maps.push_back(dataset);
   }
   if (maps.size() == 1) return maps.front();
-  // Several float datasets are not ambiguous if one has the expected name.
+  // Several float datasets are not ambiguous if only one has the expected name.
+  const auto is_named = [](const Hdf5Dataset& map) {
+    return lower_case(map.name).find("disp") != std::string::npos;
+  };
+  if (std::ranges::count_if(maps, is_named) == 1) return *std::ranges::find_if(maps, is_named);
   for (const Hdf5Dataset& map : maps) {
-    if (map.name == "disparity" || map.name == "DISPARITY") return map;
+    if (lower_case(map.name) == "disparity") return map;
   }
   const std::string found = maps.empty() ? "none was found"
                                          : fmt::format("{} were found ({})", maps.size(),
@@ -91,6 +91,25 @@ DisparityField read_hdf5_map(const fs::path& path, GridShape grid) {
   field.disparity = ViewStack<float>(stored, length(rank - 2), length(rank - 1), 1,
                                      is_single ? grid.center() : ViewIndex{});
   file.read(map.name, {Hdf5Shape(rank, 0), map.shape}, field.disparity.data());
+  mark_invalid(field);
+  return field;
+}
+
+/// `[y][x]`, or `[v][u][y][x]`.
+DisparityField read_npy_field(const fs::path& path, GridShape grid) {
+  const NpyFile file(path);
+  if (file.shape().size() != 4) return center_field(path, read_npy_map(path), grid);
+  const ArrayLayout layout{
+      file.shape(), in_index_order(std::string("vuyx"),
+                                   file.header().is_fortran ? IndexOrder::Fortran : IndexOrder::C)};
+  if (layout.grid().count() == 1) return center_field(path, read_npy_map(path), grid);
+  if (!(layout.grid() == grid)) {
+    throw IoError(path, fmt::format("the array has the shape {}, but the light field has {}×{} "
+                                    "views; name the light field that it belongs to",
+                                    array_shape_text(file.header().shape), grid.v, grid.u));
+  }
+  DisparityField field;
+  field.disparity = read_map_stack<float>(file, layout, Progress(1));
   mark_invalid(field);
   return field;
 }
@@ -143,15 +162,17 @@ DisparityField read_disparity_map(const fs::path& path, GridShape grid) {
   require_readable_file(path);
   const std::string suffix = suffix_of(path);
   if (suffix == ".pfm") return center_field(path, read_pfm(path), grid);
+  if (suffix == ".npy") return read_npy_field(path, grid);
   if (suffix == ".tif" || suffix == ".tiff") {
     return center_field(path, read_float_tiff(path), grid);
   }
   if (has_hdf5_signature(path) || suffix == ".h5" || suffix == ".hdf5") {
     return read_hdf5_map(path, grid);
   }
-  throw IoError(path,
-                "this is not a disparity map: a result file, another HDF5 file, a PFM or a float "
-                "TIFF is expected; choose another file");
+  throw IoError(
+      path,
+      "this is not a disparity map: a result file, another HDF5 file, a PFM, a float TIFF "
+      "or an .npy array is expected; choose another file");
 }
 
 Estimate read_foreign_result(const fs::path& path, GridShape grid, const std::string& scene) {

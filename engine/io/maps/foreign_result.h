@@ -8,9 +8,10 @@
 
 namespace episcope::io {
 
-/// A disparity map as other programs write it: PFM, 32-bit float TIFF, or an HDF5 file with one 2-D
-/// or 4-D dataset of float samples. A 2-D map belongs to the centre view of `grid`. Values that are
-/// not finite become invalid pixels. Throws IoError with one sentence.
+/// A disparity map as other programs write it: PFM, 32-bit float TIFF, `.npy` of two or four
+/// axes, or an HDF5 file with one 2-D or 4-D dataset of float samples. A 2-D map belongs to the
+/// centre view of `grid`. Values that are not finite become invalid pixels. Throws IoError with one
+/// sentence.
 [[nodiscard]] DisparityField read_disparity_map(const std::filesystem::path& path, GridShape grid);
 
 /// A result of another program: a file as above, or a folder of the 2016 submission form

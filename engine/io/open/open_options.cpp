@@ -55,11 +55,11 @@ Schema<OpenOptions> open_schema() {
       .text("dataset", &O::dataset,
             {"Dataset",
              "Name of the array that holds the light field, in a file with several of them"})
-      .text(
-          "axes", &O::axes,
-          {"Axes",
-           "Axes of an array in the order of its indices: v and u for rows and columns of views, y, "
-           "x, c for channels, as in vuyxc; empty = detected"})
+      .text("axes", &O::axes,
+            {"Axes",
+             "Axes of an array in the order of its indices: v and u for rows and columns of views, "
+             "y, "
+             "x, c for channels, as in vuyxc; empty = detected"})
       .real(
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},

@@ -126,6 +126,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"pattern", std::string("view_{row}_{col}.png")},
                            {"snake", true},
                            {"grid", std::string("1x49")},
+                           {"dataset", std::string("s/LF")},
+                           {"axes", std::string("vuyxc")},
                            {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
