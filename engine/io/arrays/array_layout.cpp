@@ -37,11 +37,12 @@ void add_grids(const ArrayShape& lengths, std::size_t channel_axis, std::vector<
   const bool has_channels = channel_axis < lengths.size();
   if (has_channels) four.erase(four.begin() + static_cast<std::ptrdiff_t>(channel_axis));
   const auto add = [&](std::string axes) {
-    if (has_channels) axes.insert(channel_axis, "c");
+    if (has_channels) axes = axes.substr(0, channel_axis) + 'c' + axes.substr(channel_axis);
     out.push_back(std::move(axes));
   };
   if (can_be_views(four[0], four[1], four[2], four[3])) add("vuyx");
-  if (can_be_views(four[2], four[3], four[0], four[1])) {
+  const bool is_between = has_channels && channel_axis == 2;
+  if (!is_between && can_be_views(four[2], four[3], four[0], four[1])) {
     add(has_channels && channel_axis == 0 ? "xyuv" : "yxvu");
   }
 }

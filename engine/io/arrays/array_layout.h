@@ -43,9 +43,10 @@ struct ArrayLayout {
 
 /// Every meaning that an array of this shape can have as a light field: channels are 1, 3 or 4;
 /// rows and columns of views lie side by side, as those of pixels do; views have more rows and
-/// columns than their grid. Rows are taken to come before columns in the order of indices, but for
-/// arrays of pixels before views with channels first, as MATLAB's in other programs, in which
-/// columns come first. Arrays of 3 axes are lists of grey views; of 4, grey views or lists.
+/// columns than their grid; channels lie first, last, or between grid and pixels. Rows are taken to
+/// come before columns in the order of indices, but for arrays of pixels before views with channels
+/// first, as MATLAB's in other programs, in which columns come first. Arrays of 3 axes are lists of
+/// grey views; of 4, grey views or lists.
 [[nodiscard]] std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order);
 
 /// The layout that `axes` states, in the order of indices ("vuyxc", "v,u,y,x"; s and t as in

@@ -29,8 +29,12 @@ void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
 }
 
 const ArrayEntry& light_field_of(const ArrayFile& file, const OpenOptions& options) {
-  const ArrayEntry* entry = find_light_field(file, options.dataset);
+  const ArrayEntry* entry = find_light_field(file, options.dataset, options.axes);
   if (entry) return *entry;
+  if (!options.axes.empty()) {
+    throw InvalidInput(fmt::format("{}: no array of this file has the {} axes {}; state others",
+                                   file.path().string(), options.axes.size(), options.axes));
+  }
   throw IoError(file.path(),
                 "no array of this file has the shape of a light field; if one is, "
                 "name it with --dataset and its axes with --axes");

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 namespace episcope::io {
 namespace {
@@ -35,6 +35,11 @@ bool is_other_name(const std::string& name) {
   const std::string last = last_part(name);
   return std::ranges::any_of(
       kWords, [&](const char* word) { return last.find(word) != std::string::npos; });
+}
+
+std::size_t letter_count(const std::string& axes) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      axes, [](char letter) { return std::isalpha(static_cast<unsigned char>(letter)) != 0; }));
 }
 
 std::string entry_text(const ArrayEntry& entry) {
@@ -102,11 +107,13 @@ bool can_be_light_field(const ArrayEntry& entry) {
   return !possible_layouts(entry.shape, entry.order).empty();
 }
 
-const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset) {
+const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
+                                   const std::string& axes) {
   if (!dataset.empty()) return &named_entry(file, dataset);
   std::vector<const ArrayEntry*> possible;
   for (const ArrayEntry& entry : file.entries()) {
-    if (can_be_light_field(entry)) possible.push_back(&entry);
+    const bool has_axes = entry.other_kind.empty() && entry.shape.size() == letter_count(axes);
+    if (axes.empty() ? can_be_light_field(entry) : has_axes) possible.push_back(&entry);
   }
   if (possible.size() <= 1) return possible.empty() ? nullptr : possible.front();
   const auto only = [&](const auto& is_meant) -> const ArrayEntry* {

@@ -20,11 +20,13 @@ struct ChosenLayout {
 /// Whether its shape, or what its file states, is that of a light field.
 [[nodiscard]] bool can_be_light_field(const ArrayEntry& entry);
 
-/// The entry that holds the light field: the one that `dataset` names; else the only one with five
+/// The entry that holds the light field: the one that `dataset` names; else, among those that have
+/// the axes that `axes` states or, if it is empty, the shape of one, the only one with five
 /// axes, or called lf, light_field, views or the like, or the only one that can be a light field.
 /// Null if none can be. Throws Undecided where several can be, InvalidInput for
 /// a `dataset` that is not there.
-[[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset);
+[[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
+                                                 const std::string& axes);
 
 /// As `axes` states, else as the file states, else by shape. Throws IoError if that leaves no
 /// meaning, Undecided if several.

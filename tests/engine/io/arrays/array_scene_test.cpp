@@ -24,7 +24,7 @@ namespace {
 
 Scene reference() {
   PlaneOptions options;
-  options.grid = {3, 5};
+  options.grid = {5, 7};
   options.height = 72;
   options.width = 96;
   options.d0 = 1.3;
@@ -179,7 +179,7 @@ class ArraySceneTest : public QObject {
     io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(views(), "vuyxc"),
                                 in_axes(views(), "vuyxc"));
     const ViewStack<std::int32_t>& labels = scene_.truth->labels;
-    io::write_npy<std::int32_t>(path("labels.npy"), {3, 5, 72, 96}, {labels.data(), labels.size()});
+    io::write_npy<std::int32_t>(path("labels.npy"), {5, 7, 72, 96}, {labels.data(), labels.size()});
 
     const Scene scene = open(fs::path(folder_->path().toStdString()));
 
@@ -353,7 +353,7 @@ class ArraySceneTest : public QObject {
 
     QVERIFY(bytes_of_file(path("lf.mat")).starts_with("MATLAB 7.3 MAT-file"));
     QCOMPARE(bytes_of_file(path("lf.mat")).substr(512, 4), std::string("\x89HDF"));
-    QCOMPARE(file.dataset("LF").shape, (io::Hdf5Shape{3, 96, 72, 5, 3}));
+    QCOMPARE(file.dataset("LF").shape, (io::Hdf5Shape{3, 96, 72, 7, 5}));
     QVERIFY(file.text("LF", "MATLAB_class") == "uint8");
   }
 
@@ -375,7 +375,7 @@ class ArraySceneTest : public QObject {
 
     (void)io::open_scene(path("lf.npy"), options, Progress(1));
 
-    const ImageView<const std::uint8_t> center = views().view({1, 2});
+    const ImageView<const std::uint8_t> center = views().view({2, 3});
     QCOMPARE(picture.size(), center.size());
     QVERIFY(std::equal(picture.begin(), picture.end(), center.data));
   }
