@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/progress.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace episcope::io {
+
+/// Of which views a form holds a kind of map.
+enum class MapsHeld { None, Center, All };
+
+/// Which cameras a form holds.
+enum class CamerasHeld {
+  None,
+  Converging,  ///< Whose plane of zero disparity lies at a finite distance: shift > 0.
+  All
+};
+
+/// What a form can hold of a scene besides views of 8 and 16 bit.
+struct FormContents {
+  bool has_floats = false;  ///< Views of float samples; without, they are rounded to 16 bit.
+  MapsHeld disparity = MapsHeld::None;
+  bool is_depth = false;  ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
+  bool has_layers = false;
+  MapsHeld labels = MapsHeld::None;
+  bool has_scribbles = false;
+  bool has_regions = false;  ///< Region masks of the centre view.
+  bool has_valid = false;    ///< The mask of valid pixels.
+  CamerasHeld camera = CamerasHeld::None;
+  bool has_range = false;      ///< The disparity range that files promise.
+  bool has_positions = false;  ///< Of the cameras.
+};
+
+/// A form in which light fields can be written: one row of the table.
+struct Writer {
+  const char* id;    ///< As on the command line: "archive".
+  const char* name;  ///< As in a sentence: "the archive form".
+  /// Lower case with the dot, the usual one first; of "_eslf.png" the end of the name; empty = a
+  /// folder is written.
+  std::span<const char* const> suffixes;
+  FormContents holds;
+  /// Writes what the form can hold; atomic. Throws IoError, Cancelled.
+  void (*write)(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
+
+  [[nodiscard]] bool writes_folder() const { return suffixes.empty(); }
+  [[nodiscard]] bool has_suffix_of(const std::filesystem::path& path) const;
+};
+
+/// Every writer. Of those with the same suffix, the first is the usual one.
+[[nodiscard]] std::span<const Writer> writers();
+
+/// The writer with this id; null for an unknown one.
+[[nodiscard]] const Writer* writer_named(const std::string& id);
+
+/// The first writer of files with the suffix of `path`; null if there is none.
+[[nodiscard]] const Writer* writer_of(const std::filesystem::path& path);
+
+/// What of a scene the form cannot hold: a sentence for each kind, without those that the scene
+/// lacks itself.
+[[nodiscard]] std::vector<std::string> left_out(const Writer& writer, const Scene& scene);
+
+}  // namespace episcope::io
