@@ -67,13 +67,15 @@ class RoundTripTest : public QObject {
     QTest::addColumn<std::size_t>("to");
     QTest::addColumn<std::size_t>("index");
     const auto scenes = round_trip_scenes();
-    for (std::size_t from = 0; from < io::writers().size(); ++from) {
-      for (std::size_t to = 0; to < io::writers().size(); ++to) {
-        for (std::size_t i = 0; i < scenes.size(); ++i) {
-          QTest::addRow("%s to %s: %s", io::writers()[from].id, io::writers()[to].id,
-                        scenes[i].name)
-              << from << to << i;
-        }
+    const auto forms = io::writers();
+    for (std::size_t i = 0; i < forms.size() * forms.size(); ++i) {
+      const std::size_t from = i / forms.size();
+      const std::size_t to = i % forms.size();
+      if (from == to) continue;
+      // One scene of each sample type: the others are compared form by form.
+      for (const std::size_t scene : {0, 1, 4}) {
+        QTest::addRow("%s to %s: %s", forms[from].id, forms[to].id, scenes[scene].name)
+            << from << to << scene;
       }
     }
   }
