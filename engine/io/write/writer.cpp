@@ -40,8 +40,8 @@ constexpr Writer kWriters[] = {
 }  // namespace
 
 bool Writer::has_suffix_of(const std::filesystem::path& path) const {
-  const std::string suffix = suffix_of(path);
-  return std::ranges::any_of(suffixes, [&](const char* each) { return suffix == suffix_of(each); });
+  const std::string name = lower_case(path.filename().string());
+  return std::ranges::any_of(suffixes, [&](const char* suffix) { return name.ends_with(suffix); });
 }
 
 std::span<const Writer> writers() {

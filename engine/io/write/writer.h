@@ -40,8 +40,7 @@ struct FormContents {
 struct Writer {
   const char* id;    ///< As on the command line: "archive".
   const char* name;  ///< As in a sentence: "the archive form".
-  /// Lower case with the dot, the usual one first; of "_eslf.png" the end of the name; empty = a
-  /// folder is written.
+  /// How names of its files end, in lower case, the usual one first; empty = a folder is written.
   std::span<const char* const> suffixes;
   FormContents holds;
   /// Writes what the form can hold; atomic. Throws IoError, Cancelled.
@@ -57,7 +56,7 @@ struct Writer {
 /// The writer with this id; null for an unknown one.
 [[nodiscard]] const Writer* writer_named(const std::string& id);
 
-/// The first writer of files with the suffix of `path`; null if there is none.
+/// The first writer of files whose names end as `path` does; null if there is none.
 [[nodiscard]] const Writer* writer_of(const std::filesystem::path& path);
 
 /// What of a scene the form cannot hold: a sentence for each kind, without those that the scene
