@@ -9,6 +9,7 @@
 #include "engine/io/write/writer.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/broken/broken.h"
+#include "tests/engine/io/memory_use.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -93,27 +94,6 @@ std::vector<Writer> all_writers() {
   }
   return all;
 }
-
-/// Memory that this process takes at most from now on, beyond what it holds already.
-class PeakMemory {
- public:
-  PeakMemory() : before_(bytes("VmRSS:")) { std::ofstream("/proc/self/clear_refs") << "5"; }
-  [[nodiscard]] std::uintmax_t used() const {
-    const std::uintmax_t peak = bytes("VmHWM:");
-    return peak > before_ ? peak - before_ : 0;
-  }
-
- private:
-  static std::uintmax_t bytes(const std::string& key) {
-    std::ifstream status("/proc/self/status");
-    for (std::string word; status >> word;) {
-      std::uintmax_t kib = 0;
-      if (word == key && status >> kib) return kib << 10;
-    }
-    return 0;
-  }
-  std::uintmax_t before_;
-};
 
 /// A user for whom permissions count, also where tests run as root.
 class PlainUser {
