@@ -64,6 +64,15 @@ void write_label_map(const fs::path& path, ImageView<const std::int32_t> labels)
       {labels.data, labels.size()});
 }
 
+void write_regions(const fs::path& folder, const GroundTruth& truth) {
+  for (const auto& [name, region] : truth.regions) {
+    write_npy<std::uint8_t>(
+        folder / ("mask_" + name + ".npy"),
+        {static_cast<std::size_t>(region.height()), static_cast<std::size_t>(region.width())},
+        {region.data(), region.size()});
+  }
+}
+
 std::uintmax_t scene_bytes(const Scene& scene) {
   const GroundTruth& truth = *scene.truth;
   const std::size_t disparities = truth.field.empty() ? 0 : truth.field.disparity.size();
@@ -92,6 +101,7 @@ void write_grid_folder(const fs::path& folder, const Scene& scene, const Progres
       write_label_map(place / ("label_" + name + ".npy"), truth.labels.view(view));
     }
   });
+  write_regions(place, truth);
   progress.check();
   target.commit();
   progress.report(1);

@@ -29,7 +29,7 @@ constexpr FormContents kBenchmark{.disparity = MapsHeld::All,
                                   .camera = CamerasHeld::Converging,
                                   .has_range = true};
 constexpr FormContents kGrid{
-    .has_floats = true, .disparity = MapsHeld::All, .labels = MapsHeld::All};
+    .has_floats = true, .disparity = MapsHeld::All, .labels = MapsHeld::All, .has_regions = true};
 
 constexpr Writer kWriters[] = {
     {"archive", "the archive form", kHdf5, kArchive, write_archive},

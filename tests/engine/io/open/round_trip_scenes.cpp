@@ -112,6 +112,13 @@ void add_regions(GroundTruth& truth) {
   }
 }
 
+/// 0 = no label, and a label that does not fit into a byte.
+void add_odd_labels(GroundTruth& truth) {
+  for (std::size_t i = 0; i < truth.labels.size(); ++i) {
+    if (i % 41 < 3) truth.labels.data()[i] = i % 41 == 2 ? 300 : 0;
+  }
+}
+
 bool equal(const LightField& a, const LightField& b) {
   return a.sample_type() == b.sample_type() && a.sample_hash() == b.sample_hash();
 }
@@ -221,6 +228,7 @@ std::vector<RoundTripScene> round_trip_scenes() {
            punch_holes(truth);
          });
        }},
+      {"labels from 0 to 300", [=] { return with_truth(rgb8(), add_odd_labels); }},
       {"layers", [=] { return with_truth(rgb8(), add_layers); }},
       {"regions", [=] { return with_truth(rgb8(), add_regions); }},
       {"no truth, no labels",
