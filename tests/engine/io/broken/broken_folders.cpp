@@ -67,7 +67,8 @@ std::vector<Broken> broken_folders() {
          fs::remove(f / "1_2.png");
          return f;
        },
-       "row 1, column 2 is missing (pattern {row}_{col}.png matches 8 of 8 images"},
+       "view 1,2 is missing (row,column as in the names; pattern {row}_{col}.png matches 8 of 8 "
+       "images"},
       {"grid with a damaged view",
        [](const fs::path& f) {
          image_grid(f);
@@ -75,14 +76,49 @@ std::vector<Broken> broken_folders() {
          return f;
        },
        "0_2.png: the image cannot be decoded"},
-      {"flat count that is no square",
+      {"list with a gap",
        [](const fs::path& f) {
          for (const int i : {0, 1, 2, 3, 4, 6, 7, 8}) {
            io::write_png(f / (std::to_string(i) + ".png"), Image<std::uint8_t>(2, 2).view());
          }
          return f;
        },
-       "the number 5 is missing"},
+       "view 5 is missing (pattern {index}.png matches 8 of 8 images"},
+      {"grid with many missing views",
+       [](const fs::path& f) {
+         image_grid(f);
+         for (const char* name : {"0_1.png", "1_2.png", "2_0.png"}) fs::remove(f / name);
+         return f;
+       },
+       "3 views are missing: 0,1 1,2 2,0 (row,column"},
+      {"list that may be anything",
+       [](const fs::path& f) {
+         for (int i = 0; i < 6; ++i) {
+           io::write_png(f / (std::to_string(i) + ".png"), Image<std::uint8_t>(9, 9).view());
+         }
+         return f;
+       },
+       "give --grid 2x3 (2 rows of 3 views), or --grid 3x2"},
+      {"two grids of equal right",
+       [](const fs::path& f) {
+         for (const char* side : {"left", "right"}) {
+           for (const char* place : {"0_0", "0_1", "1_0", "1_1"}) {
+             io::write_png(f / (std::string(side) + place + ".png"),
+                           Image<std::uint8_t>(2, 2).view());
+           }
+         }
+         return f;
+       },
+       "two sets of 4 images could be the views, left{row}_{col}.png and right{row}_{col}.png"},
+      {"several light fields in a folder",
+       [](const fs::path& f) {
+         for (int i = 0; i < 4; ++i) {
+           io::write_png(f / ("IMG_" + std::to_string(i) + "_macpi.png"),
+                         Image<std::uint8_t>(2, 2).view());
+         }
+         return f;
+       },
+       "IMG_0_macpi.png"},
       {"one picture",
        [](const fs::path& f) {
          io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
@@ -176,7 +212,7 @@ std::vector<Broken> broken_folders() {
          fs::create_symlink("1_2.png", f / "1_2.png");
          return f;
        },
-       "symbolic links"},
+       "view 1,2 is missing"},
       {"names that are not UTF-8",
        [](const fs::path& f) {
          for (const char* name : {"\xff\xfe.png", "\xc3\x28.png"}) {

@@ -33,7 +33,7 @@ std::vector<Broken> broken_places() {
          fs::create_symlink("lf.h5", f / "lf.h5");
          return f;
        },
-       "symbolic links"},
+       "no light field in this folder"},
       {"links that go round",
        [](const fs::path& f) {
          fs::create_directory_symlink("b", f / "a");
