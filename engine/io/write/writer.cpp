@@ -3,6 +3,7 @@
 
 #include "engine/core/text/suffix.h"
 #include "engine/io/archive/write_scene.h"
+#include "engine/io/arrays/write_arrays.h"
 #include "engine/io/write/write_grid.h"
 
 #include <algorithm>
@@ -11,6 +12,9 @@ namespace episcope::io {
 namespace {
 
 constexpr const char* kHdf5[] = {".h5", ".hdf5"};
+constexpr const char* kNpy[] = {".npy"};
+constexpr const char* kNpz[] = {".npz"};
+constexpr const char* kMat[] = {".mat"};
 
 constexpr FormContents kArchive{.has_floats = true,
                                 .disparity = MapsHeld::All,
@@ -31,10 +35,19 @@ constexpr FormContents kBenchmark{.disparity = MapsHeld::All,
 constexpr FormContents kGrid{
     .has_floats = true, .disparity = MapsHeld::All, .labels = MapsHeld::All, .has_regions = true};
 
+constexpr FormContents kArray{.has_floats = true};
+constexpr FormContents kArrays{.has_floats = true,
+                               .disparity = MapsHeld::All,
+                               .labels = MapsHeld::All,
+                               .has_valid = true};
+
 constexpr Writer kWriters[] = {
     {"archive", "the archive form", kHdf5, kArchive, write_archive},
     {"benchmark", "the benchmark form", {}, kBenchmark, write_benchmark_folder},
     {"grid", "a grid of images", {}, kGrid, write_grid_folder},
+    {"npy", "the .npy form", kNpy, kArray, write_npy},
+    {"npz", "the .npz form", kNpz, kArrays, write_npz},
+    {"mat", "the .mat form", kMat, kArrays, write_mat},
 };
 
 }  // namespace
