@@ -114,7 +114,7 @@ class PlainUser {
 
 std::vector<Broken> broken_inputs() {
   std::vector<Broken> all = broken_archives();
-  for (const auto& more : {broken_folders(), broken_places()}) {
+  for (const auto& more : {broken_folders(), broken_arrays(), broken_places()}) {
     all.insert(all.end(), more.begin(), more.end());
   }
   return all;

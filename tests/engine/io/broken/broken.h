@@ -19,6 +19,8 @@ struct Broken {
 [[nodiscard]] std::vector<Broken> broken_archives();
 /// folders of images,
 [[nodiscard]] std::vector<Broken> broken_folders();
+/// arrays of NumPy and MATLAB,
+[[nodiscard]] std::vector<Broken> broken_arrays();
 /// and places that are no files or folders of any form.
 [[nodiscard]] std::vector<Broken> broken_places();
 

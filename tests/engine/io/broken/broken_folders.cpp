@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/archive/write_scene.h"
+#include "engine/io/durable/checksum.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/maps/pfm.h"
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"
 
+#include <array>
 #include <fstream>
 
 namespace episcope::test {
@@ -26,6 +28,25 @@ fs::path benchmark(const fs::path& folder) {
   options.grid = {3, 3};
   io::write_benchmark_folder(folder / "scene", plane_scene(options), Progress(1));
   return folder / "scene";
+}
+
+/// Changes width and height in the header of a PNG, and its checksum with them.
+void claim_size(const fs::path& path, std::uint32_t side) {
+  constexpr std::size_t kHeader = 12;  // signature and length come before the type of the chunk
+  std::array<std::uint8_t, 4 + 13> header{};
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  file.seekg(kHeader);
+  file.read(reinterpret_cast<char*>(header.data()), header.size());
+  const auto put = [](std::uint8_t* to, std::uint32_t number) {
+    for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(number >> (24 - 8 * i));
+  };
+  put(header.data() + 4, side);
+  put(header.data() + 8, side);
+  std::array<std::uint8_t, 4> sum{};
+  put(sum.data(), io::checksum(header));
+  file.seekp(kHeader);
+  file.write(reinterpret_cast<const char*>(header.data()), header.size());
+  file.write(reinterpret_cast<const char*>(sum.data()), sum.size());
 }
 
 }  // namespace in_broken_folders
@@ -124,7 +145,22 @@ std::vector<Broken> broken_folders() {
          io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
          return f;
        },
-       "do not form a grid of views"},
+       "a.png: this is a single picture of 2×2 px and not recognised as a light field"},
+      {"picture that claims more than its file can hold",
+       [](const fs::path& f) {
+         io::write_png(f / "a_eslf.png", Image<std::uint8_t>(2, 2).view());
+         claim_size(f / "a_eslf.png", 60000);
+         return f / "a_eslf.png";
+       },
+       "a_eslf.png: the image cannot be decoded"},
+      {"several light fields, each in one picture",
+       [](const fs::path& f) {
+         for (const char* name : {"a_eslf.png", "b_eslf.png", "c_eslf.png", "d_eslf.png"}) {
+           io::write_png(f / name, Image<std::uint8_t>(28, 28).view());
+         }
+         return f;
+       },
+       "the folder holds 4 light fields, each in one image (a_eslf.png, b_eslf.png, …)"},
       {"benchmark with a missing view",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);
