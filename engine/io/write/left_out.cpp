@@ -79,7 +79,7 @@ std::vector<std::string> left_out(const Writer& writer, const Scene& scene) {
   const GroundTruth& truth = *scene.truth;
   const FormContents& holds = writer.holds;
   Losses losses(writer, scene);
-  if (field.sample_type() == SampleType::Float32 && !holds.has_floats) {
+  if (field.sample_type() == SampleType::Float32 && holds.floats == FloatsHeld::Rounded) {
     losses.add(" holds no float samples; they are rounded to 16 bit, and clamped to 0 … 1.");
   }
   compare_camera(field.info(), holds, losses);

@@ -4,6 +4,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/arrays/write_arrays.h"
+#include "engine/io/mosaic/write_eslf.h"
 #include "engine/io/write/write_grid.h"
 
 #include <algorithm>
@@ -15,8 +16,9 @@ constexpr const char* kHdf5[] = {".h5", ".hdf5"};
 constexpr const char* kNpy[] = {".npy"};
 constexpr const char* kNpz[] = {".npz"};
 constexpr const char* kMat[] = {".mat"};
+constexpr const char* kEslf[] = {"_eslf.png", ".png"};
 
-constexpr FormContents kArchive{.has_floats = true,
+constexpr FormContents kArchive{.floats = FloatsHeld::Exactly,
                                 .disparity = MapsHeld::All,
                                 .is_depth = true,
                                 .has_layers = true,
@@ -27,19 +29,24 @@ constexpr FormContents kArchive{.has_floats = true,
                                 .camera = CamerasHeld::All,
                                 .has_range = true,
                                 .has_positions = true};
-constexpr FormContents kBenchmark{.disparity = MapsHeld::All,
+constexpr FormContents kBenchmark{.floats = FloatsHeld::Rounded,
+                                  .disparity = MapsHeld::All,
                                   .labels = MapsHeld::Center,
                                   .has_regions = true,
                                   .camera = CamerasHeld::Converging,
                                   .has_range = true};
-constexpr FormContents kGrid{
-    .has_floats = true, .disparity = MapsHeld::All, .labels = MapsHeld::All, .has_regions = true};
+constexpr FormContents kGrid{.floats = FloatsHeld::Exactly,
+                             .disparity = MapsHeld::All,
+                             .labels = MapsHeld::All,
+                             .has_regions = true};
 
-constexpr FormContents kArray{.has_floats = true};
-constexpr FormContents kArrays{.has_floats = true,
+constexpr FormContents kArray{.floats = FloatsHeld::Exactly};
+constexpr FormContents kArrays{.floats = FloatsHeld::Exactly,
                                .disparity = MapsHeld::All,
                                .labels = MapsHeld::All,
                                .has_valid = true};
+
+constexpr FormContents kPicture{};
 
 constexpr Writer kWriters[] = {
     {"archive", "the archive form", kHdf5, kArchive, write_archive},
@@ -48,6 +55,7 @@ constexpr Writer kWriters[] = {
     {"npy", "the .npy form", kNpy, kArray, write_npy},
     {"npz", "the .npz form", kNpz, kArrays, write_npz},
     {"mat", "the .mat form", kMat, kArrays, write_mat},
+    {"eslf", "a picture of lenslets", kEslf, kPicture, write_eslf},
 };
 
 }  // namespace

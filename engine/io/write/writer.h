@@ -14,6 +14,13 @@ namespace episcope::io {
 /// Of which views a form holds a kind of map.
 enum class MapsHeld { None, Center, All };
 
+/// What becomes of views of float samples.
+enum class FloatsHeld {
+  None,     ///< They cannot be written.
+  Rounded,  ///< To 16 bit.
+  Exactly
+};
+
 /// Which cameras a form holds.
 enum class CamerasHeld {
   None,
@@ -23,7 +30,7 @@ enum class CamerasHeld {
 
 /// What a form can hold of a scene besides views of 8 and 16 bit.
 struct FormContents {
-  bool has_floats = false;  ///< Views of float samples; without, they are rounded to 16 bit.
+  FloatsHeld floats = FloatsHeld::None;
   MapsHeld disparity = MapsHeld::None;
   bool is_depth = false;  ///< Disparity is held as depth in float, within 2⁻²³ of d + Δx.
   bool has_layers = false;
@@ -43,7 +50,8 @@ struct Writer {
   /// How names of its files end, in lower case, the usual one first; empty = a folder is written.
   std::span<const char* const> suffixes;
   FormContents holds;
-  /// Writes what the form can hold; atomic. Throws IoError, Cancelled.
+  /// Writes what the form can hold; atomic. Throws IoError, also for samples that the form cannot
+  /// hold; Cancelled.
   void (*write)(const std::filesystem::path& path, const Scene& scene, const Progress& progress);
 
   [[nodiscard]] bool writes_folder() const { return suffixes.empty(); }

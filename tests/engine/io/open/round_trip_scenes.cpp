@@ -241,7 +241,7 @@ std::vector<RoundTripScene> round_trip_scenes() {
 }
 
 io::FormContents common_contents(const io::FormContents& a, const io::FormContents& b) {
-  return {.has_floats = a.has_floats && b.has_floats,
+  return {.floats = std::min(a.floats, b.floats),
           .disparity = std::min(a.disparity, b.disparity),
           .is_depth = a.is_depth || b.is_depth,
           .has_layers = a.has_layers && b.has_layers,
@@ -266,7 +266,8 @@ std::string difference(const Scene& scene, const io::FormContents& holds, const 
   const auto require = [&](bool is_equal, const char* what) {
     if (!is_equal) text += std::string(text.empty() ? "" : ", ") + what;
   };
-  const bool is_rounded = field.sample_type() == SampleType::Float32 && !holds.has_floats;
+  const bool is_rounded =
+      field.sample_type() == SampleType::Float32 && holds.floats == io::FloatsHeld::Rounded;
   require(read.light_field->grid() == field.grid(), "grid");
   require(is_rounded ? equal(rounded(field), *read.light_field) : equal(field, *read.light_field),
           "samples");

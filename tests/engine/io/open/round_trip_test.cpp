@@ -28,7 +28,18 @@ class RoundTripTest : public QObject {
     const fs::path path =
         folder / (writer.writes_folder() ? "scene" : std::string("scene") + writer.suffixes[0]);
     writer.write(path, scene, Progress(2));
-    return io::open_scene(path, {}, Progress(2));
+    io::OpenOptions options;
+    if (writer.id == std::string("eslf")) {  // no picture says how many views lie under a lenslet
+      const GridShape grid = scene.light_field->grid();
+      options.mosaic = io::Mosaic::Lenslets;
+      options.grid = std::to_string(grid.v) + "x" + std::to_string(grid.u);
+    }
+    return io::open_scene(path, options, Progress(2));
+  }
+
+  static bool can_write(const io::Writer& writer, const Scene& scene) {
+    return scene.light_field->sample_type() != SampleType::Float32 ||
+           writer.holds.floats != io::FloatsHeld::None;
   }
 
  private slots:
@@ -50,6 +61,10 @@ class RoundTripTest : public QObject {
       QFETCH(std::size_t, index);
       const io::Writer& writer = io::writers()[form];
       const Scene scene = round_trip_scenes()[index].make();
+      if (!can_write(writer, scene)) {
+        QVERIFY_EXCEPTION_THROWN((void)through(writer, scene, "a"), IoError);
+        return;
+      }
 
       const Scene read = through(writer, scene, "a");
 
@@ -86,7 +101,9 @@ class RoundTripTest : public QObject {
       QFETCH(std::size_t, index);
       const io::Writer& a = io::writers()[from];
       const io::Writer& b = io::writers()[to];
-      const Scene first = through(a, round_trip_scenes()[index].make(), "first");
+      const Scene scene = round_trip_scenes()[index].make();
+      if (!can_write(a, scene) || !can_write(b, scene)) return;
+      const Scene first = through(a, scene, "first");
 
       const Scene other = through(b, first, "other");
       const Scene back = through(a, other, "back");
