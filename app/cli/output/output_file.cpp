@@ -8,6 +8,7 @@
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/labels/segmentation_file.h"
 #include "engine/io/maps/result_file.h"
+#include "engine/io/open/reader.h"
 
 #include <unistd.h>
 
@@ -44,8 +45,10 @@ bool is_sound_labeling(const fs::path& path) {
 
 bool is_light_field(const fs::path& path) {
   try {
-    return io::has_hdf5_signature(path) && io::Hdf5Input(path).has("LF");
-  } catch (const IoError&) {
+    if (!fs::is_regular_file(path)) return false;
+    if (io::has_hdf5_signature(path)) return io::Hdf5Input(path).has("LF");
+    return io::find_reader(path, {}).path == path;
+  } catch (const Error&) {
     return false;  // damaged
   }
 }

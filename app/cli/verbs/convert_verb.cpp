@@ -10,7 +10,7 @@
 #include "app/session/run/result_source.h"
 #include "app/session/save/save_result.h"
 #include "engine/core/text/suffix.h"
-#include "engine/io/archive/write_scene.h"
+#include "engine/io/write/writer.h"
 
 #include <iostream>
 
@@ -21,40 +21,69 @@ struct Request {
   std::string input;
   std::string output;
   std::string truth;
+  std::string form;  ///< Id of a writer; empty = told by the output.
   Overwrite overwrite = Overwrite::No;
   JobOptions job;
   ReadOptions read;
 };
 
+std::vector<std::string> writer_ids() {
+  std::vector<std::string> ids;
+  for (const io::Writer& writer : io::writers()) ids.emplace_back(writer.id);
+  return ids;
+}
+
 bool parse(const VerbArguments& arguments, Request& request) {
-  Arguments parser("convert",
-                   {"Writes a light field or a result in another format, by the suffix of OUT:\n"
-                    ".h5 (archive form), .pfm, .tiff, .ply (disparity of the centre view: of a\n"
-                    "RESULT, or the truth of an INPUT), or a folder (benchmark form). A RESULT\n"
-                    "becomes the depth of its light field in the archive and benchmark forms.",
-                    "episcope-cli convert demo demo_folder/\n"
-                    "  episcope-cli convert demo.h5 demo.ply"});
+  Arguments parser(
+      "convert", {"Writes a light field or a result in another form, by the suffix of OUT:\n"
+                  ".h5 (archive form), .pfm, .tiff, .ply (disparity of the centre view: of a\n"
+                  "RESULT, or the truth of an INPUT), or a folder (benchmark form), or in the\n"
+                  "form that --to names. Views, truth, labels, masks and camera are kept as far\n"
+                  "as the form can hold them; what it cannot is said. A RESULT becomes the truth\n"
+                  "of its light field.",
+                  "episcope-cli convert demo demo_folder/\n"
+                  "  episcope-cli convert demo views/ --to grid\n"
+                  "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
+  parser.option("--to", request.form, one_of(writer_ids()),
+                "Form of the light field; by default told by the suffix of OUT");
   parser.option("--truth", request.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
-enum class Format { Archive, Pfm, Tiff, Ply, Folder };
+/// What is written: a light field in one of its forms, or a map.
+struct Target {
+  const io::Writer* writer = nullptr;  ///< Null for a map.
+  MapForm map = MapForm::Pfm;
 
-Format format_of(const std::string& output) {
+  [[nodiscard]] bool needs_scene() const { return writer || map == MapForm::PointCloud; }
+};
+
+Target named_target(const Request& request) {
+  const io::Writer& writer = *io::writer_named(request.form);
+  if (writer.writes_folder() || writer.has_suffix_of(request.output)) return {&writer};
+  throw UsageError("--to " + request.form + " writes a file *" + writer.suffixes.front() +
+                   ", but the output is " + request.output + "; name it so");
+}
+
+Target target_of(const Request& request) {
+  if (!request.form.empty()) return named_target(request);
+  const std::string& output = request.output;
   const std::string suffix = suffix_of(output);
   std::error_code ignored;
   if (suffix.empty() || output.ends_with('/') || std::filesystem::is_directory(output, ignored)) {
-    return Format::Folder;
+    return {io::writer_named("benchmark")};
   }
-  if (suffix == ".h5" || suffix == ".hdf5") return Format::Archive;
-  if (suffix == ".pfm") return Format::Pfm;
-  if (suffix == ".tif" || suffix == ".tiff") return Format::Tiff;
-  if (suffix == ".ply") return Format::Ply;
-  throw unknown_name("format", suffix, {".h5", ".pfm", ".ply", ".tiff", "a folder"});
+  if (const io::Writer* writer = io::writer_of(output)) return {writer};
+  if (const auto map = map_form_of(output)) return {nullptr, *map};
+  std::vector<std::string> known{".pfm", ".ply", ".tiff", "a folder"};
+  for (const io::Writer& writer : io::writers()) {
+    if (!writer.writes_folder()) known.emplace_back(writer.suffixes.front());
+  }
+  throw unknown_name("format", suffix, known);
 }
 
 /// What is converted: disparity, and the light field it belongs to if that is known.
@@ -67,26 +96,24 @@ struct Subject {
   }
 };
 
-Subject load_subject(const Request& request, Format format, const Progress& progress) {
+Subject load_subject(const Request& request, const Target& target, const Progress& progress) {
   Subject subject;
   if (request.truth.empty() && !names_result(request.input)) {
     subject.scene = load_input(request.input, request.read, progress);
     return subject;
   }
-  const bool needs_scene =
-      format == Format::Archive || format == Format::Folder || format == Format::Ply;
   if (request.truth.empty()) {
     subject.estimate = read_result_alone(request.input);
     const std::string source = existing_source(subject.estimate->source, request.input);
     protect_input(request.output, source);
-    if (needs_scene && !source.empty()) {
+    if (target.needs_scene() && !source.empty()) {
       subject.scene = load_input_of(reading_of(request.input), source, request.read, progress);
     }
   } else {
     subject.scene = load_input_of(reading_of(request.input), request.truth, request.read, progress);
     subject.estimate = read_result_of(*subject.scene->light_field, request.input);
   }
-  if (needs_scene && !subject.scene) {
+  if (target.needs_scene() && !subject.scene) {
     throw IoError(request.input,
                   "its light field is unknown or no longer where it was; name it with "
                   "--truth INPUT");
@@ -109,36 +136,45 @@ Scene scene_to_write(Subject& subject) {
   if (!subject.estimate) return scene;
   auto truth = std::make_shared<GroundTruth>();
   truth->field = std::move(subject.estimate->field);
+  truth->foreground = std::move(subject.estimate->layered.foreground);
+  truth->background = std::move(subject.estimate->layered.background);
   if (!scene.truth->labels.empty()) truth->labels = scene.truth->labels.clone();
+  truth->regions = scene.truth->regions;
   scene.truth = truth;
   return scene;
 }
 
-void write(Subject& subject, const Request& request, Format format, const Progress& progress) {
+void write_map(const Subject& subject, const Request& request, MapForm form) {
+  const DisparityView map = map_of(subject, request.input);
+  if (form != MapForm::PointCloud) return save_map(request.output, map);
+  const LightField& light_field = *subject.scene->light_field;
+  save_point_cloud(request.output, light_field, light_field.center(), map);
+}
+
+void write(Subject& subject, const Request& request, const Target& target, Job& job) {
+  const Progress progress = job.progress().part(0.5, 1);
   progress.step("writing " + request.output);
-  switch (format) {
-    case Format::Archive:
-      return io::write_archive(request.output, scene_to_write(subject), progress);
-    case Format::Folder:
-      return io::write_benchmark_folder(request.output, scene_to_write(subject), progress);
-    case Format::Pfm:
-    case Format::Tiff:
-      return save_map(request.output, map_of(subject, request.input));
-    case Format::Ply: {
-      const LightField& light_field = *subject.scene->light_field;
-      return save_point_cloud(request.output, light_field, light_field.center(),
-                              map_of(subject, request.input));
-    }
-  }
+  if (target.writer == nullptr) return write_map(subject, request, target.map);
+  const Scene scene = scene_to_write(subject);
+  for (const std::string& sentence : io::left_out(*target.writer, scene)) job.note(sentence);
+  target.writer->write(request.output, scene, progress);
 }
 
 /// Maps in image formats forget what a result file remembers.
-void note_forgotten_options(const Subject& subject, const Request& request, Format format,
+void note_forgotten_options(const Subject& subject, const Request& request, const Target& target,
                             Job& job) {
-  const bool forgets = format == Format::Pfm || format == Format::Tiff;
+  const bool forgets = !target.needs_scene();
   if (!forgets || !subject.estimate || subject.estimate->reading.options.empty()) return;
   job.note(request.output + " does not store how its light field was read; evaluate it with" +
            reading_options_text(subject.estimate->reading.options));
+}
+
+void check_output(const Request& request, const Target& target) {
+  const bool is_folder = target.writer && target.writer->writes_folder();
+  if (!is_folder) check_output_file(request.output);
+  protect_input(request.output, request.input);
+  if (!request.truth.empty()) protect_input(request.output, request.truth);
+  if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
 }  // namespace
@@ -146,22 +182,17 @@ void note_forgotten_options(const Subject& subject, const Request& request, Form
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  const Format format = format_of(request.output);
-  if (format != Format::Folder) check_output_file(request.output);
-  protect_input(request.output, request.input);
-  if (!request.truth.empty()) protect_input(request.output, request.truth);
-  if (format == Format::Archive) {
-    check_light_field_output(request.output, request.overwrite);
-  }
+  const Target target = target_of(request);
+  check_output(request, target);
 
   Job job(std::move(stop), request.job);
-  Subject subject = load_subject(request, format, job.progress().part(0, 0.5));
+  Subject subject = load_subject(request, target, job.progress().part(0, 0.5));
   if (subject.scene) {
     for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
   }
-  note_forgotten_options(subject, request, format, job);
+  note_forgotten_options(subject, request, target, job);
   job.progress().check();
-  write(subject, request, format, job.progress().part(0.5, 1));
+  write(subject, request, target, job);
   job.finish();
   std::cout << request.output << ": written\n";
 }

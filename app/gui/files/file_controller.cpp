@@ -3,6 +3,7 @@
 
 #include "app/gui/document/document_controller.h"
 #include "app/gui/files/recent_inputs.h"
+#include "app/gui/files/save_forms.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/opening/result_opener.h"
@@ -22,6 +23,7 @@ namespace episcope {
 FileController::FileController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), recent_menu_(new QMenu(&bench.window)) {
   addOpenCommands();
+  addSaveCommand();
   addLeaveCommands();
   fillRecentMenu();
   bench.window.setAcceptDrops(true);
@@ -79,6 +81,17 @@ void FileController::addOpenCommands() {
                        .tip = tr("Opens the built-in demo scene"),
                        .run = [this] { bench_.opener.open("demo"); },
                        .section = section::kOpen});
+}
+
+void FileController::addSaveCommand() {
+  bench_.commands.add(
+      {.id = "file.save_as",
+       .menu = Menu::File,
+       .text = tr("Save light field as"),
+       .tip = tr("Writes the light field, its truth and its labels in another form"),
+       .section = section::kExport,
+       .enabled = [this] { return bench_.session.scene() != nullptr; },
+       .submenu = make_save_menu(bench_)});
 }
 
 void FileController::addLeaveCommands() {

@@ -22,6 +22,7 @@ class FileController : public QObject {
 
  private:
   void addOpenCommands();
+  void addSaveCommand();
   void addLeaveCommands();
   void askForFile();
   void askForFolder();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/archive/archive_depth.h"
 
+#include "engine/io/archive/archive_names.h"
 #include "engine/io/archive/depth_maps.h"
 #include "engine/io/archive/depth_units.h"
 
@@ -75,6 +76,19 @@ bool states_no_camera(const Hdf5Input& file) {
   return file.text("/", "camera").value_or("").starts_with("unknown");
 }
 
+/// Units as chosen; a file that states its formula, as `write_archive` does, leaves no choice.
+CameraGrid settle(const Hdf5Input& file, const DepthMaps& maps, const LightField::Samples& samples,
+                  const CameraGrid& stored, Units choice, ConventionReport& report) {
+  const bool is_stated = file.text("/", kConvention) == kConventionText;
+  if (choice != Units::Auto || !is_stated) {
+    return settle_units(maps, samples, stored, choice, report);
+  }
+  const CameraGrid camera = settle_units(maps, samples, stored, Units::WithWidth, report);
+  report.units_were_chosen = false;
+  report.units_check = "the file states this formula";
+  return camera;
+}
+
 /// Of two layers both are needed to tell a transparent surface from what lies behind it.
 void drop_single_layer(ArchiveTruth& truth, ConventionReport& report) {
   if (truth.foreground.empty() == truth.background.empty()) return;
@@ -119,7 +133,7 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
     report.warnings.push_back(reference.name + " is ignored because " + camera_fault(file) + ".");
     return truth;
   }
-  truth.camera = settle_units(reference, samples, truth.camera, options.units, report);
+  truth.camera = settle(file, reference, samples, truth.camera, options.units, report);
   const auto finish = [&](DepthMaps& maps, double from) {
     return maps.empty() ? DisparityField{}
                         : disparity_from_depth(std::move(maps), truth.camera, report,

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/archive/archive_depth.h"
+#include "engine/io/archive/archive_extras.h"
 #include "engine/io/archive/archive_labels.h"
 #include "engine/io/archive/companions.h"
 #include "engine/io/labels/scribble_dataset.h"
@@ -201,8 +202,10 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
                       stated_range(file),
                       {.reader = kArchiveReader, .options = {}}};
 
+  read_positions(file, grid, info);
   progress.step("reading views");
-  LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.6));
+  LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.55));
+  ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, progress.part(0.55, 0.6));
   scale_float_samples(samples, report);
   progress.step("reading depth");
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
@@ -210,17 +213,20 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   ArchiveLabels labels;
   FolderAccount account(path.has_parent_path() ? path.parent_path() : fs::path("."));
   account.use(path, "light field");
+  std::map<std::string, Image<std::uint8_t>> regions;
   if (options.needs_truth) {
+    regions = read_regions(file, layout.shape);
     labels = read_labels(file, layout.shape, report, account, progress.part(0.85, 0.95));
   }
-  GroundTruth truth{std::move(depth.field),
-                    std::move(depth.foreground),
-                    std::move(depth.background),
-                    std::move(labels.labels),
-                    {}};
+  GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
+                    std::move(depth.background), std::move(labels.labels), std::move(regions)};
   info.camera = depth.camera;
-  assemble({std::move(samples), std::move(truth), std::move(info), expected_order(file)}, options,
-           scene, progress);
+  assemble({.samples = std::move(samples),
+            .truth = std::move(truth),
+            .info = std::move(info),
+            .expected = expected_order(file),
+            .valid = std::move(valid)},
+           options, scene, progress);
   scene.scribbles = std::move(labels.scribbles);
   put_in_order(scene.scribbles, grid, flip_of(report));
   if (report.crop.leaves_out()) {

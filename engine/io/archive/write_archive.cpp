@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/archive/archive_names.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -15,10 +16,6 @@
 
 namespace episcope::io {
 namespace {
-
-constexpr const char* kConvention =
-    "d = dH*focalLength/Z - shift; point at (x,y) in view (v,h) is at (x-d,y) in (v,h+1) and "
-    "(x,y-d) in (v+1,h)";
 
 /// Smallest and largest valid disparity.
 Interval valid_range(const DisparityField& field) {
@@ -52,6 +49,17 @@ CameraGrid camera_for(const Scene& scene) {
   return invented;
 }
 
+void write_positions(Hdf5Output& file, const LightFieldInfo& info) {
+  if (info.positions.empty()) return;
+  std::vector<double> values;
+  for (const CameraPosition& position : info.positions) {
+    values.push_back(position.x);
+    values.push_back(position.y);
+  }
+  file.set_numbers("/", kPositions, values);
+  file.set_text("/", kPositionUnit, info.position_unit);
+}
+
 void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& camera) {
   const LightField& field = *scene.light_field;
   const char* root = "/";
@@ -67,7 +75,7 @@ void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& ca
   file.set_number(root, "focalLength", camera.focal_length);
   file.set_number(root, "shift", camera.shift);
   if (camera.cam_distance) file.set_number(root, "camDistance", *camera.cam_distance);
-  file.set_text(root, "convention", kConvention);
+  file.set_text(root, kConvention, kConventionText);
   file.set_text(root, "name", field.info().name);
   if (!field.info().camera.is_known()) {
     file.set_text(root, "camera",
@@ -78,6 +86,7 @@ void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& ca
     file.set_number(root, "disp_min", field.info().disparity_range->min);
     file.set_number(root, "disp_max", field.info().disparity_range->max);
   }
+  write_positions(file, field.info());
 }
 
 void write_light_field(Hdf5Output& file, const LightField& field, const Progress& progress) {
@@ -148,10 +157,38 @@ void write_depth(Hdf5Output& file, const std::string& name, const DisparityField
   });
 }
 
-void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
-  if (!scene.truth->labels.empty()) {
-    write_stack(file, "GT_LABELS", scene.truth->labels, "", progress);
+/// Region masks of the centre view, and which pixels of the views are valid.
+void write_masks(Hdf5Output& file, const Scene& scene, const Progress& progress) {
+  for (const auto& [name, region] : scene.truth->regions) {
+    const Hdf5Shape shape{static_cast<std::size_t>(region.height()),
+                          static_cast<std::size_t>(region.width())};
+    file.add_dataset<std::uint8_t>(kRegionPrefix + name, shape, "y,x", "");
+    file.write(kRegionPrefix + name, {{0, 0}, shape}, region.data());
   }
+  const ViewStack<std::uint8_t>& valid = scene.light_field->valid();
+  if (!valid.empty()) write_stack(file, kValid, valid, "", progress);
+}
+
+/// A part of the views that is not the centre alone is stored among all, the others as 0 = none.
+void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
+  const ViewStack<std::int32_t>& labels = scene.truth->labels;
+  if (labels.empty()) return;
+  const LightField& field = *scene.light_field;
+  const bool is_center = labels.grid().count() == 1 && labels.first() == field.center();
+  if (is_center || labels.grid() == field.grid()) {
+    return write_stack(file, "GT_LABELS", labels, "", progress);
+  }
+  MapGeometry maps = geometry_of(labels);
+  maps.grid = field.grid();
+  maps.first = {};
+  const std::vector<std::int32_t> none(labels.view_size(), 0);
+  write_maps<std::int32_t>(file, "GT_LABELS", maps, "", progress, [&](ViewIndex view) {
+    return labels.contains(view) ? labels.view(view).data : none.data();
+  });
+}
+
+void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
+  write_true_labels(file, scene, progress);
   if (scene.scribbles.empty()) return;
   const LightField& field = *scene.light_field;
   add_scribbles(file, scene.scribbles, {{field.grid(), field.height(), field.width()}, {}, false},
@@ -214,8 +251,11 @@ std::uintmax_t scene_bytes(const Scene& scene) {
     return field.empty() ? 0 : field.disparity.size() * 5;
   };
   const GroundTruth& truth = *scene.truth;
-  return scene.light_field->byte_size() + of(truth.field) + of(truth.foreground) +
-         of(truth.background) + (1 << 16);
+  const LightField& field = *scene.light_field;
+  const std::size_t view = static_cast<std::size_t>(field.height()) * field.width();
+  const std::size_t valid = field.valid().empty() ? 0 : field.valid().size();
+  return field.byte_size() + valid + truth.regions.size() * view + of(truth.field) +
+         of(truth.foreground) + of(truth.background) + (1 << 16);
 }
 
 std::uintmax_t label_bytes(const Scene& scene) {
@@ -253,15 +293,16 @@ void write_archive(const std::filesystem::path& path, const Scene& scene,
     write_depth(file, name, *field, scene, camera, progress.part(done, done + 0.08));
     done += 0.08;
   }
-  if (is_inside) write_labels(file, scene, progress.part(0.84, 0.95));
+  write_masks(file, scene, progress.part(0.84, 0.86));
+  if (is_inside) write_labels(file, scene, progress.part(0.86, 0.95));
   file.close();
 
   if (is_apart) {
     AtomicFile label_target(beside, label_bytes(scene));
     Hdf5Output labels(label_target);
     labels.set_text("/", "light_field", path.filename().string());
-    labels.set_text("/", "convention", kConvention);
-    write_labels(labels, scene, progress.part(0.84, 0.95));
+    labels.set_text("/", kConvention, kConventionText);
+    write_labels(labels, scene, progress.part(0.86, 0.95));
     labels.close();
     progress.check();
     FormerFile former(path);

@@ -4,15 +4,12 @@
 #include "engine/io/archive/write_scene.h"
 #include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/durable/atomic_file.h"
-#include "engine/io/durable/system_error.h"
+#include "engine/io/durable/atomic_folder.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/maps/pfm.h"
 
-#include <unistd.h>
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -21,48 +18,6 @@ namespace episcope::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// A folder that appears under its name only when it is whole.
-class AtomicFolder {
- public:
-  AtomicFolder(const fs::path& target, std::uintmax_t bytes) : target_(target) {
-    std::error_code error;
-    if (!target_.has_filename()) target_ = target_.parent_path();
-    if (fs::exists(target_, error) && !fs::is_directory(target_, error)) {
-      throw IoError(target, "this is a file; name a new folder");
-    }
-    if (fs::is_directory(target_, error) && !fs::is_empty(target_, error)) {
-      throw IoError(target, "the folder holds other files; name a new or an empty folder");
-    }
-    const fs::path parent = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-    require_space(target, parent, bytes);
-    const std::string name = target_.filename().string().insert(0, 1, '.');
-    temporary_ = parent / (name + "." + std::to_string(::getpid()) + ".part");
-    errno = 0;
-    if (!fs::create_directory(temporary_, error)) {
-      errno = error.value();
-      temporary_.clear();
-      throw write_error(target);
-    }
-  }
-  ~AtomicFolder() {
-    std::error_code ignored;
-    if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
-  }
-  AtomicFolder(const AtomicFolder&) = delete;
-  AtomicFolder& operator=(const AtomicFolder&) = delete;
-
-  [[nodiscard]] const fs::path& temporary() const { return temporary_; }
-
-  void commit() {
-    if (::rename(temporary_.c_str(), target_.c_str()) != 0) throw write_error(target_);
-    temporary_.clear();
-  }
-
- private:
-  fs::path target_;
-  fs::path temporary_;
-};
 
 /// PNG has no float samples: those become 16 bit, clamped to [0, 1].
 Image<std::uint16_t> to_16_bit(ImageView<const float> view) {

@@ -29,6 +29,10 @@ void require_readable_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(status)) {
     throw IoError(path, "this is a folder where a file is needed; name a file in it");
   }
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+    // Opening a pipe would wait for whoever writes into it.
+    throw IoError(path, "this is neither a file nor a folder; choose another one");
+  }
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) {
     throw IoError(path, "the file cannot be opened (" + std::string(std::strerror(errno)) +

@@ -62,7 +62,7 @@ void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t>
 }
 
 void write_tiff(const std::filesystem::path& path, ImageView<const float> image) {
-  require_channels(image, image.channels == 1, "1");
+  require_channels(image, image.channels == 1 || image.channels == 3, "1 or 3");
   constexpr int kNoCompression = 1;  // COMPRESSION_NONE of libtiff
   encode(path, ".tiff", to_mat(image), {cv::IMWRITE_TIFF_COMPRESSION, kNoCompression});
 }

@@ -14,7 +14,7 @@ void write_png(const std::filesystem::path& path, ImageView<const std::uint8_t> 
 /// Writes 16-bit grey or RGB as PNG. Atomic. Throws IoError.
 void write_png(const std::filesystem::path& path, ImageView<const std::uint16_t> image);
 
-/// Writes 32-bit float TIFF, one channel. Atomic. Throws IoError.
+/// Writes 32-bit float TIFF, grey or RGB. Atomic. Throws IoError.
 void write_tiff(const std::filesystem::path& path, ImageView<const float> image);
 
 }  // namespace episcope::io

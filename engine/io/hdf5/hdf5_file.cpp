@@ -5,6 +5,7 @@
 #include "engine/core/text/join.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/hdf5/hdf5_block.h"
+#include "engine/io/hdf5/hdf5_claims.h"
 #include "engine/io/hdf5/hdf5_handle.h"
 
 #include <fmt/format.h>
@@ -206,7 +207,9 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
                              "as the dataset " +
                              name + " or choose another file");
   }
-  return describe(open_dataset(name), name);
+  const hid_t id = open_dataset(name);
+  require_sound_dataset(path_, name, id);
+  return describe(id, name);
 }
 
 std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
@@ -262,6 +265,9 @@ std::vector<double> Hdf5Input::numbers(const std::string& object, const std::str
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   const H5T_class_t kind = H5Tget_class(type);
   if (count < 1 || (kind != H5T_INTEGER && kind != H5T_FLOAT)) return {};
+  if (!fits_file(path_, static_cast<double>(count) * static_cast<double>(H5Tget_size(type)))) {
+    return {};
+  }
   std::vector<double> values(static_cast<std::size_t>(count));
   if (H5Aread(attribute, H5T_NATIVE_DOUBLE, values.data()) < 0) return {};
   return values;
@@ -282,6 +288,7 @@ std::optional<std::string> Hdf5Input::text(const std::string& object,
     H5free_memory(value);
     return copy;
   }
+  if (!fits_file(path_, static_cast<double>(H5Tget_size(type)))) return {};
   std::string value(H5Tget_size(type), '\0');
   if (H5Aread(attribute, type, value.data()) < 0) return {};
   return value.substr(0, value.find('\0'));

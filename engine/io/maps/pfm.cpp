@@ -82,17 +82,24 @@ Image<float> read_pfm(const std::filesystem::path& path) {
   require_readable_file(path);
   std::ifstream in(path, std::ios::binary);
   const Header header = read_header(path, in);
-  Image<float> image(header.height, header.width, header.channels);
   const std::size_t count = static_cast<std::size_t>(header.width) * header.channels;
+  const std::streamoff begin = in.tellg();  // -1 where the header is all there is
+  const std::uintmax_t bytes = std::filesystem::file_size(path);
+  const std::uintmax_t present =
+      begin < 0 ? 0 : (bytes - static_cast<std::uintmax_t>(begin)) / (4 * count);
+  if (present < static_cast<std::uintmax_t>(header.height)) {
+    throw IoError(
+        path,
+        fmt::format("the PFM file is truncated: {} of {} rows are present; copy or write it again",
+                    present, header.height));
+  }
+  Image<float> image(header.height, header.width, header.channels);
   const bool is_little = header.scale < 0;
   const auto scale = static_cast<float>(std::abs(header.scale));
   for (int y = header.height - 1; y >= 0; --y) {
     float* row = image.row(y);
     if (!in.read(reinterpret_cast<char*>(row), static_cast<std::streamsize>(count * 4))) {
-      throw IoError(
-          path, fmt::format(
-                    "the PFM file is truncated: {} of {} rows are present; copy or write it again",
-                    header.height - 1 - y, header.height));
+      throw IoError(path, "the PFM file cannot be read to its end; copy it again");
     }
     if (is_little != (std::endian::native == std::endian::little)) swap_bytes(row, count);
     if (scale != 1) {

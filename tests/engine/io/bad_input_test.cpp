@@ -1,20 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/io/durable/checksum.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/maps/ply.h"
 #include "engine/io/maps/result_file.h"
 #include "engine/io/open/open.h"
+#include "engine/io/write/writer.h"
 #include "tests/engine/io/archive_files.h"
+#include "tests/engine/io/broken/broken.h"
+#include "tests/engine/io/memory_use.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
+#include <QElapsedTimer>
 #include <QTemporaryDir>
 
 #include <sys/resource.h>
-#include <array>
+#include <unistd.h>
 #include <csignal>
 #include <fstream>
 #include <functional>
@@ -53,6 +56,7 @@ using Write = std::function<void(const fs::path&)>;
 struct Writer {
   const char* name;
   Write write;
+  bool is_folder = false;
 };
 
 Estimate estimate_of(const Scene& scene) {
@@ -76,297 +80,44 @@ std::vector<Writer> all_writers() {
     const Image<std::uint8_t> grey(200, 200);
     io::write_ply(path, {{map->view(), {}}, grey.view(), {}, true});
   };
-  return {{"PFM", [=](const fs::path& path) { io::write_pfm(path, map->view()); }},
-          {"TIFF", [=](const fs::path& path) { io::write_tiff(path, map->view()); }},
-          {"PNG", [=](const fs::path& path) { io::write_png(path, picture->view()); }},
-          {"PLY", write_cloud},
-          {"result",
-           [=](const fs::path& path) { io::write_result(path, estimate_of(*scene), Progress(1)); }},
-          {"archive", [=](const fs::path& path) { io::write_archive(path, *scene, Progress(1)); }},
-          {"benchmark folder",
-           [=](const fs::path& path) { io::write_benchmark_folder(path, *scene, Progress(1)); }}};
-}
-
-/// Changes width and height in the header of a PNG, and its checksum with them.
-void claim_size(const fs::path& path, std::uint32_t side) {
-  constexpr std::size_t kHeader = 12;  // signature and length come before the type of the chunk
-  std::array<std::uint8_t, 4 + 13> header{};
-  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
-  file.seekg(kHeader);
-  file.read(reinterpret_cast<char*>(header.data()), header.size());
-  const auto put = [](std::uint8_t* to, std::uint32_t number) {
-    for (int i = 0; i < 4; ++i) to[i] = static_cast<std::uint8_t>(number >> (24 - 8 * i));
-  };
-  put(header.data() + 4, side);
-  put(header.data() + 8, side);
-  std::array<std::uint8_t, 4> sum{};
-  put(sum.data(), io::checksum(header));
-  file.seekp(kHeader);
-  file.write(reinterpret_cast<const char*>(header.data()), header.size());
-  file.write(reinterpret_cast<const char*>(sum.data()), sum.size());
-}
-
-/// Creates a broken input in an empty folder and returns what to open.
-using Break = std::function<fs::path(const fs::path& folder)>;
-
-fs::path archive_with(const fs::path& folder, const RawArchive& form) {
-  write_raw_archive(folder / "lf.h5", plane_scene(), form);
-  return folder / "lf.h5";
-}
-
-fs::path cut_archive(const fs::path& folder, std::uintmax_t bytes) {
-  const fs::path path = archive_with(folder, {});
-  fs::resize_file(path, bytes);
-  return path;
-}
-
-fs::path archive_of(const fs::path& folder,
-                    const std::vector<std::pair<std::string, io::Hdf5Shape>>& datasets) {
-  io::AtomicFile target(folder / "lf.h5");
-  io::Hdf5Output file(target);
-  for (const auto& [name, shape] : datasets) {
-    std::size_t count = 1;
-    for (const std::size_t length : shape) count *= length;
-    add_bytes(file, name, shape, std::vector<std::uint8_t>(count, 7));
+  std::vector<Writer> all{
+      {"PFM", [=](const fs::path& path) { io::write_pfm(path, map->view()); }},
+      {"TIFF", [=](const fs::path& path) { io::write_tiff(path, map->view()); }},
+      {"PNG", [=](const fs::path& path) { io::write_png(path, picture->view()); }},
+      {"PLY", write_cloud},
+      {"result",
+       [=](const fs::path& path) { io::write_result(path, estimate_of(*scene), Progress(1)); }}};
+  for (const io::Writer& form : io::writers()) {
+    all.push_back({form.id,
+                   [=, &form](const fs::path& path) { form.write(path, *scene, Progress(1)); },
+                   form.writes_folder()});
   }
-  file.close();
-  target.commit();
-  return folder / "lf.h5";
+  return all;
 }
 
-fs::path image_grid(const fs::path& folder) {
-  for (int i = 0; i < 9; ++i) {
-    const Image<std::uint8_t> view(8, 9, 3, static_cast<std::uint8_t>(i));
-    io::write_png(folder / (std::to_string(i / 3) + "_" + std::to_string(i % 3) + ".png"),
-                  view.view());
+/// A user for whom permissions count, also where tests run as root.
+class PlainUser {
+ public:
+  PlainUser() : user_(::geteuid()) {
+    if (user_ == 0) is_switched_ = ::seteuid(65534) == 0;
   }
-  return folder;
-}
+  ~PlainUser() {
+    if (is_switched_) is_switched_ = ::seteuid(user_) != 0;
+  }
+  PlainUser(const PlainUser&) = delete;
+  PlainUser& operator=(const PlainUser&) = delete;
 
-fs::path benchmark(const fs::path& folder) {
-  PlaneOptions options;
-  options.grid = {3, 3};
-  io::write_benchmark_folder(folder / "scene", plane_scene(options), Progress(1));
-  return folder / "scene";
-}
-
-struct Broken {
-  const char* name;
-  Break make;
-  const char* expected;
+ private:
+  uid_t user_;
+  bool is_switched_ = false;
 };
 
 std::vector<Broken> broken_inputs() {
-  return {
-      {"no such path", [](const fs::path& f) { return f / "none"; }, "no such file"},
-      {"empty folder", [](const fs::path& f) { return f; }, "the folder is empty"},
-      {"folder of something else",
-       [](const fs::path& f) {
-         std::ofstream(f / "note.txt") << "x";
-         return f;
-       },
-       "no light field in this folder"},
-      {"text named .h5",
-       [](const fs::path& f) {
-         std::ofstream(f / "lf.h5") << "this is no HDF5";
-         return f / "lf.h5";
-       },
-       "not an HDF5 file"},
-      {"text named .h5 in its folder",
-       [](const fs::path& f) {
-         std::ofstream(f / "lf.h5") << "this is no HDF5";
-         return f;
-       },
-       "not an HDF5 file"},
-      {"empty file named .h5",
-       [](const fs::path& f) {
-         std::ofstream give(f / "lf.h5");
-         return f / "lf.h5";
-       },
-       "not an HDF5 file"},
-      {"another kind of file",
-       [](const fs::path& f) {
-         std::ofstream(f / "scene.xyz") << "x";
-         return f / "scene.xyz";
-       },
-       "not a light field"},
-      {"HDF5 cut in its header", [](const fs::path& f) { return cut_archive(f, 90); },
-       "truncated or damaged"},
-      {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
-       "truncated or damaged"},
-      {"no dataset LF",
-       [](const fs::path& f) {
-         return archive_of(f, {{"IMAGES", {2, 2}}});
-       },
-       "no dataset LF in this file, which holds IMAGES"},
-      {"HDF5 without datasets", [](const fs::path& f) { return archive_of(f, {}); },
-       "no dataset at all"},
-      {"LF of rank 3",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 8, 9}}});
-       },
-       "3 axes (3×8×9)"},
-      {"LF of 2 channels",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 3, 8, 9, 2}}});
-       },
-       "2 channels"},
-      {"LF without views",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {0, 3, 8, 9, 3}}});
-       },
-       "not that of a light field"},
-      {"GT_DEPTH of rank 3",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {3, 8, 9}}});
-       },
-       "GT_DEPTH has 3 axes"},
-      {"GT_DEPTH of another size",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_DEPTH", {9, 8}}});
-       },
-       "GT_DEPTH has the shape 9×8, but 3×3×8×9 or 8×9"},
-      {"GT_LABELS of another size",
-       [](const fs::path& f) {
-         return archive_of(f, {{"LF", {3, 3, 8, 9, 3}}, {"GT_LABELS", {3, 3, 8, 8}}});
-       },
-       "GT_LABELS has the shape 3×3×8×8"},
-      {"result instead of a light field",
-       [](const fs::path& f) {
-         io::write_result(f / "r.h5", estimate_of(plane_scene()), Progress(1));
-         return f / "r.h5";
-       },
-       "disparity result, not a light field"},
-      {"grid with a view of another size",
-       [](const fs::path& f) {
-         image_grid(f);
-         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 8, 3).view());
-         return f;
-       },
-       "8×8 px, RGB, 8 bit, but the centre view has 9×8 px"},
-      {"grid with a grey view",
-       [](const fs::path& f) {
-         image_grid(f);
-         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 9).view());
-         return f;
-       },
-       "all views must match"},
-      {"grid with a missing view",
-       [](const fs::path& f) {
-         image_grid(f);
-         fs::remove(f / "1_2.png");
-         return f;
-       },
-       "view 1,2 is missing (row,column as in the names; pattern {row}_{col}.png matches 8 of 8 "
-       "images"},
-      {"grid with a damaged view",
-       [](const fs::path& f) {
-         image_grid(f);
-         std::ofstream(f / "0_2.png") << "no picture";
-         return f;
-       },
-       "0_2.png: the image cannot be decoded"},
-      {"list with a gap",
-       [](const fs::path& f) {
-         for (const int i : {0, 1, 2, 3, 4, 6, 7, 8}) {
-           io::write_png(f / (std::to_string(i) + ".png"), Image<std::uint8_t>(2, 2).view());
-         }
-         return f;
-       },
-       "view 5 is missing (pattern {index}.png matches 8 of 8 images"},
-      {"grid with many missing views",
-       [](const fs::path& f) {
-         image_grid(f);
-         for (const char* name : {"0_1.png", "1_2.png", "2_0.png"}) fs::remove(f / name);
-         return f;
-       },
-       "3 views are missing: 0,1 1,2 2,0 (row,column"},
-      {"list that may be anything",
-       [](const fs::path& f) {
-         for (int i = 0; i < 6; ++i) {
-           io::write_png(f / (std::to_string(i) + ".png"), Image<std::uint8_t>(9, 9).view());
-         }
-         return f;
-       },
-       "give --grid 2x3 (2 rows of 3 views), or --grid 3x2"},
-      {"two grids of equal right",
-       [](const fs::path& f) {
-         for (const char* side : {"left", "right"}) {
-           for (const char* place : {"0_0", "0_1", "1_0", "1_1"}) {
-             io::write_png(f / (std::string(side) + place + ".png"),
-                           Image<std::uint8_t>(2, 2).view());
-           }
-         }
-         return f;
-       },
-       "two sets of 4 images could be the views, left{row}_{col}.png and right{row}_{col}.png"},
-      {"several light fields in a folder",
-       [](const fs::path& f) {
-         for (int i = 0; i < 4; ++i) {
-           io::write_png(f / ("IMG_" + std::to_string(i) + "_macpi.png"),
-                         Image<std::uint8_t>(2, 2).view());
-         }
-         return f;
-       },
-       "IMG_0_macpi.png"},
-      {"one picture",
-       [](const fs::path& f) {
-         io::write_png(f / "a.png", Image<std::uint8_t>(2, 2).view());
-         return f;
-       },
-       "a.png: this is a single picture of 2×2 px and not recognised as a light field"},
-      {"picture that claims more than its file can hold",
-       [](const fs::path& f) {
-         io::write_png(f / "a_eslf.png", Image<std::uint8_t>(2, 2).view());
-         claim_size(f / "a_eslf.png", 60000);
-         return f / "a_eslf.png";
-       },
-       "a_eslf.png: the image cannot be decoded"},
-      {"several light fields, each in one picture",
-       [](const fs::path& f) {
-         for (const char* name : {"a_eslf.png", "b_eslf.png", "c_eslf.png", "d_eslf.png"}) {
-           io::write_png(f / name, Image<std::uint8_t>(28, 28).view());
-         }
-         return f;
-       },
-       "the folder holds 4 light fields, each in one image (a_eslf.png, b_eslf.png, …)"},
-      {"benchmark with a missing view",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         fs::remove(scene / "input_Cam004.png");
-         return scene;
-       },
-       "input_Cam004.png: this view is missing: 8 of 9"},
-      {"benchmark without cfg and with a missing view",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         fs::remove(scene / "parameters.cfg");
-         fs::remove(scene / "input_Cam004.png");
-         return scene;
-       },
-       "do not form a square grid"},
-      {"benchmark with a broken cfg",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         std::ofstream(scene / "parameters.cfg") << "num_cams_x = many\n";
-         return scene;
-       },
-       "num_cams_x is 'many'"},
-      {"benchmark with truth of another size",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         io::write_pfm(scene / "gt_disp_lowres_Cam002.pfm", Image<float>(3, 3).view());
-         return scene;
-       },
-       "this map has 3×3 px, but the views have 80×64 px"},
-      {"benchmark with cut truth",
-       [](const fs::path& f) {
-         const fs::path scene = benchmark(f);
-         fs::resize_file(scene / "gt_disp_lowres_Cam002.pfm", 5000);
-         return scene;
-       },
-       "truncated"},
-  };
+  std::vector<Broken> all = broken_archives();
+  for (const auto& more : {broken_folders(), broken_arrays(), broken_places()}) {
+    all.insert(all.end(), more.begin(), more.end());
+  }
+  return all;
 }
 
 }  // namespace
@@ -404,6 +155,9 @@ class BadInputTest : public QObject {
     QFETCH(std::size_t, index);
     const Broken broken = broken_inputs()[index];
     const fs::path path = broken.make(folder());
+    const PeakMemory memory;
+    QElapsedTimer clock;
+    clock.start();
 
     try {
       (void)io::open_scene(path, {}, Progress(2));
@@ -411,6 +165,33 @@ class BadInputTest : public QObject {
     } catch (const IoError& error) {
       verify_sentence(error, broken.expected);
     }
+
+    // Every input of the table is small; the longest list of files takes most.
+    const QByteArray taken = QByteArray::number(static_cast<double>(memory.used()) / (1 << 20));
+    QVERIFY2(memory.used() < (std::uintmax_t{200} << 20), (taken + " MiB").constData());
+    QVERIFY2(clock.elapsed() < 10000, QByteArray::number(clock.elapsed()) + " ms");
+  }
+
+  void unreadableInput_isRefusedInOneSentence_data() {
+    QTest::addColumn<QString>("input");
+    QTest::newRow("file") << "lf.h5";
+    QTest::newRow("folder") << "closed";
+  }
+  void unreadableInput_isRefusedInOneSentence() {
+    QFETCH(QString, input);
+    fs::permissions(folder(), fs::perms::all);
+    std::ofstream(folder() / "lf.h5") << "x";
+    fs::create_directory(folder() / "closed");
+    fs::permissions(folder() / input.toStdString(), fs::perms::none);
+
+    try {
+      const PlainUser user;
+      (void)io::open_scene(folder() / input.toStdString(), {}, Progress(1));
+      QFAIL("the input was accepted");
+    } catch (const IoError& error) {
+      verify_sentence(error, "check its permissions");
+    }
+    fs::permissions(folder() / input.toStdString(), fs::perms::owner_all);
   }
 
   void depthWithoutAnySurface_isTold_data() {
@@ -422,7 +203,8 @@ class BadInputTest : public QObject {
     QFETCH(float, depth);
     RawArchive form;
     form.depth = [depth](ViewIndex, int, int, float) { return depth; };
-    const fs::path path = archive_with(folder(), form);
+    const fs::path path = folder() / "lf.h5";
+    write_raw_archive(path, plane_scene(), form);
 
     const Scene scene = io::open_scene(path, {}, Progress(1));
 
@@ -450,12 +232,14 @@ class BadInputTest : public QObject {
     const fs::path place = folder() / "Größe und Übung ☂";
     fs::create_directories(place / "views");
     io::write_archive(place / "lf.h5", plane_scene(), Progress(1));
-    image_grid(place / "views");
+    for (const char* name : {"0_0.png", "0_1.png", "1_0.png", "1_1.png"}) {
+      io::write_png(place / "views" / name, Image<std::uint8_t>(8, 9, 3).view());
+    }
 
     QCOMPARE(io::open_scene(place, {}, Progress(1)).light_field->info().name,
              std::string("Größe und Übung ☂"));
     QCOMPARE(io::open_scene(place / "views", {}, Progress(1)).light_field->grid(),
-             (GridShape{3, 3}));
+             (GridShape{2, 2}));
   }
 
   void unwritablePlace_isRefusedInOneSentence_data() {
@@ -497,7 +281,7 @@ class BadInputTest : public QObject {
     QFETCH(std::size_t, index);
     QFETCH(int, bytes);
     const Writer writer = all_writers()[index];
-    const bool is_folder = std::string(writer.name) == "benchmark folder";
+    const bool is_folder = writer.is_folder;
     if (!is_folder) std::ofstream(folder() / "out") << "old";
 
     try {

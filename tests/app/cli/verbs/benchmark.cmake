@@ -90,7 +90,7 @@ endif()
 file(WRITE "${WORK}/plain/lf.h5" "no HDF5")
 expect("a scene that fails" 1 ERR "plain/lf.h5: [^\n]*tables of the others"
        ARGS benchmark plain edge --methods epi_l -o flat_out)
-expect("make a light field without truth" 0 ARGS convert edge dark/)
+expect("make a light field without truth" 0 ERR "^note: The benchmark form" ARGS convert edge dark/)
 file(GLOB truth "${WORK}/dark/gt_*")
 file(REMOVE ${truth})
 expect("a scene without truth" 0 ERR "^note: epi_l on dark: dark has no true disparity[^\n]*\n$"

@@ -32,7 +32,7 @@ endfunction()
 file(MAKE_DIRECTORY "${WORK}/a")
 expect(synthesize 0 ARGS synthesize objects -o a/lf.h5 --views 3x3 --size 64x48)
 expect("estimate plainly" 0 ARGS estimate epi_l a/lf.h5 -o a/plain.h5)
-expect("the benchmark form" 0 ARGS convert a/lf.h5 bench)
+expect("the benchmark form" 0 ERR "^note: The benchmark form" ARGS convert a/lf.h5 bench)
 score_of(plain a/lf.h5 a/plain.h5)
 
 # Focus: a map that remembers nothing is judged in the focus that is asked for.

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <hdf5.h>
+
+#include <filesystem>
+#include <string>
+
+/// Checks of what an HDF5 file claims, before memory is taken for it. For the sources that speak to
+/// HDF5 only.
+namespace episcope::io {
+
+/// Throws IoError if a dataset claims far more samples than its file can hold, compressed or not,
+/// or is compressed by a filter that is not at hand. A dataset that was never written counts as
+/// samples that are not there, unless it is small.
+void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
+                           hid_t dataset);
+
+/// Whether `bytes` of an attribute or text are no more than the file holds.
+[[nodiscard]] bool fits_file(const std::filesystem::path& path, double bytes);
+
+}  // namespace episcope::io

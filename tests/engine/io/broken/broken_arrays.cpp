@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/write_arrays.h"
+#include "tests/engine/io/arrays/array_files.h"
+#include "tests/engine/io/broken/broken.h"
+#include "tests/engine/io/synthetic_scene.h"
+
+#include <fstream>
+
+namespace episcope::test {
+namespace in_broken_arrays {
+
+namespace fs = std::filesystem;
+
+using Make = std::function<fs::path(const fs::path&)>;
+
+Scene small_scene() {
+  return plane_scene({.grid = {3, 3}, .height = 8, .width = 9});
+}
+
+/// The text of an .npy file: its header, as NumPy writes it, and `bytes` samples.
+std::string npy_bytes(const std::string& type, const std::string& shape, std::size_t bytes,
+                      const std::string& order = "False") {
+  std::string header =
+      "{'descr': '" + type + "', 'fortran_order': " + order + ", 'shape': " + shape + ", }";
+  header.resize((header.size() + 10 + 64) / 64 * 64 - 11, ' ');
+  header += '\n';
+  std::string text("\x93NUMPY\x01\x00", 8);
+  text += static_cast<char>(header.size() & 0xFF);
+  text += static_cast<char>(header.size() >> 8);
+  return text + header + std::string(bytes, '\1');
+}
+
+fs::path write(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+  return path;
+}
+
+Make npy(const std::string& type, const std::string& shape, std::size_t bytes) {
+  return [=](const fs::path& f) { return write(f / "lf.npy", npy_bytes(type, shape, bytes)); };
+}
+
+/// A file of this name with the beginning of a good one.
+Make cut(const char* name, void (*write_good)(const fs::path&, const Scene&, const Progress&),
+         double share) {
+  return [=](const fs::path& f) {
+    write_good(f / name, small_scene(), Progress(1));
+    const auto whole = static_cast<double>(fs::file_size(f / name));
+    fs::resize_file(f / name, static_cast<std::uintmax_t>(whole * share));
+    return f / name;
+  };
+}
+
+fs::path npz(const fs::path& folder, const std::vector<ZippedFile>& files) {
+  write_deflated_zip(folder / "lf.npz", files);
+  return folder / "lf.npz";
+}
+
+/// A zip archive whose first entry names a method of compression that nobody knows.
+fs::path npz_of_unknown_method(const fs::path& folder) {
+  const fs::path path = npz(folder, {{"lf.npy", npy_bytes("|u1", "(3, 3, 8, 9, 3)", 1944)}});
+  std::string bytes = bytes_of_file(path);
+  for (const auto& [signature, offset] :
+       {std::pair(std::string("PK\x03\x04"), 8), std::pair(std::string("PK\x01\x02"), 10)}) {
+    bytes[bytes.find(signature) + static_cast<std::size_t>(offset)] = 99;
+  }
+  return write(path, bytes);
+}
+
+fs::path cut_mat5(const fs::path& folder, bool is_compressed, double share) {
+  const Scene scene = small_scene();
+  const fs::path path = folder / "lf.mat";
+  write_mat5(path, bytes_of(scene), {.is_compressed = is_compressed});
+  const auto whole = static_cast<double>(fs::file_size(path));
+  fs::resize_file(path, static_cast<std::uintmax_t>(whole * share));
+  return path;
+}
+
+std::vector<Broken> broken_npy() {
+  const char* const whole = "(3, 3, 8, 9, 3)";
+  return {
+      {".npy that is text", [](const fs::path& f) { return write(f / "lf.npy", "1, 2, 3"); }, ""},
+      {".npy that is empty", [](const fs::path& f) { return write(f / "lf.npy", ""); }, ""},
+      {".npy that ends in its header",
+       [](const fs::path& f) {
+         return write(f / "lf.npy", npy_bytes("|u1", "(3, 3, 8, 9, 3)", 0).substr(0, 40));
+       },
+       ""},
+      {".npy without all of its samples", npy("|u1", whole, 1000), ""},
+      {".npy of 10^12 samples in 200 bytes", npy("|u1", "(10, 10, 60000, 60000, 3)", 72), ""},
+      {".npy of more samples than there are numbers",
+       npy("<f8", "(4294967296, 4294967296, 4294967296, 9, 3)", 72), ""},
+      {".npy of negative size", npy("|u1", "(-3, 3, 8, 9, 3)", 1944), ""},
+      {".npy of pickled objects", npy("|O", whole, 1944), ""},
+      {".npy of text", npy("<U5", whole, 40000), ""},
+      {".npy of complex numbers", npy("<c16", whole, 40000), ""},
+      {".npy of records", npy("[('a', '<f4')]", whole, 40000), ""},
+      {".npy without samples", npy("|u1", "(0, 3, 8, 9, 3)", 0), ""},
+      {".npy of one axis", npy("|u1", "(1944,)", 1944), ""},
+      {".npy of six axes", npy("|u1", "(1, 3, 3, 8, 9, 3)", 1944), ""},
+      {".npy of seven channels", npy("|u1", "(3, 3, 8, 9, 7)", 4536), ""},
+      {".npy that calls a function as its shape", npy("|u1", "__import__(os).abort()", 1944), ""},
+  };
+}
+
+}  // namespace in_broken_arrays
+
+std::vector<Broken> broken_arrays() {
+  using namespace in_broken_arrays;
+  std::vector<Broken> all = broken_npy();
+  const std::vector<Broken> others = {
+      {".npz that is cut", cut("lf.npz", io::write_npz, 0.5), ""},
+      {".npz that is text", [](const fs::path& f) { return write(f / "lf.npz", "1, 2, 3"); }, ""},
+      {".npz without arrays",
+       [](const fs::path& f) {
+         return npz(f, {{"a.txt", "text"}});
+       },
+       ""},
+      {".npz of nothing", [](const fs::path& f) { return npz(f, {}); }, ""},
+      {".npz of pickled objects",
+       [](const fs::path& f) {
+         return npz(f, {{"lf.npy", npy_bytes("|O", "(3, 3, 8, 9, 3)", 1944)}});
+       },
+       ""},
+      {".npz whose array claims more than it unpacks to",
+       [](const fs::path& f) {
+         return npz(f, {{"lf.npy", npy_bytes("|u1", "(10, 10, 60000, 60000, 3)", 72)}});
+       },
+       ""},
+      {".npz packed by an unknown method", npz_of_unknown_method, ""},
+      {".mat that is text", [](const fs::path& f) { return write(f / "lf.mat", "1, 2, 3"); }, ""},
+      {".mat 7.3 that is cut in its header", cut("lf.mat", io::write_mat, 0.05), ""},
+      {".mat 7.3 that is cut in its samples", cut("lf.mat", io::write_mat, 0.6), ""},
+      {".mat 5 that is cut", [](const fs::path& f) { return cut_mat5(f, false, 0.5); }, ""},
+      {".mat 5 that is cut and compressed",
+       [](const fs::path& f) { return cut_mat5(f, true, 0.5); }, ""},
+      {".mat 5 that ends in its header", [](const fs::path& f) { return cut_mat5(f, false, 0.04); },
+       ""},
+  };
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
+
+}  // namespace episcope::test
