@@ -8,8 +8,9 @@
 
 namespace episcope {
 
-/// Where the scribbles of a light field are kept: labels.h5 in the folder that it lies in. Empty
-/// for scenes that come from no file.
+/// Where the scribbles of a light field are kept: labels.h5 in the folder that it lies in; of a
+/// frame of a sequence, in the frame's folder, or labels_<frame>.h5 beside its file. Empty for
+/// scenes that come from no file.
 [[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
 
 /// Whether a file can be made or written over there, as far as permissions tell.
