@@ -4,6 +4,7 @@
 #include "app/gui/annotate/annotate.h"
 #include "app/gui/browse/browse.h"
 #include "app/gui/cloud/cloud.h"
+#include "app/gui/collection/collection.h"
 #include "app/gui/compare/compare.h"
 #include "app/gui/estimate/estimate.h"
 #include "app/gui/files/files.h"
@@ -13,10 +14,10 @@
 namespace episcope {
 
 std::span<const Feature> features() {
-  static constexpr Feature kFeatures[] = {{"files", add_files},         {"browse", add_browsing},
-                                          {"estimate", add_estimating}, {"compare", add_comparing},
-                                          {"annotate", add_annotating}, {"segment", add_segmenting},
-                                          {"cloud", add_cloud},         {"help", add_help}};
+  static constexpr Feature kFeatures[] = {
+      {"files", add_files},       {"browse", add_browsing},       {"estimate", add_estimating},
+      {"compare", add_comparing}, {"annotate", add_annotating},   {"segment", add_segmenting},
+      {"cloud", add_cloud},       {"collection", add_collection}, {"help", add_help}};
   return kFeatures;
 }
 

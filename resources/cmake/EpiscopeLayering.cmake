@@ -112,6 +112,6 @@ episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evalua
 episcope_forbid(episcope-cli ${ui})
 episcope_floors(engine/core . array,hash,parallel,text parameter light_field)
 episcope_floors(engine/disparity tensor common epi,stereo layers)
-episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,compare)
+episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare)
 episcope_floors(app/gui frame document,stage opening bench
-                annotate,browse,cloud,compare,estimate,files,help,segment)
+                annotate,browse,cloud,collection,compare,estimate,files,help,segment)

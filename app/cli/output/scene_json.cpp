@@ -75,6 +75,10 @@ Json scene_json(const Scene& scene, const std::string& input) {
   json["input"] = input;
   json["name"] = light_field.info().name;
   json["format"] = scene.convention.format;
+  if (scene.sequence.count > 0) {
+    json["sequence"] =
+        Json::object({{"frame", scene.sequence.frame}, {"count", scene.sequence.count}});
+  }
   json["views"] = Json::object({{"v", light_field.grid().v}, {"u", light_field.grid().u}});
   json["height"] = light_field.height();
   json["width"] = light_field.width();

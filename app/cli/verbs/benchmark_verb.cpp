@@ -4,7 +4,7 @@
 #include "app/benchmark/run/benchmark.h"
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/arguments/usage_error.h"
-#include "app/cli/input/input.h"
+#include "app/cli/input/scene_inputs.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/disparity/registry.h"
 
@@ -62,7 +62,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
        "tables are written nevertheless.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
-  parser.positionals("INPUT", request.inputs, "The light fields");
+  parser.positionals("INPUT", request.inputs, "The light fields, or folders that hold some");
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
   parser.option("--methods", request.methods, methods_value(),
                 "Ids of estimators, separated by commas, or all");
@@ -77,15 +77,14 @@ bool parse(const VerbArguments& arguments, Request& request) {
   return parse_reading(parser, arguments, request.job, request.read);
 }
 
-BenchmarkOptions benchmark_options(const Request& request) {
+BenchmarkOptions benchmark_options(const Request& request, const std::vector<SceneInput>& scenes) {
   BenchmarkOptions options;
-  options.inputs = request.inputs;
+  for (const SceneInput& scene : scenes) options.inputs.push_back(scene.input);
   options.methods = request.methods;
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
   options.folder = request.output;
   options.views = request.job.run_options().views;
   options.has_search = request.has_search;
-  for (const auto& input : request.inputs) check_input(input);
   return options;
 }
 
@@ -133,8 +132,10 @@ void note_problems(const BenchmarkReport& report, Job& job) {
 void run_benchmark(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  const BenchmarkOptions options = benchmark_options(request);
   Job job(std::move(stop), request.job);
+  const std::vector<SceneInput> scenes =
+      scene_inputs(request.inputs, request.read, Frames::One, job.progress().part(0, 0));
+  const BenchmarkOptions options = benchmark_options(request, scenes);
   const SceneLoader load = [&](const std::string& input, const Progress& progress) {
     Scene scene = load_input(input, request.read, progress);
     for (const auto& warning : scene.convention.warnings) job.note(warning);

@@ -3,14 +3,19 @@
 #include "app/cli/arguments/parameter_options.h"
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/input.h"
+#include "app/cli/input/scene_inputs.h"
 #include "app/cli/output/json.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/save/save_result.h"
+#include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 
@@ -21,8 +26,9 @@ struct Request {
   std::string method;
   const Estimator* estimator = nullptr;  ///< That of `method`, once all is parsed.
   ParameterOptions parameters;
-  std::string input;
+  std::vector<std::string> inputs;
   std::string output;
+  Frames frames = Frames::One;
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
@@ -62,12 +68,18 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
   Arguments parser("estimate",
                    {"Estimates disparity and writes a result file. METHOD is an id listed by\n"
                     "'episcope-cli methods'; 'episcope-cli estimate METHOD --help' lists its "
-                    "parameters.",
-                    "episcope-cli estimate epi_l demo -o demo.h5 --views center"});
+                    "parameters.\n"
+                    "Of several light fields, or of a folder that holds some, each gets a result\n"
+                    "file in the folder DIR, named after it; one that fails does not stop the "
+                    "others.",
+                    "episcope-cli estimate epi_l demo -o demo.h5 --views center\n"
+                    "  episcope-cli estimate epi_l demo:edge demo:bars -o results"});
   parser.positional("METHOD", request.method, "Id of the estimator");
-  parser.positional("INPUT", request.input, "The light field");
-  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
-                         "Result file to write");
+  parser.positionals("INPUT", request.inputs, "The light field, or several");
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
+                         "Result file to write; of several light fields, the folder for theirs");
+  parser.flag("--frames", request.frames, Frames::All,
+              "Estimate all frames of a sequence, one result file each");
   const Schema<RunOptions> run = run_schema();
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
@@ -110,15 +122,6 @@ ViewSelection selected_views(const Request& request) {
                      (chooses ? ", or --view V,U for another" : ""));
 }
 
-/// The light field alone: truth and labels of all views would double the memory that is held.
-LightFieldPtr load_light_field(const Request& request, Job& job) {
-  ReadOptions read = request.read;
-  read.needs_truth = false;
-  const Scene scene = load_input(request.input, read, job.progress().part(0, 0.3));
-  for (const auto& warning : scene.convention.warnings) job.note(warning);
-  return scene.light_field;
-}
-
 /// For JSON "all", "center" or row and column of the only view; in words for people.
 struct CoveredViews {
   std::string name;
@@ -131,25 +134,165 @@ CoveredViews covered_views(const Estimate& estimate, ViewIndex center) {
   return {view_text(stack.first()), "view " + view_text(stack.first())};
 }
 
-void print_answer(const Request& request, const Estimate& estimate, ViewIndex center) {
-  const CoveredViews views = covered_views(estimate, center);
-  if (!request.is_json) {
-    std::cout << request.output << ": " << estimate.method << " of " << views.text << std::fixed
-              << std::setprecision(2) << " in " << estimate.seconds << " s, disparity "
-              << estimate.range.min << " … " << estimate.range.max << " px, "
-              << std::setprecision(0) << peak_memory_mib() << " MiB at most\n";
-    return;
-  }
+/// What is estimated of one light field, and where it goes.
+struct Task {
+  std::string input;
+  std::string output;
+  std::string name{};  ///< Of the light field, if it is one of several.
+  std::optional<int> frame{};
+};
+
+struct Answer {
+  std::string output;
+  EstimatePtr estimate;
+  ViewIndex center;
+};
+
+void print_line(const Answer& answer) {
+  const Estimate& estimate = *answer.estimate;
+  std::cout << answer.output << ": " << estimate.method << " of "
+            << covered_views(estimate, answer.center).text << std::fixed << std::setprecision(2)
+            << " in " << estimate.seconds << " s, disparity " << estimate.range.min << " … "
+            << estimate.range.max << " px, " << std::setprecision(0) << peak_memory_mib()
+            << " MiB at most\n";
+}
+
+Json answer_json(const Answer& answer) {
+  const Estimate& estimate = *answer.estimate;
   Json json;
   json["method"] = estimate.method;
-  json["views"] = views.name;
+  json["views"] = covered_views(estimate, answer.center).name;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = parameters_json(estimate.parameters);
   json["range"] = interval_json(estimate.range);
   if (!estimate.notes.empty()) json["notes"] = estimate.notes;
-  json["output"] = request.output;
-  print_json(json);
+  json["output"] = answer.output;
+  return json;
+}
+
+/// Does what the command line asks for, light field by light field.
+class Runner {
+ public:
+  Runner(const Request& request, std::stop_token stop)
+      : request_(request), options_(request.job.run_options()), job_(std::move(stop), request.job) {
+    options_.views = selected_views(request);
+    options_.threads = job_.progress().threads();
+    // The method asks as well, but not before the light field is loaded.
+    require_device(options_.device, request.estimator->info);
+  }
+
+  [[nodiscard]] Job& job() { return job_; }
+
+  /// Refuses an output that cannot be written, before hours are spent. Throws UsageError, IoError.
+  void check(const Task& task) const {
+    check_hdf5_output("estimate", task.output);
+    check_result_output(task.output);
+    protect_input(task.output, task.input);
+  }
+
+  [[nodiscard]] Answer run(const Task& task, const Progress& progress) {
+    const LightFieldPtr light_field = load(task, progress.part(0, 0.3));
+    const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
+    const EstimatePtr estimate =
+        run_estimator(*light_field, *request_.estimator, run, progress.part(0.3, 0.9)).estimate;
+    progress.step("writing " + task.output);
+    save_result(task.output, *estimate, task.input, progress.part(0.9, 1));
+    for (const auto& sentence : estimate->notes) note(task, sentence);
+    return {task.output, estimate, light_field->center()};
+  }
+
+ private:
+  /// The light field alone: truth and labels of all views would double the memory that is held.
+  [[nodiscard]] LightFieldPtr load(const Task& task, const Progress& progress) {
+    io::OpenOptions open = io::open_schema().parse(request_.read.options.values());
+    open.frame = task.frame.value_or(open.frame);
+    const Scene scene = load_input(task.input, std::move(open), false, progress);
+    for (const auto& warning : scene.convention.warnings) note(task, warning);
+    return scene.light_field;
+  }
+
+  /// Which of several light fields it is about must be said.
+  void note(const Task& task, const std::string& sentence) {
+    job_.note(task.name.empty() ? sentence : task.name + ": " + sentence);
+  }
+
+  const Request& request_;
+  RunOptions options_;
+  Job job_;
+};
+
+void estimate_one(const Request& request, Runner& runner) {
+  const Task task{request.inputs.front(), request.output};
+  runner.check(task);
+  const Answer answer = runner.run(task, runner.job().progress());
+  runner.job().finish();
+  if (request.is_json) {
+    print_json(answer_json(answer));
+  } else {
+    print_line(answer);
+  }
+}
+
+/// Throws IoError if the folder cannot be made.
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    throw IoError(folder, "this folder cannot be made; choose another one");
+  }
+}
+
+struct Failures {
+  std::size_t count = 0;
+  std::string first;
+};
+
+void estimate_many(const Request& request, const std::vector<SceneInput>& scenes, Runner& runner) {
+  make_folder(request.output);
+  Json results = Json::array();
+  Failures failures;
+  const auto fail = [&](const SceneInput& scene, const std::string& sentence) {
+    if (failures.count++ == 0) failures.first = sentence;
+    results.push_back(Json::object({{"input", scene.input}, {"error", sentence}}));
+    runner.job().note(sentence);
+  };
+  const auto count = static_cast<double>(scenes.size());
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const auto done = static_cast<double>(i);
+    const Progress progress =
+        runner.job().progress().part(done / count, (done + 1) / count).titled(scenes[i].name);
+    try {
+      const auto output = std::filesystem::path(request.output) / (scenes[i].name + ".h5");
+      const Task task{scenes[i].input, output.string(), scenes[i].name, scenes[i].frame};
+      runner.check(task);
+      const Answer answer = runner.run(task, progress);
+      Json json = answer_json(answer);
+      json["input"] = scenes[i].input;
+      results.push_back(std::move(json));
+      runner.job().finish();
+      if (!request.is_json) print_line(answer);
+    } catch (const Error& error) {
+      fail(scenes[i], error.what());
+    }
+  }
+  runner.job().finish();
+  if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
+  if (failures.count == 0) return;
+  throw Error(fmt::format("{} of {} light fields failed, the first: {}", failures.count,
+                          scenes.size(), failures.first));
+}
+
+/// Whether the output is a folder for one result file of each light field.
+bool wants_many(const Request& request, const Progress& progress) {
+  const std::string suffix = suffix_of(request.output);
+  const bool names_file = suffix == ".h5" || suffix == ".hdf5";
+  if (request.inputs.size() == 1 && request.frames == Frames::One) {
+    return !names_file && is_collection(request.inputs.front(), request.read, progress);
+  }
+  if (!names_file) return true;
+  throw UsageError("several light fields do not go into one result file, " + request.output +
+                   "; name a folder with -o DIR");
 }
 
 }  // namespace
@@ -158,27 +301,11 @@ void run_estimate(const VerbArguments& arguments, std::stop_token stop) {
   const std::vector<Estimator> estimators = registered_estimators();
   Request request;
   if (!parse(arguments, estimators, request)) return;
-  const Estimator& estimator = *request.estimator;
-  RunOptions options = request.job.run_options();
-  options.views = selected_views(request);
-  // The method asks as well, but not before the light field is loaded.
-  require_device(options.device, estimator.info);
-  check_hdf5_output("estimate", request.output);
-  check_result_output(request.output);
-  protect_input(request.output, request.input);
-
-  Job job(std::move(stop), request.job);
-  const Progress& progress = job.progress();
-  options.threads = progress.threads();
-  const LightFieldPtr light_field = load_light_field(request, job);
-  const EstimateRequest run{estimator.info.id, request.parameters.values(), options};
-  const EstimatePtr estimate =
-      run_estimator(*light_field, estimator, run, progress.part(0.3, 0.9)).estimate;
-  progress.step("writing " + request.output);
-  save_result(request.output, *estimate, request.input, progress.part(0.9, 1));
-  for (const auto& note : estimate->notes) job.note(note);
-  job.finish();
-  print_answer(request, *estimate, light_field->center());
+  Runner runner(request, std::move(stop));
+  if (!wants_many(request, runner.job().progress())) return estimate_one(request, runner);
+  const std::vector<SceneInput> scenes = scene_inputs(request.inputs, request.read, request.frames,
+                                                      runner.job().progress().part(0, 0));
+  estimate_many(request, scenes, runner);
 }
 
 }  // namespace episcope::cli

@@ -112,6 +112,10 @@ void print_scene(const Scene& scene) {
   const SceneSummary summary = summarize(scene);
   print_line("name", scene.light_field->info().name);
   print_line("format", scene.convention.format);
+  if (const FrameOfSequence& sequence = scene.sequence; sequence.count > 0) {
+    print_line("sequence", "frame " + std::to_string(sequence.frame) + " of " +
+                               std::to_string(sequence.count) + ", counted from 0");
+  }
   print_shape(*scene.light_field, summary);
   print_line("samples", samples_text(scene));
   print_valid(*scene.light_field);

@@ -6,6 +6,7 @@ namespace {
 
 constexpr Verb kVerbs[] = {
     {"info", "Describe a light field and how it was read", run_info},
+    {"list", "List every light field below a folder", run_list},
     {"methods", "List every estimator with its parameters", run_methods},
     {"estimate", "Estimate disparity and write a result file", run_estimate},
     {"evaluate", "Compare results with the ground truth", run_evaluate},

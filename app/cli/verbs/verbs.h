@@ -25,6 +25,7 @@ struct Verb {
 
 /// One function for each verb, in a source of its own; for the table.
 void run_info(const VerbArguments& arguments, std::stop_token stop);
+void run_list(const VerbArguments& arguments, std::stop_token stop);
 void run_methods(const VerbArguments& arguments, std::stop_token stop);
 void run_estimate(const VerbArguments& arguments, std::stop_token stop);
 void run_evaluate(const VerbArguments& arguments, std::stop_token stop);

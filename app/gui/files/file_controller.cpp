@@ -32,6 +32,10 @@ FileController::FileController(const Workbench& bench)
     if (!is_builtin(input)) remember_recent(input);
     fillRecentMenu();
   });
+  connect(&bench.opener, &SceneOpener::isCollection, this, [this](const QString& folder) {
+    remember_recent(folder);
+    fillRecentMenu();
+  });
   connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
   connect(&bench.document, &DocumentController::unsavedChanged, &bench.window,
           &QWidget::setWindowModified);
@@ -58,9 +62,11 @@ void FileController::addOpenCommands() {
   open.icon = "open";
   open.bar = BarSection::Files;
   bench_.commands.add(std::move(open));
-  Command folder = add("file.open_folder", tr("Open folder…"),
-                       tr("Opens a folder: an archive scene, a benchmark scene or an image grid"),
-                       {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
+  Command folder =
+      add("file.open_folder", tr("Open folder…"),
+          tr("Opens a folder: an archive scene, a benchmark scene, an image grid, or a "
+             "folder of several"),
+          {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
   folder.icon = "open";
   bench_.commands.add(std::move(folder));
   Command result =

@@ -26,7 +26,7 @@ struct Tab {
 };
 
 /// Lines under everything else, in their order.
-enum class Line { Recovery, Messages, Values };
+enum class Line { Time, Recovery, Messages, Values };
 
 /// The places of the main window, where features put their widgets: the viewer with a column at its
 /// left, tabs at the right, and lines under both.

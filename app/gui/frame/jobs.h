@@ -15,7 +15,7 @@
 namespace episcope {
 
 /// Jobs of one lane run one after the other, those of different lanes side by side.
-enum class Lane { Load, Estimate, Label, Export };
+enum class Lane { Load, Estimate, Label, Export, List };
 
 /// Every background job that a user sees: start, progress, cancellation, end and failure, in all
 /// lanes, with unique ids.
@@ -83,7 +83,7 @@ class Jobs : public QObject {
 
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
-  std::array<std::unique_ptr<JobRunner>, 4> runners_;
+  std::array<std::unique_ptr<JobRunner>, 5> runners_;
 };
 
 /// What went wrong, as a sentence for the user.

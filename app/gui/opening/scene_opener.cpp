@@ -7,6 +7,7 @@
 #include "app/gui/opening/remembered_conventions.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/picture/picture.h"
+#include "app/session/scene/collections.h"
 #include "app/session/scene/user_folders.h"
 #include "engine/core/error.h"
 #include "widgets/canvas/view_canvas.h"
@@ -45,6 +46,11 @@ using ScenePtr = std::shared_ptr<const Scene>;
 
 ScenePtr read_as_told(const std::string& input, const LoadOptions& options,
                       const Progress& progress) {
+  // Which of the light fields of a folder is meant is for the user to say.
+  if (io::given_options(options.open).empty()) {
+    const auto below = collection_at(input, options.open, options.cache_folder, progress);
+    if (!below.empty()) throw IsCollection(input, below.size());
+  }
   return std::make_shared<const Scene>(load_scene(input, options, progress));
 }
 
@@ -54,10 +60,11 @@ ParameterSet with_option(ParameterSet given, const std::string& key, const std::
   return given;
 }
 
-// What came of reading: a scene, or a question.
+// What came of reading: a scene, a question, or a folder of several.
 struct Opened {
   ScenePtr scene;
   std::optional<io::Undecided> question;
+  bool is_collection = false;
 };
 
 Opened read_or_question(const std::function<ScenePtr()>& read) {
@@ -65,6 +72,8 @@ Opened read_or_question(const std::function<ScenePtr()>& read) {
     return {read(), {}};
   } catch (const io::Undecided& question) {
     return {nullptr, question};
+  } catch (const IsCollection&) {
+    return {nullptr, {}, true};
   }
 }
 
@@ -128,6 +137,14 @@ void SceneOpener::reopenAt(double focus_px, std::function<void()> then) {
   load({QString::fromStdString(session_.input()), reading.options, false, std::move(then)});
 }
 
+void SceneOpener::reopenFrame(int frame, std::function<void()> then) {
+  if (!session_.scene()) return;
+  io::OpenOptions options = io::open_schema().parse(session_.reading_options());
+  options.frame = frame;
+  load({QString::fromStdString(session_.input()), io::given_options(options), false,
+        std::move(then)});
+}
+
 QString SceneOpener::reopenable() const {
   const QString input =
       failed_input_.isEmpty() ? QString::fromStdString(session_.input()) : failed_input_;
@@ -173,6 +190,10 @@ void SceneOpener::start(const Load& load) {
       [this, number, load](const Opened& opened) {
         if (opened.question) {
           if (number == number_) ask(load, *opened.question);
+          return;
+        }
+        if (opened.is_collection) {
+          if (number == number_) emit isCollection(load.input);
           return;
         }
         // Painting may have gone on while this was read.

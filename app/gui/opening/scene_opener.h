@@ -37,13 +37,17 @@ class SceneOpener : public QObject {
   /// Reads what is open again at another focus plane (0: that of the files). `then` is called after
   /// success.
   void reopenAt(double focus_px, std::function<void()> then);
+  /// Reads another frame of the sequence that is open. `then` is called after success.
+  void reopenFrame(int frame, std::function<void()> then);
   /// What `reopenWith` would read; empty if there is nothing, or a built-in scene.
   [[nodiscard]] QString reopenable() const;
   /// Whether what was asked for last could not be read.
   [[nodiscard]] bool hasFailed() const { return !failed_input_.isEmpty(); }
   void close();
 
-  /// Where built-in scenes are kept; for tests.
+  /// Where built-in scenes, and what is known of collections, are kept; empty = nowhere.
+  [[nodiscard]] const std::filesystem::path& cacheFolder() const { return cache_folder_; }
+  /// For tests.
   void setCacheFolder(std::filesystem::path folder) { cache_folder_ = std::move(folder); }
 
  signals:
@@ -51,6 +55,8 @@ class SceneOpener : public QObject {
   void changed();
   /// The session has a light field that `open` was asked for; paths are absolute.
   void opened(const QString& input);
+  /// `open` was asked for a folder that is no light field but holds some.
+  void isCollection(const QString& folder);
 
  private:
   struct Load {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scene/load_scene.h"
 
+#include "app/session/scene/collections.h"
 #include "app/session/scene/scene_cache.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
 #include "engine/io/open/open.h"
 #include "engine/io/open/reader.h"
+#include "engine/io/open/undecided.h"
 #include "engine/scenes/builtin.h"
 
 #include <system_error>
@@ -94,6 +96,20 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
   return std::move(*scene);
 }
 
+// A folder that cannot be opened may hold light fields below.
+Scene open_light_field(const std::string& input, const io::OpenOptions& options,
+                       const std::filesystem::path& cache_folder, const Progress& progress) {
+  try {
+    return io::open_scene(input, options, progress);
+  } catch (const io::Undecided&) {
+    throw;
+  } catch (const IoError&) {
+    const std::size_t count = collection_at(input, options, cache_folder, progress).size();
+    if (count > 0) throw IsCollection(input, count);
+    throw;
+  }
+}
+
 }  // namespace
 
 std::string builtin_scene_id(const std::string& input) {
@@ -113,7 +129,7 @@ Scene load_scene(const std::string& input, const LoadOptions& options, const Pro
   if (id.empty()) {
     io::OpenOptions open = options.open;
     open.needs_truth = options.needs_truth;
-    Scene scene = io::open_scene(input, open, progress);
+    Scene scene = open_light_field(input, open, options.cache_folder, progress);
     if (options.needs_truth) read_kept_scribbles(scene, progress);
     return scene;
   }

@@ -30,7 +30,8 @@ struct LoadOptions {
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, or a path that `io::open_scene`
 /// opens. The light field's `source` is what opens it again. A built-in scene is read from the
 /// cache where it is there and whole, else rendered; `store_in_cache` keeps it for the next time.
-/// Throws IoError, Unavailable for an unknown built-in scene, Cancelled.
+/// Throws IoError, IsCollection for a folder of several light fields, Unavailable for an unknown
+/// built-in scene, Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
                                const Progress& progress);
 

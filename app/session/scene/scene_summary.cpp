@@ -65,6 +65,8 @@ std::size_t collect_ids(const std::int32_t* labels, std::size_t count, std::vect
   return painted;
 }
 
+}  // namespace
+
 const char* sample_type_name(SampleType type) {
   switch (type) {
     case SampleType::UInt8:
@@ -76,8 +78,6 @@ const char* sample_type_name(SampleType type) {
   }
   return "float32";
 }
-
-}  // namespace
 
 SceneSummary summarize(const Scene& scene) {
   SceneSummary summary;

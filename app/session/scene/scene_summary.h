@@ -32,6 +32,9 @@ struct SceneSummary {
 /// How samples were stored, and what estimators see of them.
 [[nodiscard]] std::string samples_text(const Scene& scene);
 
+/// "uint8", "uint16", "float32".
+[[nodiscard]] const char* sample_type_name(SampleType type);
+
 /// Share of pixels of all views that hold something that was seen, in percent.
 [[nodiscard]] double valid_percent(const LightField& light_field);
 

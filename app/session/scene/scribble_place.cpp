@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/archive/archive_reader.h"
 #include "engine/io/labels/scribble_file.h"
+#include "engine/io/sequence/sequence_reader.h"
 
 #include <unistd.h>
 
@@ -14,6 +15,10 @@ namespace fs = std::filesystem;
 fs::path label_place(const LightField& light_field) {
   const fs::path source = light_field.info().source;
   std::error_code ignored;
+  if (const fs::path frame = io::frame_path(light_field.info()); !frame.empty()) {
+    return fs::is_directory(frame, ignored) ? frame / "labels.h5"
+                                            : source / ("labels_" + frame.stem().string() + ".h5");
+  }
   if (fs::is_directory(source, ignored)) return source / "labels.h5";
   if (!fs::is_regular_file(source, ignored)) return {};
   const bool is_archive = light_field.info().reading.reader == io::kArchiveReader;
@@ -33,7 +38,10 @@ void read_kept_scribbles(Scene& scene, const Progress& progress) {
   const fs::path place = label_place(*scene.light_field);
   std::error_code ignored;
   // Readers of the archive look there themselves.
-  const bool is_known = scene.light_field->info().reading.reader == io::kArchiveReader;
+  const LightFieldInfo& info = scene.light_field->info();
+  const fs::path frame = io::frame_path(info);
+  const bool is_known = info.reading.reader == io::kArchiveReader ||
+                        (!frame.empty() && fs::exists(frame / "lf.h5", ignored));
   if (is_known || !fs::exists(place, ignored)) return;
   try {
     scene.scribbles = io::read_scribbles(place, scene, progress);

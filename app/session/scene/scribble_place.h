@@ -9,7 +9,8 @@
 namespace episcope {
 
 /// Where the scribbles of a light field are kept: labels.h5 in its folder, or beside an archive
-/// file; <stem>_labels.h5 beside a file of another form. Empty for scenes that come from no file.
+/// file; <stem>_labels.h5 beside a file of another form; of a frame of a sequence, in the frame's
+/// folder, or labels_<frame>.h5 beside its file. Empty for scenes that come from no file.
 [[nodiscard]] std::filesystem::path label_place(const LightField& light_field);
 
 /// Whether a file can be made or written over there, as far as permissions tell.

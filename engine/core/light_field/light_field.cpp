@@ -26,6 +26,15 @@ void convert(const T* in, std::size_t count, float* out) {
 
 }  // namespace
 
+LightField::LightField(LightField&& other, LightFieldInfo info)
+    : samples_(std::move(other.samples_)),
+      valid_(std::move(other.valid_)),
+      info_(std::move(info)),
+      grid_(other.grid_),
+      height_(other.height_),
+      width_(other.width_),
+      channels_(other.channels_) {}
+
 LightField::LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid)
     : samples_(std::move(samples)), valid_(std::move(valid)), info_(std::move(info)) {
   std::visit(

@@ -50,6 +50,9 @@ class LightField {
   /// channels or does not begin at view (0, 0), or if `valid` does not fit.
   LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid = {});
 
+  /// The same light field with other facts: takes the samples of `other`.
+  LightField(LightField&& other, LightFieldInfo info);
+
   [[nodiscard]] const LightFieldInfo& info() const { return info_; }
   [[nodiscard]] GridShape grid() const { return grid_; }
   [[nodiscard]] int height() const { return height_; }

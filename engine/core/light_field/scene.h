@@ -92,6 +92,12 @@ struct Companion {
   std::string shape;  ///< As stored, e.g. "9×9×512×512".
 };
 
+/// Which light field of a sequence in time a scene is.
+struct FrameOfSequence {
+  int frame = 0;  ///< From 0.
+  int count = 0;  ///< 0 = not one of a sequence.
+};
+
 /// All that was read from one light-field file or folder, or made by a built-in scene.
 struct Scene {
   LightFieldPtr light_field;
@@ -99,6 +105,7 @@ struct Scene {
   Scribbles scribbles;
   std::vector<Companion> companions;
   ConventionReport convention;
+  FrameOfSequence sequence{};
 
   /// The first companion of this kind; null if there is none.
   [[nodiscard]] const Companion* find_companion(CompanionKind kind) const {

@@ -6,6 +6,7 @@
 #include "engine/io/archive/archive_depth.h"
 #include "engine/io/archive/archive_extras.h"
 #include "engine/io/archive/archive_labels.h"
+#include "engine/io/archive/archive_layout.h"
 #include "engine/io/archive/companions.h"
 #include "engine/io/labels/scribble_dataset.h"
 #include "engine/io/maps/float_samples.h"
@@ -26,23 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLightField = "LF";
-
-/// The dataset LF: [v][h][y][x][c] or, grey, [v][h][y][x].
-struct Layout {
-  FieldShape shape;
-  int channels = 1;  ///< That are read; an alpha channel is left out.
-  bool has_channel_axis = true;
-  Hdf5Type type = Hdf5Type::UInt8;
-};
-
 std::string whole(double value) {
   return std::isfinite(value) ? std::to_string(std::llround(value)) : "NaN";
 }
 
 /// Sizes in attributes only repeat the shape of LF; one that differs speaks for a mistake.
 void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
-  const Hdf5Shape shape = file.dataset(kLightField).shape;
+  const Hdf5Shape shape = file.dataset(kArchiveLightField).shape;
   constexpr const char* names[] = {"vRes", "hRes", "yRes", "xRes", "channels"};
   for (std::size_t axis = 0; axis < shape.size(); ++axis) {
     const auto stated = file.number("/", names[axis]);
@@ -53,44 +44,8 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
   }
 }
 
-Layout layout_of(const Hdf5Input& file) {
-  const Hdf5Dataset dataset = file.dataset(kLightField);
-  const Hdf5Shape& shape = dataset.shape;
-  if (shape.size() != 4 && shape.size() != 5) {
-    throw IoError(file.path(), fmt::format("the dataset LF has {} axes ({}), but v × h × y × x × "
-                                           "channels is expected; store it in this form",
-                                           shape.size(), shape_text(shape)));
-  }
-  if (dataset.type == Hdf5Type::Other) {
-    throw IoError(file.path(), "the dataset LF holds no numbers; choose another file");
-  }
-  const auto is_odd = [](std::size_t length) { return length == 0 || length > 100000; };
-  if (std::any_of(shape.begin(), shape.end(), is_odd)) {
-    throw IoError(file.path(), "the dataset LF has the shape " + shape_text(shape) +
-                                   ", which is not that of a light field; choose another file");
-  }
-  const std::size_t channels = shape.size() == 5 ? shape[4] : 1;
-  const double stated = file.number("/", "channels").value_or(1);
-  if (shape.size() == 4 && stated != 1) {
-    throw IoError(file.path(), "the dataset LF has 4 axes (" + shape_text(shape) +
-                                   "), but the attribute channels says " + whole(stated) +
-                                   "; store it as v × h × y × x × channels");
-  }
-  if (channels != 1 && channels != 3 && channels != 4) {
-    throw IoError(file.path(),
-                  fmt::format("the dataset LF has the shape {} and so {} channels, but 1 (grey) or "
-                              "3 (RGB) are expected; store it in this form",
-                              shape_text(shape), channels));
-  }
-  const auto length = [&](std::size_t axis) { return static_cast<int>(shape[axis]); };
-  return {{{length(0), length(1)}, length(2), length(3)},
-          channels == 1 ? 1 : 3,
-          shape.size() == 5,
-          dataset.type};
-}
-
 template <class T>
-ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
+ViewStack<T> read_views(const Hdf5Input& file, const ArchiveLayout& layout,
                         const std::function<void(ImageView<const T>)>& on_center,
                         const Progress& progress) {
   const FieldShape& shape = layout.shape;
@@ -103,7 +58,7 @@ ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
       block.start.push_back(0);
       block.count.push_back(static_cast<std::size_t>(layout.channels));
     }
-    file.read(kLightField, block, stack.view(view).data);
+    file.read(kArchiveLightField, block, stack.view(view).data);
   };
   const ViewIndex center = shape.grid.center();
   progress.check();
@@ -119,11 +74,12 @@ ViewStack<T> read_views(const Hdf5Input& file, const Layout& layout,
 }
 
 /// Samples in their stored type. Wider integers are taken as bytes if the centre view fits.
-LightField::Samples read_samples(const Hdf5Input& file, Layout layout, const OpenOptions& options,
-                                 const LightFieldInfo& info, const Progress& progress) {
+LightField::Samples read_samples(const Hdf5Input& file, ArchiveLayout layout,
+                                 const OpenOptions& options, const LightFieldInfo& info,
+                                 const Progress& progress) {
   if (layout.type == Hdf5Type::Integer) {
     const ViewStack<std::uint16_t> probe = [&] {
-      Layout center = layout;
+      ArchiveLayout center = layout;
       center.shape.grid = {1, 1};
       return read_views<std::uint16_t>(
           file, center, [](const auto&) {}, Progress(1));
@@ -148,7 +104,7 @@ LightField::Samples read_samples(const Hdf5Input& file, Layout layout, const Ope
 }
 
 ExpectedOrder expected_order(const Hdf5Input& file) {
-  if (file.text("/", "convention") || file.text(kLightField, "convention")) {
+  if (file.text("/", "convention") || file.text(kArchiveLightField, "convention")) {
     return {{}, "the file states its order in the attribute convention", true};
   }
   const bool is_raw = file.number("/", "dH") && file.number("/", "shift");
@@ -190,7 +146,7 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
                    const Progress& progress) {
   const Hdf5Input file(path);
-  const Layout layout = layout_of(file);
+  const ArchiveLayout layout = archive_layout(file);
   const GridShape grid = layout.shape.grid;
   Scene scene;
   ConventionReport& report = scene.convention;
@@ -289,7 +245,8 @@ Reader archive_reader() {
           .name = "a light field of the 2013 archive",
           .options = kOptions,
           .find = find_archive,
-          .read = read_archive};
+          .read = read_archive,
+          .probe = probe_archive};
 }
 
 }  // namespace episcope::io

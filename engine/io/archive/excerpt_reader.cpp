@@ -5,6 +5,7 @@
 #include "engine/io/archive/depth_maps.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/grid/image_grid_reader.h"
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/open/scene_folder.h"
@@ -124,6 +125,12 @@ Scene read_excerpt(const fs::path& folder, const OpenOptions& options, const Pro
   return read_image_grid(folder / "lf", options, progress, extras);
 }
 
+SceneProbe probe_excerpt(const fs::path& folder, const OpenOptions& options) {
+  SceneProbe probe = probe_image_grid(folder, options);
+  probe.truth = "depth of the centre view";
+  return probe;
+}
+
 fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
   const bool is_one = !folder.empty() && !wants_image_grid(options) && is_excerpt_folder(folder);
@@ -139,7 +146,8 @@ Reader excerpt_reader() {
           .name = "an excerpt of the 2013 archive",
           .options = kOptions,
           .find = find_excerpt,
-          .read = read_excerpt};
+          .read = read_excerpt,
+          .probe = probe_excerpt};
 }
 
 }  // namespace episcope::io

@@ -9,6 +9,7 @@
 #include "engine/io/arrays/list_grid.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
+#include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_name.h"
 
 #include <fmt/format.h>
@@ -61,6 +62,23 @@ void report_form(const ArrayFile& file, const ArrayEntry& entry, const ChosenLay
 
 std::span<const char* const> array_options() {
   return kOptions;
+}
+
+SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options) {
+  const ArrayEntry* entry = find_light_field(file, options.dataset, options.axes);
+  if (!entry) throw NoLightField(file.path(), "no array of this file has the shape of one");
+  const ArrayLayout layout = choose_layout(file, *entry, options.axes).layout;
+  SceneProbe probe{.grid = layout.grid(),
+                   .height = layout.height(),
+                   .width = layout.width(),
+                   .channels = layout.length('c') < 3 ? 1 : 3};
+  if (layout.has('n')) {
+    probe.list = probe.grid.count();
+    probe.grid = given_grid(options).value_or(GridShape());
+  }
+  if (entry->type == NumberType::UInt8) probe.sample_type = SampleType::UInt8;
+  if (entry->type == NumberType::UInt16) probe.sample_type = SampleType::UInt16;
+  return probe;
 }
 
 Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOptions& options,

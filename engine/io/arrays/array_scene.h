@@ -5,6 +5,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/io/arrays/array_file.h"
 #include "engine/io/open/open_options.h"
+#include "engine/io/open/scene_probe.h"
 
 #include <span>
 
@@ -12,6 +13,10 @@ namespace episcope::io {
 
 /// Keys of the reading options that every reader of arrays knows.
 [[nodiscard]] std::span<const char* const> array_options();
+
+/// What the shape of the light field of a file of arrays tells. Throws NoLightField if none of them
+/// can be one; IoError, Undecided.
+[[nodiscard]] SceneProbe probe_arrays(const ArrayFile& file, const OpenOptions& options);
 
 /// Reads the light field of a file of arrays, and the maps beside it. A picture of the centre view
 /// is given first. Throws IoError, InvalidInput for options that do not fit, Cancelled.

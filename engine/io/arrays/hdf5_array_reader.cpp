@@ -56,6 +56,10 @@ Scene read_hdf5_array(const fs::path& path, const OpenOptions& options, const Pr
   return read_array_scene(file, kHdf5Reader, options, progress);
 }
 
+SceneProbe probe_hdf5_array(const fs::path& path, const OpenOptions& options) {
+  return probe_arrays(Hdf5Arrays(std::make_shared<const Hdf5Input>(path)), options);
+}
+
 }  // namespace
 
 Reader hdf5_array_reader() {
@@ -63,7 +67,8 @@ Reader hdf5_array_reader() {
           .name = "an array of an HDF5 file",
           .options = array_options(),
           .find = find_hdf5_array,
-          .read = read_hdf5_array};
+          .read = read_hdf5_array,
+          .probe = probe_hdf5_array};
 }
 
 }  // namespace episcope::io

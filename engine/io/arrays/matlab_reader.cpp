@@ -25,17 +25,22 @@ fs::path find_matlab(const fs::path& path, const OpenOptions&) {
   return has_hdf5_signature(path) && is_matlab_hdf5(Hdf5Input(path)) ? path : fs::path();
 }
 
-Scene read_matlab(const fs::path& path, const OpenOptions& options, const Progress& progress) {
-  if (is_mat5_file(path)) {
-    return read_array_scene(Mat5File(path), kMatlabReader, options, progress);
-  }
+std::unique_ptr<const ArrayFile> matlab_file(const fs::path& path) {
+  if (is_mat5_file(path)) return std::make_unique<const Mat5File>(path);
   if (!has_hdf5_signature(path)) {
     throw IoError(path,
                   "this is not a MATLAB file of version 5 or later, despite its name; choose "
                   "another file");
   }
-  const Hdf5Arrays file(std::make_shared<const Hdf5Input>(path));
-  return read_array_scene(file, kMatlabReader, options, progress);
+  return std::make_unique<const Hdf5Arrays>(std::make_shared<const Hdf5Input>(path));
+}
+
+Scene read_matlab(const fs::path& path, const OpenOptions& options, const Progress& progress) {
+  return read_array_scene(*matlab_file(path), kMatlabReader, options, progress);
+}
+
+SceneProbe probe_matlab(const fs::path& path, const OpenOptions& options) {
+  return probe_arrays(*matlab_file(path), options);
 }
 
 }  // namespace
@@ -45,7 +50,8 @@ Reader matlab_reader() {
           .name = "a MATLAB file",
           .options = array_options(),
           .find = find_matlab,
-          .read = read_matlab};
+          .read = read_matlab,
+          .probe = probe_matlab};
 }
 
 }  // namespace episcope::io

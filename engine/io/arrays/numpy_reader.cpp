@@ -37,6 +37,10 @@ Scene read_numpy(const fs::path& path, const OpenOptions& options, const Progres
   return read_array_scene(NumpyFile(path), kNumpyReader, options, progress);
 }
 
+SceneProbe probe_numpy(const fs::path& path, const OpenOptions& options) {
+  return probe_arrays(NumpyFile(path), options);
+}
+
 }  // namespace
 
 Reader numpy_reader() {
@@ -44,7 +48,8 @@ Reader numpy_reader() {
           .name = "a NumPy array",
           .options = array_options(),
           .find = find_numpy,
-          .read = read_numpy};
+          .read = read_numpy,
+          .probe = probe_numpy};
 }
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/benchmark/benchmark_names.h"
+#include "engine/io/benchmark/benchmark_views.h"
 #include "engine/io/benchmark/config_file.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/load_views.h"
@@ -32,58 +33,6 @@ struct SceneFolder {
   fs::path path;
   FolderAccount account;
 };
-
-int count_views(const fs::path& folder) {
-  int count = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    count += name.starts_with(kViewPrefix) && name.ends_with(".png") ? 1 : 0;
-  }
-  return count;
-}
-
-GridShape square_grid(const fs::path& folder, int count) {
-  const int side = static_cast<int>(std::lround(std::sqrt(count)));
-  if (count > 0 && side * side == count) return {side, side};
-  throw IoError(folder, fmt::format("there is no {} and the {} files input_Cam*.png do not form a "
-                                    "square grid; add the missing files or give the rows and "
-                                    "columns by --grid",
-                                    kBenchmarkConfig, count));
-}
-
-/// Views by their index, row by row from the top left.
-ViewFiles view_files(const fs::path& folder, const std::optional<ConfigFile>& config,
-                     const std::optional<GridShape>& given) {
-  const int count = count_views(folder);
-  GridShape grid;
-  const auto columns = config ? config->number("num_cams_x") : std::nullopt;
-  const auto rows = config ? config->number("num_cams_y") : std::nullopt;
-  if (given) {
-    grid = *given;
-  } else if (columns && rows) {
-    grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
-    if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
-      throw IoError(
-          folder / kBenchmarkConfig,
-          fmt::format(
-              "num_cams_x and num_cams_y are {} and {}, which is not possible; correct this file",
-              grid.u, grid.v));
-    }
-  } else {
-    grid = square_grid(folder, count);
-  }
-  ViewFiles views{grid, {}};
-  for (int i = 0; i < grid.count(); ++i) {
-    views.files.push_back(folder / view_file_name(i));
-    if (!is_there(views.files.back())) {
-      throw IoError(
-          views.files.back(),
-          fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it",
-                      count, grid.count()));
-    }
-  }
-  return views;
-}
 
 std::optional<Interval> promised_range(const ConfigFile& config) {
   const auto min = config.number("disp_min");
@@ -273,7 +222,7 @@ void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth&
 
 bool is_benchmark_folder(const fs::path& folder) {
   return is_there(folder / kBenchmarkConfig) || is_there(folder / view_file_name(0)) ||
-         count_views(folder) > 0;
+         count_benchmark_views(folder) > 0;
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
@@ -281,7 +230,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   std::optional<ConfigFile> config;
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const std::optional<GridShape> given = given_grid(options);
-  const ViewFiles views = view_files(folder, config, given);
+  const ViewFiles views = benchmark_views(folder, config, given);
   files.account.use(views.files, "views");
   if (config) files.account.use(folder / kBenchmarkConfig, "parameter files");
   Scene scene;
@@ -346,7 +295,8 @@ Reader benchmark_reader() {
           .name = "a scene of the 2016 benchmark",
           .options = kOptions,
           .find = find_benchmark,
-          .read = read_benchmark};
+          .read = read_benchmark,
+          .probe = probe_benchmark};
 }
 
 }  // namespace episcope::io

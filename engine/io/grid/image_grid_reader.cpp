@@ -4,6 +4,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/beside.h"
 #include "engine/io/grid/grid_names.h"
+#include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/left_out.h"
 #include "engine/io/grid/load_views.h"
@@ -63,7 +64,8 @@ Reader image_grid_reader() {
           .name = "a grid of images",
           .options = kOptions,
           .find = find_grid,
-          .read = read_grid};
+          .read = read_grid,
+          .probe = probe_image_grid};
 }
 
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,

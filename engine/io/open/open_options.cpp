@@ -6,6 +6,7 @@ namespace {
 
 constexpr double kMaxFocus_px = 1000;
 constexpr int kLargestLenslet = 100;
+constexpr int kLastFrame = 999999;
 
 }  // namespace
 
@@ -70,6 +71,8 @@ Schema<OpenOptions> open_schema() {
              "Axes of an array in the order of its indices: v and u for rows and columns of views, "
              "y, "
              "x, c for channels, as in vuyxc; empty = detected"})
+      .integer("frame", &O::frame, {"Frame", "Which light field of a sequence to open, from 0"},
+               {0, kLastFrame})
       .real(
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},

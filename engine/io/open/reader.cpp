@@ -10,6 +10,7 @@
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/image_grid_reader.h"
 #include "engine/io/mosaic/mosaic_reader.h"
+#include "engine/io/sequence/sequence_reader.h"
 
 #include <algorithm>
 
@@ -18,9 +19,9 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
-                                    numpy_reader(),   archive_reader(),   benchmark_reader(),
-                                    excerpt_reader(), image_grid_reader()};
+  static const Reader kReaders[] = {sequence_reader(),   mosaic_reader(),  matlab_reader(),
+                                    hdf5_array_reader(), numpy_reader(),   archive_reader(),
+                                    benchmark_reader(),  excerpt_reader(), image_grid_reader()};
   return kReaders;
 }
 

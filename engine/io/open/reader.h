@@ -4,6 +4,7 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/io/open/open_options.h"
+#include "engine/io/open/scene_probe.h"
 
 #include <filesystem>
 #include <span>
@@ -26,6 +27,10 @@ struct Reader {
   /// Reads what `find` found. Throws IoError, InvalidInput for a bad option, Cancelled.
   Scene (*read)(const std::filesystem::path& found, const OpenOptions& options,
                 const Progress& progress);
+  /// What the headers of what `find` found tell, within milliseconds; null = nothing but the form
+  /// is known without reading. Throws NoLightField, IoError for what cannot be read, as far as
+  /// headers show it.
+  SceneProbe (*probe)(const std::filesystem::path& found, const OpenOptions& options) = nullptr;
 
   /// Whether the option means something to it; false for the focus plane.
   [[nodiscard]] bool has_option(std::string_view key) const;

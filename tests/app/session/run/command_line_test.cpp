@@ -133,6 +133,8 @@ void CommandLineTest::readingOptions_readBack() {
                            {"axes", std::string("vuyxc")},
                            {Reading::kFocus, -0.1},
                            {"equalise", true}};
+                           {"frame", 3},
+                           {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
   const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "engine/io/collection/collection_entry.h"
+
+#include <QHash>
+#include <QObject>
+#include <QString>
+
+namespace episcope {
+
+class SceneList;
+class ScenePanel;
+class ThumbnailQueue;
+
+/// Lists the light fields below a folder, in the background, and opens them.
+class CollectionController : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit CollectionController(const Workbench& bench);
+
+  /// Shows the tab and searches a folder; what it held the last time is there at once.
+  void openCollection(const QString& folder);
+
+ private:
+  void addCommands();
+  void addStep(const QString& id, const QString& text, const QString& tip, Qt::Key key, int step);
+  void add(const io::CollectionEntry& entry);
+  void finish(const std::vector<io::CollectionEntry>& entries);
+  void step(int step);
+  [[nodiscard]] QString openPath() const;
+  void markOpen();
+
+  Workbench bench_;
+  SceneList* list_;
+  ScenePanel* panel_;
+  ThumbnailQueue* thumbnails_;
+  QHash<QString, io::CollectionEntry> entries_;  // by path
+  QString folder_;
+  QString wanted_;  // by the last step, maybe still loading
+  quint64 job_ = 0;
+  quint64 search_ = 0;  // number of the newest one
+};
+
+}  // namespace episcope

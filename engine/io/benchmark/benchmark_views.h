@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/benchmark/config_file.h"
+#include "engine/io/grid/load_views.h"
+#include "engine/io/open/scene_probe.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace episcope::io {
+
+/// Number of files input_Cam*.png in a folder.
+[[nodiscard]] int count_benchmark_views(const std::filesystem::path& folder);
+
+/// Views by their index, row by row from the top left: of the grid that was given, else that of
+/// `config`, else a square.
+/// Throws IoError, also if one is missing.
+[[nodiscard]] ViewFiles benchmark_views(const std::filesystem::path& folder,
+                                        const std::optional<ConfigFile>& config,
+                                        const std::optional<GridShape>& given);
+
+/// What names and headers of a scene folder tell. Throws IoError.
+[[nodiscard]] SceneProbe probe_benchmark(const std::filesystem::path& folder,
+                                         const OpenOptions& options);
+
+}  // namespace episcope::io

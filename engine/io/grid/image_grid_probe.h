@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/grid/load_views.h"
+#include "engine/io/open/scene_probe.h"
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Grid, and size and samples by the header of the centre view, with which those of the first and
+/// the last view must agree. Throws IoError.
+[[nodiscard]] SceneProbe probe_views(const ViewFiles& views);
+
+/// What names and headers of a folder of images tell, and names of the maps beside them. Throws
+/// IoError, InvalidInput as reading does.
+[[nodiscard]] SceneProbe probe_image_grid(const std::filesystem::path& folder,
+                                          const OpenOptions& options);
+
+}  // namespace episcope::io

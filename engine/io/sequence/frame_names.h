@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+namespace episcope::io {
+
+/// Folders or files of one folder whose names differ in one running number.
+struct NumberedFrames {
+  std::vector<std::filesystem::path> paths;  ///< By their number.
+  std::vector<long> numbers;                 ///< In names, ascending.
+};
+
+/// The folders, else the files, of `folder` whose names say that they follow each other: digits
+/// alone ("0001"), or with a word for time ("frame_003", "f12", "t=4", "time_07.h5"), and one
+/// number that is different in each. Empty if there are fewer than two, if other numbered folders
+/// are beside them, or, with digits alone, any other folder. Looks at names only.
+[[nodiscard]] NumberedFrames numbered_frames(const std::filesystem::path& folder);
+
+}  // namespace episcope::io

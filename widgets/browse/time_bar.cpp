@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/browse/time_bar.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/theme.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSignalBlocker>
+#include <QSlider>
+#include <QToolButton>
+
+namespace episcope {
+
+TimeBar::TimeBar(QWidget* parent)
+    : QWidget(parent), slider_(new QSlider(Qt::Horizontal, this)), number_(new QLabel(this)) {
+  setObjectName("timeBar");
+  slider_->setObjectName("time.slider");
+  slider_->setAccessibleName(tr("Frame"));
+  slider_->setToolTip(tr("Frame of the sequence"));
+  slider_->setPageStep(10);
+  number_->setObjectName("time.number");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(theme::kMargin, 0, theme::kMargin, 0);
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(slider_, 1);
+  row->addWidget(number_);
+  connect(slider_, &QSlider::valueChanged, this, [this](int frame) {
+    showNumber();
+    emit frameChosen(frame);
+  });
+}
+
+void TimeBar::setPlayAction(QAction* action) {
+  auto* button = make_action_button(action, "time.play", this);
+  static_cast<QHBoxLayout*>(layout())->insertWidget(0, button);
+}
+
+void TimeBar::setFrame(int frame, int count) {
+  const QSignalBlocker blocker(slider_);
+  slider_->setRange(0, count - 1);
+  slider_->setValue(frame);
+  const QString widest = tr("frame %1 of %2").arg(count - 1).arg(count);
+  number_->setMinimumWidth(number_->fontMetrics().horizontalAdvance(widest));
+  showNumber();
+}
+
+void TimeBar::showNumber() {
+  number_->setText(tr("frame %1 of %2").arg(slider_->value()).arg(slider_->maximum() + 1));
+}
+
+}  // namespace episcope
+
+#include "moc_time_bar.cpp"
