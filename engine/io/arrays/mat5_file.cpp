@@ -7,7 +7,6 @@
 #include <matio.h>
 
 #include <algorithm>
-#include <array>
 #include <fstream>
 #include <functional>
 #include <limits>
@@ -113,26 +112,6 @@ ArrayShape stored_shape(const matvar_t& variable) {
 }
 
 }  // namespace
-
-/// Throws unless every variable ends within the file: what is missing would be read as anything.
-void require_whole(const fs::path& path) {
-  constexpr std::uintmax_t kHeader = 128;
-  std::ifstream in(path, std::ios::binary);
-  std::array<unsigned char, kHeader> header{};
-  in.read(reinterpret_cast<char*>(header.data()), header.size());
-  if (!in) throw damaged(path);
-  const bool is_big_endian = header[126] == 'M';
-  const std::uintmax_t size = fs::file_size(path);
-  for (std::uintmax_t at = kHeader; at < size;) {
-    std::array<unsigned char, 8> tag{};  // type and length of an element, 32 bit each
-    in.seekg(static_cast<std::streamoff>(at));
-    in.read(reinterpret_cast<char*>(tag.data()), tag.size());
-    std::uintmax_t length = 0;
-    for (std::size_t i = 0; i < 4; ++i) length = length << 8 | tag[is_big_endian ? 4 + i : 7 - i];
-    at += tag.size() + length;
-    if (!in || at > size) throw damaged(path);
-  }
-}
 
 /// The open file and what its header says of the variables.
 class Mat5File::Content {

@@ -61,8 +61,8 @@ constexpr Writer kWriters[] = {
 }  // namespace
 
 bool Writer::has_suffix_of(const std::filesystem::path& path) const {
-  const std::string name = lower_case(path.filename().string());
-  return std::ranges::any_of(suffixes, [&](const char* suffix) { return name.ends_with(suffix); });
+  const std::string file = lower_case(path.filename().string());
+  return std::ranges::any_of(suffixes, [&](const char* suffix) { return file.ends_with(suffix); });
 }
 
 std::span<const Writer> writers() {
