@@ -36,11 +36,12 @@ std::vector<std::string> writer_ids() {
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser(
       "convert", {"Writes a light field or a result in another form, by the suffix of OUT:\n"
-                  ".h5 (archive form), .pfm, .tiff, .ply (disparity of the centre view: of a\n"
-                  "RESULT, or the truth of an INPUT), or a folder (benchmark form), or in the\n"
-                  "form that --to names. Views, truth, labels, masks and camera are kept as far\n"
-                  "as the form can hold them; what it cannot is said. A RESULT becomes the truth\n"
-                  "of its light field.",
+                  ".h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets, ESLF), or a\n"
+                  "folder (benchmark form), or in the form that --to names; .pfm, .tiff, .ply, of\n"
+                  "a RESULT also .npy (disparity of the centre view: of a RESULT, or the truth of\n"
+                  "an INPUT). Views, truth, labels, masks and camera are kept as far as the form\n"
+                  "can hold them; what it cannot is said. A RESULT becomes the truth of its light\n"
+                  "field.",
                   "episcope-cli convert demo demo_folder/\n"
                   "  episcope-cli convert demo views/ --to grid\n"
                   "  episcope-cli convert demo.h5 demo.ply"});
@@ -77,8 +78,11 @@ Target target_of(const Request& request) {
   if (suffix.empty() || output.ends_with('/') || std::filesystem::is_directory(output, ignored)) {
     return {io::writer_named("benchmark")};
   }
+  const auto map = map_form_of(output);
+  const bool is_result = !request.truth.empty() || names_result(request.input);
+  if (map == MapForm::Npy && is_result) return {nullptr, *map};
   if (const io::Writer* writer = io::writer_of(output)) return {writer};
-  if (const auto map = map_form_of(output)) return {nullptr, *map};
+  if (map) return {nullptr, *map};
   std::vector<std::string> known{".pfm", ".ply", ".tiff", "a folder"};
   for (const io::Writer& writer : io::writers()) {
     if (!writer.writes_folder()) known.emplace_back(writer.suffixes.front());

@@ -4,6 +4,7 @@
 #include "app/session/run/result_source.h"
 #include "engine/core/light_field/shown_disparity.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/arrays/npy_file.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/maps/ply.h"
@@ -31,6 +32,7 @@ std::optional<MapForm> map_form_of(const std::filesystem::path& path) {
   if (suffix == ".h5" || suffix == ".hdf5") return MapForm::Result;
   if (suffix == ".pfm") return MapForm::Pfm;
   if (suffix == ".tif" || suffix == ".tiff") return MapForm::Tiff;
+  if (suffix == ".npy") return MapForm::Npy;
   if (suffix == ".ply") return MapForm::PointCloud;
   return std::nullopt;
 }
@@ -48,8 +50,17 @@ void save_map(const std::filesystem::path& path, const DisparityView& map) {
       if (map.is_valid(y, x)) values.at(y, x) = map.disparity.at(y, x);
     }
   }
-  map_form_of(path) == MapForm::Pfm ? io::write_pfm(path, values.view())
-                                    : io::write_tiff(path, values.view());
+  switch (map_form_of(path).value_or(MapForm::Tiff)) {
+    case MapForm::Pfm:
+      return io::write_pfm(path, values.view());
+    case MapForm::Npy:
+      return io::write_npy<float>(
+          path,
+          {static_cast<std::size_t>(values.height()), static_cast<std::size_t>(values.width())},
+          {values.data(), values.size()});
+    default:
+      return io::write_tiff(path, values.view());
+  }
 }
 
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,

@@ -16,6 +16,7 @@ enum class MapForm {
   Result,     ///< .h5, .hdf5: all views, confidence, provenance.
   Pfm,        ///< .pfm: one view.
   Tiff,       ///< .tif, .tiff: likewise.
+  Npy,        ///< .npy: likewise.
   PointCloud  ///< .ply: one view, coloured.
 };
 /// Empty for another suffix.
@@ -25,7 +26,7 @@ enum class MapForm {
 void save_result(const std::filesystem::path& path, const Estimate& estimate,
                  const std::string& input, const Progress& progress);
 
-/// Writes one map as PFM or TIFF; invalid pixels become NaN. Atomic. Throws IoError.
+/// Writes one map as PFM, TIFF or .npy; invalid pixels become NaN. Atomic. Throws IoError.
 void save_map(const std::filesystem::path& path, const DisparityView& map);
 
 /// Writes the valid pixels of a view that the light field shows as a coloured point cloud. Atomic.
