@@ -131,10 +131,9 @@ void CommandLineTest::readingOptions_readBack() {
                            {"lenslet", 14},
                            {"dataset", std::string("s/LF")},
                            {"axes", std::string("vuyxc")},
+                           {"frame", 3},
                            {Reading::kFocus, -0.1},
                            {"equalise", true}};
-                           {"frame", 3},
-                           {Reading::kFocus, -0.1}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
   const QString text = QString::fromStdString(reading_options_text(given)).remove('\'');
