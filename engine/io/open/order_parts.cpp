@@ -49,8 +49,8 @@ void complete_order(SceneParts& parts, const std::string& swapped, ConventionRep
 
 void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress) {
-  const bool are_axes_known =
-      parts.expected.are_axes_known || !options.axes.empty() || !options.pattern.empty();
+  const bool are_axes_known = parts.expected.are_axes_known || !options.axes.empty() ||
+                              !options.pattern.empty() || !options.grid.empty();
   const std::string swapped = order_axes(parts, are_axes_known, report, progress);
   put_in_order(parts.samples, parts.truth, parts.expected, options.flip, report, progress);
   reverse_views(parts.valid, grid_of(parts.samples), flip_of(report));

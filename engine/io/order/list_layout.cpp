@@ -13,8 +13,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -150,8 +150,8 @@ std::vector<Fit> refined(const std::vector<Fit>& found, const Unlikeness& all) {
   return ambiguity(better) < ambiguity(found) ? better : found;
 }
 
-/// Adds arrangements whose last row is not full, at least one of which explains more than the best
-/// of the others: a list with missing views must not be taken for another grid.
+/// Adds arrangements whose last row is not full: a list with missing views must not be taken for
+/// another grid.
 void add_unfilled(int count, const Unlikeness& pairs, std::vector<Fit>& found) {
   for (int period = 2; period <= count / 2; ++period) {
     if (count % period != 0) found.push_back({{period}, pairs.unexplained({period})});
@@ -254,6 +254,36 @@ std::string fit_text(int count, const Fit& fit) {
   return fmt::format("{}: {} unexplained", name, percent(fit.unexplained));
 }
 
+/// The only one of the best fits that motion along the image axes does not contradict. `unknown`
+/// is the answer without a decision, with the fits as its evidence.
+ListLayout chosen(const std::vector<Fit>& found, const Pictures& pictures, ListLayout unknown,
+                  const Progress& progress) {
+  const int count = unknown.grid.count();
+  const std::string compared = unknown.evidence;
+  unknown.evidence = compared + ": none fits";
+  ListLayout best = unknown;
+  for (const Fit& fit : found) {
+    const int period = fit.arrangement.period;
+    const double most = std::min(period == count ? kWorstLine : kWorstFit,
+                                 1.5 * (found[0].unexplained + kNegligible) - kNegligible);
+    if (fit.unexplained > most) continue;
+    progress.check();
+    ListLayout layout = with_axes(count, fit.arrangement, pictures);
+    layout.evidence = compared + "; " + layout.evidence;
+    if (!layout.is_decided) {
+      if (!best.is_decided) best.evidence = layout.evidence;
+      continue;
+    }
+    if (best.is_decided || count % period != 0) {
+      unknown.evidence =
+          compared + (best.is_decided ? ": too alike to tell" : ": rows that are not full");
+      return unknown;
+    }
+    best = std::move(layout);
+  }
+  return best;
+}
+
 }  // namespace
 
 ViewIndex ListLayout::place(int index) const {
@@ -291,32 +321,9 @@ ListLayout find_list_layout(int count, const GreyViewOfList& view, const Progres
   if (count == 2) return with_axes(2, {2, false}, pictures);
 
   const std::vector<Fit> found = fits(count, pictures, progress);
-  std::string compared = fit_text(count, found[0]);
-  if (found.size() > 1) compared += ", " + fit_text(count, found[1]);
-  compared = "differences between views by distance, as " + compared;
-  std::optional<ListLayout> best;
-  for (const Fit& fit : found) {
-    const bool is_near_best =
-        fit.unexplained + kNegligible < 1.5 * (found[0].unexplained + kNegligible);
-    const bool is_line = fit.arrangement.period == count;
-    if (fit.unexplained > (is_line ? kWorstLine : kWorstFit) || !is_near_best) break;
-    if (count % fit.arrangement.period != 0) {
-      unknown.evidence = compared + ": rows that are not full";
-      return unknown;
-    }
-    progress.check();
-    ListLayout layout = with_axes(count, fit.arrangement, pictures);
-    layout.evidence = compared + "; " + layout.evidence;
-    if (best && best->is_decided && layout.is_decided) {
-      layout.is_decided = false;
-      layout.evidence = compared + ": too alike to tell";
-      return layout;
-    }
-    if (!best || layout.is_decided) best = std::move(layout);
-  }
-  if (best) return *best;
-  unknown.evidence = compared + ": none fits";
-  return unknown;
+  unknown.evidence = "differences between views by distance, as " + fit_text(count, found[0]);
+  if (found.size() > 1) unknown.evidence += ", " + fit_text(count, found[1]);
+  return chosen(found, pictures, std::move(unknown), progress);
 }
 
 ListLayout find_list_layout(const LightField::Samples& samples, const Progress& progress) {

@@ -45,12 +45,14 @@ class SharedDataTest : public QObject {
     QTest::addColumn<int>("width");
     QTest::addColumn<double>("min");
     QTest::addColumn<double>("max");
+    QTest::addColumn<bool>("is_reversed");
     // Ranges in px per view step as published with the data; NaN = no truth.
     const double none = std::numeric_limits<double>::quiet_NaN();
-    QTest::newRow("archive") << "still_life" << 9 << 512 << -1.169 << 1.502;
-    QTest::newRow("benchmark") << "cotton" << 9 << 512 << -1.4647 << 1.3643;
-    QTest::newRow("archive excerpt") << "archive_excerpt_3x3" << 3 << 768 << -10.827 << 10.252;
-    QTest::newRow("Stanford") << "stanford_17x17" << 17 << 256 << none << none;
+    QTest::newRow("archive") << "still_life" << 9 << 512 << -1.169 << 1.502 << false;
+    QTest::newRow("benchmark") << "cotton" << 9 << 512 << -1.4647 << 1.3643 << false;
+    QTest::newRow("archive excerpt")
+        << "archive_excerpt_3x3" << 3 << 768 << -10.827 << 10.252 << false;
+    QTest::newRow("Stanford") << "stanford_17x17" << 17 << 256 << none << none << true;
   }
   void realFolder_opensInOrder() {
     QFETCH(QString, folder);
@@ -58,6 +60,7 @@ class SharedDataTest : public QObject {
     QFETCH(int, width);
     QFETCH(double, min);
     QFETCH(double, max);
+    QFETCH(bool, is_reversed);
     const fs::path path = data_folder() / folder.toStdString();
     if (!fs::exists(path)) QSKIP("the data are not here");
 
@@ -67,8 +70,10 @@ class SharedDataTest : public QObject {
     QCOMPARE(scene.light_field->width(), width);
     QCOMPARE(scene.light_field->channels(), 3);
     QCOMPARE(scene.light_field->info().name, folder.toStdString());
-    QVERIFY2(!scene.convention.reversed_u && !scene.convention.reversed_v,
-             describe(scene.convention).c_str());
+    QVERIFY2(
+        scene.convention.reversed_u == is_reversed && scene.convention.reversed_v == is_reversed,
+        describe(scene.convention).c_str());
+    QCOMPARE(scene.convention.sign, std::string("checked"));
     QVERIFY(scene.convention.order_check.starts_with("checked"));
     QCOMPARE(scene.truth->has_disparity(), !std::isnan(min));
     if (std::isnan(min)) return;
