@@ -58,6 +58,12 @@ expect("estimate all frames" 0 ARGS estimate epi_l seq -o frames --frames --view
 expect_files(frames seq_frame_0.h5 seq_frame_1.h5 seq_frame_2.h5)
 expect("evaluate finds the frame" 0 ARGS evaluate frames/seq_frame_1.h5 --truth seq)
 
+expect("convert all" 0 OUT "converted/bench" ERR "" ARGS convert c converted --to grid -q)
+expect_files(converted b_a bench c_a)
+expect("convert all to the archive" 0 ERR "" ARGS convert c/ archived/ --to archive -q)
+expect_files(archived/b_a labels.h5 lf.h5)
+expect("list what was converted" 0 OUT "archive .*archive .*archive " ARGS list archived)
+
 file(WRITE "${WORK}/c/broken.h5" "not HDF5")
 expect("list what cannot be opened" 0 OUT "cannot be opened: c/broken.h5: this is not an HDF5 file"
        ARGS list c)
