@@ -3,7 +3,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 file(MAKE_DIRECTORY "${WORK}/c/a" "${WORK}/c/b/a" "${WORK}/empty")
 expect("make a" 0 ARGS synthesize fronto -o c/a/lf.h5 --views 3x3 --size 48x48)
 expect("make b/a" 0 ARGS synthesize slant -o c/b/a/lf.h5 --views 3x3 --size 40x48)
-expect("make a folder of images" 0 ARGS convert c/a/lf.h5 c/bench/)
+expect("make a folder of images" 0 ERR "" ARGS convert c/a/lf.h5 c/bench/)
 
 expect("list" 0 OUT "^form .*\narchive +3×3 +48×48 RGB uint8 .* c/a\n.*benchmark2016 .* c/bench\n$"
        ARGS list c)
