@@ -14,6 +14,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QListView>
+#include <QLocale>
 #include <QSortFilterProxyModel>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -24,7 +25,8 @@ namespace {
 /// Sorted by a role, then by name; "scene 9" comes before "scene 10".
 class ShownScenes : public QSortFilterProxyModel {
  public:
-  explicit ShownScenes(QObject* parent) : QSortFilterProxyModel(parent) {
+  explicit ShownScenes(QObject* parent)
+      : QSortFilterProxyModel(parent), names_(QLocale(QLocale::English)) {  // "C" has no numbers
     names_.setNumericMode(true);
     names_.setCaseSensitivity(Qt::CaseInsensitive);
     setFilterRole(SceneList::kSearchText);

@@ -3,6 +3,8 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/input.h"
 #include "app/cli/input/result_input.h"
+#include "app/cli/input/scene_inputs.h"
+#include "app/cli/output/failures.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run/command_line.h"
@@ -35,16 +37,18 @@ std::vector<std::string> writer_ids() {
 
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser(
-      "convert", {"Writes a light field or a result in another form, by the suffix of OUT:\n"
-                  ".h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets, ESLF), or a\n"
-                  "folder (benchmark form), or in the form that --to names; .pfm, .tiff, .ply, of\n"
-                  "a RESULT also .npy (disparity of the centre view: of a RESULT, or the truth of\n"
-                  "an INPUT). Views, truth, labels, masks and camera are kept as far as the form\n"
-                  "can hold them; what it cannot is said. A RESULT becomes the truth of its light\n"
-                  "field.",
-                  "episcope-cli convert demo demo_folder/\n"
-                  "  episcope-cli convert demo views/ --to grid\n"
-                  "  episcope-cli convert demo.h5 demo.ply"});
+      "convert",
+      {"Writes a light field or a result in another form, by the suffix of OUT:\n"
+       ".h5 (archive form), .npy, .npz, .mat (LFToolbox), .png (lenslets, ESLF), or a\n"
+       "folder (benchmark form), or in the form that --to names; .pfm, .tiff, .ply, of\n"
+       "a RESULT also .npy (disparity of the centre view: of a RESULT, or the truth of\n"
+       "an INPUT). Views, truth, labels, masks and camera are kept as far as the form\n"
+       "can hold them; what it cannot is said. A RESULT becomes the truth of its light\n"
+       "field. Of a folder that holds light fields, each is written into the folder OUT,\n"
+       "named after it.",
+       "episcope-cli convert demo demo_folder/\n"
+       "  episcope-cli convert demo views/ --to grid\n"
+       "  episcope-cli convert demo.h5 demo.ply"});
   parser.positional("INPUT", request.input, "A light field or a result");
   parser.positional("OUT", request.output, "File or folder to write");
   parser.option("--to", request.form, one_of(writer_ids()),
@@ -155,8 +159,8 @@ void write_map(const Subject& subject, const Request& request, MapForm form) {
   save_point_cloud(request.output, light_field, light_field.center(), map);
 }
 
-void write(Subject& subject, const Request& request, const Target& target, Job& job) {
-  const Progress progress = job.progress().part(0.5, 1);
+void write(Subject& subject, const Request& request, const Target& target, Job& job,
+           const Progress& progress) {
   progress.step("writing " + request.output);
   if (target.writer == nullptr) return write_map(subject, request, target.map);
   const Scene scene = scene_to_write(subject);
@@ -181,24 +185,78 @@ void check_output(const Request& request, const Target& target) {
   if (target.writer && !is_folder) check_light_field_output(request.output, request.overwrite);
 }
 
+void convert_one(const Request& request, Job& job, const Progress& progress) {
+  const Target target = target_of(request);
+  check_output(request, target);
+  Subject subject = load_subject(request, target, progress.part(0, 0.5));
+  if (subject.scene) {
+    for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
+  }
+  note_forgotten_options(subject, request, target, job);
+  progress.check();
+  write(subject, request, target, job, progress.part(0.5, 1));
+  job.finish();
+  std::cout << request.output << ": written\n";
+}
+
+/// Where a light field of a collection goes: a folder, or a file; files of the archive have a
+/// folder each, since labels lie beside them.
+std::string place_in(const Request& request, const std::string& name) {
+  const std::filesystem::path place = std::filesystem::path(request.output) / name;
+  const io::Writer& writer = *io::writer_named(request.form);
+  if (writer.writes_folder()) {
+    std::filesystem::create_directories(place.parent_path());
+    return place.string();
+  }
+  const bool is_archive = request.form == "archive";
+  const std::filesystem::path file =
+      is_archive ? place / "lf.h5"
+                 : std::filesystem::path(place.string() + writer.suffixes.front());
+  std::filesystem::create_directories(file.parent_path());
+  return file.string();
+}
+
+void convert_collection(Request request, Job& job) {
+  if (request.form.empty()) request.form = "benchmark";
+  const std::vector<SceneInput> scenes =
+      scene_inputs({request.input}, request.read, Frames::One, job.progress().part(0, 0));
+  Failures failures;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const double share = 1 / static_cast<double>(scenes.size());
+    const double begin = static_cast<double>(i) * share;
+    Request one = request;
+    one.input = scenes[i].input;
+    try {
+      one.output = place_in(request, scenes[i].name);
+      convert_one(one, job, job.progress().part(begin, begin + share).titled(scenes[i].name));
+    } catch (const std::filesystem::filesystem_error& error) {
+      throw IoError(request.output, "this folder cannot be made (" + error.code().message() +
+                                        "); choose another one");
+    } catch (const Error& error) {
+      failures.add(error.what());
+      job.note(error.what());
+    }
+  }
+  job.finish();
+  failures.require_none(scenes.size());
+}
+
+/// Whether OUT is to be a folder for the light fields of a folder.
+bool is_many(const Request& request, const Progress& progress) {
+  const bool may_be_folder = suffix_of(request.output).empty() || request.output.ends_with('/') ||
+                             std::filesystem::is_directory(request.output);
+  return may_be_folder && request.truth.empty() && !names_result(request.input) &&
+         is_collection(request.input, request.read, progress);
+}
+
 }  // namespace
 
 void run_convert(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
-  const Target target = target_of(request);
-  check_output(request, target);
-
   Job job(std::move(stop), request.job);
-  Subject subject = load_subject(request, target, job.progress().part(0, 0.5));
-  if (subject.scene) {
-    for (const auto& warning : subject.scene->convention.warnings) job.note(warning);
-  }
-  note_forgotten_options(subject, request, target, job);
-  job.progress().check();
-  write(subject, request, target, job);
-  job.finish();
-  std::cout << request.output << ": written\n";
+  if (is_many(request, job.progress())) return convert_collection(request, job);
+  convert_one(request, job, job.progress());
 }
 
 }  // namespace episcope::cli

@@ -4,6 +4,7 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/input.h"
 #include "app/cli/input/scene_inputs.h"
+#include "app/cli/output/failures.h"
 #include "app/cli/output/json.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
@@ -11,8 +12,6 @@
 #include "app/session/save/save_result.h"
 #include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -243,17 +242,12 @@ void make_folder(const std::string& folder) {
   }
 }
 
-struct Failures {
-  std::size_t count = 0;
-  std::string first;
-};
-
 void estimate_many(const Request& request, const std::vector<SceneInput>& scenes, Runner& runner) {
   make_folder(request.output);
   Json results = Json::array();
   Failures failures;
   const auto fail = [&](const SceneInput& scene, const std::string& sentence) {
-    if (failures.count++ == 0) failures.first = sentence;
+    failures.add(sentence);
     results.push_back(Json::object({{"input", scene.input}, {"error", sentence}}));
     runner.job().note(sentence);
   };
@@ -278,9 +272,7 @@ void estimate_many(const Request& request, const std::vector<SceneInput>& scenes
   }
   runner.job().finish();
   if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
-  if (failures.count == 0) return;
-  throw Error(fmt::format("{} of {} light fields failed, the first: {}", failures.count,
-                          scenes.size(), failures.first));
+  failures.require_none(scenes.size());
 }
 
 /// Whether the output is a folder for one result file of each light field.

@@ -4,8 +4,10 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "widgets/browse/time_bar.h"
+#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 
@@ -74,6 +76,8 @@ void FrameController::show() {
     return;
   }
   const FrameOfSequence& sequence = bench_.session.scene()->sequence;
+  // Whatever is opened is fitted first.
+  if (kept_zoom_) bench_.stage.canvas()->setCanvasTransform(*std::exchange(kept_zoom_, {}));
   if (wanted_ < 0) bar_->setFrame(sequence.frame, sequence.count);
   bar_->show();
 }
@@ -84,6 +88,8 @@ void FrameController::open(int frame) {
   wanted_ = frame;
   bench_.opener.reopenFrame(
       frame, [this, &session, frame, view = session.view(), pixel = session.cross_hair()] {
+        const ViewCanvas& canvas = *bench_.stage.canvas();
+        if (!canvas.isFitted()) kept_zoom_ = canvas.canvasTransform();
         session.set_view(view);
         session.set_cross_hair(pixel);
         if (wanted_ == frame) wanted_ = -1;

@@ -2,15 +2,18 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "widgets/canvas/canvas_transform.h"
 
 #include <QObject>
 #include <QTimer>
+
+#include <optional>
 
 namespace episcope {
 
 class TimeBar;
 
-/// The slider of time: opens the frames of a sequence, and keeps view and cross-hair.
+/// The slider of time: opens the frames of a sequence, and keeps view, cross-hair and zoom.
 class FrameController : public QObject {
   Q_OBJECT
 
@@ -30,6 +33,7 @@ class FrameController : public QObject {
   QTimer timer_;
   int wanted_ = -1;  // the frame that is loading; -1 = none
   bool is_playing_ = false;
+  std::optional<CanvasTransform> kept_zoom_;  // For the frame that comes.
 };
 
 }  // namespace episcope

@@ -2,6 +2,7 @@
 #include "engine/io/sequence/sequence_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 #include "engine/io/sequence/frame_names.h"
 
@@ -53,7 +54,8 @@ bool are_frames(const NumberedFrames& frames, const OpenOptions& options) {
 }
 
 fs::path find_sequence(const fs::path& path, const OpenOptions& options) {
-  if (!fs::is_directory(path) || fs::exists(path / "lf.h5")) return {};
+  std::error_code error;
+  if (!fs::is_directory(path, error) || is_there(path / "lf.h5")) return {};
   const NumberedFrames frames = numbered_frames(path);
   if (frames.paths.empty()) return {};
   try {

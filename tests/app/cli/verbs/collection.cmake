@@ -3,7 +3,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 file(MAKE_DIRECTORY "${WORK}/c/a" "${WORK}/c/b/a" "${WORK}/empty")
 expect("make a" 0 ARGS synthesize fronto -o c/a/lf.h5 --views 3x3 --size 48x48)
 expect("make b/a" 0 ARGS synthesize slant -o c/b/a/lf.h5 --views 3x3 --size 40x48)
-expect("make a folder of images" 0 ARGS convert c/a/lf.h5 c/bench/)
+expect("make a folder of images" 0 ERR "left out" ARGS convert c/a/lf.h5 c/bench/)
 
 expect("list" 0 OUT "^form .*\narchive +3×3 +48×48 RGB uint8 .* c/a\n.*benchmark2016 .* c/bench\n$"
        ARGS list c)
@@ -33,7 +33,7 @@ expect("info of a collection" 1 ERR "c: this folder .* holds 3; .*'episcope-cli 
 expect("estimate all" 0 OUT "results/a_a.h5|results/b_a.h5" ARGS estimate epi_l c -o results
        --views center)
 expect_files(results b_a.h5 bench.h5 c_a.h5)
-expect("estimate two" 0 ERR "" ARGS estimate epi_l c/a demo:fronto -o two --views center --json -q)
+expect("estimate two" 0 ARGS estimate epi_l c/a demo:fronto -o two --views center --json -q)
 expect_files(two a.h5 fronto.h5)
 json_is("${out}" epi_l results 1 method)
 json_is("${out}" demo:fronto results 1 input)
@@ -57,6 +57,12 @@ expect("estimate a frame" 0 ARGS estimate epi_l seq -o one.h5 --frame 1 --views 
 expect("estimate all frames" 0 ARGS estimate epi_l seq -o frames --frames --views center)
 expect_files(frames seq_frame_0.h5 seq_frame_1.h5 seq_frame_2.h5)
 expect("evaluate finds the frame" 0 ARGS evaluate frames/seq_frame_1.h5 --truth seq)
+
+expect("convert all" 0 OUT "converted/bench" ARGS convert c converted --to grid -q)
+expect_files(converted b_a bench c_a)
+expect("convert all to the archive" 0 ARGS convert c/ archived/ --to archive -q)
+expect_files(archived/b_a labels.h5 lf.h5)
+expect("list what was converted" 0 OUT "archive .*archive .*archive " ARGS list archived)
 
 file(WRITE "${WORK}/c/broken.h5" "not HDF5")
 expect("list what cannot be opened" 0 OUT "cannot be opened: c/broken.h5: this is not an HDF5 file"
