@@ -91,8 +91,9 @@ void NumbersTest::table_isThatOfEvaluate() {
   const bool has_truth = sample->truth != SampleScene::Truth::None;
   const Numbers of_first = numbers_of_evaluate(f, f.first());
   QCOMPARE(of_first.size() > 1, has_truth);
-  QCOMPARE(of_first.contains("benchmark2016.mae_planes"),
-           sample->is_benchmark_form && sample->has_camera);
+  const bool has_normals = of_first.contains("benchmark2016.mae_planes");
+  QVERIFY(sample->has_camera || !has_normals);
+  QVERIFY(has_normals || !sample->is_benchmark_form || !sample->has_camera);
   if (!has_truth) return;  // there is no table
 
   for (const EstimateEntry* entry : {&f.first(), &f.second()}) {

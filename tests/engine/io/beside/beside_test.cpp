@@ -370,7 +370,9 @@ class BesideTest : public QObject {
 
     QVERIFY(read.truth->labels.empty());
     QCOMPARE(count_used(read, "scribble files"), 1);
-    QVERIFY2(read.convention.warnings.empty(), describe(read.convention).c_str());
+    for (const std::string& warning : read.convention.warnings) {
+      QVERIFY2(!QString::fromStdString(warning).contains("label"), warning.c_str());
+    }
   }
 
   void withoutTruth_onlyTheCenterSettlesTheOrder() {
