@@ -15,6 +15,7 @@ constexpr int kArea = 512;
 constexpr int kRadius = 2;
 constexpr double kStep = 0.5;
 constexpr double kLargestShift = 24;
+constexpr double kLeastBrightness = 0.6;  ///< Of a view, as a share of the middle one's.
 
 Image<float> transposed(const Image<float>& picture) {
   Image<float> turned(picture.width(), picture.height());
@@ -24,7 +25,14 @@ Image<float> transposed(const Image<float>& picture) {
   return turned;
 }
 
-/// Loads views of one axis through the centre of the grid.
+double mean_of(const Image<float>& picture) {
+  double sum = 0;
+  for (const float value : picture) sum += value;
+  return sum / static_cast<double>(std::max<std::size_t>(picture.size(), 1));
+}
+
+/// Loads views of one axis through the centre of the grid, brought to the brightness of the middle
+/// one: else the darker of two surfaces would seem to be seen in a vignetted view.
 class Axis {
  public:
   Axis(const LightField::Samples& samples, bool is_v, int side)
@@ -33,20 +41,39 @@ class Axis {
     center_ = grid.center();
     reach_ = is_v ? std::min(center_.v, grid.v - 1 - center_.v)
                   : std::min(center_.u, grid.u - 1 - center_.u);
+    mean_ = mean_of(as_stored(0));
   }
   [[nodiscard]] int reach() const { return reach_; }
   [[nodiscard]] Image<float> view(int offset) const {
+    Image<float> picture = as_stored(offset);
+    const double mean = mean_of(picture);
+    const auto gain = static_cast<float>(mean > 0 ? mean_ / mean : 1.0);
+    for (float& value : picture) value *= gain;
+    return picture;
+  }
+  /// The farthest step, at most `most`, at which neither view is much darker than the middle one.
+  [[nodiscard]] int farthest_bright(int most) const {
+    const auto is_bright = [&](int offset) {
+      return mean_of(as_stored(offset)) > kLeastBrightness * mean_;
+    };
+    int far = std::min(most, reach_);
+    while (far > 1 && !(is_bright(-far) && is_bright(far))) --far;
+    return far;
+  }
+
+ private:
+  [[nodiscard]] Image<float> as_stored(int offset) const {
     const ViewIndex at{center_.v + (is_v_ ? offset : 0), center_.u + (is_v_ ? 0 : offset)};
     Image<float> grey = middle_of(reduced(grey_levels(samples_, at), side_), kArea);
     return smoothed(is_v_ ? transposed(grey) : grey);
   }
 
- private:
   const LightField::Samples& samples_;
   bool is_v_;
   int side_;
   ViewIndex center_;
   int reach_ = 0;
+  double mean_ = 0;
 };
 
 /// |one − other moved by `shift` to the right|, with the border repeated.
@@ -198,7 +225,7 @@ LineMatches match_line(const LightField::Samples& samples, bool is_v, int side,
   const double most = std::max(std::abs(first.first), std::abs(first.last));
   if (first.last <= first.first) return {};
 
-  const int far = std::clamp(static_cast<int>(kLargestShift / most), 1, std::min(axis.reach(), 8));
+  const int far = axis.farthest_bright(std::clamp(static_cast<int>(kLargestShift / most), 1, 8));
   if (far == 1) return found;
   const int near = (far + 1) / 2;
   if (near > 1) views.near = {axis.view(-near), axis.view(near)};
