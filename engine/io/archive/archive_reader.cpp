@@ -221,7 +221,7 @@ fs::path file_in(const fs::path& folder) {
 fs::path find_archive(const fs::path& path, const OpenOptions&) {
   if (const fs::path folder = scene_folder(path); !folder.empty()) {
     // An image is a picture of the scene that it lies in, not of any light field beside it.
-    return fs::is_directory(path) || fs::exists(folder / "lf.h5") ? file_in(folder) : fs::path();
+    return fs::is_directory(path) || is_there(folder / "lf.h5") ? file_in(folder) : fs::path();
   }
   if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
   const Hdf5Input file(path);

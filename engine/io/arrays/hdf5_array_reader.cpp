@@ -6,6 +6,7 @@
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/folder_file.h"
 #include "engine/io/arrays/hdf5_arrays.h"
+#include "engine/io/open/scene_folder.h"
 
 #include <algorithm>
 
@@ -30,7 +31,7 @@ bool is_meant(const fs::path& path, const OpenOptions& options) {
   if (!options.dataset.empty() || !options.axes.empty()) return true;
   // Results, and what lies beside a light field of the archive.
   if (file->has("estimate")) return false;
-  if (path.filename() != "lf.h5" && fs::exists(path.parent_path() / "lf.h5")) return false;
+  if (path.filename() != "lf.h5" && is_there(path.parent_path() / "lf.h5")) return false;
   const Hdf5Arrays arrays(file);
   const auto& entries = arrays.entries();
   const auto light_field = std::ranges::find(entries, "LF", &ArrayEntry::name);

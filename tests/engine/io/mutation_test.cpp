@@ -4,6 +4,7 @@
 #include "engine/io/write/writer.h"
 #include "tests/engine/io/memory_use.h"
 #include "tests/engine/io/synthetic_scene.h"
+#include "tests/patience.h"
 #include "tests/test_main.h"
 
 #include <QElapsedTimer>
@@ -107,7 +108,7 @@ class MutationTest : public QObject {
         QVERIFY2(std::string(error.what()).find("not enough memory") == std::string::npos,
                  (error.what() + std::string(" at mutation ") + std::to_string(i)).c_str());
       }
-      QVERIFY2(clock.elapsed() < 5000, QByteArray::number(i));
+      QVERIFY2(clock.elapsed() < 5000 * kSlowdown, QByteArray::number(i));
       write_bytes(file, whole);
     }
 
