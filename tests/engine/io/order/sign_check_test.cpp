@@ -5,6 +5,7 @@
 #include "tests/test_main.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope::in_sign_check_test {
 
@@ -86,6 +87,34 @@ class SignCheckTest : public QObject {
     QCOMPARE(scene.convention.sign, std::string("checked"));
     QVERIFY2(scene.convention.sign_check.find("by occlusion") != std::string::npos,
              told(scene).c_str());
+  }
+
+  void vignettedViews_doNotMislead_data() {
+    QTest::addColumn<bool>("reversed");
+    QTest::newRow("as stored") << false;
+    QTest::newRow("reversed") << true;
+  }
+  /// Of an even grid the view at the centre is not in the middle: views of one side are darker.
+  void vignettedViews_doNotMislead() {
+    QFETCH(bool, reversed);
+    const GridShape grid{8, 8};
+    ViewStack<std::uint8_t> stored = layered_views(options_of(grid));
+    for (int i = 0; i < grid.count(); ++i) {
+      const ViewIndex at = grid.view_at(i);
+      const double radius = std::hypot(at.v - 3.5, at.u - 3.5);
+      const double gain = std::clamp((5.5 - radius) / 2.5, 0.0, 1.0);
+      const auto view = stored.view(at);
+      for (std::size_t k = 0; k < view.size(); ++k) {
+        view.data[k] = static_cast<std::uint8_t>(gain * view.data[k]);
+      }
+    }
+    io::reverse_views(stored, grid, {reversed, reversed});
+
+    const Scene scene = assembled(std::move(stored));
+
+    QVERIFY2(scene.convention.reversed_u == reversed && scene.convention.reversed_v == reversed,
+             told(scene).c_str());
+    QCOMPARE(scene.convention.sign, std::string("checked"));
   }
 
   void viewsWithoutDepthEdges_haveAnUnknownSign_data() {
