@@ -48,9 +48,9 @@ QString domain_text(const ParameterDescription& description) {
                           std::holds_alternative<double>(value) ||
                           std::holds_alternative<IntervalOrAuto>(value);
   if (!has_domain) return {};
-  const QString ends = QStringLiteral("%1 … %2").arg(
-      QString::fromStdString(to_text(description.min)),
-      QString::fromStdString(to_text(description.max)));
+  const QString ends =
+      QStringLiteral("%1 … %2").arg(QString::fromStdString(to_text(description.min)),
+                                    QString::fromStdString(to_text(description.max)));
   return with_unit(ends, description.unit);
 }
 

@@ -9,8 +9,9 @@
 
 namespace episcope {
 
-/// A label, help, unit or choice of a schema, a sentence on a method, or the name of a file kind. The engine holds these in
-/// English; translations of them are looked up in the context "episcope::Schema".
+/// A label, help, unit or choice of a schema, a sentence on a method, or the name of a file kind.
+/// The engine holds these in English; translations of them are looked up in the context
+/// "episcope::Schema".
 [[nodiscard]] QString schema_text(const std::string& text);
 
 /// A value as users read it: "on" or "off", "auto", the label of a choice, a number with its unit.

@@ -128,8 +128,7 @@ SceneInfo describe(const Scene& scene) {
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
   info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
                        with_minus(utf8(convention.order_check)), "order"});
-  info.rows.push_back({text("Sign"),
-                       convention.sign.empty() ? text("not known") : text("checked"),
+  info.rows.push_back({text("Sign"), convention.sign.empty() ? text("not known") : text("checked"),
                        with_minus(utf8(convention.sign_check)), "sign"});
   info.rows.push_back({text("Camera"), camera_text(light_field.info().camera),
                        units_check_text(convention), "camera"});

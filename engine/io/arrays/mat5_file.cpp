@@ -144,7 +144,6 @@ class Mat5File::Content {
   void read(const std::string& name, std::size_t first, std::size_t count, std::uint8_t* out) {
     const std::lock_guard lock(mutex_);
     matvar_t& variable = *named_.at(name);
-    const auto width = static_cast<std::size_t>(variable.data_size);
     if (variable.compression == MAT_COMPRESSION_NONE) {
       constexpr std::size_t kLast = std::numeric_limits<int>::max();
       if (first + count > kLast) {
@@ -159,6 +158,7 @@ class Mat5File::Content {
       throw damaged(path_);
     }
     if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) throw damaged(path_);
+    const auto width = static_cast<std::size_t>(variable.data_size);  // known by now only
     if (!variable.data || (first + count) * width > variable.nbytes) throw damaged(path_);
     const auto* bytes = static_cast<const std::uint8_t*>(variable.data);
     std::copy_n(bytes + first * width, count * width, out);

@@ -45,7 +45,7 @@ int count_benchmark_views(const fs::path& folder) {
 }
 
 ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
-                     const std::optional<GridShape>& given) {
+                          const std::optional<GridShape>& given) {
   const int count = count_benchmark_views(folder);
   GridShape grid;
   const auto columns = config ? config->number("num_cams_x") : std::nullopt;

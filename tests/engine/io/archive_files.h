@@ -11,14 +11,14 @@ namespace episcope::test {
 
 /// What a hand-made archive file is to look like.
 struct RawArchive {
-  io::ViewFlip flip;           ///< Stored order relative to the canonical one.
+  io::ViewFlip flip{};         ///< Stored order relative to the canonical one.
   double attribute_scale = 1;  ///< Factor on dH and shift.
   bool has_depth = true;
   bool is_center_only = false;  ///< GT_DEPTH as [y][x].
   bool has_attributes = true;
   /// Changes depth before it is written: (view as stored, y, x, depth) → depth.
-  std::function<float(ViewIndex, int, int, float)> depth;
-  std::function<void(io::Hdf5Output&)> more;  ///< Adds datasets or attributes.
+  std::function<float(ViewIndex, int, int, float)> depth{};
+  std::function<void(io::Hdf5Output&)> more{};  ///< Adds datasets or attributes.
 };
 
 /// Writes a scene as a raw file of the 2013 archive, without an attribute that states the order.

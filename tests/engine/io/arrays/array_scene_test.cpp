@@ -208,6 +208,7 @@ class ArraySceneTest : public QObject {
     const Scene scene = open(path("lf.mat"));
 
     QVERIFY2(says(scene.convention.format, "(vuyxc)"), scene.convention.format.c_str());
+    QVERIFY2(says(scene.convention.format, "parallax agrees"), scene.convention.format.c_str());
     QCOMPARE(scene.light_field->grid(), views().grid());
     if (!doubles) QVERIFY(has_same_samples(scene, scene_));
     const float expected = static_cast<float>(views().view({2, 3}).at(10, 20, 1)) / 255;
