@@ -10,6 +10,7 @@
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/save/save_result.h"
+#include "app/session/scene/scene_summary.h"
 #include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
 
@@ -208,6 +209,9 @@ class Runner {
     open.frame = task.frame.value_or(open.frame);
     const Scene scene = load_input(task.input, std::move(open), false, progress);
     for (const auto& warning : scene.convention.warnings) note(task, warning);
+    if (const std::string warning = sign_warning(scene.convention); !warning.empty()) {
+      note(task, warning);
+    }
     return scene.light_field;
   }
 

@@ -25,7 +25,10 @@ bool is_map(const io::Hdf5Dataset& dataset) {
 bool holds_light_field(const io::Hdf5Input& file) {
   const auto names = {"LF", "GT_DEPTH", "GT_DEPTH_FOREGROUND", "GT_DEPTH_BACKGROUND"};
   return std::any_of(names.begin(), names.end(),
-                     [&file](const char* name) { return file.has(name); });
+                     [&file](const char* name) { return file.has(name); }) ||
+         std::ranges::any_of(file.datasets(), [](const io::Hdf5Dataset& dataset) {
+           return dataset.shape.size() == 5;
+         });
 }
 
 /// An HDF5 file of another program with at least one map. Which one is meant is told on reading.

@@ -115,6 +115,13 @@ double valid_percent(const LightField& light_field) {
   return 100 * (1 - static_cast<double>(invalid) / static_cast<double>(valid.size()));
 }
 
+std::string sign_warning(const ConventionReport& report) {
+  if (!report.sign.empty() || report.order_was_chosen) return {};
+  const std::string reason = report.sign_check.empty() ? "" : " (" + report.sign_check + ")";
+  return "Near and far could not be told apart" + reason +
+         "; if they are exchanged, reverse both axes with --flip both.";
+}
+
 namespace {
 
 /// Kinds of files that were used are plurals.

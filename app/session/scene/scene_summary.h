@@ -38,6 +38,9 @@ struct SceneSummary {
 /// Share of pixels of all views that hold something that was seen, in percent.
 [[nodiscard]] double valid_percent(const LightField& light_field);
 
+/// A warning that disparities may be negated, where near and far were not told apart; else empty.
+[[nodiscard]] std::string sign_warning(const ConventionReport& report);
+
 /// "81 views, 1 disparity; not used: 3 *.txt (notes.txt, …)". Empty if no folder was read.
 [[nodiscard]] std::string files_text(const ConventionReport& report);
 

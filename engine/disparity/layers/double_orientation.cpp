@@ -107,8 +107,9 @@ std::vector<float> integration_weights(int rows, int first, int last, double sig
 int views_along(const LightField& lf, Direction direction) {
   const int views = direction == Direction::Horizontal ? lf.grid().u : lf.grid().v;
   if (views < DoubleOrientation::kMinViews || views > DoubleOrientation::kMaxViews) {
-    throw InvalidInput(fmt::format(
-        "two orientations need 3 to 32 views along an EPI, but the grid has {}", views));
+    throw InvalidInput(
+        fmt::format("two orientations need {} to {} views along an EPI, but the grid has {}",
+                    DoubleOrientation::kMinViews, DoubleOrientation::kMaxViews, views));
   }
   return views;
 }

@@ -58,7 +58,7 @@ class DoubleOrientation {
 
   /// Views that a grid axis must have.
   static constexpr int kMinViews = 3;
-  static constexpr int kMaxViews = 32;
+  static constexpr int kMaxViews = 160;
 
   /// Throws InvalidInput if the grid has too few or too many views in that direction.
   DoubleOrientation(const LightField& light_field, Direction direction, const TensorScales& scales,

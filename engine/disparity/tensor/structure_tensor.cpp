@@ -19,7 +19,6 @@ namespace {
 
 // Lanes that a kernel may read or write beyond what it is asked for.
 constexpr int kSlack = 128;
-constexpr int kMaxViews = 32;
 // Of the widest instruction set: rows begin at whole vectors, where strides allow it.
 constexpr int kVectorLanes = 16;
 
@@ -44,9 +43,10 @@ int block_height(const LightField& lf) {
 int views_along(const LightField& lf, StructureTensor::Direction direction) {
   const bool horizontal = direction == StructureTensor::Direction::Horizontal;
   const int views = horizontal ? lf.grid().u : lf.grid().v;
-  if (views < 2 || views > kMaxViews) {
-    throw InvalidInput(fmt::format(
-        "the structure tensor needs 2 to 32 views along an EPI, but the grid has {}", views));
+  if (views < 2 || views > kMaxTensorViews) {
+    throw InvalidInput(
+        fmt::format("the structure tensor needs 2 to {} views along an EPI, but the grid has {}",
+                    kMaxTensorViews, views));
   }
   return views;
 }

@@ -63,7 +63,7 @@ class StructureTensor {
   using Sink = std::function<void(int view, PixelIndex begin, int count, const float* disparity,
                                   const float* coherence)>;
 
-  /// Throws InvalidInput if the grid has fewer than 2 or more than 32 views in that direction.
+  /// Throws InvalidInput if the grid has fewer than 2 or more than 160 views in that direction.
   StructureTensor(const LightField& light_field, Direction direction, const TensorScales& scales,
                   const TensorSearch& search);
   ~StructureTensor();

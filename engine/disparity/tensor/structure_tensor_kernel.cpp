@@ -152,7 +152,6 @@ inline void products_group(const RowSources& along, const RowSources& across, fl
 }
 
 // The widest grid axis whose products of a chunk are kept on the stack.
-constexpr int kMaxRows = 32;
 
 // Pointers to lane 0 of the sheared coordinates.
 void find_sources(const TensorBlock& block, const Shear& shear, float* const* planes,
@@ -222,7 +221,7 @@ Window clip(Window window, int chunk) {
 
 struct ChunkProducts {
   // Groups may begin anywhere and reach beyond the chunk.
-  alignas(64) float values[3][kMaxRows][kChunk + kGroupLanes];
+  alignas(64) float values[3][kMaxTensorViews][kChunk + kGroupLanes];
 };
 
 // What one row contributes under a shear, and where that is needed.
@@ -249,7 +248,7 @@ auto fill_products_of(const TensorBlock& block) {
 
 void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
   ChunkProducts products;
-  RowWork work[kMaxRows];
+  RowWork work[kMaxTensorViews];
   Window whole{0, 0};
   for (int r = 0; r < block.rows; ++r) {
     find_sources(block, shear, block.along, filters.row_smooth[r], work[r].along);

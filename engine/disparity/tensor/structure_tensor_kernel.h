@@ -8,6 +8,7 @@
 namespace episcope {
 
 /// The longest filter of the structure tensor, in taps.
+inline constexpr int kMaxTensorViews = 160;  ///< Along an EPI.
 inline constexpr int kMaxTaps = 13;
 
 /// A small odd filter, centred: out(n) = Σ taps[i]·in(n + i − radius). Half a sample further it has

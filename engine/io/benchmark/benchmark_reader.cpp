@@ -221,8 +221,12 @@ void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth&
 }
 
 bool is_benchmark_folder(const fs::path& folder) {
-  return is_there(folder / kBenchmarkConfig) || is_there(folder / view_file_name(0)) ||
-         count_benchmark_views(folder) > 0;
+  if (is_there(folder / kBenchmarkConfig)) return true;
+  // Without it only truth tells a scene of the benchmark from any list of views.
+  const bool has_truth = is_there(folder / disparity_file_name(0)) ||
+                         is_there(folder / "gt_disp_lowres.pfm") ||
+                         is_there(folder / "gt_depth_lowres.pfm");
+  return has_truth && count_benchmark_views(folder) > 0;
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {

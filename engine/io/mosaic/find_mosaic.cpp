@@ -34,7 +34,8 @@ bool is_other_form(const fs::path& folder, const OpenOptions& options) {
   if (views_folder(folder) != folder) return true;
   return std::ranges::any_of(readers(), [&](const Reader& reader) {
     const std::string_view id = reader.id;
-    return id != "mosaic" && id != "image_grid" && !reader.find(folder, options).empty();
+    return id != "mosaic" && id != "sequence" && id != "image_grid" &&
+           !reader.find(folder, options).empty();
   });
 }
 

@@ -160,7 +160,7 @@ void DisparityRangeTest::promisedRange_goesBeforeFound() {
 
 void DisparityRangeTest::foundRange_ofGridTooLargeIsRefused() {
   const LightField lf =
-      make_light_field({1, 33}, 8, 8, 1, [](ViewIndex, int, int, int) { return 0.5F; });
+      make_light_field({1, 161}, 8, 8, 1, [](ViewIndex, int, int, int) { return 0.5F; });
   QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)find_disparity_range(lf, Progress()));
 }
 
