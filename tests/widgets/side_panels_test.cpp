@@ -3,6 +3,7 @@
 #include "widgets/browse/info_panel.h"
 #include "widgets/browse/value_bar.h"
 #include "widgets/controls/elided_label.h"
+#include "widgets/controls/folded_label.h"
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
 #include "widgets/estimate/result_list.h"
@@ -320,6 +321,28 @@ class SidePanelsTest : public QObject {
     QVERIFY(units->width() <= panel.width());
     QCOMPARE(panel.findChild<QLabel*>("info.warning")->text(),
              QString("The order could not be checked."));
+  }
+
+  void info_foldsChecks() {
+    InfoPanel panel;
+    panel.resize(180, 300);
+    const QString check =
+        "checked by the slopes of horizontal and vertical EPIs: correlation 0.88 at 9468 points";
+    QAction action("Reverse near and far");
+    panel.setInfo("scene", {{"order", "as stored", check, "order", &action}}, {});
+    panel.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&panel));
+
+    auto* label = panel.findChild<FoldedLabel*>("info.check");
+    QTRY_COMPARE(label->text().count('\n'), 1);
+    QCOMPARE(label->toolTip(), check);
+    QTest::mouseClick(label, Qt::LeftButton);
+    QVERIFY(label->text().endsWith("points"));
+    QVERIFY(label->toolTip().isEmpty());
+    QTRY_VERIFY(label->height() > 2.5 * label->fontMetrics().height());
+    QVERIFY(label->width() <= panel.width());
+    QTest::mouseClick(label, Qt::LeftButton);
+    QCOMPARE(label->text().count('\n'), 1);
   }
 
   void info_breaksLongNames() {

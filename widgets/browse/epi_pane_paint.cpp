@@ -101,6 +101,7 @@ void EpiPane::paintLines(QPainter& painter) const {
     painter.setPen(QPen(faint, 1));
     painter.drawLine(through_view);
   }
+  if (epi_.height() == 1) return;  // No slope between views.
   std::vector<Slope> slopes;
   const auto add_slope = [&](std::optional<double> disparity_px, const QColor& color,
                              Qt::PenStyle style) {
@@ -126,6 +127,12 @@ void EpiPane::paintLabels(QPainter& painter) const {
   painter.setFont(small);
   draw_plate(painter, rect(), Qt::AlignLeft | Qt::AlignTop,
              is_horizontal ? tr("u ↓  x →") : tr("v →  y ↓"), theme::kCanvasText);
+  if (epi_.height() == 1) {
+    draw_plate(painter, rect(), Qt::AlignRight | Qt::AlignBottom,
+               is_horizontal ? tr("one column of views") : tr("one row of views"),
+               theme::kCanvasText);
+    return;
+  }
   struct Legend {
     std::optional<double> value;
     QString name;

@@ -2,6 +2,7 @@
 #include "widgets/browse/info_panel.h"
 
 #include "widgets/controls/elided_label.h"
+#include "widgets/controls/folded_label.h"
 #include "widgets/style/breakable_text.h"
 #include "widgets/style/icon.h"
 #include "widgets/style/theme.h"
@@ -9,11 +10,18 @@
 #include <QEvent>
 #include <QGridLayout>
 #include <QLabel>
+#include <QRegularExpression>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
 namespace episcope {
 namespace {
+
+// A number and its unit stay in one line.
+QString with_units(QString text) {
+  static const QRegularExpression before_unit("(?<=\\d) (?=(%|px|MB)(\\W|$))");
+  return text.replace(before_unit, QString(QChar::Nbsp));
+}
 
 /// Sentences wrap; a word that cannot wrap, such as a path, is elided in the middle.
 QLabel* make_value(const QString& text, QWidget* parent) {
@@ -22,11 +30,20 @@ QLabel* make_value(const QString& text, QWidget* parent) {
     label->setFullText(text);
     return label;
   }
-  auto* label = new QLabel(breakable(text), parent);
+  auto* label = new QLabel(breakable(with_units(text)), parent);
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
   label->setMinimumWidth(1);
   label->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  return label;
+}
+
+/// How a fact was found out: long, and read by few.
+QLabel* make_check(const QString& text, QWidget* parent) {
+  auto* label = new FoldedLabel(parent);
+  label->setFullText(text);
+  label->setObjectName("info.check");
+  label->setPalette(theme::text_palette(theme::muted_text(parent->palette())));
   return label;
 }
 
@@ -81,6 +98,7 @@ void InfoPanel::changeEvent(QEvent* event) {
 
 void InfoPanel::rebuild() {
   auto* body = new QWidget;
+  body->setPalette(palette());
   auto* grid = new QGridLayout(body);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(theme::kMargin);
@@ -95,13 +113,8 @@ void InfoPanel::rebuild() {
     if (!row.id.isEmpty()) value->setObjectName("info." + row.id);
     grid->addWidget(key, line, 0);
     grid->addWidget(value, line++, 1);
-    if (!row.check.isEmpty()) {
-      auto* check = make_value(row.check, body);
-      check->setObjectName("info.check");
-      check->setPalette(theme::text_palette(theme::muted_text(palette())));
-      grid->addWidget(check, line++, 1);
-    }
-    if (row.action) grid->addWidget(make_button(row.action, body), line++, 1, Qt::AlignLeft);
+    if (!row.check.isEmpty()) grid->addWidget(make_check(row.check, body), line++, 1);
+    if (row.action) grid->addWidget(make_button(row.action, body), line++, 0, 1, 2);
   }
   for (const auto& warning : warnings_) {
     auto* icon = new QLabel(body);

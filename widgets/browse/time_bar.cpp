@@ -7,19 +7,49 @@
 #include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <QStyle>
+#include <QStyleOptionSlider>
 #include <QToolButton>
 
+#include <algorithm>
+
 namespace episcope {
+namespace {
+
+constexpr int kFramesPerPage = 10;
+
+/// A click beside the handle goes to that frame, not a page nearer to it.
+class TimeSlider : public QSlider {
+ public:
+  using QSlider::QSlider;
+
+ protected:
+  void mousePressEvent(QMouseEvent* event) override {
+    QStyleOptionSlider option;
+    initStyleOption(&option);
+    const QPoint at = event->position().toPoint();
+    const auto part = style()->hitTestComplexControl(QStyle::CC_Slider, &option, at, this);
+    if (event->button() != Qt::LeftButton || part == QStyle::SC_SliderHandle) {
+      QSlider::mousePressEvent(event);
+      return;
+    }
+    const int handle = style()->pixelMetric(QStyle::PM_SliderLength, &option, this);
+    setValue(QStyle::sliderValueFromPosition(minimum(), maximum(), at.x() - handle / 2,
+                                             width() - handle, option.upsideDown));
+  }
+};
+
+}  // namespace
 
 TimeBar::TimeBar(QWidget* parent)
-    : QWidget(parent), slider_(new QSlider(Qt::Horizontal, this)), number_(new QLabel(this)) {
+    : QWidget(parent), slider_(new TimeSlider(Qt::Horizontal, this)), number_(new QLabel(this)) {
   setObjectName("timeBar");
   slider_->setObjectName("time.slider");
   slider_->setAccessibleName(tr("Frame"));
   slider_->setToolTip(tr("Frame of the sequence"));
-  slider_->setPageStep(10);
   number_->setObjectName("time.number");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(theme::kMargin, 0, theme::kMargin, 0);
@@ -40,14 +70,15 @@ void TimeBar::setPlayAction(QAction* action) {
 void TimeBar::setFrame(int frame, int count) {
   const QSignalBlocker blocker(slider_);
   slider_->setRange(0, count - 1);
+  slider_->setPageStep(std::clamp(count / kFramesPerPage, 1, kFramesPerPage));
   slider_->setValue(frame);
-  const QString widest = tr("frame %1 of %2").arg(count - 1).arg(count);
+  const QString widest = tr("frame %1 of 0…%2").arg(count - 1).arg(count - 1);
   number_->setMinimumWidth(number_->fontMetrics().horizontalAdvance(widest));
   showNumber();
 }
 
 void TimeBar::showNumber() {
-  number_->setText(tr("frame %1 of %2").arg(slider_->value()).arg(slider_->maximum() + 1));
+  number_->setText(tr("frame %1 of 0…%2").arg(slider_->value()).arg(slider_->maximum()));
 }
 
 }  // namespace episcope

@@ -12,6 +12,20 @@
 #include <cmath>
 
 namespace episcope {
+namespace {
+
+/// Cells of a single row are at least as high, and of a single column as wide, to be aimed at.
+constexpr double kLeastAcross = 28;
+
+// The middle of a thumbnail, in the proportions of its cell.
+QRectF middle_of(const QImage& thumbnail, const QSizeF& cell) {
+  const QSizeF part = cell.scaled(thumbnail.size(), Qt::KeepAspectRatio);
+  QRectF middle({}, part);
+  middle.moveCenter(QRectF(thumbnail.rect()).center());
+  return middle;
+}
+
+}  // namespace
 
 ViewGridCells::ViewGridCells(QWidget* parent) : QWidget(parent) {
   setObjectName("viewGridCells");
@@ -58,8 +72,10 @@ double ViewGridCells::aspect() const {
 }
 
 QRectF ViewGridCells::cellRect(ViewIndex view) const {
-  const double wide = std::min(1.0 * width() / grid_.u, height() / (grid_.v * aspect()));
-  const double high = wide * aspect();
+  double wide = std::min(1.0 * width() / grid_.u, height() / (grid_.v * aspect()));
+  double high = wide * aspect();
+  if (grid_.v == 1) high = std::max(high, std::min(kLeastAcross, 1.0 * height()));
+  if (grid_.u == 1) wide = std::max(wide, std::min(kLeastAcross, 1.0 * width()));
   const double left = (width() - wide * grid_.u) / 2;
   const double top = (height() - high * grid_.v) / 2;
   return {left + view.u * wide, top + view.v * high, wide, high};
@@ -83,7 +99,8 @@ QSize ViewGridCells::minimumSizeHint() const {
 
 int ViewGridCells::heightForWidth(int width) const {
   if (grid_.count() <= 0) return width;
-  return static_cast<int>(std::ceil(1.0 * width / grid_.u * aspect() * grid_.v));
+  const double height = 1.0 * width / grid_.u * aspect() * grid_.v;
+  return static_cast<int>(std::ceil(std::max(height, kLeastAcross)));
 }
 
 bool ViewGridCells::event(QEvent* event) {
@@ -119,7 +136,7 @@ void ViewGridCells::paintEvent(QPaintEvent*) {
         painter.fillRect(cell, blank);
       } else {
         painter.setRenderHint(QPainter::SmoothPixmapTransform);
-        painter.drawImage(cell, thumbnail);
+        painter.drawImage(cell, thumbnail, middle_of(thumbnail, cell.size()));
       }
     }
   }

@@ -193,6 +193,7 @@ class TextEditor : public ParameterEditor {
   TextEditor(const ParameterDescription& description, QWidget* parent)
       : ParameterEditor(parent), line_(new QLineEdit(this)) {
     line_->setObjectName(control_name(description, "text"));
+    line_->setPlaceholderText(ParameterEditor::tr("automatic"));
     make_row(this)->addWidget(line_);
     TextEditor::setValue(description.default_value);
     connect(line_, &QLineEdit::textEdited, this, &ParameterEditor::edited);

@@ -14,8 +14,9 @@
 namespace episcope {
 namespace {
 
-constexpr int kListHeight = 170;
+constexpr int kListHeight = 110;
 constexpr int kNumberWidth = 64;
+constexpr int kViewColumn = 4;
 
 QString number_text(const std::optional<long long>& number) {
   return number ? QString::number(*number) : QString();
@@ -23,12 +24,11 @@ QString number_text(const std::optional<long long>& number) {
 
 QTreeWidgetItem* make_item(const io::NamePreview& name, const QPalette& palette) {
   const QString view = name.view ? QString("%1,%2").arg(name.view->v).arg(name.view->u) : QString();
-  auto* item = new QTreeWidgetItem({QString::fromStdString(name.name),
-                                    number_text(name.is_match ? name.row : std::nullopt),
+  auto* item = new QTreeWidgetItem({QString::fromStdString(name.name), number_text(name.row),
                                     number_text(name.column), number_text(name.index), view});
   item->setToolTip(0, item->text(0));
   if (name.is_match) return item;
-  item->setText(1, PatternPanel::tr("no match"));
+  item->setText(kViewColumn, PatternPanel::tr("no match"));
   for (int column = 0; column < item->columnCount(); ++column) {
     item->setForeground(column, theme::muted_text(palette));
   }
@@ -36,10 +36,12 @@ QTreeWidgetItem* make_item(const io::NamePreview& name, const QPalette& palette)
 }
 
 QString summary_of(const io::PatternPreview& preview) {
+  const QString problem = breakable(QString::fromStdString(preview.problem));
+  if (preview.images == 0) return problem;
   const QString matches =
       PatternPanel::tr("%1 of %2 images match").arg(preview.matches).arg(preview.images);
   if (!preview.problem.empty()) {
-    return matches + ": " + breakable(QString::fromStdString(preview.problem));
+    return matches + ": " + problem;
   }
   const QString grid =
       preview.is_list
@@ -51,7 +53,9 @@ QString summary_of(const io::PatternPreview& preview) {
 io::PatternPreview preview_of(const std::string& folder, const std::string& pattern,
                               bool is_snake) {
   try {
-    return io::preview_pattern(folder, pattern, is_snake);
+    io::PatternPreview preview = io::preview_pattern(folder, pattern, is_snake);
+    if (preview.images == 0) preview.problem = PatternPanel::tr("no images here").toStdString();
+    return preview;
   } catch (const Error& error) {
     io::PatternPreview preview;
     preview.problem = error.what();
@@ -110,14 +114,18 @@ void PatternPanel::fill(const io::PatternPreview& preview) {
   QList<QTreeWidgetItem*> items;
   bool has_row = false;
   bool has_index = false;
+  bool has_view = false;
   for (const io::NamePreview& name : preview.names) {
     items << make_item(name, palette());
     has_row |= name.row || name.column;
     has_index |= name.index.has_value();
+    has_view |= name.view.has_value() || !name.is_match;
   }
   names_->addTopLevelItems(items);
+  names_->setColumnHidden(1, !has_row);
   names_->setColumnHidden(2, !has_row);
   names_->setColumnHidden(3, !has_index);
+  names_->setColumnHidden(kViewColumn, !has_view);
   summary_->setText(summary_of(preview));
   const bool is_wrong = !preview.problem.empty();
   summary_->setPalette(is_wrong ? theme::text_palette(theme::warning_text(palette())) : palette());

@@ -73,12 +73,6 @@ QString by_whom(const std::string& finding, bool was_chosen) {
   return was_chosen ? text("%1 (set by you)").arg(shown) : shown;
 }
 
-QString units_check_text(const ConventionReport& convention) {
-  const QString units = by_whom(convention.units, convention.units_were_chosen);
-  const QString check = with_minus(QString::fromStdString(convention.units_check));
-  return check.isEmpty() ? units : units + "; " + check;
-}
-
 // Names of an image grid that were given; empty if they were found.
 QString names_text(const Reading& reading) {
   const ParameterValue* pattern = reading.find("pattern");
@@ -87,6 +81,21 @@ QString names_text(const Reading& reading) {
   QString names = pattern ? QString::fromStdString(to_text(*pattern)) : text("automatic");
   if (is_snake) names += text(", snake");
   return text("%1 (set by you)").arg(names);
+}
+
+void add_conventions(SceneInfo& info, const CameraGrid& camera,
+                     const ConventionReport& convention) {
+  const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
+  info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
+                       with_minus(utf8(convention.order_check)), "order"});
+  info.rows.push_back({text("Sign"), convention.sign.empty() ? text("not known") : text("checked"),
+                       with_minus(utf8(convention.sign_check)), "sign"});
+  info.rows.push_back({text("Camera"), camera_text(camera), {}, "camera"});
+  if (!convention.units.empty()) {
+    info.rows.push_back({text("Depth"), by_whom(convention.units, convention.units_were_chosen),
+                         with_minus(utf8(convention.units_check)), "units"});
+  }
+  info.rows.push_back({text("Format"), utf8(convention.format), {}, "format"});
 }
 
 }  // namespace
@@ -126,13 +135,7 @@ SceneInfo describe(const Scene& scene) {
                          text("All views but the centre one are interpolated.")});
   }
   info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
-  info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
-                       with_minus(utf8(convention.order_check)), "order"});
-  info.rows.push_back({text("Sign"), convention.sign.empty() ? text("not known") : text("checked"),
-                       with_minus(utf8(convention.sign_check)), "sign"});
-  info.rows.push_back({text("Camera"), camera_text(light_field.info().camera),
-                       units_check_text(convention), "camera"});
-  info.rows.push_back({text("Format"), utf8(convention.format), {}, "format"});
+  add_conventions(info, light_field.info().camera, convention);
   if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
     info.rows.push_back({text("Names"), names, {}, "names"});
   }

@@ -19,6 +19,11 @@ namespace {
 
 constexpr int kWidth = 460;
 
+QString sentence(const std::string& text) {
+  const QString whole = QString::fromStdString(text);
+  return whole.left(1).toUpper() + whole.mid(1) + '.';
+}
+
 QLabel* paragraph(const QString& text, QWidget* parent) {
   auto* label = new QLabel(text, parent);
   label->setTextFormat(Qt::PlainText);
@@ -36,7 +41,7 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   auto* file = new ElidedLabel(this, Qt::ElideMiddle);
   file->setFullText(QString::fromStdString(question.path().string()));
   layout->addWidget(file);
-  layout->addWidget(paragraph(QString::fromStdString(question.reason()) + '.', this));
+  layout->addWidget(paragraph(sentence(question.reason()), this));
   for (std::size_t i = 0; i < choices_.size(); ++i) {
     auto* button = new QRadioButton(schema_text(choices_[i].label), this);
     button->setObjectName("readingQuestion." + QString::fromStdString(choices_[i].value));
@@ -54,7 +59,8 @@ ReadingQuestion::ReadingQuestion(const io::Undecided& question, QWidget* parent)
   layout->addWidget(answer);
   connect(answer, &QDialogButtonBox::accepted, this, &QDialog::accept);
   connect(answer, &QDialogButtonBox::rejected, this, &QDialog::reject);
-  resize(kWidth, sizeHint().height());
+  layout->activate();
+  resize(kWidth, layout->heightForWidth(kWidth));
 }
 
 std::string ReadingQuestion::chosen() const {

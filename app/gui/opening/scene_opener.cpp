@@ -208,7 +208,9 @@ void SceneOpener::start(const Load& load) {
 }
 
 void SceneOpener::ask(const Load& load, const io::Undecided& question) {
-  last_failure_ = QString::fromUtf8(question.what());
+  last_failure_ = tr("%1: %2. “Conventions…” lets you choose.")
+                      .arg(QString::fromStdString(question.path().string()),
+                           QString::fromStdString(question.reason()));
   auto* dialog = new ReadingQuestion(question, stage_.canvas()->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, load, key = question.option(), dialog] {

@@ -67,8 +67,9 @@ int shown(const QStringList& plain) {
 
 /// Texts of the engine on this light field, not of the window: they are shown as they were made.
 bool is_of_the_scene(const QObject& object) {
-  static const QStringList names{"info.title",      "info.order",      "info.check", "info.format",
-                                 "info.source",     "info.files",      "info.gain",  "info.warning",
+  static const QStringList names{"info.title",      "info.order",      "info.check",
+                                 "info.format",     "info.units",      "info.source",
+                                 "info.files",      "info.gain",       "info.warning",
                                  "annotation.file", "method.reference"};
   return names.contains(object.objectName());
 }

@@ -28,6 +28,8 @@ class ViewGridTest : public QObject {
     QTest::newRow("3x3") << 3 << 3;
     QTest::newRow("5x9") << 5 << 9;
     QTest::newRow("17x17") << 17 << 17;
+    QTest::newRow("1x49") << 1 << 49;
+    QTest::newRow("25x1") << 25 << 1;
   }
 
   void everyCell_isClickable() {
@@ -46,6 +48,16 @@ class ViewGridTest : public QObject {
       }
     }
     QVERIFY(cells.rect().contains(cells.cellRect({v - 1, u - 1}).toRect().adjusted(0, 0, -1, -1)));
+  }
+
+  void cellsOfAScan_areHighEnoughToBeAimedAt() {
+    ViewGridCells cells;
+    cells.setGrid({1, 49});
+    cells.resize(190, 190);
+    QVERIFY(cells.cellRect({0, 0}).height() > 20);
+    QVERIFY(cells.heightForWidth(190) > 20);
+    cells.setGrid({49, 1});
+    QVERIFY(cells.cellRect({0, 0}).width() > 20);
   }
 
   void currentAndThumbnails_areDrawn() {
