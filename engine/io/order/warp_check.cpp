@@ -21,6 +21,23 @@ float sample(const Image<float>& image, double y, double x) {
   return top + fy * (bottom - top);
 }
 
+/// The value that counts as white: of 16-bit samples what as many bits hold as the view at the
+/// centre uses, since cameras give 10, 12 or 14 of them.
+template <class T>
+float white_of(const ViewStack<T>& stack) {
+  if constexpr (std::is_same_v<T, float>) return 1;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return 255;
+  constexpr std::size_t kStride = 7;
+  const auto center = stack.view(stack.grid().center());
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < center.size(); i += kStride) {
+    largest = std::max(largest, static_cast<std::size_t>(center.data[i]));
+  }
+  std::size_t white = 255;
+  while (white < largest) white = 2 * white + 1;
+  return static_cast<float>(white);
+}
+
 /// Adds the errors against the view one step along the axis (`step` +1 or −1).
 void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bool is_u, int step,
                    const DisparityView& disparity, AxisErrors& sums) {
@@ -91,9 +108,7 @@ Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
   return std::visit(
       [view]<class T>(const ViewStack<T>& stack) {
         const auto image = stack.view(view);
-        const float scale =
-            (std::is_same_v<T, float> ? 255.0F : 255.0F / std::numeric_limits<T>::max()) /
-            static_cast<float>(image.channels);
+        const float scale = 255.0F / white_of(stack) / static_cast<float>(image.channels);
         Image<float> grey(image.height, image.width);
         for (int y = 0; y < image.height; ++y) {
           std::array<float, 4> last{};

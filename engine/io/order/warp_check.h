@@ -30,7 +30,8 @@ struct WarpErrors {
   [[nodiscard]] double best() const;
 };
 
-/// A view as grey values in 0…255; a sample that is not finite takes the value to its left.
+/// A view as grey values in 0…255, of 16-bit samples by as many bits as are used; a sample that is
+/// not finite takes the value to its left.
 [[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
 
 /// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose

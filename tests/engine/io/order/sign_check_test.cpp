@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/order/sign_check.h"
 #include "engine/io/open/assemble_scene.h"
 #include "tests/engine/io/order/layered_scene.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -115,6 +116,20 @@ class SignCheckTest : public QObject {
     QVERIFY2(scene.convention.reversed_u == reversed && scene.convention.reversed_v == reversed,
              told(scene).c_str());
     QCOMPARE(scene.convention.sign, std::string("checked"));
+  }
+
+  /// Cameras give 10 or 12 bits, which arrive in 16.
+  void fewBitsOfSixteen_areSeenLikeAll() {
+    const ViewStack<std::uint8_t> views = layered_views(options_of({5, 5}));
+    ViewStack<std::uint16_t> stored(views.grid(), views.height(), views.width(), views.channels());
+    std::transform(views.data(), views.data() + views.size(), stored.data(),
+                   [](std::uint8_t value) { return static_cast<std::uint16_t>(4 * value); });
+    LightField::Samples samples = std::move(stored);
+
+    const io::SignFinding finding = io::check_sign(samples, {}, true, Progress(1));
+
+    QVERIFY2(finding.is_decided, finding.evidence.c_str());
+    QVERIFY(finding.flip == io::ViewFlip{});
   }
 
   void viewsWithoutDepthEdges_haveAnUnknownSign_data() {
