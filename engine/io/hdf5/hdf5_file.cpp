@@ -198,7 +198,9 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
   if (!has(name)) {
     const std::string held = joined(datasets(), ", ", &Hdf5Dataset::name);
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
-                             (held.empty() ? "no dataset at all" : held) + "; choose another file");
+                             (held.empty() ? "no dataset at all; choose another file"
+                                           : held + "; choose another file, or name the dataset of "
+                                                    "a light field with --dataset"));
   }
   const Hdf5Lock session;
   if (is_group(file_, name)) {
