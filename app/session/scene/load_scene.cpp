@@ -52,7 +52,7 @@ void show_center_view(const std::string& id, const Scene& center, GridShape grid
   open.on_center_view(rgb, info, grid);
 }
 
-// What the archive form cannot hold of a built-in scene: region masks and where it comes from.
+// What a kept built-in scene lacks: where it comes from and, in older archives, its region masks.
 void complete_kept_scene(Scene& kept, const Scene& center) {
   // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
   std::const_pointer_cast<GroundTruth>(kept.truth)->regions = center.truth->regions;

@@ -104,6 +104,11 @@ class LightField {
   int channels_ = 1;
 };
 
+/// The grid that views cover.
+[[nodiscard]] inline GridShape grid_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
+}
+
 using LightFieldPtr = std::shared_ptr<const LightField>;
 
 }  // namespace episcope

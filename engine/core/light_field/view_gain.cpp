@@ -192,7 +192,7 @@ using Ratios = std::array<std::vector<Ratio>, kMaxQuantities>;
 
 Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint8_t>& valid,
                    const Progress& progress) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const std::vector<Pair> pairs = pairs_of(grid);
   std::vector<std::vector<Quantities>> blocks(pairs.size());
   std::visit(

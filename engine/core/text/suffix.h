@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/text/character.h"
+
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
 
@@ -10,8 +11,7 @@ namespace episcope {
 
 /// ASCII letters in lower case.
 [[nodiscard]] inline std::string lower_case(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(text, text.begin(), [](char c) { return lower_case(c); });
   return text;
 }
 

@@ -58,7 +58,9 @@ std::string labels_with(const Hdf5Input& file) {
 }  // namespace
 
 ArchiveLayout archive_layout(const Hdf5Input& file) {
-  const Hdf5Dataset dataset = file.dataset(kArchiveLightField);
+  const Hdf5Dataset dataset =
+      file.dataset(kArchiveLightField,
+                   "choose another file, or name the dataset of a light field with --dataset");
   const Hdf5Shape& shape = dataset.shape;
   if (shape.size() != 4 && shape.size() != 5) {
     throw IoError(file.path(), fmt::format("the dataset LF has {} axes ({}), but v × h × y × x × "

@@ -107,7 +107,7 @@ DisparityField disparity_from_depth(DepthMaps maps, const CameraGrid& camera,
 
 CameraGrid settle_units(const DepthMaps& maps, const LightField::Samples& samples,
                         const CameraGrid& stored, Units units, ConventionReport& report) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const ViewIndex view = reference_view(maps, grid);
   const Interval range = depth_range(maps, view);
   if (!(range.max > 0)) {

@@ -15,12 +15,8 @@ constexpr std::size_t kConvertedBytes = std::size_t{16} << 20;
 
 template <class T>
 constexpr bool is_stored_as(NumberType type) {
-  if constexpr (std::is_same_v<T, std::uint8_t>) {
-    return type == NumberType::UInt8 || type == NumberType::Bool;
-  }
-  if constexpr (std::is_same_v<T, std::uint16_t>) return type == NumberType::UInt16;
-  if constexpr (std::is_same_v<T, std::int32_t>) return type == NumberType::Int32;
-  if constexpr (std::is_same_v<T, float>) return type == NumberType::Float32;
+  const bool is_truth = std::is_same_v<T, std::uint8_t> && type == NumberType::Bool;
+  return is_truth || type == number_type_of<T>();
 }
 
 }  // namespace

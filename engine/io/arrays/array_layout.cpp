@@ -2,6 +2,7 @@
 #include "engine/io/arrays/array_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/character.h"
 
 #include <fmt/format.h>
 
@@ -127,7 +128,7 @@ ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& s
                           const std::string& axes, IndexOrder order) {
   std::string letters;
   for (const char c : axes) {
-    const char lower = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const char lower = lower_case(c);
     if (lower == ',' || lower == ' ') continue;
     letters += lower == 't' ? 'v' : lower == 's' ? 'u' : lower;
   }

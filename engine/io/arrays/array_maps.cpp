@@ -107,7 +107,7 @@ ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
 void settle_disparity(const std::string& name, const LightField::Samples& samples,
                       DisparityField& field, ConventionReport& report) {
   if (field.empty()) return;
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const int width = std::visit([](const auto& stack) { return stack.width(); }, samples);
   const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
   const SettledUnit settled = settle_unit(samples, at, field.view(at), common_units(grid, width));

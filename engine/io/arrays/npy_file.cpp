@@ -58,14 +58,6 @@ Image<T> read_image(const ArrayInput& array, bool is_transposed) {
   return turned;
 }
 
-template <class T>
-constexpr NumberType type_of() {
-  if constexpr (std::is_same_v<T, std::uint8_t>) return NumberType::UInt8;
-  if constexpr (std::is_same_v<T, std::uint16_t>) return NumberType::UInt16;
-  if constexpr (std::is_same_v<T, std::int32_t>) return NumberType::Int32;
-  if constexpr (std::is_same_v<T, float>) return NumberType::Float32;
-}
-
 }  // namespace
 
 ArrayShape stored_shape(const NpyHeader& header) {
@@ -151,7 +143,7 @@ void write_npy(const std::filesystem::path& path, const ArrayShape& shape,
     throw InvalidInput(fmt::format("an array of the shape {} cannot hold {} samples",
                                    array_shape_text(shape), samples.size()));
   }
-  const std::string header = npy_header(shape, type_of<T>());
+  const std::string header = npy_header(shape, number_type_of<T>());
   AtomicFile file(path, header.size() + samples.size_bytes());
   {
     const FileDescriptor out(file.temporary(), O_WRONLY | O_TRUNC);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 
 namespace episcope::io {
 
@@ -22,6 +23,15 @@ enum class NumberType {
   Float32,
   Float64
 };
+
+/// The type of the numbers that this program writes. T: uint8, uint16, int32, float.
+template <class T>
+[[nodiscard]] constexpr NumberType number_type_of() {
+  if constexpr (std::is_same_v<T, std::uint8_t>) return NumberType::UInt8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return NumberType::UInt16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return NumberType::Int32;
+  if constexpr (std::is_same_v<T, float>) return NumberType::Float32;
+}
 
 [[nodiscard]] std::size_t byte_size(NumberType type);
 [[nodiscard]] bool is_float(NumberType type);

@@ -25,18 +25,10 @@ ArrayShape shape_of(const ViewStack<T>& stack, bool has_channels) {
 }
 
 template <class T>
-constexpr NumberType type_of() {
-  if constexpr (std::is_same_v<T, std::uint8_t>) return NumberType::UInt8;
-  if constexpr (std::is_same_v<T, std::uint16_t>) return NumberType::UInt16;
-  if constexpr (std::is_same_v<T, std::int32_t>) return NumberType::Int32;
-  if constexpr (std::is_same_v<T, float>) return NumberType::Float32;
-}
-
-template <class T>
 void add_stack(ZipWriter& zip, const std::string& name, const ViewStack<T>& stack,
                bool has_channels) {
   if (stack.empty()) return;
-  const std::string header = npy_header(shape_of(stack, has_channels), type_of<T>());
+  const std::string header = npy_header(shape_of(stack, has_channels), number_type_of<T>());
   zip.add(name + ".npy",
           {{reinterpret_cast<const std::uint8_t*>(header.data()), header.size()},
            {reinterpret_cast<const std::uint8_t*>(stack.data()), stack.size() * sizeof(T)}});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/beside/find_maps.h"
 
+#include "engine/core/text/suffix.h"
 #include "engine/io/beside/baseline_file.h"
 
 #include <algorithm>
@@ -25,7 +26,7 @@ bool has_map_suffix(const fs::path& path) {
   constexpr std::array<std::string_view, 15> suffixes{".npy",  ".npz", ".pfm", ".png",  ".tif",
                                                       ".tiff", ".exr", ".bmp", ".pgm",  ".jpg",
                                                       ".jpeg", ".mat", ".h5",  ".hdf5", ".gif"};
-  return std::ranges::find(suffixes, lower_suffix(path)) != suffixes.end();
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
 std::vector<fs::path> list_files(const fs::path& folder) {
@@ -176,9 +177,7 @@ std::optional<int> view_in_name(const std::string& stem, const ViewKeys& views) 
   std::optional<int> found;
   for (const auto& [name, view] : views.view_by_stem) {
     for (std::size_t at = stem.find(name); at != std::string::npos; at = stem.find(name, at + 1)) {
-      const auto is_inside = [&](std::size_t i) {
-        return i < stem.size() && std::isdigit(static_cast<unsigned char>(stem[i]));
-      };
+      const auto is_inside = [&](std::size_t i) { return i < stem.size() && is_digit(stem[i]); };
       if (is_inside(at + name.size()) || (at > 0 && is_inside(at - 1))) continue;
       if (found && *found != view) return std::nullopt;
       found = view;
@@ -298,7 +297,7 @@ MapsBeside find_maps(const ViewFiles& views, const fs::path& folder) {
       const auto kind = own ? own : place.kind;
       if (!kind) continue;
       const std::string pattern =
-          place.prefix + numbered_name(file.stem().string()).text + lower_suffix(file);
+          place.prefix + numbered_name(file.stem().string()).text + suffix_of(file);
       groups[{*kind, pattern}].push_back(file);
     }
     for (const auto& [key, files] : groups) {

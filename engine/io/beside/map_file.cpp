@@ -2,6 +2,7 @@
 #include "engine/io/beside/map_file.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/arrays/npy_file.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/grid/decode_image.h"
@@ -27,7 +28,7 @@ constexpr std::uintmax_t kLargestCompression = 1100;  ///< Of deflate: 1032.
 
 template <std::size_t N>
 bool has_suffix(const fs::path& path, const std::array<std::string_view, N>& suffixes) {
-  return std::ranges::find(suffixes, lower_suffix(path)) != suffixes.end();
+  return std::ranges::find(suffixes, suffix_of(path)) != suffixes.end();
 }
 
 template <class T>
@@ -177,8 +178,8 @@ bool can_hold_labels(const fs::path& path) {
 }
 
 DisparityField read_values(const fs::path& path, GridShape grid) {
-  if (lower_suffix(path) == ".npy") return read_npy_values(path, grid);
-  if (lower_suffix(path) == ".exr") return read_exr_values(path);
+  if (suffix_of(path) == ".npy") return read_npy_values(path, grid);
+  if (suffix_of(path) == ".exr") return read_exr_values(path);
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
     return field;
@@ -195,7 +196,7 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
 }
 
 StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
-  if (lower_suffix(path) == ".npy") return read_npy_label_maps(path, grid);
+  if (suffix_of(path) == ".npy") return read_npy_label_maps(path, grid);
   if (is_hdf5(path)) return read_hdf5_labels(path, grid);
   return std::visit([&](const auto& image) { return labels_of(image, path); }, decode_image(path));
 }

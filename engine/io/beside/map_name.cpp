@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/beside/map_name.h"
 
+#include "engine/core/text/character.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -9,17 +11,8 @@
 namespace episcope::io {
 namespace {
 
-bool is_letter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
 bool is_upper(char c) {
   return c >= 'A' && c <= 'Z';
-}
-char to_lower(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
 /// Words in lower case: runs of letters, parted also where a capital follows a small letter.
@@ -34,7 +27,7 @@ std::vector<std::string> words_of(const std::string& name) {
     const bool is_hump =
         i > 0 && is_upper(name[i]) && is_letter(name[i - 1]) && !is_upper(name[i - 1]);
     if (!is_inside || is_hump) words.emplace_back();
-    words.back() += to_lower(name[i]);
+    words.back() += lower_case(name[i]);
     is_inside = true;
   }
   return words;
@@ -112,10 +105,9 @@ NumberedName numbered_name(const std::string& name) {
   constexpr std::size_t kDigits = 9;
   NumberedName split;
   for (std::size_t i = 0; i < name.size();) {
-    std::size_t end = i;
-    while (end < name.size() && is_digit(name[end])) ++end;
+    const std::size_t end = end_of_digits(name, i);
     if (end == i) {
-      split.text += to_lower(name[i++]);
+      split.text += lower_case(name[i++]);
       continue;
     }
     const std::size_t begin = std::max(i, end < kDigits ? 0 : end - kDigits);
@@ -124,12 +116,6 @@ NumberedName numbered_name(const std::string& name) {
     i = end;
   }
   return split;
-}
-
-std::string lower_suffix(const std::filesystem::path& path) {
-  std::string suffix = path.extension().string();
-  std::ranges::transform(suffix, suffix.begin(), to_lower);
-  return suffix;
 }
 
 }  // namespace episcope::io

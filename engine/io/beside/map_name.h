@@ -33,7 +33,4 @@ struct NumberedName {
 };
 [[nodiscard]] NumberedName numbered_name(const std::string& name);
 
-/// ".npy" for "A.NPY".
-[[nodiscard]] std::string lower_suffix(const std::filesystem::path& path);
-
 }  // namespace episcope::io

@@ -86,7 +86,7 @@ Explanation explain_views(const LightField::Samples& samples, ViewIndex at,
                           const DisparityView& map, double factor) {
   const ScaledMap disparity = scaled(map, factor);
   Explanation best = explanation_of(warp_errors(samples, at, disparity.view()));
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   if (best.error <= kPlain * best.unwarped || !has_four_neighbours(grid, at)) return best;
   Explanation exchanged =
       explanation_of(warp_errors(transposed_cross(samples, at), {1, 1}, disparity.view()));

@@ -106,7 +106,7 @@ bool NearSide::is_decided() const {
 
 NearSide find_near_side(const LightField::Samples& samples, ViewIndex at, const DisparityView& map,
                         double factor, const Explanation& explanation) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const Image<float> here = grey_levels(samples, at);
   Sums sums;
   for (const bool is_along_x : {true, false}) {

@@ -73,7 +73,7 @@ std::string image_kind(const fs::path& path) {
   const std::string name = path.filename().string();
   const std::size_t mark = path.stem().string().rfind('_');
   std::string kind = mark == std::string::npos ? suffix_of(path) : name.substr(mark);
-  std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+  std::erase_if(kind, is_digit);
   return kind;
 }
 

@@ -13,19 +13,6 @@ namespace {
 
 constexpr std::size_t kLongestCount = 18;  ///< Digits that a long long holds.
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
-}
-
-std::size_t end_of_digits(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at])) ++at;
-  return at;
-}
-
 /// The end of the number that begins with the digit at `begin`: digits, maybe with a fraction,
 /// maybe with an exponent that has a sign ("5.9e-08", but not "12e4", which is no number in a
 /// name).

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/core/text/character.h"
 #include "engine/io/grid/name_matcher.h"
-
-#include <cctype>
 
 namespace episcope::io {
 namespace {
@@ -13,19 +12,6 @@ struct Part {
   Kind kind = Kind::Byte;
   char byte = 0;
 };
-
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
-char lower(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
-std::size_t end_of_digits(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_digit(text[at])) ++at;
-  return at;
-}
 
 /// Every place at which the number that begins at `begin` may end, the farthest first.
 std::vector<std::size_t> ends_of_number(std::string_view name, std::size_t begin,
@@ -39,7 +25,7 @@ std::vector<std::size_t> ends_of_number(std::string_view name, std::size_t begin
       end = end_of_digits(name, end + 1);
     }
     std::size_t exponent = end;
-    if (exponent < name.size() && lower(name[exponent]) == 'e') {
+    if (exponent < name.size() && lower_case(name[exponent]) == 'e') {
       ++exponent;
       if (exponent < name.size() && (name[exponent] == '-' || name[exponent] == '+')) ++exponent;
       const std::size_t stop = end_of_digits(name, exponent);
@@ -66,7 +52,7 @@ class Wildcards final : public NameMatcher {
         parts_.push_back({Part::Kind::Character});
         ++at;
       } else {
-        parts_.push_back({Part::Kind::Byte, lower(pattern[at++])});
+        parts_.push_back({Part::Kind::Byte, lower_case(pattern[at++])});
       }
     }
   }
@@ -118,7 +104,7 @@ class Wildcards final : public NameMatcher {
     const std::string_view name = search.name;
     switch (parts_[part].kind) {
       case Part::Kind::Byte:
-        return at < name.size() && lower(name[at]) == parts_[part].byte &&
+        return at < name.size() && lower_case(name[at]) == parts_[part].byte &&
                matches(search, part + 1, at + 1);
       case Part::Kind::Character: {
         if (at == name.size()) return false;

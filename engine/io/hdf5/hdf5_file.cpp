@@ -194,13 +194,12 @@ std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   return found;
 }
 
-Hdf5Dataset Hdf5Input::dataset(const std::string& name) const {
+Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advice) const {
   if (!has(name)) {
     const std::string held = joined(datasets(), ", ", &Hdf5Dataset::name);
     throw IoError(path_, "there is no dataset " + name + " in this file, which holds " +
                              (held.empty() ? "no dataset at all; choose another file"
-                                           : held + "; choose another file, or name the dataset of "
-                                                    "a light field with --dataset"));
+                                           : held + "; " + advice));
   }
   const Hdf5Lock session;
   if (is_group(file_, name)) {

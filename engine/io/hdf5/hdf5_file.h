@@ -54,8 +54,10 @@ class Hdf5Input {
   [[nodiscard]] bool has(const std::string& name) const;
   /// Datasets of the root group and of the groups in it, at most three deep, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
-  /// Throws IoError, naming what the file holds, if there is no such dataset; also for a group.
-  [[nodiscard]] Hdf5Dataset dataset(const std::string& name) const;
+  /// Throws IoError, naming what the file holds and what to do, if there is no such dataset; also
+  /// for a group.
+  [[nodiscard]] Hdf5Dataset dataset(const std::string& name,
+                                    const std::string& advice = "choose another file") const;
 
   /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
   template <class T>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/mosaic/mosaic_name.h"
 
+#include "engine/core/text/suffix.h"
 #include "engine/io/grid/decode_image.h"
 
 #include <algorithm>
@@ -22,9 +23,7 @@ bool ends_with_word(const std::string& stem, std::string_view word) {
 
 MosaicName mosaic_name(const std::filesystem::path& path) {
   if (!is_image_name(path)) return MosaicName::Plain;
-  std::string stem = path.stem().string();
-  std::ranges::transform(stem, stem.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string stem = lower_case(path.stem().string());
   if (ends_with_word(stem, "eslf")) return MosaicName::Eslf;
   for (const char* word : {"macpi", "lenslet", "lenslets"}) {
     if (ends_with_word(stem, word)) return MosaicName::Lenslets;

@@ -15,10 +15,6 @@
 namespace episcope::io {
 namespace {
 
-GridShape grid_of(const LightField::Samples& samples) {
-  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
-}
-
 void crop_positions(std::vector<CameraPosition>& positions, const ViewCrop& crop) {
   if (positions.size() != static_cast<std::size_t>(crop.stored.count())) return;
   std::vector<CameraPosition> kept;

@@ -18,8 +18,7 @@ constexpr std::size_t kMostKinds = 20;  ///< Of files not used; more are told ap
 std::string kind_by_numbers(const std::string& name) {
   std::string kind;
   for (const char c : name) {
-    const bool is_digit = c >= '0' && c <= '9';
-    if (!is_digit) {
+    if (!is_digit(c)) {
       kind += c;
     } else if (kind.empty() || kind.back() != '#') {
       kind += '#';

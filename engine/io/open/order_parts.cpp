@@ -9,10 +9,6 @@
 namespace episcope::io {
 namespace {
 
-GridShape grid_of(const LightField::Samples& samples) {
-  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
-}
-
 /// Swaps rows and columns of views where the motion between them says so; returns the evidence.
 std::string order_axes(SceneParts& parts, bool are_axes_known, ConventionReport& report,
                        const Progress& progress) {

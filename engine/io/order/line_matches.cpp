@@ -37,7 +37,7 @@ class Axis {
  public:
   Axis(const LightField::Samples& samples, bool is_v, int side)
       : samples_(samples), is_v_(is_v), side_(side) {
-    const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+    const GridShape grid = grid_of(samples);
     center_ = grid.center();
     reach_ = is_v ? std::min(center_.v, grid.v - 1 - center_.v)
                   : std::min(center_.u, grid.u - 1 - center_.u);

@@ -327,7 +327,7 @@ ListLayout find_list_layout(int count, const GreyViewOfList& view, const Progres
 }
 
 ListLayout find_list_layout(const LightField::Samples& samples, const Progress& progress) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   return find_list_layout(
       grid.count(), [&](int i) { return grey_levels(samples, grid.view_at(i)); }, progress);
 }

@@ -134,10 +134,6 @@ ViewFlip chosen_flip(Flip choice) {
   return {choice == Flip::U || choice == Flip::Both, choice == Flip::V || choice == Flip::Both};
 }
 
-GridShape grid_of(const LightField::Samples& samples) {
-  return std::visit([](const auto& stack) { return stack.grid(); }, samples);
-}
-
 /// The order chosen by a user, and what the check has to say to it.
 void follow(ViewFlip chosen, const Checked& checked, OrderFinding& finding) {
   finding.flip = chosen;

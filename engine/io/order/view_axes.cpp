@@ -19,7 +19,7 @@ constexpr double kWithoutDoubt = 8;
 
 AxisEvidence evidence_along(const LightField::Samples& samples, bool is_v,
                             const Progress& progress) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const ViewIndex center = grid.center();
   const auto picture = [&](ViewIndex view) { return MotionPictures(grey_levels(samples, view)); };
   AxisEvidence clearest;

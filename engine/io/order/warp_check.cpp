@@ -66,7 +66,7 @@ void add_neighbour(const Image<float>& center, const Image<float>& neighbour, bo
 
 AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is_u,
                        const DisparityView& disparity) {
-  const GridShape grid = std::visit([](const auto& stack) { return stack.grid(); }, samples);
+  const GridShape grid = grid_of(samples);
   const Image<float> center = grey_levels(samples, at);
   AxisErrors errors;
   for (const int step : {-1, 1}) {

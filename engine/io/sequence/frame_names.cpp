@@ -21,10 +21,6 @@ struct Numbered {
   long number = 0;
 };
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-
 /// A name with one number; none if it has no number, several, or one of too many digits.
 std::optional<Numbered> numbered(const fs::path& path) {
   constexpr std::size_t most_digits = 9;
