@@ -68,7 +68,7 @@ Texture draw_texture(Draw draw, Finish finish, double pixel_units, double contra
       return texture;
     }
     case Finish::Plain: {
-      const double own = contrast * draw.between(0, 0.07);
+      const double own = contrast * draw.between(0.03, 0.12);
       return draw_noise(draw, pixel_units, own);
     }
     case Finish::Periodic: {

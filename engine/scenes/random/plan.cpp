@@ -95,7 +95,8 @@ Plan draw_plan(Draw draw, RandomKind kind) {
       plan.objects = draw.integer(8, 40);
       break;
     case RandomKind::Plain:
-      plan.finishes = {0.1, 0.9, 0, 0};
+      plan.finishes = {0.3, 0.7, 0, 0};
+      plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 2));
       break;
     case RandomKind::Periodic:
       plan.finishes = {0.15, 0, 0.85, 0};
