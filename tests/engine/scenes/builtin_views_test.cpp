@@ -155,7 +155,8 @@ class BuiltinViewsTest : public QObject {
     }
     QVERIFY(seen > 20 * kSize * kSize);
     // Some random scenes are crowded with small round things.
-    QVERIFY2(farther < seen / (id.startsWith("random") ? 500 : 1000), qPrintable(QString::number(farther)));
+    QVERIFY2(farther < seen / (id.startsWith("random") ? 500 : 1000),
+             qPrintable(QString::number(farther)));
   }
 
   void labels_moveWithTheirSurface() {
