@@ -1,61 +1,109 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Prints a Markdown table: how well every method does on scenes whose truth is known.
+// Prints Markdown tables: how well every method does on scenes whose truth is known.
 #include "engine/core/error.h"
-#include "engine/disparity/registry.h"
-#include "engine/io/open/open.h"
-#include "engine/scenes/builtin.h"
-#include "tests/accuracy/measure.h"
+#include "tests/accuracy/means.h"
+#include "tests/accuracy/scene_sets.h"
+#include "tests/accuracy/variant.h"
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <string>
 
 namespace {
 
 using namespace episcope;
+using namespace episcope::accuracy;
 
-void print_rows(const std::string& name, const Scene& scene) {
-  for (const Estimator& estimator : registered_estimators()) {
-    const auto row = accuracy::table_row(accuracy::measure(name, scene, estimator, Progress()));
-    std::fputs(row.c_str(), stdout);
-    std::fflush(stdout);
+struct Request {
+  std::string set = "choosing";
+  std::vector<std::string> scenes;
+  std::vector<std::string> methods;
+  std::vector<std::string> settings;
+  std::string profile;
+  std::string data;
+  std::string sets = EPISCOPE_SCENE_SETS;
+  bool is_small = false;
+  bool center_only = false;
+  int threads = 0;
+};
+
+void declare(CLI::App& app, Request& request) {
+  app.add_option("--set", request.set,
+                 "choosing (defaults are chosen on it) or reporting (never looked at to choose)")
+      ->check(CLI::IsMember({"choosing", "reporting"}));
+  app.add_option("--scenes", request.scenes, "Only scenes whose names contain one of these")
+      ->delimiter(',');
+  app.add_option("--methods", request.methods, "Ids of methods, as epi_l,st_ch_g; by default all")
+      ->delimiter(',');
+  app.add_option("--param", request.settings,
+                 "key=value for all methods that have it, or method.key=value; may be repeated");
+  app.add_option("--profile", request.profile, "As --param profile=NAME: paper or tuned");
+  app.add_flag("--center", request.center_only, "Estimate the centre view alone, which is faster");
+  app.add_flag("--small", request.is_small, "Built-in scenes of 256×256 px instead of 512×512");
+  app.add_option("--threads", request.threads, "Number of threads; 0 = one per processor");
+  app.add_option("--data", request.data, "Folder that holds the scenes still_life and cotton")
+      ->envname("EPISCOPE_SHARED_DATA")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--sets", request.sets, "The file with the sets")->check(CLI::ExistingFile);
+}
+
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
+// A method that refuses a scene is told of and left out of the means.
+void measure_all(const std::string& group, const std::string& name, const Scene& scene,
+                 const Request& request, const std::vector<Variant>& variants,
+                 std::vector<Measurement>& measurements) {
+  const auto views = request.center_only ? ViewSelection::Center : ViewSelection::All;
+  for (const Variant& variant : variants) {
+    try {
+      Measurement measured =
+          measure(name, scene, variant.estimator, variant.values, views, Progress(request.threads));
+      measured.group = group;
+      print(table_row(measured));
+      measurements.push_back(std::move(measured));
+    } catch (const Error& error) {
+      std::fprintf(stderr, "%s, %s: %s\n", name.c_str(), variant.estimator.info.name.c_str(),
+                   error.what());
+    }
   }
 }
 
-void print_builtin(const char* id, int size) {
-  scenes::RenderOptions options;
-  options.height = size;
-  options.width = size;
-  print_rows(std::string(id) + " " + std::to_string(size),
-             scenes::render_builtin(id, options, Progress()));
-}
-
-// Stored scenes are optional: one that is not there is left out.
-void print_stored(const std::filesystem::path& folder, const char* name) {
-  if (folder.empty() || !std::filesystem::exists(folder / name)) return;
-  const Scene scene = io::open_scene(folder / name, {}, Progress());
-  if (scene.truth->field.contains(scene.light_field->center())) print_rows(name, scene);
+void run(Request request) {
+  if (!request.profile.empty()) request.settings.push_back("profile=" + request.profile);
+  const std::vector<Variant> methods = variants(request.methods, request.settings);
+  const std::vector<SceneSet> sets = read_scene_sets(request.sets);
+  const SceneSet set =
+      scenes_with(*std::ranges::find(sets, request.set, &SceneSet::name), request.scenes);
+  const int size = request.is_small ? 256 : 512;
+  std::vector<Measurement> measurements;
+  print("Set of scenes: " + set.name + "; built-in ones of 9×9 views of " + std::to_string(size) +
+        "×" + std::to_string(size) + " px.\n\n" + table_head());
+  for (const SceneGroup& group : set.groups) {
+    for (const std::string& name : group.scenes) {
+      const auto scene = open_scene_of_set(name, size, request.data, Progress(request.threads));
+      if (scene) {
+        measure_all(set.name + ", " + group.name, name, *scene, request, methods, measurements);
+      } else {
+        std::fprintf(stderr, "%s is left out: it is not in the folder --data\n", name.c_str());
+      }
+    }
+  }
+  print("\n" + means_table(means_of(measurements, set.name + ", all")));
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("Errors of every method, with default parameters, on scenes with known truth.");
-  bool small = false;
-  std::string data;
-  app.add_flag("--small", small, "Built-in scenes of 256×256 px instead of 512×512");
-  app.add_option("--data", data, "Folder that holds the scenes still_life and cotton")
-      ->envname("EPISCOPE_SHARED_DATA")
-      ->check(CLI::ExistingDirectory);
+  Request request;
+  declare(app, request);
   CLI11_PARSE(app, argc, argv);
   try {
-    std::fputs(accuracy::table_head().c_str(), stdout);
-    for (const char* id : {"fronto", "slant", "edge", "bars", "objects", "demo"}) {
-      print_builtin(id, small ? 256 : 512);
-    }
-    for (const char* name : {"still_life", "cotton"}) print_stored(data, name);
+    run(std::move(request));
   } catch (const Error& error) {
     std::fprintf(stderr, "episcope_accuracy: %s\n", error.what());
     return 1;

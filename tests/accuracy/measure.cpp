@@ -3,7 +3,9 @@
 
 #include "engine/evaluation/metrics/metrics.h"
 
-#include <cstdio>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <limits>
 
 namespace episcope::accuracy {
@@ -13,13 +15,25 @@ double metric(const Evaluation& evaluation, const char* key) {
   return find_metric(evaluation.metrics, key).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
+Interval range_of(const DisparityView& view) {
+  Interval range{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest()};
+  for (int y = 0; y < view.disparity.height; ++y) {
+    for (int x = 0; x < view.disparity.width; ++x) {
+      if (!view.is_valid(y, x)) continue;
+      const double disparity = view.disparity.at(y, x);
+      range = {std::min(range.min, disparity), std::max(range.max, disparity)};
+    }
+  }
+  return range;
+}
+
 }  // namespace
 
 Measurement measure(const std::string& name, const Scene& scene, const Estimator& estimator,
-                    const Progress& progress) {
+                    const ParameterSet& values, ViewSelection views, const Progress& progress) {
   const ViewIndex center = scene.light_field->center();
-  const auto views = estimator.info.all_views ? ViewSelection::All : ViewSelection::Center;
-  const Estimate estimate = estimator.run(*scene.light_field, {}, {.views = views}, progress);
+  if (!estimator.info.all_views) views = ViewSelection::Center;
+  const Estimate estimate = estimator.run(*scene.light_field, values, {.views = views}, progress);
   const auto judge = [&](Protocol protocol) {
     return evaluate(estimate.field.view(center), scene.truth->field.view(center), {},
                     {.protocol = protocol});
@@ -35,21 +49,21 @@ Measurement measure(const std::string& name, const Scene& scene, const Estimator
   result.seconds = estimate.seconds;
   result.views = estimate.field.disparity.grid().count();
   result.range = estimate.range;
+  result.truth = range_of(scene.truth->field.view(center));
   return result;
 }
 
 std::string table_head() {
-  return "| scene | method | MSE×100 | MSE×100, inset 15 | BadPix(0.07) % | seconds | views | "
-         "range px "
-         "|\n|---|---|---:|---:|---:|---:|---:|---|\n";
+  return "| set | scene | method | MSE×100 | MSE×100, inset 15 | BadPix(0.07) % | seconds | views "
+         "| range px | truth px |\n|---|---|---|---:|---:|---:|---:|---:|---|---|\n";
 }
 
 std::string table_row(const Measurement& m) {
-  char text[300];
-  std::snprintf(text, sizeof text, "| %s | %s | %.3f | %.3f | %.2f | %.2f | %d | %.2f to %.2f |\n",
-                m.scene.c_str(), m.method.c_str(), m.mse_100, m.mse_100_inset15, m.badpix_0070,
-                m.seconds, m.views, m.range.min, m.range.max);
-  return text;
+  return fmt::format(
+      "| {} | {} | {} | {:.3f} | {:.3f} | {:.2f} | {:.2f} | {} | {:.2f} to {:.2f} | {:.2f} to "
+      "{:.2f} |\n",
+      m.group, m.scene, m.method, m.mse_100, m.mse_100_inset15, m.badpix_0070, m.seconds, m.views,
+      m.range.min, m.range.max, m.truth.min, m.truth.max);
 }
 
 }  // namespace episcope::accuracy

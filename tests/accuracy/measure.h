@@ -9,8 +9,9 @@
 
 namespace episcope::accuracy {
 
-/// How one method did on one scene, with its default parameters; errors of the centre view.
+/// How one method did on one scene; errors of the centre view.
 struct Measurement {
+  std::string group;  ///< "choosing, thin": the set of scenes, and which part of it.
   std::string scene;
   std::string method;
   double mse_100 = 0;          ///< Protocol vmv2013, all pixels with truth.
@@ -18,12 +19,15 @@ struct Measurement {
   double badpix_0070 = 0;      ///< Protocol benchmark2016, per cent.
   double seconds = 0;          ///< For `views` views.
   int views = 0;
-  Interval range;
+  Interval range;  ///< That was searched,
+  Interval truth;  ///< and that is there.
 };
 
-/// Runs `estimator` for all views if it can. The scene must have truth for its centre view.
+/// Runs `estimator` with `values` over its defaults for all views if it can, or for the centre view
+/// alone. The scene must have truth for its centre view. Throws as the estimator.
 [[nodiscard]] Measurement measure(const std::string& name, const Scene& scene,
-                                  const Estimator& estimator, const Progress& progress);
+                                  const Estimator& estimator, const ParameterSet& values,
+                                  ViewSelection views, const Progress& progress);
 
 /// The head of a Markdown table of measurements, and a row.
 [[nodiscard]] std::string table_head();

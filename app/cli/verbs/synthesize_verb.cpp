@@ -5,10 +5,11 @@
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "engine/io/archive/write_scene.h"
-#include "engine/scenes/builtin.h"
+#include "engine/scenes/request.h"
 
 #include <iostream>
 #include <limits>
+#include <optional>
 
 namespace episcope::cli {
 namespace {
@@ -20,10 +21,10 @@ constexpr double kMostNoise = 255;
 struct Request {
   std::string scene;
   std::string output;
-  Extent views{9, 9};
-  Extent size{512, 512};
-  double noise = 0;
-  int seed = 1;
+  std::optional<Extent> views;
+  std::optional<Extent> size;
+  std::optional<double> noise;
+  std::optional<int> seed;
   Overwrite overwrite = Overwrite::No;
   JobOptions job;
 };
@@ -42,7 +43,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser("synthesize", {list_of_scenes(),
                                   "episcope-cli synthesize edge -o lf.h5 --views 9x9 "
                                   "--size 256x256"});
-  parser.positional("SCENE", request.scene, "Id of a built-in scene");
+  parser.positional("SCENE", request.scene,
+                    "Id of a built-in scene, of a random one with its kind: 'random?kind=thin'");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
                          "Light field to write");
   parser.option("--views", request.views, extent_value("VxU", kMostViews),
@@ -52,20 +54,24 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
                 "Standard deviation of Gaussian noise, in grey levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
-                "Seed of the noise (default 1)");
+                "Seed of a random scene, and of the noise (default 1)");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);
 }
 
-scenes::RenderOptions render_options(const Request& request) {
-  scenes::RenderOptions options;
-  options.grid = {request.views.first, request.views.second};
-  options.width = request.size.first;
-  options.height = request.size.second;
-  options.noise_sigma = request.noise;
-  options.seed = static_cast<unsigned>(request.seed);
-  return options;
+// What the scene says of itself, and options over it.
+scenes::BuiltinRequest scene_of(const Request& request) {
+  scenes::BuiltinRequest scene = scenes::read_request(request.scene);
+  scenes::RenderOptions& options = scene.options;
+  if (request.views) options.grid = {request.views->first, request.views->second};
+  if (request.size) {
+    options.width = request.size->first;
+    options.height = request.size->second;
+  }
+  options.noise_sigma = request.noise.value_or(options.noise_sigma);
+  if (request.seed) options.seed = static_cast<unsigned>(*request.seed);
+  return scene;
 }
 
 }  // namespace
@@ -74,13 +80,13 @@ void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
   check_builtin_scene(request.scene);
-  const scenes::RenderOptions options = render_options(request);
+  const auto [id, options] = scene_of(request);
   check_hdf5_output("synthesize", request.output);
   check_light_field_output(request.output, request.overwrite);
 
   Job job(std::move(stop), request.job);
   job.progress().step("rendering " + request.scene);
-  const Scene scene = scenes::render_builtin(request.scene, options, job.progress().part(0, 0.9));
+  const Scene scene = scenes::render_builtin(id, options, job.progress().part(0, 0.9));
   job.progress().step("writing " + request.output);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();

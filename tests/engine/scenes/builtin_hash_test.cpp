@@ -1,8 +1,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "engine/scenes/builtin.h"
+#include "engine/scenes/request.h"
 #include "tests/test_main.h"
 
 namespace episcope::in_builtin_hash_test {
+
+namespace {
+
+// Kinds and their seeds: every form, finish and sensor is met.
+void add_random_scenes() {
+  const auto add = [](const char* id, quint64 hash) { QTest::newRow(id) << id << 0.0 << hash; };
+  add("random?seed=7", 0x7cccb2ad7d0bcc52ULL);
+  add("random?seed=1&kind=occlusion", 0xd8f5bdb4ddb97fd9ULL);
+  add("random?seed=2&kind=dark", 0x758b9a825dc92667ULL);
+  add("random?seed=3&kind=thin", 0x3ca4ad121d585b7cULL);
+  add("random?seed=4&kind=plain", 0x0661b543c06bf943ULL);
+  add("random?seed=5&kind=periodic", 0x719bcd9423afade5ULL);
+  add("random?seed=6&kind=shiny", 0xe91a8395ecd61199ULL);
+  add("random?seed=7&kind=uneven", 0x3929207e676ea559ULL);
+  add("random?seed=8&kind=noisy", 0x45cf11075b55b3d1ULL);
+}
+
+}  // namespace
 
 // The samples of every scene are recorded, so that any change is noticed, and every machine,
 // instruction set and compiler must give the same bytes.
@@ -21,19 +39,20 @@ class BuiltinHashTest : public QObject {
     QTest::newRow("bars") << "bars" << 0.0 << quint64{0x25f1beb119f509c1ULL};
     QTest::newRow("objects") << "objects" << 0.0 << quint64{0x743bee42456449f5ULL};
     QTest::newRow("transparent") << "transparent" << 0.0 << quint64{0xe4efdec229f4aad7ULL};
+    add_random_scenes();
     QTest::newRow("fronto, noise") << "fronto" << 5.0 << quint64{0x1198548849601a94ULL};
   }
   void samples_areTheRecordedOnes() {
     QFETCH(QString, id);
     QFETCH(double, noise);
     QFETCH(quint64, hash);
-    scenes::RenderOptions options;
+    auto [scene_id, options] = scenes::read_request(id.toStdString());
     options.grid = {3, 3};
     options.height = 120;
     options.width = 160;
     options.noise_sigma = noise;
 
-    const Scene scene = scenes::render_builtin(id.toStdString(), options, Progress());
+    const Scene scene = scenes::render_builtin(scene_id, options, Progress());
 
     const quint64 actual = scene.light_field->sample_hash();
     QVERIFY2(actual == hash, qPrintable("now 0x" + QString::number(actual, 16)));

@@ -42,6 +42,7 @@ class LoadSceneTest : public QObject {
   void unwritableFolder_keepsNothing();
   void otherOptions_areKeptApart();
   void builtinScene_isTheSameFromTheCache();
+  void sceneWithOptions_isRenderedAndNotKept();
   void unknownBuiltinScene_isRefused();
   void scribblesBesideAnImageGrid_areRead();
   void missingFile_isRefusedWithItsPath();
@@ -175,6 +176,23 @@ void LoadSceneTest::builtinScene_isTheSameFromTheCache() {
   QCOMPARE(kept.light_field->info().source, std::string("demo:fronto"));
   QCOMPARE(rendered.light_field->info().source, std::string("demo:fronto"));
   QCOMPARE(kept.light_field->info().name, rendered.light_field->info().name);
+}
+
+void LoadSceneTest::sceneWithOptions_isRenderedAndNotKept() {
+  const QTemporaryDir folder;
+  LoadOptions options;
+  options.cache_folder = path_of(folder);
+  const std::string input = "demo:random?seed=7&kind=thin&size=40x32&grid=3x5";
+
+  const Scene scene = load_scene(input, options, Progress());
+  store_in_cache(input, scene, options.cache_folder, Progress());
+
+  QCOMPARE(scene.light_field->grid(), (GridShape{3, 5}));
+  QCOMPARE(scene.light_field->width(), 40);
+  QCOMPARE(scene.light_field->height(), 32);
+  QCOMPARE(scene.light_field->info().name, std::string("random_thin_7"));
+  QCOMPARE(scene.light_field->info().source, input);
+  QVERIFY(std::filesystem::is_empty(path_of(folder)));
 }
 
 void LoadSceneTest::unknownBuiltinScene_isRefused() {

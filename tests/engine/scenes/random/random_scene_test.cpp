@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/scenes/random/random_scene.h"
+
+#include "engine/scenes/builtin.h"
+#include "tests/test_main.h"
+
+#include <algorithm>
+#include <set>
+
+namespace episcope::in_random_scene_test {
+
+using scenes::RandomKind;
+
+namespace {
+
+constexpr int kSize = 48;
+constexpr double kMostDisparity = 3.5;
+
+Scene render(unsigned seed, RandomKind kind, GridShape grid, int size = kSize) {
+  scenes::RenderOptions options;
+  options.grid = grid;
+  options.height = options.width = size;
+  options.seed = seed;
+  options.kind = kind;
+  return scenes::render_builtin("random", options, Progress());
+}
+
+Interval range_of(const ViewStack<float>& disparity) {
+  const auto [min, max] =
+      std::minmax_element(disparity.data(), disparity.data() + disparity.size());
+  return {*min, *max};
+}
+
+std::set<int> labels_of(const Scene& scene) {
+  const auto& labels = scene.truth->labels;
+  return {labels.data(), labels.data() + labels.size()};
+}
+
+std::vector<RandomKind> all_kinds() {
+  std::vector<RandomKind> kinds;
+  for (std::size_t i = 0; i < scenes::random_kind_names().size(); ++i) {
+    kinds.push_back(static_cast<RandomKind>(i));
+  }
+  return kinds;
+}
+
+void add_every_kind() {
+  QTest::addColumn<int>("kind");
+  for (const RandomKind kind : all_kinds()) {
+    QTest::newRow(scenes::random_kind_name(kind).c_str()) << static_cast<int>(kind);
+  }
+}
+
+double mean_sample(const Scene& scene) {
+  const Image<float> view = scene.light_field->view_as_float(scene.light_field->center());
+  double sum = 0;
+  for (const float sample : view) sum += static_cast<double>(sample);
+  return 255 * sum / static_cast<double>(view.size());
+}
+
+}  // namespace
+
+class RandomSceneTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void disparities_lieWithinTheLimitInAllViews_data() { add_every_kind(); }
+  void disparities_lieWithinTheLimitInAllViews() {
+    QFETCH(int, kind);
+
+    for (unsigned seed = 0; seed < 6; ++seed) {
+      const Scene scene = render(seed, static_cast<RandomKind>(kind), {9, 9}, 32);
+
+      const Interval range = range_of(scene.truth->field.disparity);
+      QVERIFY2(range.min >= -kMostDisparity - 1e-5 && range.max <= kMostDisparity + 1e-5,
+               qPrintable(QString("seed %1: %2 to %3").arg(seed).arg(range.min).arg(range.max)));
+      const auto& valid = scene.truth->field.valid;
+      QVERIFY(std::all_of(valid.data(), valid.data() + valid.size(),
+                          [](std::uint8_t is_valid) { return is_valid != 0; }));
+    }
+  }
+
+  void seeds_giveDifferentScenes() {
+    std::set<std::uint64_t> hashes;
+    for (const RandomKind kind : all_kinds()) {
+      for (unsigned seed = 0; seed < 20; ++seed) {
+        hashes.insert(render(seed, kind, {1, 1}).light_field->sample_hash());
+      }
+    }
+    QCOMPARE(hashes.size(), 20 * all_kinds().size());
+  }
+
+  void ranges_areNarrowAndWideAndOneSided() {
+    int narrow = 0;
+    int wide = 0;
+    int one_sided = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+      const Scene scene = render(seed, RandomKind::Any, {1, 1});
+      const Interval range = range_of(scene.truth->field.disparity);
+      narrow += range.length() < 1.2;
+      wide += range.length() > 3;
+      one_sided += range.min > 0 || range.max < 0;
+    }
+    QVERIFY(narrow >= 4 && wide >= 4 && one_sided >= 4);
+  }
+
+  void objects_areFewOrManyAndInSight() {
+    std::size_t fewest = 1000;
+    std::size_t most = 0;
+    for (unsigned seed = 0; seed < 40; ++seed) {
+      const std::size_t labels = labels_of(render(seed, RandomKind::Any, {1, 1}, 160)).size();
+      QVERIFY2(labels >= 3, qPrintable(QString::number(seed)));
+      fewest = std::min(fewest, labels);
+      most = std::max(most, labels);
+    }
+    // A wall or ground and the objects.
+    QVERIFY(fewest <= 6);
+    QVERIFY(most >= 25);
+  }
+
+  void dark_isDarkAndWide() {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const Scene scene = render(seed, RandomKind::Dark, {1, 1}, 96);
+
+      QVERIFY(mean_sample(scene) < 90);
+      const Interval range = range_of(scene.truth->field.disparity);
+      QVERIFY(range.min < -2 && range.min > -3.2 && range.max < 3.2);
+    }
+  }
+
+  void occlusion_hasBarsAndGrowingNoise() {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const auto model = scenes::random_scene(96, 96, seed, RandomKind::Occlusion).model;
+
+      QVERIFY(model.sensor.noise_bottom >= model.sensor.noise_top + 2);
+      QVERIFY(std::ranges::any_of(model.primitives, [](const scenes::Primitive& primitive) {
+        return primitive.shape == scenes::Shape::Lattice;
+      }));
+    }
+  }
+
+  void thin_hasMoreThinThings() {
+    const auto share = [](RandomKind kind) {
+      std::size_t thin = 0;
+      std::size_t all = 0;
+      for (unsigned seed = 0; seed < 30; ++seed) {
+        for (const auto& primitive : scenes::random_scene(96, 96, seed, kind).model.primitives) {
+          ++all;
+          thin +=
+              primitive.shape == scenes::Shape::Lattice || primitive.shape == scenes::Shape::Leaf;
+        }
+      }
+      return static_cast<double>(thin) / static_cast<double>(all);
+    };
+    QVERIFY(share(RandomKind::Thin) > 1.2 * share(RandomKind::Any));
+    QVERIFY(share(RandomKind::Thin) > 2 * share(RandomKind::Shiny));
+  }
+
+  void shiny_hasHighlightsThatMove() {
+    const auto model = scenes::random_scene(96, 96, 3, RandomKind::Shiny).model;
+
+    QVERIFY(model.lighting.is_on && model.lighting.has_moving_highlights);
+    QVERIFY(std::ranges::any_of(model.textures,
+                                [](const scenes::Texture& texture) { return texture.gloss > 0; }));
+  }
+};
+
+}  // namespace episcope::in_random_scene_test
+
+EPISCOPE_TEST(random_scene_test, RandomSceneTest)
+#include "random_scene_test.moc"
