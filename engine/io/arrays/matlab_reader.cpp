@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/matlab_reader.h"
 
-#include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/array_scene.h"
 #include "engine/io/arrays/folder_file.h"
 #include "engine/io/arrays/hdf5_arrays.h"
 #include "engine/io/arrays/mat5_file.h"
+#include "engine/io/arrays/matlab_file.h"
 
 namespace episcope::io {
 namespace {
@@ -25,22 +25,12 @@ fs::path find_matlab(const fs::path& path, const OpenOptions&) {
   return has_hdf5_signature(path) && is_matlab_hdf5(Hdf5Input(path)) ? path : fs::path();
 }
 
-std::unique_ptr<const ArrayFile> matlab_file(const fs::path& path) {
-  if (is_mat5_file(path)) return std::make_unique<const Mat5File>(path);
-  if (!has_hdf5_signature(path)) {
-    throw IoError(path,
-                  "this is not a MATLAB file of version 5 or later, despite its name; choose "
-                  "another file");
-  }
-  return std::make_unique<const Hdf5Arrays>(std::make_shared<const Hdf5Input>(path));
-}
-
 Scene read_matlab(const fs::path& path, const OpenOptions& options, const Progress& progress) {
-  return read_array_scene(*matlab_file(path), kMatlabReader, options, progress);
+  return read_array_scene(*open_matlab_file(path), kMatlabReader, options, progress);
 }
 
 SceneProbe probe_matlab(const fs::path& path, const OpenOptions& options) {
-  return probe_arrays(*matlab_file(path), options);
+  return probe_arrays(*open_matlab_file(path), options);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/npy_file.h"
+#include "engine/io/beside/archived_map.h"
 #include "engine/io/beside/map_name.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -56,13 +57,18 @@ ViewStack<T> read_grid(const NpyFile& file, GridShape grid) {
   return stack;
 }
 
-DisparityField read_npy_values(const fs::path& path, GridShape grid) {
-  const NpyFile file(path);
-  DisparityField field;
-  field.disparity = read_grid<float>(file, grid);
-  if (field.empty()) field.disparity = single(read_map(file, file.header().is_fortran));
+/// Values with what is not finite marked as invalid.
+DisparityField marked(ViewStack<float> values) {
+  DisparityField field{std::move(values), {}};
   mark_invalid(field);
   return field;
+}
+
+DisparityField read_npy_values(const fs::path& path, GridShape grid) {
+  const NpyFile file(path);
+  ViewStack<float> maps = read_grid<float>(file, grid);
+  if (maps.empty()) maps = single(read_map(file, file.header().is_fortran));
+  return marked(std::move(maps));
 }
 
 /// The first channel: maps are written as grey, or with the same value in all channels.
@@ -73,13 +79,11 @@ DisparityField read_exr_values(const fs::path& path) {
     throw IoError(path, "this picture has " + describe_image(decoded) +
                             ", but a map needs 32-bit float samples; export it in that format");
   }
-  DisparityField field;
-  field.disparity = ViewStack<float>({1, 1}, image->height(), image->width());
-  for (std::size_t i = 0; i < field.disparity.size(); ++i) {
-    field.disparity.data()[i] = image->data()[i * static_cast<std::size_t>(image->channels())];
+  ViewStack<float> values({1, 1}, image->height(), image->width());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values.data()[i] = image->data()[i * static_cast<std::size_t>(image->channels())];
   }
-  mark_invalid(field);
-  return field;
+  return marked(std::move(values));
 }
 
 StoredLabels read_npy_label_maps(const fs::path& path, GridShape grid) {
@@ -168,17 +172,19 @@ bool is_hdf5(const fs::path& path) {
 }  // namespace
 
 bool can_hold_values(const fs::path& path) {
-  return has_suffix(path, std::array<std::string_view, 7>{".npy", ".pfm", ".tif", ".tiff", ".exr",
-                                                          ".h5", ".hdf5"});
+  return has_suffix(path, std::array<std::string_view, 9>{".npy", ".npz", ".mat", ".pfm", ".tif",
+                                                          ".tiff", ".exr", ".h5", ".hdf5"});
 }
 
 bool can_hold_labels(const fs::path& path) {
-  return has_suffix(path, std::array<std::string_view, 8>{".npy", ".png", ".tif", ".tiff", ".bmp",
-                                                          ".pgm", ".h5", ".hdf5"});
+  return has_suffix(
+      path, std::array<std::string_view, 10>{".npy", ".npz", ".mat", ".png", ".tif", ".tiff",
+                                             ".bmp", ".pgm", ".h5", ".hdf5"});
 }
 
 DisparityField read_values(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_values(path, grid);
+  if (is_archive_of_maps(path)) return marked(read_archived_values(path, grid));
   if (suffix_of(path) == ".exr") return read_exr_values(path);
   DisparityField field = read_disparity_map(path, grid);
   if (!(field.disparity.grid() == GridShape{1, 1}) || field.disparity.first() == ViewIndex{}) {
@@ -197,6 +203,7 @@ DisparityField read_values(const fs::path& path, GridShape grid) {
 
 StoredLabels read_stored_labels(const fs::path& path, GridShape grid) {
   if (suffix_of(path) == ".npy") return read_npy_label_maps(path, grid);
+  if (is_archive_of_maps(path)) return {read_archived_labels(path, grid)};
   if (is_hdf5(path)) return read_hdf5_labels(path, grid);
   return std::visit([&](const auto& image) { return labels_of(image, path); }, decode_image(path));
 }

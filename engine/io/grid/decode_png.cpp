@@ -6,11 +6,13 @@
 
 #include <png.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 
 namespace episcope::io {
 namespace {
@@ -61,13 +63,15 @@ class PngDecoder {
     return true;
   }
 
-  /// Decodes into rows of `row_bytes` that follow each other; false for a damaged file.
-  [[nodiscard]] bool read_rows(png_bytep first) {
+  [[nodiscard]] bool is_interlaced() const { return passes_ > 1; }
+
+  /// Decodes `count` rows of `row_bytes` that follow each other; false for a damaged file.
+  [[nodiscard]] bool read_rows(png_bytep first, int count) {
     if (setjmp(png_jmpbuf(png_)) != 0) return false;
     for (int pass = 0; pass < passes_; ++pass) {
-      for (int y = 0; y < height; ++y) png_read_row(png_, first + y * row_bytes, nullptr);
+      for (int y = 0; y < count; ++y) png_read_row(png_, first + y * row_bytes, nullptr);
     }
-    png_read_end(png_, nullptr);
+    if (count == height) png_read_end(png_, nullptr);
     return true;
   }
 
@@ -91,9 +95,9 @@ class PngDecoder {
 }
 
 template <class T>
-AnyImage read_samples(PngDecoder& png, const fs::path& path) {
-  Image<T> image(png.height, png.width, png.channels);
-  if (!png.read_rows(reinterpret_cast<png_bytep>(image.data()))) refuse(path);
+AnyImage read_samples(PngDecoder& png, const fs::path& path, int rows) {
+  Image<T> image(rows, png.width, png.channels);
+  if (!png.read_rows(reinterpret_cast<png_bytep>(image.data()), rows)) refuse(path);
   return image;
 }
 
@@ -107,11 +111,16 @@ bool has_png_signature(const fs::path& path) {
 }
 
 AnyImage decode_png(const fs::path& path) {
+  return decode_png_top(path, std::numeric_limits<int>::max());
+}
+
+AnyImage decode_png_top(const fs::path& path, int rows) {
   PngDecoder png(path);
   if (!png.read_header() || (png.bits != 8 && png.bits != 16)) refuse(path);
   if (png.row_bytes * png.height / kLargestExpansion > fs::file_size(path)) refuse(path);
-  return png.bits == 8 ? read_samples<std::uint8_t>(png, path)
-                       : read_samples<std::uint16_t>(png, path);
+  const int count = png.is_interlaced() ? png.height : std::min(rows, png.height);
+  return png.bits == 8 ? read_samples<std::uint8_t>(png, path, count)
+                       : read_samples<std::uint16_t>(png, path, count);
 }
 
 }  // namespace episcope::io

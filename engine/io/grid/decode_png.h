@@ -15,4 +15,8 @@ namespace episcope::io {
 /// bytes can hold; memory stays below 1100 times the size of the file.
 [[nodiscard]] AnyImage decode_png(const std::filesystem::path& path);
 
+/// Likewise, only the first `rows` rows at most; what follows them is not looked at. All rows of an
+/// interlaced picture.
+[[nodiscard]] AnyImage decode_png_top(const std::filesystem::path& path, int rows);
+
 }  // namespace episcope::io

@@ -3,6 +3,8 @@
 #include "engine/core/text/character.h"
 #include "engine/io/grid/name_matcher.h"
 
+#include <algorithm>
+
 namespace episcope::io {
 namespace {
 
@@ -122,7 +124,13 @@ class Wildcards final : public NameMatcher {
         break;
     }
     const bool may_have_fraction = parts_[part].kind == Part::Kind::Position;
-    for (const std::size_t end : ends_of_number(name, at, may_have_fraction)) {
+    std::vector<std::size_t> ends = ends_of_number(name, at, may_have_fraction);
+    if (part + 1 < parts_.size() && parts_[part + 1].kind == Part::Kind::Number) {
+      // Digits that run together belong to both by halves, if that fits.
+      const std::size_t half = at + (end_of_digits(name, at) - at) / 2;
+      std::ranges::stable_partition(ends, [&](std::size_t end) { return end == half; });
+    }
+    for (const std::size_t end : ends) {
       if (!matches(search, part + 1, end)) continue;
       search.texts.emplace_back(name.substr(at, end - at));
       return true;

@@ -5,6 +5,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/index_fields.h"
+#include "engine/io/grid/joined_digits.h"
 #include "engine/io/grid/name_pattern.h"
 #include "engine/io/grid/name_words.h"
 
@@ -129,7 +130,8 @@ ViewNames names_of(const Candidate& candidate) {
 }  // namespace
 
 ViewNames find_view_names(const fs::path& folder, const std::vector<fs::path>& images) {
-  const std::vector<NameGroup> groups = group_by_name(images);
+  std::vector<NameGroup> groups = group_by_name(images);
+  std::ranges::for_each(groups, separate_joined_digits);
   const std::vector<Candidate> candidates = candidates_of(groups);
   if (candidates.empty()) refuse(folder, groups, images.size());
   const Candidate& best = best_of(folder, candidates);

@@ -150,9 +150,10 @@ void require_no_gaps(const fs::path& folder, const ViewNames& names, const Numbe
     if (!run.place_of(value)) first.push_back(std::to_string(value));
   }
   const auto count = static_cast<std::size_t>(run.length()) - run.values.size();
-  throw IoError(folder, fmt::format("{} ({}, numbers {}); add {} or {}", missing_text(first, count),
-                                    tried(names), run.text(), count == 1 ? "it" : "them",
-                                    "say by --pattern 'view_{index}.png' that none is missing"));
+  throw IoError(folder,
+                fmt::format("{} ({}, numbers {}); add {} or {}", missing_text(first, count),
+                            tried(names), run.text(), count == 1 ? "it" : "them",
+                            "say by --pattern '" + names.pattern + "' that none is missing"));
 }
 
 PlacedViews place_in_list(const fs::path& folder, const ViewNames& names) {

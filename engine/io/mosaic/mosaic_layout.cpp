@@ -2,6 +2,7 @@
 #include "engine/io/mosaic/mosaic_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/io/grid/image_size.h"
 #include "engine/io/mosaic/lenslet_period.h"
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/mosaic/picture_lines.h"
@@ -150,16 +151,28 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
           "lenslets --lenslet N or --mosaic views --grid RxC, else open a folder of views");
 }
 
+ImageSize size_of(const AnyImage& picture) {
+  return std::visit(
+      [](const auto& image) {
+        return ImageSize{image.height(), image.width()};
+      },
+      picture);
+}
+
+Question question_of(const AnyImage& picture, ImageSize size, const fs::path& path,
+                     const OpenOptions& options) {
+  const MosaicName name = mosaic_name(path);
+  return {
+      path,        name,       stated_kind(options, name),      stated_grid(options),
+      size.height, size.width, picture_lines(picture, Axis::X), picture_lines(picture, Axis::Y)};
+}
+
 }  // namespace
 
 MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
                                 const OpenOptions& options) {
-  const MosaicName name = mosaic_name(path);
-  const auto [height, width] = std::visit(
-      [](const auto& image) { return std::pair(image.height(), image.width()); }, picture);
-  const Question question{
-      path,   name,  stated_kind(options, name),      stated_grid(options),
-      height, width, picture_lines(picture, Axis::X), picture_lines(picture, Axis::Y)};
+  const auto [height, width] = size_of(picture);
+  const Question question = question_of(picture, {height, width}, path, options);
   std::optional<Answer> answer = find_answer(question);
   if (!answer) refuse(question);
   const GridShape grid = answer->grid;
@@ -170,6 +183,14 @@ MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
                                     width, height, grid.v, grid.u));
   }
   return {answer->kind, grid, height / grid.v, width / grid.u, std::move(answer->evidence)};
+}
+
+std::optional<GridShape> find_lenslets(const AnyImage& top, int height, const fs::path& path,
+                                       const OpenOptions& options) {
+  const Question question = question_of(top, {height, size_of(top).width}, path, options);
+  if (question.kind != Mosaic::Lenslets) return std::nullopt;
+  const std::optional<Answer> answer = find_answer(question);
+  return answer ? std::optional(answer->grid) : std::nullopt;
 }
 
 }  // namespace episcope::io

@@ -5,6 +5,7 @@
 #include "engine/io/open/open_options.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 namespace episcope::io {
@@ -25,5 +26,12 @@ struct MosaicLayout {
 [[nodiscard]] MosaicLayout find_mosaic_layout(const AnyImage& picture,
                                               const std::filesystem::path& path,
                                               const OpenOptions& options);
+
+/// Rows and columns of a lenslet of a picture of `height` px of which only `top` is decoded, as
+/// `find_mosaic_layout` would find them if its name tells that it consists of lenslets; nothing
+/// where the top does not tell.
+[[nodiscard]] std::optional<GridShape> find_lenslets(const AnyImage& top, int height,
+                                                     const std::filesystem::path& path,
+                                                     const OpenOptions& options);
 
 }  // namespace episcope::io

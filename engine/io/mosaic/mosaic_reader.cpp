@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/mosaic/mosaic_reader.h"
 
-#include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/decode_png.h"
+#include "engine/io/grid/image_header.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/mosaic/find_mosaic.h"
+#include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/mosaic/split_mosaic.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/center_preview.h"
@@ -79,6 +81,22 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   return scene;
 }
 
+/// Lenslets show their period in a part of the picture, views side by side only in the whole.
+SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
+  constexpr int kRows = 640;
+  const auto header = stated_image_header(path);
+  if (!header || !has_png_signature(path)) return {};
+  const MosaicName name = mosaic_name(path);
+  if (name != MosaicName::Eslf && name != MosaicName::Lenslets) return {};
+  const auto grid = find_lenslets(decode_png_top(path, kRows), header->height, path, options);
+  if (!grid) return {};
+  return {.grid = *grid,
+          .height = header->height / grid->v,
+          .width = header->width / grid->u,
+          .channels = header->channels,
+          .sample_type = header->sample_type};
+}
+
 constexpr const char* kOptions[] = {"flip", "grid", "crop", "mosaic", "lenslet"};
 
 }  // namespace
@@ -88,7 +106,8 @@ Reader mosaic_reader() {
           .name = "a mosaic of views",
           .options = kOptions,
           .find = find_mosaic,
-          .read = read_mosaic};
+          .read = read_mosaic,
+          .probe = probe_mosaic};
 }
 
 }  // namespace episcope::io

@@ -11,6 +11,8 @@
 namespace episcope::io {
 namespace {
 
+constexpr double kShownGain = 0.0005;  ///< Less is 0.0 % in a sentence.
+
 std::string difference_text(const ViewGains& gains) {
   const ViewIndex view = gains.most_different();
   return fmt::format("up to {:.1f} % (view {}: {:.3f})", 100 * std::abs(gains.of(view) - 1),
@@ -51,8 +53,9 @@ void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
     report.gain = "evened out; it differed by " + difference_text(gains);
     if (clipped > 0) report.gain += fmt::format("; {:.2g} % of the samples clipped", 100 * clipped);
   } else {
-    report.gain = "differs by " + difference_text(gains);
-    if (is_wanted) report.gain += "; too little to even it out";
+    const bool is_same = std::abs(gains.of(gains.most_different()) - 1) < kShownGain;
+    report.gain = is_same ? "the same in all views" : "differs by " + difference_text(gains);
+    if (is_wanted && !is_same) report.gain += "; too little to even it out";
   }
   if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
   if (is_wanted || !is_notable) return;

@@ -111,6 +111,21 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>
   Mat_Close(file);
 }
 
+void write_mat5_map(const std::filesystem::path& path, const std::string& name,
+                    ImageView<const float> map) {
+  std::vector<double> numbers;
+  for (int x = 0; x < map.width; ++x) {
+    for (int y = 0; y < map.height; ++y) numbers.push_back(map.at(y, x));
+  }
+  std::size_t dims[] = {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)};
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+  matvar_t* array =
+      Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, numbers.data(), 0);
+  Mat_VarWrite(file, array, MAT_COMPRESSION_NONE);
+  Mat_VarFree(array);
+  Mat_Close(file);
+}
+
 void write_deflated_zip(const std::filesystem::path& path, const std::vector<ZippedFile>& files) {
   std::string archive;
   std::string directory;

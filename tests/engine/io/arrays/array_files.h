@@ -30,6 +30,10 @@ struct Mat5Form {
 void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
                 const Mat5Form& form);
 
+/// Writes one 2-D array of doubles, not compressed.
+void write_mat5_map(const std::filesystem::path& path, const std::string& name,
+                    ImageView<const float> map);
+
 /// A file for a zip archive.
 struct ZippedFile {
   std::string name;

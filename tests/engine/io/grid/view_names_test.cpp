@@ -91,6 +91,11 @@ std::vector<Form> grid_forms() {
        {3, 5},
        [](int r, int c) { return print("%drow_%dcol.png", r, c); }},
       {"{col}s_{row}t.png", {3, 5}, [](int r, int c) { return print("%ds_%dt.png", c, r); }},
+      {"Cam{row}{col}.png",
+       {9, 9},
+       [](int r, int c) { return print("Cam%d%d.png", r + 1, c + 1); }},
+      {"a{row}{col}_b.png", {5, 7}, [](int r, int c) { return print("a%d%d_b.png", r, c); }},
+      {"{row}{col}.png", {17, 17}, [](int r, int c) { return print("%02d%02d.png", r, c); }},
       {"f_{row}_{col}.png", {1, 7}, [](int, int c) { return print("f_00_%02d.png", c); }},
       {"f_{row}_{col}.png", {7, 1}, [](int r, int) { return print("f_%d_1.png", r + 1); }},
   };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
+#include "engine/io/grid/decode_png.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/grid/image_size.h"
 #include "engine/io/mosaic/write_eslf.h"
 #include "engine/io/open/open.h"
+#include "engine/io/open/reader.h"
 #include "engine/io/open/undecided.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
@@ -126,6 +128,38 @@ class MosaicTest : public QObject {
     QVERIFY(QString::fromStdString(read.convention.format).contains("% of the changes"));
     QCOMPARE(read.light_field->info().reading.reader, std::string("mosaic"));
     QCOMPARE(read.convention.files.size(), std::size_t{1});
+  }
+
+  void listOfMosaics_tellsTheViews_data() {
+    QTest::addColumn<QString>("name");
+    QTest::addColumn<bool>("is_told");
+    QTest::newRow("ESLF") << "a_eslf.png" << true;
+    QTest::newRow("MacPI") << "a_macpi.png" << true;
+    QTest::newRow("a name that tells nothing") << "a.png" << false;
+  }
+  void listOfMosaics_tellsTheViews() {
+    QFETCH(QString, name);
+    QFETCH(bool, is_told);
+    const Scene scene = plane({7, 7});
+    write(name.toStdString(), scene);
+
+    const io::SceneProbe probe = io::reader_named("mosaic")->probe(path(name.toStdString()), {});
+
+    QCOMPARE(probe.grid, is_told ? GridShape(7, 7) : GridShape());
+    QCOMPARE(probe.height, is_told ? scene.light_field->height() : 0);
+    QCOMPARE(probe.width, is_told ? scene.light_field->width() : 0);
+    QCOMPARE(probe.channels, is_told ? 3 : 0);
+  }
+
+  void topOfAPng_isThatOfTheWhole() {
+    write("a_eslf.png", plane({5, 5}));
+
+    const auto whole = std::get<Image<std::uint8_t>>(io::decode_png(path("a_eslf.png")));
+    const auto top = std::get<Image<std::uint8_t>>(io::decode_png_top(path("a_eslf.png"), 11));
+
+    QCOMPARE(top.height(), 11);
+    QCOMPARE(top.width(), whole.width());
+    QVERIFY(std::equal(top.begin(), top.end(), whole.begin()));
   }
 
   void sixteenBit_stays() {
