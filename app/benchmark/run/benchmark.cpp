@@ -34,11 +34,14 @@ struct OpenScene {
   Interval range;
 };
 
-/// Judges by one protocol. What there is not to judge, or to judge against, is the scene's problem.
-EvaluationPtr judge_by(Protocol protocol, const Estimate& estimate, const Scene& scene,
-                       BenchmarkResult& result) {
+/// Judges as `options` say. What there is not to judge, or to judge against, is the scene's
+/// problem.
+EvaluationPtr judge_by(const EvaluationOptions& options, const Estimate& estimate,
+                       const Scene& scene, BenchmarkResult& result) {
   try {
-    return std::make_shared<const Evaluation>(judge(estimate, scene, {.protocol = protocol}));
+    auto evaluation = std::make_shared<const Evaluation>(judge(estimate, scene, options));
+    result.notes.insert(result.notes.end(), evaluation->notes.begin(), evaluation->notes.end());
+    return evaluation;
   } catch (const InvalidInput& error) {
     result.problem = error.what();
     return nullptr;
@@ -46,13 +49,16 @@ EvaluationPtr judge_by(Protocol protocol, const Estimate& estimate, const Scene&
 }
 
 /// Judges by both protocols; keeps the errors of the first for a picture.
-EvaluationPtr judge_by_both(const Estimate& estimate, const Scene& scene, BenchmarkResult& result) {
-  const auto evaluation = judge_by(Protocol::Vmv2013, estimate, scene, result);
+EvaluationPtr judge_by_both(const Estimate& estimate, const Scene& scene, const Progress& progress,
+                            BenchmarkResult& result) {
+  EvaluationOptions options{.protocol = Protocol::Vmv2013, .progress = progress};
+  const auto evaluation = judge_by(options, estimate, scene, result);
   if (!evaluation) return evaluation;
   result.vmv2013 = evaluation->metrics;
   const LightField& light_field = *scene.light_field;
   if (std::min(light_field.height(), light_field.width()) > 2 * kBenchmarkBorder) {
-    const auto inner = judge_by(Protocol::Benchmark2016, estimate, scene, result);
+    options.protocol = Protocol::Benchmark2016;
+    const auto inner = judge_by(options, estimate, scene, result);
     if (inner) result.benchmark2016 = inner->metrics;
   }
   return evaluation;
@@ -226,7 +232,8 @@ class Runner {
     result.notes = estimate->notes;
     part.step("evaluating");
     if (record.run.is_search) {
-      const auto evaluation = judge_by(Protocol::Vmv2013, *estimate, open.scene, result);
+      const auto evaluation =
+          judge_by({.protocol = Protocol::Vmv2013}, *estimate, open.scene, result);
       if (evaluation) result.vmv2013 = evaluation->metrics;
     } else {
       const auto center =
@@ -241,7 +248,7 @@ class Runner {
 
   std::vector<std::string> judge_and_write(const OpenScene& open, const EstimatePtr& center,
                                            BenchmarkResult& result) {
-    const auto evaluation = judge_by_both(*center, open.scene, result);
+    const auto evaluation = judge_by_both(*center, open.scene, progress_, result);
     return write_pictures(options_.folder, open.name, center, result.entry, evaluation, open.range);
   }
 

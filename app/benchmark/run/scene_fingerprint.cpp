@@ -30,6 +30,9 @@ class Fingerprint {
   Fnv1a hash_;
 };
 
+/// Raised when a metric changes its meaning, so that kept results are judged anew.
+constexpr int kMetricRules = 2;
+
 /// The view that is judged: the centre, else the only one that there is.
 void add_truth(Fingerprint& fingerprint, const DisparityField& field, ViewIndex center) {
   if (field.empty()) return;
@@ -44,6 +47,7 @@ std::string scene_fingerprint(const Scene& scene) {
   const LightField& light_field = *scene.light_field;
   const GroundTruth& truth = *scene.truth;
   Fingerprint fingerprint;
+  fingerprint.add_value(kMetricRules);
   fingerprint.add_value(light_field.sample_hash());
   const CameraGrid& camera = light_field.info().camera;
   for (const double number : {camera.baseline, camera.focal_length, camera.shift}) {
@@ -60,6 +64,7 @@ std::string scene_fingerprint(const Scene& scene) {
     fingerprint.add(name);
     fingerprint.add_image(mask.view());
   }
+  if (truth.high_res) fingerprint.add(truth.high_res->identity());
   return fingerprint.text();
 }
 

@@ -68,10 +68,12 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
                   "does not cover the centre view " + view_text(view) + ", which is evaluated");
   }
   const DisparityView values = estimate.field.view(view);
-  std::size_t missing = 0;
+  std::size_t missing = 0, count = 0;
   double farthest = 0;
-  for (int y = 0; y < values.disparity.height; ++y) {
-    for (int x = 0; x < values.disparity.width; ++x) {
+  const int border = estimate.border_px;
+  for (int y = border; y < values.disparity.height - border; ++y) {
+    for (int x = border; x < values.disparity.width - border; ++x) {
+      ++count;
       if (!values.is_valid(y, x)) {
         ++missing;
       } else {
@@ -79,7 +81,6 @@ void check_values(const fs::path& map, ViewIndex view, Estimate& estimate) {
       }
     }
   }
-  const std::size_t count = values.disparity.size();
   if (missing == count) throw IoError(map, "contains no finite value in the centre view");
   const auto note = [&](const std::string& what) {
     estimate.notes.push_back(map.filename().string() + ": " + what);

@@ -11,8 +11,10 @@
 #include "app/session/run/run_estimator.h"
 #include "app/session/save/save_result.h"
 #include "app/session/scene/scene_summary.h"
+#include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
+#include "engine/io/maps/submission_folder.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -29,6 +31,7 @@ struct Request {
   std::vector<std::string> inputs;
   std::string output;
   Frames frames = Frames::One;
+  bool is_submission = false;
   bool is_json = false;
   JobOptions job;
   ReadOptions read;
@@ -73,13 +76,16 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
                     "file in the folder DIR, named after it; one that fails does not stop the "
                     "others.",
                     "episcope-cli estimate epi_l demo -o demo.h5 --views center\n"
-                    "  episcope-cli estimate epi_l demo:edge demo:bars -o results"});
+                    "  episcope-cli estimate epi_l demo:edge demo:bars -o results\n"
+                    "  episcope-cli estimate plane_pm benchmark2016 -o ours --submission"});
   parser.positional("METHOD", request.method, "Id of the estimator");
   parser.positionals("INPUT", request.inputs, "The light field, or several");
   parser.required_option("-o,--output", request.output, text_value("OUT.h5|DIR"),
                          "Result file to write; of several light fields, the folder for theirs");
   parser.flag("--frames", request.frames, Frames::All,
               "Estimate all frames of a sequence, one result file each");
+  parser.flag("--submission", request.is_submission,
+              "Write a submission to the 2016 benchmark: DIR/disp_maps, DIR/runtimes");
   const Schema<RunOptions> run = run_schema();
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
@@ -110,6 +116,13 @@ bool parse(const VerbArguments& arguments, const std::vector<Estimator>& estimat
 ViewSelection selected_views(const Request& request) {
   const Estimator& estimator = *request.estimator;
   const bool can_all = estimator.info.all_views;
+  if (request.is_submission) {
+    if (request.job.run.is_given("views") &&
+        request.job.run_options().views != ViewSelection::Center) {
+      throw UsageError("a submission holds centre views; leave out --views");
+    }
+    return ViewSelection::Center;
+  }
   if (!request.job.run.is_given("views")) {
     return can_all ? ViewSelection::All : ViewSelection::Center;
   }
@@ -183,11 +196,15 @@ class Runner {
   }
 
   [[nodiscard]] Job& job() { return job_; }
+  /// Scenes of the submission so far.
+  [[nodiscard]] const std::vector<io::SubmittedScene>& submitted() const { return submitted_; }
 
   /// Refuses an output that cannot be written, before hours are spent. Throws UsageError, IoError.
   void check(const Task& task) const {
-    check_hdf5_output("estimate", task.output);
-    check_result_output(task.output);
+    if (!request_.is_submission) {
+      check_hdf5_output("estimate", task.output);
+      check_result_output(task.output);
+    }
     protect_input(task.output, task.input);
   }
 
@@ -197,7 +214,11 @@ class Runner {
     const EstimatePtr estimate =
         run_estimator(*light_field, *request_.estimator, run, progress.part(0.3, 0.9)).estimate;
     progress.step("writing " + task.output);
-    save_result(task.output, *estimate, task.input, progress.part(0.9, 1));
+    if (request_.is_submission) {
+      submit(task, *estimate, light_field->center());
+    } else {
+      save_result(task.output, *estimate, task.input, progress.part(0.9, 1));
+    }
     for (const auto& sentence : estimate->notes) note(task, sentence);
     return {task.output, estimate, light_field->center()};
   }
@@ -215,6 +236,18 @@ class Runner {
     return scene.light_field;
   }
 
+  void submit(const Task& task, const Estimate& estimate, ViewIndex center) {
+    if (!estimate.contains(center)) {
+      throw InvalidInput("a submission holds centre views, but view " +
+                         view_text(estimate.field.disparity.first()) + " was estimated");
+    }
+    const DisparityView map = estimate.field.view(center);
+    const std::size_t gaps =
+        io::write_submitted_scene(request_.output, task.name, map, estimate.seconds);
+    submitted_.push_back({task.name, map.disparity.height, map.disparity.width});
+    if (gaps > 0) note(task, std::to_string(gaps) + " pixels without a value were filled");
+  }
+
   /// Which of several light fields it is about must be said.
   void note(const Task& task, const std::string& sentence) {
     job_.note(task.name.empty() ? sentence : task.name + ": " + sentence);
@@ -223,6 +256,7 @@ class Runner {
   const Request& request_;
   RunOptions options_;
   Job job_;
+  std::vector<io::SubmittedScene> submitted_;
 };
 
 void estimate_one(const Request& request, Runner& runner) {
@@ -246,6 +280,22 @@ void make_folder(const std::string& folder) {
   }
 }
 
+/// Reads what was submitted back, and says which scenes of the benchmark it lacks.
+void check_submitted(const Request& request, Runner& runner, Failures& failures) {
+  for (const auto& problem : io::submission_problems(request.output, runner.submitted())) {
+    failures.add(problem);
+  }
+  std::vector<std::string> missing;
+  for (const io::SubmittedScene& scene : io::benchmark_scenes()) {
+    if (!std::filesystem::exists(io::submitted_map_file(request.output, scene.name))) {
+      missing.push_back(scene.name);
+    }
+  }
+  if (missing.empty()) return;
+  runner.job().note("the benchmark also wants " + joined(missing, ", ") +
+                    "; 'episcope-cli validate " + request.output + "' checks all");
+}
+
 void estimate_many(const Request& request, const std::vector<SceneInput>& scenes, Runner& runner) {
   make_folder(request.output);
   Json results = Json::array();
@@ -261,7 +311,9 @@ void estimate_many(const Request& request, const std::vector<SceneInput>& scenes
     const Progress progress =
         runner.job().progress().part(done / count, (done + 1) / count).titled(scenes[i].name);
     try {
-      const auto output = std::filesystem::path(request.output) / (scenes[i].name + ".h5");
+      const auto output = request.is_submission
+                              ? io::submitted_map_file(request.output, scenes[i].name)
+                              : std::filesystem::path(request.output) / (scenes[i].name + ".h5");
       const Task task{scenes[i].input, output.string(), scenes[i].name, scenes[i].frame};
       runner.check(task);
       const Answer answer = runner.run(task, progress);
@@ -275,6 +327,7 @@ void estimate_many(const Request& request, const std::vector<SceneInput>& scenes
     }
   }
   runner.job().finish();
+  if (request.is_submission) check_submitted(request, runner, failures);
   if (request.is_json) print_json(Json::object({{"results", std::move(results)}}));
   failures.require_none(scenes.size());
 }
@@ -282,6 +335,7 @@ void estimate_many(const Request& request, const std::vector<SceneInput>& scenes
 /// Whether the output is a folder for one result file of each light field.
 bool wants_many(const Request& request, const Progress& progress) {
   const std::string suffix = suffix_of(request.output);
+  if (request.is_submission) return true;
   const bool names_file = suffix == ".h5" || suffix == ".hdf5";
   if (request.inputs.size() == 1 && request.frames == Frames::One) {
     return !names_file && is_collection(request.inputs.front(), request.read, progress);

@@ -43,6 +43,7 @@ struct Row {
   bool has_all_views = false;
   ViewIndex view;
   Metrics metrics;
+  std::vector<std::string> notes;
 };
 
 OptionValue<Protocol> protocol_value() {
@@ -123,6 +124,7 @@ Json results_json(const Request& request, const std::vector<Row>& rows) {
       if (has_runtime_classes(request)) result["runtime_class"] = runtime_class(row.seconds);
     }
     result["all_views"] = row.has_all_views;
+    if (!row.notes.empty()) result["notes"] = row.notes;
     json["results"].push_back(result);
   }
   return json;
@@ -206,8 +208,9 @@ class TruthScene {
 };
 
 /// Judges one result and writes its error map, if a path is given for it.
-Row judge_file(const std::string& file, const Scene& scene, const EvaluationOptions& options,
+Row judge_file(const std::string& file, const Scene& scene, EvaluationOptions options,
                const std::filesystem::path& error_map, Job& job) {
+  options.progress = job.progress();
   job.progress().check();
   job.progress().step("evaluating " + file);
   const LightField& light_field = *scene.light_field;
@@ -219,6 +222,11 @@ Row judge_file(const std::string& file, const Scene& scene, const EvaluationOpti
     throw IoError(file, error.what());
   }
   note_other_source(*estimate, light_field, job);
+  std::vector<std::string> notes = evaluation->notes;
+  if (!io::is_result_file(file)) {
+    notes.insert(notes.begin(), estimate->notes.begin(), estimate->notes.end());
+  }
+  for (const std::string& sentence : notes) job.note(file + ": " + sentence);
   if (!error_map.empty()) {
     const MapSource source{.quantity = render::Quantity::SignedError,
                            .view = judged_view(scene),
@@ -232,7 +240,8 @@ Row judge_file(const std::string& file, const Scene& scene, const EvaluationOpti
           estimate->seconds,
           estimate->field.disparity.grid() == light_field.grid(),
           judged_view(scene),
-          evaluation->metrics};
+          evaluation->metrics,
+          std::move(notes)};
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ void complete(Request& request) {
   request.map.quantity = quantity_of(request);
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
-    request.what.id = render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
+    request.what.id =
+        render::info_of(is_of_labels ? Quantity::TrueLabels : request.map.quantity).id;
   }
 }
 

@@ -15,6 +15,7 @@ constexpr Verb kVerbs[] = {
     {"synthesize", "Render a built-in scene with exact ground truth", run_synthesize},
     {"label", "Segment a light field from scribbles", run_label},
     {"benchmark", "Rank methods over scenes: tables, pictures, parameter search", run_benchmark},
+    {"validate", "Check a submission to the 2016 benchmark", run_validate},
 };
 
 }  // namespace

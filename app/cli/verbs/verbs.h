@@ -33,6 +33,7 @@ void run_show(const VerbArguments& arguments, std::stop_token stop);
 void run_convert(const VerbArguments& arguments, std::stop_token stop);
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop);
 void run_label(const VerbArguments& arguments, std::stop_token stop);
+void run_validate(const VerbArguments& arguments, std::stop_token stop);
 void run_benchmark(const VerbArguments& arguments, std::stop_token stop);
 
 }  // namespace episcope::cli

@@ -46,6 +46,7 @@ QString truth_text(const GroundTruth& truth, GridShape grid) {
     const int regions = static_cast<int>(truth.regions.size());
     parts << (regions == 1 ? text("1 region mask") : text("%1 region masks").arg(regions));
   }
+  if (truth.high_res) parts << text("ten times the resolution for metrics");
   return parts.isEmpty() ? text("none") : parts.join(", ");
 }
 

@@ -74,6 +74,7 @@ MetricController::MetricController(const Workbench& bench, MetricTable* table)
 }
 
 void MetricController::update(Parts parts) {
+  if (parts.has(Part::Scene)) told_.clear();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations)) fillTable();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
     const EstimateEntry* shown = session_.shown();
@@ -110,11 +111,19 @@ std::vector<Judged> MetricController::judgeAll() {
     for (const Protocol protocol : kProtocols) {
       const auto evaluation =
           session_.evaluation({entry.id, judged_view(*session_.scene()), protocol});
-      if (evaluation) each.metrics[protocol] = evaluation->metrics;
+      if (!evaluation) continue;
+      each.metrics[protocol] = evaluation->metrics;
+      tell(evaluation->notes);
     }
     judged.push_back(std::move(each));
   }
   return judged;
+}
+
+void MetricController::tell(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
+    if (told_.insert(note).second) bench_.messages.warn(QString::fromStdString(note));
+  }
 }
 
 void MetricController::save(const QString& suffix, const QString& text) {

@@ -7,6 +7,7 @@
 #include <QObject>
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,11 +34,14 @@ class MetricController : public QObject {
   void update(Parts parts);
   void fillTable();
   [[nodiscard]] std::vector<Judged> judgeAll();
+  /// Warns of metrics that are missing, once for each light field.
+  void tell(const std::vector<std::string>& notes);
   void save(const QString& suffix, const QString& text);
 
   Workbench bench_;
   Session& session_;
   MetricTable* table_;
+  std::set<std::string> told_;
 };
 
 }  // namespace episcope

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/compare/metric_names.h"
 
+#include "engine/evaluation/metrics/benchmark_metrics.h"
+
 #include <QCoreApplication>
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -58,6 +61,39 @@ constexpr MetricName kNames[] = {
     {"fine_thinning_0150", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinned"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "Pixels of fine structures that are more than 0.15 px too far, in %")},
+    {"backgammon_fattening_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "fattening"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels beside the foreground that are closer to it than to their "
+                       "background, in %")},
+    {"backgammon_thinning_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "thinning"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels of the foreground that are closer to the background than to it, "
+                       "in %")},
+    {"missed_dots_50_0400", QT_TRANSLATE_NOOP("episcope::MetricTable", "missed dots"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Dots of which half of the pixels or more are off by more than 0.4 px, "
+                       "in %")},
+    {"background_mse_100", QT_TRANSLATE_NOOP("episcope::MetricTable", "MSE backgr."),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Mean squared error ×100 of the background between dots, px²"),
+     3},
+    {"low_texture_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "low texture"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels without much texture off by more than 0.07 px, in %")},
+    {"dark_stripes_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "dark str."),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "Pixels of dark stripes, of high contrast, off by more than 0.07 px, in %")},
+    {"bright_stripes_0070", QT_TRANSLATE_NOOP("episcope::MetricTable", "bright str."),
+     QT_TRANSLATE_NOOP(
+         "episcope::MetricTable",
+         "Pixels of bright stripes, of low contrast, off by more than 0.07 px, in %")},
+    {"bumpiness_slanted_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps sl."),
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of slanted surfaces ×100"), 3},
+    {"bumpiness_parallel_100_0050", QT_TRANSLATE_NOOP("episcope::MetricTable", "bumps par."),
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Bumpiness of surfaces parallel to the image ×100"),
+     3},
+    {"runtime_log", QT_TRANSLATE_NOOP("episcope::MetricTable", "log time"),
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Decadic logarithm of the seconds taken")},
     {"layers_right", QT_TRANSLATE_NOOP("episcope::MetricTable", "layers"),
      QT_TRANSLATE_NOOP("episcope::MetricTable",
                        "Pixels with the correct number of layers, one or two, in %"),
@@ -67,46 +103,64 @@ QString text(const char* source) {
   return QCoreApplication::translate("episcope::MetricTable", source);
 }
 
-// Numbers of a result in two layers carry the layer at the end of their key.
-struct LayerName {
+// What a number is of, where the end of its key says so; a key may have several such ends.
+struct PartName {
   const char* suffix;
   const char* label;
   const char* help;
 };
-constexpr LayerName kLayers[] = {
+constexpr PartName kParts[] = {
     {"_foreground", QT_TRANSLATE_NOOP("episcope::MetricTable", "front"),
      QT_TRANSLATE_NOOP("episcope::MetricTable", "Of the surface in front")},
     {"_background", QT_TRANSLATE_NOOP("episcope::MetricTable", "behind"),
-     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")}};
+     QT_TRANSLATE_NOOP("episcope::MetricTable", "Of what is seen through it")},
+    {kLowResSuffix, QT_TRANSLATE_NOOP("episcope::MetricTable", "low res."),
+     QT_TRANSLATE_NOOP("episcope::MetricTable",
+                       "In the resolution of the views: the official score needs the truth of ten "
+                       "times the resolution")}};
 
-const LayerName* layer_of(const std::string& key) {
-  const auto* found = std::find_if(std::begin(kLayers), std::end(kLayers),
-                                   [&](const auto& layer) { return key.ends_with(layer.suffix); });
-  return found == std::end(kLayers) ? nullptr : found;
+// A key without its ends, and the numbers of the parts they name, the first one first.
+struct KeyParts {
+  std::string base;
+  std::vector<std::size_t> parts;
+};
+
+KeyParts parts_of(const std::string& key) {
+  KeyParts split{key, {}};
+  for (std::size_t part = 0; part < std::size(kParts);) {
+    const std::string suffix = kParts[part].suffix;
+    if (!split.base.ends_with(suffix)) {
+      ++part;
+      continue;
+    }
+    split.base.resize(split.base.size() - suffix.size());
+    split.parts.insert(split.parts.begin(), part);
+    part = 0;
+  }
+  return split;
 }
 
-const MetricName* name_of(const std::string& key) {
-  const LayerName* layer = layer_of(key);
-  const std::string of_both =
-      layer ? key.substr(0, key.size() - std::string(layer->suffix).size()) : key;
+const MetricName* name_of(const std::string& base) {
   return std::find_if(std::begin(kNames), std::end(kNames),
-                      [&](const MetricName& name) { return name.key == of_both; });
+                      [&](const MetricName& name) { return name.key == base; });
 }
 
 }  // namespace
 
 int metric_rank(const std::string& key) {
-  const auto layer = layer_of(key) ? layer_of(key) - kLayers + 1 : 0;
-  return static_cast<int>((std::size(kLayers) + 1) * (name_of(key) - std::begin(kNames)) + layer);
+  const KeyParts split = parts_of(key);
+  int of_parts = 0;
+  for (const std::size_t part : split.parts) of_parts |= 1 << part;
+  return static_cast<int>((name_of(split.base) - std::begin(kNames)) << std::size(kParts)) +
+         of_parts;
 }
 
 MetricColumn metric_column(Protocol protocol, const std::string& key) {
-  const MetricName* found = name_of(key);
-  const LayerName* layer = layer_of(key);
+  const KeyParts split = parts_of(key);
+  const MetricName* found = name_of(split.base);
   const bool is_known = found != std::end(kNames);
   const QString full_key = QString(protocol_name(protocol)) + '.' + QString::fromStdString(key);
   QString label = is_known ? text(found->label) : QString::fromStdString(key);
-  if (is_known && layer) label += ' ' + text(layer->label);
   const QString year = protocol == Protocol::Vmv2013 ? text("2013") : text("2016");
   const QString rules = protocol == Protocol::Vmv2013
                             ? text("Protocol vmv2013: all pixels with ground truth, centre view")
@@ -116,7 +170,11 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
   const bool is_share =
       key.starts_with("density") || key.starts_with("shown") || key == "layers_right";
   QString help = is_known ? text(found->help) : QString();
-  if (is_known && layer) help += '\n' + text(layer->help);
+  for (const std::size_t part : split.parts) {
+    if (!is_known) break;
+    label += ' ' + text(kParts[part].label);
+    help += '\n' + text(kParts[part].help);
+  }
   return {full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
           is_known ? found->decimals : 3, is_share ? BestValue::Greatest : BestValue::Least};
 }

@@ -84,6 +84,14 @@ void EstimateController::addResultCommands() {
                        .section = section::kExport,
                        .bar = BarSection::Files,
                        .enabled = has_result});
+  bench_.commands.add({.id = "file.export_submission",
+                       .menu = Menu::File,
+                       .text = tr("Export for submission…"),
+                       .tip = tr("Adds the shown result to a submission to the 2016 benchmark"),
+                       .icon = "export",
+                       .run = [this] { ask_to_submit(bench_, *session_.shown()); },
+                       .section = section::kExport,
+                       .enabled = has_result});
 }
 
 }  // namespace episcope

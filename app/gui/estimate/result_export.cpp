@@ -5,6 +5,7 @@
 #include "app/gui/frame/messages.h"
 #include "app/session/save/save_result.h"
 #include "app/session/session.h"
+#include "engine/io/maps/submission_folder.h"
 
 #include <QCoreApplication>
 
@@ -55,6 +56,36 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
                         is_cloud
                             ? save_point_cloud(file, *light_field, view, result->field.view(view))
                             : save_map(file, result->field.view(view));
+                      });
+}
+
+void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {
+  ask_for_folder(&bench.window,
+                 {.name = "export_submission",
+                  .title = Text::tr("Folder of the submission that %1 goes into")
+                               .arg(QString::fromStdString(entry.name))},
+                 [bench, id = entry.id](const QString& path) {
+                   if (const auto* found = bench.session.find_estimate(id)) {
+                     submit_result(bench, *found, path);
+                   }
+                 });
+}
+
+void submit_result(const Workbench& bench, const EstimateEntry& entry, const QString& folder) {
+  const LightFieldPtr light_field = bench.session.light_field();
+  const ViewIndex center = light_field->center();
+  if (!entry.estimate->contains(center)) {
+    bench.messages.hint(Text::tr("%1 has no map of the centre view, which is submitted.")
+                            .arg(QString::fromStdString(entry.name)));
+    return;
+  }
+  const std::string scene = light_field->info().name;
+  const std::filesystem::path target = folder.toStdString();
+  const auto map = io::submitted_map_file(target, scene);
+  write_in_background(bench.jobs, bench.messages, QString::fromStdString(map.string()),
+                      [target, scene, center, result = entry.estimate](const Progress&) {
+                        io::write_submitted_scene(target, scene, result->field.view(center),
+                                                  result->seconds);
                       });
 }
 

@@ -17,4 +17,11 @@ void ask_to_export(const Workbench& bench, const EstimateEntry& entry);
 /// suffix, or if there is no such map.
 void export_result(const Workbench& bench, const EstimateEntry& entry, const QString& path);
 
+/// Asks for a folder and adds the shown scene's centre view and time to the submission there.
+void ask_to_submit(const Workbench& bench, const EstimateEntry& entry);
+
+/// Writes disp_maps/<scene>.pfm and runtimes/<scene>.txt of a submission to the 2016 benchmark in
+/// the background. The user is told if the result has no centre view.
+void submit_result(const Workbench& bench, const EstimateEntry& entry, const QString& folder);
+
 }  // namespace episcope

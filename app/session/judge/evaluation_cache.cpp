@@ -34,7 +34,7 @@ EvaluationPtr EvaluationCache::find_or_begin(const EvaluationKey& key, const Est
       [key, estimate, scene](const Progress& progress) {
         progress.check();
         return std::make_shared<const Evaluation>(
-            judge(*estimate, *scene, {.protocol = key.protocol}, key.view));
+            judge(*estimate, *scene, {.protocol = key.protocol, .progress = progress}, key.view));
       },
       [this, key](Outcome<EvaluationPtr> outcome) { finish(key, std::move(outcome)); });
   return nullptr;

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 
+#include <cmath>
 #include <utility>
 
 namespace episcope {
@@ -43,6 +44,21 @@ void require_truth(const Scene& scene, ViewIndex view) {
   }
 }
 
+/// Which pixels both the light field and maps that lack a border show; empty = all.
+Image<std::uint8_t> covered(const Estimate& estimate, const LightField& light_field,
+                            ViewIndex view) {
+  const int border = estimate.border_px;
+  if (border <= 0) return {};
+  const auto shown = light_field.valid_of(view);
+  Image<std::uint8_t> mask(light_field.height(), light_field.width());
+  for (int y = border; y < mask.height() - border; ++y) {
+    for (int x = border; x < mask.width() - border; ++x) {
+      mask.at(y, x) = shown.empty() || shown.at(y, x) != 0 ? 1 : 0;
+    }
+  }
+  return mask;
+}
+
 }  // namespace
 
 ViewIndex judged_view(const Scene& scene) {
@@ -65,17 +81,27 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
   const LightField& light_field = *scene.light_field;
   const ViewIndex view = asked_view.value_or(judged_view(scene));
   options.camera = light_field.info().camera;
-  options.shown = light_field.valid_of(view);
+  const Image<std::uint8_t> part = covered(estimate, light_field, view);
+  options.shown = part.empty() ? light_field.valid_of(view) : part.view();
+  Evaluation evaluation;
   if (compares_layers(estimate, truth)) {
     LayeredEvaluation layers = evaluate_layers(estimate.layered, truth, view, options);
     layers.foreground.metrics = layered_metrics(layers);
-    return std::move(layers.foreground);
+    evaluation = std::move(layers.foreground);
+  } else {
+    require_truth(scene, view);
+    require_view(estimate.field, view);
+    const std::map<std::string, Image<std::uint8_t>> no_regions;
+    const bool is_center = view == light_field.center();
+    options.high_res = is_center ? truth.high_res.get() : nullptr;
+    options.stratified = truth.stratified;
+    evaluation = evaluate(estimate.field.view(view), truth.field.view(view),
+                          is_center ? truth.regions : no_regions, options);
   }
-  require_truth(scene, view);
-  require_view(estimate.field, view);
-  const std::map<std::string, Image<std::uint8_t>> no_regions;
-  return evaluate(estimate.field.view(view), truth.field.view(view),
-                  view == light_field.center() ? truth.regions : no_regions, options);
+  if (options.protocol == Protocol::Benchmark2016 && estimate.seconds > 0) {
+    evaluation.metrics.emplace_back("runtime_log", std::log10(estimate.seconds));
+  }
+  return evaluation;
 }
 
 }  // namespace episcope

@@ -94,6 +94,12 @@ Estimate read_result_of(const LightField& light_field, const fs::path& path) {
         io::remove_padding(estimate.field, light_field.height(), light_field.width());
     if (!note.empty()) estimate.notes.push_back(note);
   }
+  if (!io::is_result_file(path)) {
+    const io::BareBorder border =
+        io::find_bare_border(estimate.field, light_field.height(), light_field.width());
+    estimate.border_px = border.width_px;
+    if (!border.note.empty()) estimate.notes.push_back(border.note);
+  }
   return estimate;
 }
 

@@ -31,6 +31,7 @@ struct Provenance {
   std::uint64_t source_hash = 0;  ///< LightField::sample_hash, 0 = unknown.
   Reading reading{};              ///< How that light field was read.
   std::vector<std::string> notes;  ///< What a user should know of this run: gap, unsolved views.
+  int border_px = 0;  ///< Pixels at each side of the views that foreign maps lack; not judged.
 };
 
 /// A disparity estimate. Covers all views or one.

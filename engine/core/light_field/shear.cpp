@@ -356,6 +356,8 @@ Scene sheared(const Scene& scene, double focus_px, const Progress& progress) {
   truth->background = sheared(scene.truth->background, center, focus_px, rest);
   truth->labels = sheared(scene.truth->labels, center, focus_px, rest);
   truth->regions = scene.truth->regions;  // of the centre view, which stays
+  truth->high_res = shifted(scene.truth->high_res, static_cast<float>(-focus_px));
+  truth->stratified = scene.truth->stratified;
   result.truth = std::move(truth);
   result.scribbles = sheared(scene.scribbles, center, focus_px);
   result.convention = scene.convention;

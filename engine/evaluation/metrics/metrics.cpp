@@ -3,7 +3,9 @@
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shown_disparity.h"
+#include "engine/evaluation/metrics/benchmark_metrics.h"
 #include "engine/evaluation/metrics/region_metrics.h"
+#include "engine/evaluation/metrics/resolved_errors.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +16,8 @@
 namespace episcope {
 namespace {
 
-std::string size_text(const ImageView<const float>& image) {
+template <class T>
+std::string size_text(const ImageView<const T>& image) {
   return fmt::format("{}×{}", image.width, image.height);
 }
 
@@ -54,51 +57,20 @@ Evaluation measure_errors(const DisparityView& estimate, const DisparityView& tr
   return evaluation;
 }
 
-/// 100 · mean of the squared errors of judged pixels at least `border` px from the image's border.
-std::optional<double> mse_100(const Evaluation& evaluation, InvalidEstimates invalid, int border) {
-  double sum = 0;
-  std::size_t count = 0;
-  for (int y = border; y < evaluation.judged.height() - border; ++y) {
-    for (int x = border; x < evaluation.judged.width() - border; ++x) {
-      if (evaluation.judged.at(y, x) == 0) continue;
-      if (evaluation.missing.at(y, x) != 0 && invalid == InvalidEstimates::Compatible) continue;
-      const double error = evaluation.signed_error.at(y, x);
-      sum += error * error;
-      ++count;
-    }
-  }
-  if (count == 0) return std::nullopt;
-  return 100 * sum / static_cast<double>(count);
-}
-
-std::optional<double> q_25_100(const Evaluation& evaluation, InvalidEstimates invalid) {
-  std::vector<float> present;
-  std::vector<float> missing;
-  for (std::size_t i = 0; i < evaluation.judged.size(); ++i) {
-    if (evaluation.judged.data()[i] == 0) continue;
-    auto& errors = evaluation.missing.data()[i] != 0 ? missing : present;
-    errors.push_back(std::abs(evaluation.signed_error.data()[i]) * 100);
-  }
-  std::sort(present.begin(), present.end());
-  if (invalid == InvalidEstimates::Bad) {
-    std::sort(missing.begin(), missing.end());
-    present.insert(present.end(), missing.begin(), missing.end());
-  }
-  if (present.empty()) return std::nullopt;
-  return present[present.size() * 25 / 100];
-}
-
 void append(Metrics& metrics, const char* key, std::optional<double> value) {
   if (value) metrics.emplace_back(key, *value);
 }
 
-void append_bad_pixels(Evaluation& evaluation, InvalidEstimates invalid) {
-  const std::pair<const char*, float> thresholds[] = {
-      {"badpix_0010", 0.01F}, {"badpix_0030", 0.03F}, {"badpix_0070", 0.07F}};
-  for (const auto& [key, threshold] : thresholds) {
-    const auto is_bad = [limit = threshold](float error) { return std::abs(error) > limit; };
-    append(evaluation.metrics, key, bad_percentage(evaluation, nullptr, invalid, is_bad));
-  }
+void append(Metrics& metrics, const Metrics& more) {
+  metrics.insert(metrics.end(), more.begin(), more.end());
+}
+
+/// Those of vmv2013, with and without a border.
+void append_squared_errors(Metrics& metrics, const RegionInput& input) {
+  const Image<float> truth = marked(input.truth);
+  const ResolvedErrors errors(input.estimate, truth.view(), 1, input.options);
+  append(metrics, "mse_100", errors.mse_100(nullptr, 0));
+  append(metrics, "mse_100_inset15", errors.mse_100(nullptr, kBenchmarkBorder));
 }
 
 std::optional<double> density(const Evaluation& evaluation) {
@@ -114,6 +86,15 @@ void require_comparable(const DisparityView& estimate, const DisparityView& trut
   if (a.height != b.height || a.width != b.width) {
     throw InvalidInput("the estimate is " + size_text(a) + " px, but the truth is " + size_text(b) +
                        " px: they belong to different light fields");
+  }
+}
+
+void require_sizes(const std::map<std::string, Image<std::uint8_t>>& regions,
+                   const DisparityView& truth) {
+  for (const auto& [name, mask] : regions) {
+    if (mask.height() == truth.disparity.height && mask.width() == truth.disparity.width) continue;
+    throw InvalidInput(fmt::format("the region mask {} is {} px, but the truth is {} px", name,
+                                   size_text(mask.view()), size_text(truth.disparity)));
   }
 }
 
@@ -136,6 +117,7 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
                                           const std::map<std::string, Image<std::uint8_t>>& regions,
                                           const EvaluationOptions& options) {
   require_comparable(estimate, whole_truth);
+  require_sizes(regions, whole_truth);
   const ShownDisparity shown(whole_truth, options.shown);
   const DisparityView& truth = shown.view();
   const bool is_benchmark = options.protocol == Protocol::Benchmark2016;
@@ -144,19 +126,21 @@ std::optional<Evaluation> evaluate_if_any(const DisparityView& estimate,
   if (std::find(evaluation.judged.begin(), evaluation.judged.end(), 1) == evaluation.judged.end()) {
     return std::nullopt;
   }
-  append(evaluation.metrics, "mse_100", mse_100(evaluation, options.invalid, 0));
+  const RegionInput input{estimate, truth, regions, options};
+  BenchmarkMetrics scores;
   if (is_benchmark) {
-    append_bad_pixels(evaluation, options.invalid);
-    append(evaluation.metrics, "q_25_100", q_25_100(evaluation, options.invalid));
+    scores = benchmark_metrics(input);
+    append(evaluation.metrics, scores.general);
+    evaluation.notes = std::move(scores.notes);
   } else {
-    append(evaluation.metrics, "mse_100_inset15",
-           mse_100(evaluation, options.invalid, kBenchmarkBorder));
+    append_squared_errors(evaluation.metrics, input);
   }
   append(evaluation.metrics, "density", density(evaluation));
   if (!options.shown.empty()) {
     append(evaluation.metrics, "shown", shown_percentage(whole_truth, truth));
   }
-  if (is_benchmark) append_region_metrics(evaluation, {estimate, truth, regions, options});
+  append(evaluation.metrics, scores.masked);
+  if (is_benchmark) append_region_metrics(evaluation, input);
   return evaluation;
 }
 

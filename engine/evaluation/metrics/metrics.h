@@ -5,6 +5,7 @@
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/ground_truth.h"
+#include "engine/core/parallel/progress.h"
 
 #include <map>
 #include <optional>
@@ -41,6 +42,12 @@ struct EvaluationOptions {
   /// Pixels of the judged view that the light field shows, 0 = not, which are not judged; empty =
   /// all. Borrowed.
   ImageView<const std::uint8_t> shown{};
+  /// Of the judged view: what official keys of some metrics are computed from. Borrowed; may be
+  /// null.
+  const HighResTruth* high_res = nullptr;
+  /// None = the scene of the 2016 benchmark is told by the names of its masks, if it is one.
+  StratifiedScene stratified = StratifiedScene::None;
+  Progress progress{};  ///< Where evaluations in high resolution learn that they are cancelled.
 };
 
 /// Pixels that `Protocol::Benchmark2016` ignores on each side.
@@ -55,9 +62,10 @@ using Metrics = std::vector<std::pair<std::string, double>>;
 /// Error of one view, and the numbers that were computed from it.
 struct Evaluation {
   Metrics metrics;
-  Image<float> signed_error;    ///< truth − estimate in px; 0 where not judged.
-  Image<std::uint8_t> judged;   ///< 1 = pixel counts in the numbers.
-  Image<std::uint8_t> missing;  ///< 1 = judged, but the estimate has no value there.
+  Image<float> signed_error;         ///< truth − estimate in px; 0 where not judged.
+  Image<std::uint8_t> judged;        ///< 1 = pixel counts in the numbers.
+  Image<std::uint8_t> missing;       ///< 1 = judged, but the estimate has no value there.
+  std::vector<std::string> notes{};  ///< Sentences: which metrics are missing, and why.
 };
 
 /// Judges one view of an estimate against one map of truth. `regions` may be empty.
@@ -67,13 +75,16 @@ struct Evaluation {
 /// With `options.shown`, either protocol adds "shown" (% of the pixels with truth that are shown).
 /// Keys of benchmark2016: mse_100; badpix_0010, badpix_0030, badpix_0070 (% with |error| strictly
 /// above); q_25_100 (sorted(|error|·100)[⌊0.25·n⌋]); density; and for the regions there are:
-/// discontinuities_0070, bumpiness_planes_100_0050, bumpiness_contin_surfaces_100_0050 (region
-/// smooth_surfaces), mae_planes, mae_contin_surfaces (median angle between normals in degrees),
-/// fine_fattening_0150 (region fine_surrounding), fine_thinning_0150 (region fine).
-/// Errors are float and thresholds are rounded to float, as in the official tool. Region metrics
-/// use the masks of the truth's own resolution. Source: Wanner et al. 2013 [WMG13], Honauer et al.
-/// 2016 [HJKG16] and the benchmark's evaluation toolkit.
-/// Throws InvalidInput if the sizes differ or no pixel can be judged.
+/// bumpiness_planes_100_0050, bumpiness_contin_surfaces_100_0050 (region smooth_surfaces),
+/// mae_planes, mae_contin_surfaces (median angle between normals in degrees); of pyramids
+/// bumpiness_slanted_100_0050 (sphere_in, sphere_out and pyramids) and bumpiness_parallel_100_0050
+/// (plane); and those of `masked_metrics`.
+/// A key is the official one only where the computation is: masked metrics, and all of backgammon,
+/// dots and stripes but density, need `options.high_res`; the same numbers of the resolution of the
+/// views end in "_lowres". Errors are float and thresholds are rounded to float, as in the official
+/// tool. Source: Wanner et al. 2013 [WMG13], Honauer et al. 2016 [HJKG16] and the benchmark's
+/// evaluation toolkit.
+/// Throws InvalidInput if the sizes differ or no pixel can be judged; Cancelled.
 [[nodiscard]] Evaluation evaluate(const DisparityView& estimate, const DisparityView& truth,
                                   const std::map<std::string, Image<std::uint8_t>>& regions,
                                   const EvaluationOptions& options);

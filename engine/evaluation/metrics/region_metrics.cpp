@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/metrics/region_metrics.h"
 
-#include "engine/core/error.h"
+#include "engine/evaluation/metrics/benchmark_metrics.h"
 #include "engine/evaluation/metrics/bumpiness.h"
 #include "engine/evaluation/metrics/normals.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +12,6 @@
 namespace episcope {
 namespace {
 
-constexpr float kDiscontinuityThreshold = 0.07F;
-constexpr float kFineThreshold = 0.15F;
 constexpr float kBumpinessClip = 0.05F;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
@@ -25,38 +21,30 @@ class RegionMetrics {
       : evaluation_(evaluation), input_(input) {}
 
   void append() {
-    append_percentage("discontinuities_0070", "discontinuities",
-                      [](float error) { return std::abs(error) > kDiscontinuityThreshold; });
-    append_bumpiness("bumpiness_planes_100_0050", "planes");
-    append_bumpiness("bumpiness_contin_surfaces_100_0050", "smooth_surfaces");
-    append_angle("mae_planes", "planes");
-    append_angle("mae_contin_surfaces", "smooth_surfaces");
-    append_percentage("fine_fattening_0150", "fine_surrounding",
-                      [](float error) { return error < -kFineThreshold; });
-    append_percentage("fine_thinning_0150", "fine",
-                      [](float error) { return error > kFineThreshold; });
+    append_bumpiness("bumpiness_planes_100_0050", region("planes"));
+    append_bumpiness("bumpiness_contin_surfaces_100_0050", region("smooth_surfaces"));
+    append_angle("mae_planes", region("planes"));
+    append_angle("mae_contin_surfaces", region("smooth_surfaces"));
+  }
+
+  /// Those of the scene pyramids.
+  void append_pyramids() {
+    const auto *in = region("sphere_in"), *out = region("sphere_out"), *sides = region("pyramids");
+    if (in && out && sides) {
+      Image<std::uint8_t> slanted = *in;
+      for (std::size_t i = 0; i < slanted.size(); ++i) {
+        slanted.data()[i] |= out->data()[i] | sides->data()[i];
+      }
+      append_bumpiness("bumpiness_slanted_100_0050", &slanted);
+    }
+    append_bumpiness("bumpiness_parallel_100_0050", region("plane"));
   }
 
  private:
   [[nodiscard]] const Image<std::uint8_t>* region(const char* name) const {
     const auto found = input_.regions.find(name);
     if (found == input_.regions.end()) return nullptr;
-    const auto& mask = found->second;
-    const auto& judged = evaluation_.judged;
-    if (mask.height() != judged.height() || mask.width() != judged.width()) {
-      throw InvalidInput(fmt::format("the region mask {} is {}×{} px, but the truth is {}×{} px",
-                                     found->first, mask.width(), mask.height(), judged.width(),
-                                     judged.height()));
-    }
-    return &mask;
-  }
-
-  template <class IsBad>
-  void append_percentage(const char* key, const char* region_name, IsBad is_bad) {
-    const auto* mask = region(region_name);
-    if (!mask) return;
-    const auto percentage = bad_percentage(evaluation_, mask, input_.options.invalid, is_bad);
-    if (percentage) evaluation_.metrics.emplace_back(key, *percentage);
+    return &found->second;
   }
 
   /// Values of `map` inside the region. Where it has none, the pixel counts as `worst` if that is
@@ -91,8 +79,7 @@ class RegionMetrics {
     return true;
   }
 
-  void append_bumpiness(const char* key, const char* region_name) {
-    const auto* mask = region(region_name);
+  void append_bumpiness(const char* key, const Image<std::uint8_t>* mask) {
     if (!mask) return;
     if (bumpiness_.empty()) bumpiness_ = hessian_norm(error_everywhere());
     const auto values = values_inside(bumpiness_, *mask, kBumpinessClip);
@@ -102,8 +89,7 @@ class RegionMetrics {
     evaluation_.metrics.emplace_back(key, 100 * sum / static_cast<double>(values.size()));
   }
 
-  void append_angle(const char* key, const char* region_name) {
-    const auto* mask = region(region_name);
+  void append_angle(const char* key, const Image<std::uint8_t>* mask) {
     if (!mask || !input_.options.camera.is_known()) return;
     if (angle_.empty()) {
       angle_ = angle_between_normals(disparity_map(input_.estimate), disparity_map(input_.truth),
@@ -151,7 +137,9 @@ class RegionMetrics {
 }  // namespace
 
 void append_region_metrics(Evaluation& evaluation, const RegionInput& input) {
-  RegionMetrics(evaluation, input).append();
+  RegionMetrics metrics(evaluation, input);
+  metrics.append();
+  if (scene_of(input) == StratifiedScene::Pyramids) metrics.append_pyramids();
 }
 
 }  // namespace episcope

@@ -37,8 +37,8 @@ std::optional<double> bad_percentage(const Evaluation& evaluation,
   return 100.0 * static_cast<double>(bad) / static_cast<double>(count);
 }
 
-/// Appends the region metrics of benchmark2016 for the masks there are. Regions with no judged
-/// pixel add nothing.
+/// Appends the metrics of surfaces of benchmark2016, bumpiness and angles of normals, for the masks
+/// there are. Regions with no judged pixel add nothing.
 void append_region_metrics(Evaluation& evaluation, const RegionInput& input);
 
 }  // namespace episcope

@@ -43,7 +43,8 @@ struct TitledTable {
 [[nodiscard]] TitledTable overview_table(const std::vector<BenchmarkResult>& results);
 
 /// All tables of a benchmark without search: figures 7 and 8, MSE and BadPix of the 2016 protocol,
-/// both layers of scenes that have two. Tables without any score are left out.
+/// official and in the resolution of the views, both layers of scenes that have two. Tables without
+/// any score are left out.
 [[nodiscard]] std::vector<TitledTable> benchmark_tables(
     const std::vector<BenchmarkResult>& results);
 

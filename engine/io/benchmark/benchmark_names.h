@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 namespace episcope::io {
@@ -13,5 +14,7 @@ inline constexpr const char* kViewPrefix = "input_Cam";
 [[nodiscard]] std::string view_file_name(int index);
 /// "gt_disp_lowres_Cam007.pfm".
 [[nodiscard]] std::string disparity_file_name(int index);
+/// "planes" of "mask_planes_lowres.png", if names of masks end in "_lowres.png"; else empty.
+[[nodiscard]] std::string region_of(const std::filesystem::path& mask, const std::string& suffix);
 
 }  // namespace episcope::io

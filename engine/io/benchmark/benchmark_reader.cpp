@@ -5,6 +5,7 @@
 #include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/benchmark/benchmark_views.h"
 #include "engine/io/benchmark/config_file.h"
+#include "engine/io/benchmark/high_res_files.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/float_samples.h"
@@ -189,25 +190,29 @@ DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const C
 }
 
 void read_regions(SceneFolder& scene, Size size, GroundTruth& truth) {
-  constexpr std::string_view prefix = "mask_";
-  constexpr std::string_view suffix = "_lowres.png";
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(scene.path)) files.insert(entry.path());
   for (const fs::path& path : files) {
-    const std::string name = path.filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(suffix) ||
-        name.size() <= prefix.size() + suffix.size()) {
-      continue;
-    }
+    const std::string region = region_of(path, "_lowres.png");
+    if (region.empty()) continue;
     const Image<std::int32_t> numbers = decode_numbers(path);
     require_size(path, numbers, size);
     Image<std::uint8_t> mask(size.height, size.width);
-    std::transform(numbers.begin(), numbers.end(), mask.begin(),
-                   [](std::int32_t value) { return static_cast<std::uint8_t>(value != 0); });
-    const std::size_t length = name.size() - prefix.size() - suffix.size();
-    truth.regions.emplace(name.substr(prefix.size(), length), std::move(mask));
+    const std::int32_t largest = is_numbered_region(region) ? 255 : 1;
+    std::transform(numbers.begin(), numbers.end(), mask.begin(), [largest](std::int32_t value) {
+      return static_cast<std::uint8_t>(std::clamp(value, 0, largest));
+    });
+    truth.regions.emplace(region, std::move(mask));
     scene.account.use(path, "region masks");
   }
+}
+
+void find_high_res(SceneFolder& scene, Size size, GroundTruth& truth) {
+  const HighResFiles files = find_high_res_files(scene.path);
+  truth.high_res = high_res_truth(files, size.height, size.width);
+  if (!truth.high_res) return;
+  scene.account.use(files.disparity, "disparity map of the centre view in high resolution");
+  scene.account.use(files.masks, "region masks in high resolution");
 }
 
 void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth& truth) {
@@ -272,6 +277,9 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   if (options.needs_truth) {
     read_object_ids(files, views.grid, size, truth);
     read_regions(files, size, truth);
+    find_high_res(files, size, truth);
+    const auto stated = config ? config->text("scene") : std::nullopt;
+    truth.stratified = stratified_scene(stated.value_or(info.name));
   }
 
   SceneParts parts;

@@ -101,8 +101,9 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   }
   for (const auto& [name, region] : truth.regions) {
     Image<std::uint8_t> mask(region.height(), region.width());
+    const bool is_numbered = is_numbered_region(name);
     std::transform(region.begin(), region.end(), mask.begin(),
-                   [](std::uint8_t inside) { return inside != 0 ? 255 : 0; });
+                   [=](std::uint8_t inside) { return inside == 0 || is_numbered ? inside : 255; });
     write_png(folder / ("mask_" + name + "_lowres.png"), mask.view());
   }
 }

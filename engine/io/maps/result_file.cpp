@@ -12,6 +12,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace episcope::io {
 namespace {
 
@@ -70,6 +72,7 @@ void write_provenance(Hdf5Output& file, const Estimate& estimate, const std::str
     file.set_integers(kGroup, "first_view", {disparity.first().v, disparity.first().u});
   }
   if (!estimate.notes.empty()) file.set_text(kGroup, "notes", join_lines(estimate.notes));
+  if (estimate.border_px > 0) file.set_number(kGroup, "border_px", estimate.border_px);
 }
 
 void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
@@ -163,6 +166,9 @@ class ResultReader {
     estimate.source_hash = hash_from_digits(text("source_hash"));
     estimate.reading = reading_in(file_, kGroup);
     estimate.notes = split_lines(text("notes"));
+    constexpr double widest = 1 << 16;
+    estimate.border_px =
+        static_cast<int>(std::clamp(file_.number(kGroup, "border_px").value_or(0), 0.0, widest));
     const std::vector<double> range = file_.numbers(kGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
   }

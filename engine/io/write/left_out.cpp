@@ -96,6 +96,7 @@ std::vector<std::string> left_out(const Writer& writer, const Scene& scene) {
   losses.compare(truth.has_layers(), holds.has_layers, "layers");
   losses.compare_maps(truth.labels, holds.labels, "labels");
   losses.compare(!truth.regions.empty(), holds.has_regions, "region masks");
+  losses.compare(truth.high_res != nullptr, false, "ground truth in high resolution");
   losses.compare(!scene.scribbles.empty(), holds.has_scribbles, "scribbles");
   losses.compare(!field.valid().empty(), holds.has_valid, "masks of valid pixels");
   return losses.take();

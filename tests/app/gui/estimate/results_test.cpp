@@ -3,6 +3,7 @@
 #include "app/gui/opening/result_opener.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/maps/result_file.h"
+#include "engine/io/maps/submission_folder.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
@@ -27,6 +28,7 @@ class ResultsTest : public QObject {
   void run_listsItsResultWithItsError();
   void exportedResult_readsBack();
   void exportedMap_marksInvalidPixels();
+  void submittedResult_isAccepted();
   void unknownSuffix_isNotWritten();
   void chosenForm_namesTheFile();
   void openedResult_isListed();
@@ -95,6 +97,22 @@ void ResultsTest::exportedMap_marksInvalidPixels() {
   const Image<float> map = io::read_pfm(f.path("map.pfm").toStdString());
   QVERIFY(std::isnan(map.at(2, 3)));
   QCOMPARE(map.at(9, 9), scene.truth->field.view({4, 4}).disparity.at(9, 9));
+}
+
+void ResultsTest::submittedResult_isAccepted() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  const LightField& light_field = *f.window.bench().session.light_field();
+  const std::string scene = light_field.info().name;
+
+  submit_result(f.window.bench(), *f.window.bench().session.shown(), f.path("ours"));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.findChild<MessageBar*>("messageBar")->text().contains(".pfm"),
+                           kPatience);
+
+  const auto problems = io::submission_problems(
+      f.path("ours").toStdString(), {{scene, light_field.height(), light_field.width()}});
+  QVERIFY2(problems.empty(), problems.empty() ? "" : problems[0].c_str());
 }
 
 void ResultsTest::unknownSuffix_isNotWritten() {

@@ -312,7 +312,7 @@ class MetricsTest : public QObject {
     QCOMPARE(metric(evaluation, "shown"), 50.0);
     QCOMPARE(int{evaluation.judged.at(25, 20)}, 0);
     if (options.protocol == Protocol::Benchmark2016) {
-      QCOMPARE(metric(evaluation, "discontinuities_0070"), 0.0);
+      QCOMPARE(metric(evaluation, "discontinuities_0070_lowres"), 0.0);
     }
     shown = Image<std::uint8_t>(kSize, kSize);
     options.shown = shown.view();

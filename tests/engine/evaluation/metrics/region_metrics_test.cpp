@@ -113,8 +113,8 @@ class RegionMetricsTest : public QObject {
     const auto evaluation =
         judge(constant(0), truth, Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
 
-    QCOMPARE(metric(evaluation, "fine_fattening_0150"), 5.0);
-    QCOMPARE(metric(evaluation, "fine_thinning_0150"), 10.0);
+    QCOMPARE(metric(evaluation, "fine_fattening_0150_lowres"), 5.0);
+    QCOMPARE(metric(evaluation, "fine_thinning_0150_lowres"), 10.0);
   }
 
   void discontinuities_countInsideTheirRegionOnly() {
@@ -127,9 +127,9 @@ class RegionMetricsTest : public QObject {
     const auto evaluation =
         judge(estimate, constant(0), Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
 
-    QCOMPARE(metric(evaluation, "discontinuities_0070"), 10.0);
+    QCOMPARE(metric(evaluation, "discontinuities_0070_lowres"), 10.0);
     QVERIFY(!find_metric(evaluation.metrics, "bumpiness_planes_100_0050"));
-    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150"));
+    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150_lowres"));
   }
 
   void emptyRegion_addsNoMetric() {
@@ -140,7 +140,7 @@ class RegionMetricsTest : public QObject {
     const auto evaluation =
         judge(constant(0), constant(0), Protocol::Benchmark2016, InvalidEstimates::Bad, regions);
 
-    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150"));
+    QVERIFY(!find_metric(evaluation.metrics, "fine_thinning_0150_lowres"));
     QVERIFY(!find_metric(evaluation.metrics, "bumpiness_planes_100_0050"));
   }
 

@@ -146,6 +146,24 @@ class RankingTest : public QObject {
     QCOMPARE(results_table({result("a", "x", 2)}).rows[0],
              (std::vector<std::string>{"a", "x", "1.000", "yes", "2.000000", ""}));
   }
+
+  // Official scores and those of the resolution of the views never share a table.
+  void scoresOfOtherResolutions_haveTablesOfTheirOwn() {
+    BenchmarkResult dots, cotton;
+    dots.entry = cotton.entry = "a";
+    dots.scene = "dots";
+    cotton.scene = "cotton";
+    dots.benchmark2016 = {{"mse_100_lowres", 3}};
+    cotton.benchmark2016 = {{"mse_100", 2}};
+
+    const auto both = benchmark_tables({dots, cotton});
+    const auto one = benchmark_tables({cotton});
+
+    QCOMPARE(both.size(), std::size_t{3});
+    QCOMPARE(both[1].table.rows[0], (std::vector<std::string>{"cotton", "2.000"}));
+    QCOMPARE(both[2].table.rows[0], (std::vector<std::string>{"dots", "3.000"}));
+    QCOMPARE(one.size(), std::size_t{2});
+  }
 };
 
 }  // namespace episcope::in_ranking_test

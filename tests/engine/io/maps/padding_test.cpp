@@ -7,6 +7,7 @@
 
 #include <QTemporaryDir>
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -25,6 +26,21 @@ DisparityField padded(int top, int left, float around) {
     }
   }
   io::mark_invalid(field);
+  return field;
+}
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+/// 40×48 px without two neighbours alike within a frame.
+DisparityField ramp_in_frame(int frame, float value) {
+  DisparityField field;
+  field.disparity = ViewStack<float>({1, 1}, 40, 48);
+  std::fill_n(field.disparity.data(), field.disparity.size(), value);
+  for (int y = frame; y < 40 - frame; ++y) {
+    for (int x = frame; x < 48 - frame; ++x) {
+      field.disparity.view({0, 0}).at(y, x) = static_cast<float>(48 * y + x + 1);
+    }
+  }
   return field;
 }
 
@@ -67,6 +83,83 @@ class PaddingTest : public QObject {
     QVERIFY(io::remove_padding(flat, 6, 7).empty());
     QVERIFY(io::remove_padding(smaller, 20, 20).empty());
     QCOMPARE(elsewhere.disparity.height(), 10);
+  }
+
+  // As convolutions without padding leave them.
+  void smallerMaps_areTheMiddle() {
+    DisparityField field;
+    field.disparity = ViewStack<float>({1, 2}, 26, 30);
+    field.disparity.view({0, 1}).at(0, 29) = 3;
+    field.disparity.view({0, 1}).at(25, 0) = kNone;
+    io::mark_invalid(field);
+
+    const io::BareBorder border = io::find_bare_border(field, 32, 36);
+
+    QCOMPARE(border.width_px, 3);
+    QVERIFY(!border.note.empty());
+    QCOMPARE(field.disparity.height(), 32);
+    QCOMPARE(field.disparity.width(), 36);
+    const DisparityView map = field.view({0, 1});
+    QCOMPARE(map.disparity.at(3, 32), 3.0F);
+    QVERIFY(map.is_valid(3, 32) && !map.is_valid(2, 32) && !map.is_valid(3, 33));
+    QVERIFY(!map.is_valid(28, 3));
+  }
+
+  void smallerMapsElsewhere_stay_data() {
+    QTest::addColumn<int>("height");
+    QTest::addColumn<int>("width");
+    QTest::newRow("odd") << 33 << 37;
+    QTest::newRow("unequal") << 32 << 34;
+    QTest::newRow("far too small") << 52 << 56;
+    QTest::newRow("larger") << 24 << 28;
+    QTest::newRow("in one direction") << 26 << 34;
+  }
+  void smallerMapsElsewhere_stay() {
+    QFETCH(int, height);
+    QFETCH(int, width);
+    DisparityField field;
+    field.disparity = ViewStack<float>({1, 1}, 26, 30);
+
+    QCOMPARE(io::find_bare_border(field, height, width).width_px, 0);
+    QCOMPARE(field.disparity.height(), 26);
+  }
+
+  void frameOfOneValue_isPadding_data() {
+    QTest::addColumn<float>("value");
+    QTest::addColumn<int>("frame");
+    QTest::addColumn<int>("expected");
+    QTest::newRow("zeros") << 0.0F << 3 << 3;
+    QTest::newRow("another value") << -1.5F << 5 << 5;
+    QTest::newRow("one pixel") << 0.0F << 1 << 0;
+    QTest::newRow("too wide") << 0.0F << 7 << 0;
+    QTest::newRow("none") << 0.0F << 0 << 0;
+  }
+  void frameOfOneValue_isPadding() {
+    QFETCH(float, value);
+    QFETCH(int, frame);
+    QFETCH(int, expected);
+    DisparityField field = ramp_in_frame(frame, value);
+
+    const io::BareBorder border = io::find_bare_border(field, 40, 48);
+
+    QCOMPARE(border.width_px, expected);
+    QCOMPARE(border.note.empty(), expected == 0);
+    const DisparityView map = field.view({0, 0});
+    QCOMPARE(map.is_valid(0, 0), expected == 0);
+    QVERIFY(map.is_valid(frame, frame) && map.is_valid(20, 20));
+    QCOMPARE(map.is_valid(39 - std::max(0, expected - 1), 20), expected == 0);
+  }
+
+  // The wall behind an object goes on within.
+  void plainBackground_isNoPadding() {
+    DisparityField field = ramp_in_frame(3, 0);
+    for (int x = 3; x < 10; ++x) field.disparity.view({0, 0}).at(3, x) = 0;
+    for (int x = 3; x < 20; ++x) field.disparity.view({0, 0}).at(36, x) = 0;
+    DisparityField flat = ramp_in_frame(20, 0);
+
+    QCOMPARE(io::find_bare_border(field, 40, 48).width_px, 0);
+    QCOMPARE(io::find_bare_border(flat, 40, 48).width_px, 0);
+    QVERIFY(field.valid.empty() && flat.valid.empty());
   }
 
   void npyResult_isRead() {

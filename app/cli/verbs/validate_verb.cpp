@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/output/json.h"
+#include "app/cli/verbs/verbs.h"
+#include "engine/core/error.h"
+#include "engine/io/maps/submission_folder.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string folder;
+  std::vector<std::string> scenes;
+  Extent size{512, 512};  ///< Width and height.
+  bool is_json = false;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser("validate",
+                   {"Checks a submission to the 2016 benchmark: a map and a runtime of every "
+                    "scene,\nsizes, finite samples, little endian.",
+                    "episcope-cli validate ours\n"
+                    "  episcope-cli validate ours --scenes boxes cotton dino --json"});
+  parser.positional("FOLDER", request.folder, "The submission: disp_maps, runtimes");
+  parser.list_option("--scenes", request.scenes, "NAME",
+                     "Scenes that are wanted; without it, the twelve of the benchmark");
+  constexpr int most = 1 << 16;
+  parser.option("--size", request.size, extent_value("WxH", most),
+                "Width and height of the maps; 512x512 if not given");
+  parser.flag("--json", request.is_json, "Print one JSON object");
+  return parser.parse(arguments);
+}
+
+std::vector<io::SubmittedScene> wanted_scenes(const Request& request) {
+  std::vector<io::SubmittedScene> scenes;
+  for (const std::string& name : request.scenes) scenes.push_back({.name = name});
+  if (scenes.empty()) scenes = io::benchmark_scenes();
+  for (io::SubmittedScene& scene : scenes) {
+    scene.width = request.size.first;
+    scene.height = request.size.second;
+  }
+  return scenes;
+}
+
+void print_answer(const Request& request, std::size_t scenes,
+                  const std::vector<std::string>& problems) {
+  if (!request.is_json) {
+    for (const std::string& problem : problems) std::cout << problem << '\n';
+    if (problems.empty()) std::cout << request.folder << ": " << scenes << " scenes are complete\n";
+    return;
+  }
+  print_json(Json::object({{"folder", request.folder},
+                           {"scenes", scenes},
+                           {"complete", problems.empty()},
+                           {"problems", problems}}));
+}
+
+}  // namespace
+
+void run_validate(const VerbArguments& arguments, std::stop_token) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  const std::vector<io::SubmittedScene> scenes = wanted_scenes(request);
+  if (!std::filesystem::is_directory(request.folder)) {
+    throw IoError(request.folder, "is not a folder; a submission holds disp_maps and runtimes");
+  }
+  const std::vector<std::string> problems = io::submission_problems(request.folder, scenes);
+  print_answer(request, scenes.size(), problems);
+  if (problems.empty()) return;
+  throw Error(fmt::format("{} would not be accepted: {} problems, the first: {}", request.folder,
+                          problems.size(), problems.front()));
+}
+
+}  // namespace episcope::cli

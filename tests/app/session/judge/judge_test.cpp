@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/judge/judge.h"
+
+#include "app/session/run/read_result.h"
+#include "engine/core/error.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/maps/result_file.h"
+#include "tests/app/session/tiny_scene.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::in_judge_test {
+
+constexpr int kSide = 64;   // of the tiny scene
+constexpr int kBorder = 8;  // of the maps that lack one
+
+/// How a map ends.
+enum class Border { Cut, Zero };
+
+class JudgeTest : public QObject {
+  Q_OBJECT
+ private slots:
+  void mapsThatLackABorder_areJudgedOnTheirPart_data() {
+    QTest::addColumn<bool>("is_cut");
+    QTest::newRow("smaller map") << true;
+    QTest::newRow("frame of zeros") << false;
+  }
+  void mapsThatLackABorder_areJudgedOnTheirPart() {
+    QFETCH(bool, is_cut);
+    const auto scene = tiny_scene("slant");
+    const std::filesystem::path file = write_map(*scene, is_cut ? Border::Cut : Border::Zero);
+
+    const Estimate estimate = read_result_of(*scene->light_field, file);
+    const Evaluation all = judge(estimate, *scene, {});
+    const Evaluation inner = judge(estimate, *scene, {.protocol = Protocol::Benchmark2016});
+
+    QCOMPARE(estimate.border_px, kBorder);
+    QCOMPARE(estimate.notes.size(), std::size_t{1});
+    const double side = kSide - 2 * kBorder;
+    QVERIFY(std::abs(*find_metric(all.metrics, "mse_100") - 1) < 1e-4);  // 0.1 px, in float
+    QCOMPARE(*find_metric(all.metrics, "density"), 100.0);
+    QCOMPARE(*find_metric(all.metrics, "shown"), 100 * side * side / (kSide * kSide));
+    QVERIFY(std::abs(*find_metric(inner.metrics, "mse_100") - 1) < 1e-4);
+    QVERIFY(std::ranges::count(all.judged, 1) == side * side);
+  }
+
+  void border_isKeptWithTheResult() {
+    const auto scene = tiny_scene("slant");
+    const Estimate estimate = read_result_of(*scene->light_field, write_map(*scene, Border::Cut));
+    const std::filesystem::path kept = folder_.filePath("kept.h5").toStdString();
+
+    io::write_result(kept, estimate, Progress(1));
+    const Estimate read = read_result_of(*scene->light_field, kept);
+
+    QCOMPARE(read.border_px, kBorder);
+    QVERIFY(judge(read, *scene, {}).metrics == judge(estimate, *scene, {}).metrics);
+  }
+
+  void runtime_isGivenAsItsLogarithm() {
+    const auto scene = tiny_scene();
+    Estimate estimate;
+    estimate.field.disparity = scene->truth->field.disparity.clone();
+    QVERIFY(!find_metric(judge(estimate, *scene, by_2016()).metrics, "runtime_log"));
+    estimate.seconds = 100;
+
+    QCOMPARE(*find_metric(judge(estimate, *scene, by_2016()).metrics, "runtime_log"), 2.0);
+    QVERIFY(!find_metric(judge(estimate, *scene, {}).metrics, "runtime_log"));
+  }
+
+  void highResolution_isThatOfTheCenterView() {
+    const auto made = tiny_scene();
+    Scene scene;
+    scene.light_field = made->light_field;
+    auto truth = std::make_shared<GroundTruth>();
+    truth->field.disparity = made->truth->field.disparity.clone();
+    truth->stratified = StratifiedScene::Dots;
+    truth->high_res = std::make_shared<const FlatTruth>();
+    scene.truth = truth;
+    const EstimatePtr estimate = shifted_truth(*made, 0);
+
+    const Evaluation center = judge(*estimate, scene, by_2016());
+    const Evaluation corner = judge(*estimate, scene, by_2016(), ViewIndex{0, 0});
+
+    QVERIFY(*find_metric(center.metrics, "mse_100") > 0);
+    QCOMPARE(*find_metric(center.metrics, "mse_100_lowres"), 0.0);
+    QVERIFY(!find_metric(corner.metrics, "mse_100"));
+    QCOMPARE(*find_metric(corner.metrics, "mse_100_lowres"), 0.0);
+  }
+
+ private:
+  /// Disparity 9 everywhere.
+  class FlatTruth : public HighResTruth {
+   public:
+    [[nodiscard]] Image<float> read_disparity() const override {
+      return Image<float>(10 * kSide, 10 * kSide, 1, 9);
+    }
+    [[nodiscard]] std::vector<std::string> regions() const override { return {}; }
+    [[nodiscard]] Image<std::uint8_t> read_region(const std::string& name) const override {
+      throw IoError(name, "is not there");
+    }
+    [[nodiscard]] std::string identity() const override { return "flat"; }
+  };
+
+  [[nodiscard]] static EvaluationOptions by_2016() { return {.protocol = Protocol::Benchmark2016}; }
+
+  /// The true centre view, 0.1 px off, without its border.
+  [[nodiscard]] std::filesystem::path write_map(const Scene& scene, Border border) const {
+    const DisparityView truth = scene.truth->field.view(scene.light_field->center());
+    const int cut = border == Border::Cut ? kBorder : 0;
+    Image<float> map(kSide - 2 * cut, kSide - 2 * cut);
+    for (int y = kBorder; y < kSide - kBorder; ++y) {
+      for (int x = kBorder; x < kSide - kBorder; ++x) {
+        map.at(y - cut, x - cut) = truth.disparity.at(y, x) + 0.1F;
+      }
+    }
+    const std::filesystem::path file = folder_.filePath("map.pfm").toStdString();
+    io::write_pfm(file, map.view());
+    return file;
+  }
+
+  QTemporaryDir folder_;
+};
+
+}  // namespace episcope::in_judge_test
+
+EPISCOPE_TEST(judge_test, JudgeTest)
+#include "judge_test.moc"
