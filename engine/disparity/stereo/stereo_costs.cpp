@@ -95,7 +95,7 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
               {"Profile",
                "tuned: the settings given here; paper: the method as published, which overrides "
                "the cap, interpolation, aggregation and whatever else the paper does not have, and "
-               "applies a fifth of the smoothness of a global labeling"})
+               "applies a third of the smoothness of a global labeling"})
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
