@@ -73,17 +73,35 @@ void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
            const std::vector<float>& labels) {
   check_matching(lf, reference);
   if (labels.empty()) throw InvalidInput("stereo needs at least one label");
+  if (cost.places && std::ssize(*cost.places) != lf.grid().count()) {
+    throw InvalidInput("stereo needs the place of every view, or of none");
+  }
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
 }
 
-// Shifts of one axis for every place along it and every label, `[place][label]`.
-std::vector<AxisShift> make_shifts(int places, int reference, int extent,
+// The ways along one axis from a reference: to every row (or column) of a regular grid.
+std::vector<double> regular_ways(int places, int reference) {
+  std::vector<double> ways(places);
+  std::iota(ways.begin(), ways.end(), -reference);
+  return ways;
+}
+
+// To every view.
+std::vector<double> stated_ways(const std::vector<ViewPlace>& places, std::size_t reference,
+                                double ViewPlace::*axis) {
+  std::vector<double> ways;
+  for (const ViewPlace& place : places) ways.push_back(place.*axis - places[reference].*axis);
+  return ways;
+}
+
+// Shifts of one axis for every way along it and every label, `[way][label]`.
+std::vector<AxisShift> make_shifts(const std::vector<double>& ways, int extent,
                                    Interpolation interpolation, const std::vector<float>& labels) {
   std::vector<AxisShift> shifts;
-  for (int place = 0; place < places; ++place) {
+  for (const double way : ways) {
     for (const float label : labels) {
       // u and v grow against the motion of points.
-      const double shift = -static_cast<double>(label) * (place - reference);
+      const double shift = -label * way;
       shifts.push_back(make_shift(shift, extent, interpolation));
     }
   }
@@ -148,10 +166,12 @@ struct MatchingCostRows::State {
   int tile_rows = 0;
   int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
   std::vector<float> reference_samples, noise, samples, lines, sums;
-  std::vector<float> counts;  // Of the views in each sum; empty: all samples are valid.
+  // Of the views in each sum; empty: rows_seen and columns_seen tell, as all samples are valid.
+  std::vector<float> counts;
 
   State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
         const std::vector<float>& disparities);
+  void find_shifts(const std::vector<float>& disparities);
   void read_reference(const Tile& tile);
   void add_view(const Tile& tile, ViewIndex view);
   [[nodiscard]] bool sees(const Tile& tile, ViewIndex view, int label) const;
@@ -160,10 +180,13 @@ struct MatchingCostRows::State {
   void add_label(const Tile& tile, const Window& window, ViewIndex view, int label);
   void finish(const Tile& tile, int y, VolumeView<float> costs) const;
   [[nodiscard]] const AxisShift& row_shift(ViewIndex view, int label) const {
-    return row_shifts[static_cast<std::size_t>(view.v) * labels + label];
+    return row_shifts[(cost.places ? index_of(view) : view.v) * labels + label];
   }
   [[nodiscard]] const AxisShift& column_shift(ViewIndex view, int label) const {
-    return column_shifts[static_cast<std::size_t>(view.u) * labels + label];
+    return column_shifts[(cost.places ? index_of(view) : view.u) * labels + label];
+  }
+  [[nodiscard]] std::size_t index_of(ViewIndex view) const {
+    return static_cast<std::size_t>(view.v) * light_field.grid().u + view.u;
   }
 };
 
@@ -175,10 +198,7 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
       labels(static_cast<int>(disparities.size())),
       planes(lf, InvalidSamples::AsNan) {
   check(lf, view, wanted, disparities);
-  row_shifts = make_shifts(lf.grid().v, view.v, lf.height(), wanted.interpolation, disparities);
-  column_shifts = make_shifts(lf.grid().u, view.u, lf.width(), wanted.interpolation, disparities);
-  rows_seen = count_seen(row_shifts, labels, lf.height());
-  columns_seen = count_seen(column_shifts, labels, lf.width());
+  find_shifts(disparities);
   tile_rows = std::clamp(kTileLayers / labels, 1, kTileRows);
   cost_pitch = kTileColumns;
   reference_pitch = kTileColumns + kMatchingSlack;
@@ -190,7 +210,26 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
   sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
-  if (!lf.valid().empty()) counts.resize(sums.size());
+  if (!lf.valid().empty() || cost.places) counts.resize(sums.size());
+}
+
+void MatchingCostRows::State::find_shifts(const std::vector<float>& disparities) {
+  const GridShape grid = light_field.grid();
+  const int height = light_field.height(), width = light_field.width();
+  if (cost.places) {
+    const std::size_t origin = index_of(reference);
+    row_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::v), height,
+                             cost.interpolation, disparities);
+    column_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::u), width,
+                                cost.interpolation, disparities);
+    return;
+  }
+  row_shifts =
+      make_shifts(regular_ways(grid.v, reference.v), height, cost.interpolation, disparities);
+  column_shifts =
+      make_shifts(regular_ways(grid.u, reference.u), width, cost.interpolation, disparities);
+  rows_seen = count_seen(row_shifts, labels, height);
+  columns_seen = count_seen(column_shifts, labels, width);
 }
 
 void MatchingCostRows::State::read_reference(const Tile& tile) {
@@ -309,15 +348,15 @@ void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> 
     for (int label = 0; label < labels; ++label) {
       const std::size_t first = (static_cast<std::size_t>(row) * labels + label) * cost_pitch;
       const float* sum = sums.data() + first;
-      const float* columns =
-          columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
-      const float rows =
-          rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
       float* out = costs.row(y + row, label) + tile.x;
       if (!counts.empty()) {
         divide(sum, counts.data() + first, worst, std::span(out, tile.columns));
         continue;
       }
+      const float* columns =
+          columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
+      const float rows =
+          rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
       for (int x = 0; x < tile.columns; ++x) {
         const float views = cross ? columns[x] + rows - 2 : columns[x] * rows - 1;
         out[x] = views > 0 ? sum[x] / views : worst;

@@ -77,7 +77,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
   const Image<float> means = mean_costs(costs, progress.part(0.3, 0.31));
   Estimate estimate;
   estimate.range = stereo.range;
-  estimate.notes.push_back(cap_note(stereo));
+  estimate.notes = cost_notes(stereo);
   const float step = stereo.labels[1] - stereo.labels[0];
   const auto place = [&](int y, int x, int label) {
     const float cost = costs.at(y, label, x);
