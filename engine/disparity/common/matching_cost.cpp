@@ -5,6 +5,7 @@
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/matching_cost_kernel.h"
+#include "engine/disparity/common/view_shifts.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
 #include <fmt/format.h>
@@ -25,48 +26,9 @@ constexpr int kTileRows = 8;
 constexpr int kTileLayers = 512;
 // Labels whose samples lie within so many pixels share what is read of a view.
 constexpr int kSpread = 24;
-constexpr int kMaxTaps = 4;
-// Shifts this near to whole pixels are taken as whole.
-constexpr double kWhole = 1e-5;
 
 int rounded_up(int lanes) {
   return (lanes + kMatchingSlack - 1) / kMatchingSlack * kMatchingSlack;
-}
-
-// How one axis of a view is sampled at one label.
-struct AxisShift {
-  int origin = 0;  // Pixels from the reference pixel to the first tap.
-  int taps = 1;
-  std::array<float, kMaxTaps> weights{1};
-  // Share of the variance of noise that the weights leave.
-  [[nodiscard]] double noise_left() const {
-    return std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
-  }
-  int first = 0, last = 0;  // Reference pixels whose sample lies within the image.
-};
-
-AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
-  AxisShift result;
-  const double whole = std::floor(shift + kWhole);
-  const double t = shift - whole;
-  result.origin = static_cast<int>(whole);
-  result.first = std::clamp(static_cast<int>(std::ceil(-shift - kWhole)), 0, extent);
-  result.last =
-      std::clamp(static_cast<int>(std::floor(extent - 1 - shift + kWhole)) + 1, 0, extent);
-  if (std::abs(t) <= kWhole) return result;
-  if (interpolation == Interpolation::Bilinear) {
-    result.taps = 2;
-    result.weights = {static_cast<float>(1 - t), static_cast<float>(t)};
-    return result;
-  }
-  // Catmull-Rom: through the samples, exact for parabolas.
-  result.taps = 4;
-  result.origin -= 1;
-  result.weights = {static_cast<float>(t * (-0.5 + t * (1 - 0.5 * t))),
-                    static_cast<float>(1 + t * t * (-2.5 + 1.5 * t)),
-                    static_cast<float>(t * (0.5 + t * (2 - 1.5 * t))),
-                    static_cast<float>(t * t * (-0.5 + 0.5 * t))};
-  return result;
 }
 
 void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
@@ -77,45 +39,6 @@ void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
     throw InvalidInput("stereo needs the place of every view, or of none");
   }
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
-}
-
-// The ways along one axis from a reference: to every row (or column) of a regular grid.
-std::vector<double> regular_ways(int places, int reference) {
-  std::vector<double> ways(places);
-  std::iota(ways.begin(), ways.end(), -reference);
-  return ways;
-}
-
-// To every view.
-std::vector<double> stated_ways(const std::vector<ViewPlace>& places, std::size_t reference,
-                                double ViewPlace::*axis) {
-  std::vector<double> ways;
-  for (const ViewPlace& place : places) ways.push_back(place.*axis - places[reference].*axis);
-  return ways;
-}
-
-// Shifts of one axis for every way along it and every label, `[way][label]`.
-std::vector<AxisShift> make_shifts(const std::vector<double>& ways, int extent,
-                                   Interpolation interpolation, const std::vector<float>& labels) {
-  std::vector<AxisShift> shifts;
-  for (const double way : ways) {
-    for (const float label : labels) {
-      // u and v grow against the motion of points.
-      const double shift = -label * way;
-      shifts.push_back(make_shift(shift, extent, interpolation));
-    }
-  }
-  return shifts;
-}
-
-// For each label and reference pixel of one axis: in how many places it is seen, `[label][pixel]`.
-std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
-  std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    float* row = seen.data() + i % labels * extent;
-    for (int x = shifts[i].first; x < shifts[i].last; ++x) row[x] += 1;
-  }
-  return seen;
 }
 
 // Means of `counts` costs each; `worst` where there is none.
@@ -202,11 +125,11 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
   tile_rows = std::clamp(kTileLayers / labels, 1, kTileRows);
   cost_pitch = kTileColumns;
   reference_pitch = kTileColumns + kMatchingSlack;
-  sample_pitch = rounded_up(kTileColumns + kSpread + kMaxTaps) + kMatchingSlack;
+  sample_pitch = rounded_up(kTileColumns + kSpread + kMaxShiftTaps) + kMatchingSlack;
   const auto channels = static_cast<std::size_t>(lf.channels());
   reference_samples.resize(channels * tile_rows * reference_pitch + kMatchingSlack);
   noise.resize(static_cast<std::size_t>(tile_rows) * reference_pitch + kMatchingSlack);
-  const std::size_t sample_rows = tile_rows + kSpread + kMaxTaps;
+  const std::size_t sample_rows = tile_rows + kSpread + kMaxShiftTaps;
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
   sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
@@ -273,7 +196,8 @@ void MatchingCostRows::State::read_window(const Tile& tile, const Window& window
   for (int y = 0; y < rows; ++y) {
     std::array<float*, 3> out{};
     for (int c = 0; c < light_field.channels(); ++c) {
-      const std::size_t row = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps) + y;
+      const std::size_t row =
+          static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxShiftTaps) + y;
       out[c] = samples.data() + row * sample_pitch;
     }
     const int x = tile.x + window.x;
@@ -296,7 +220,7 @@ void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, 
   work.reference_pitch = reference_pitch;
   work.sample_pitch = sample_pitch;
   for (int c = 0; c < work.channels; ++c) {
-    const std::size_t plane = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps);
+    const std::size_t plane = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxShiftTaps);
     work.reference[c] =
         reference_samples.data() + static_cast<std::size_t>(c) * tile_rows * reference_pitch;
     work.samples[c] = samples.data() + (plane + (row.origin - window.y)) * sample_pitch +
@@ -331,7 +255,7 @@ void MatchingCostRows::State::add_view(const Tile& tile, ViewIndex view) {
     int end = label;
     for (; end < labels && sees(tile, view, end); ++end) {
       const Window wider = extend(window, view, end);
-      if (std::max(wider.rows, wider.columns) > kSpread + kMaxTaps) break;
+      if (std::max(wider.rows, wider.columns) > kSpread + kMaxShiftTaps) break;
       window = wider;
     }
     read_window(tile, window, view);
