@@ -58,6 +58,12 @@ void check(const RenderOptions& options) {
   require_range("width", options.width, 8, 8192);
   require_range("noise", options.noise_sigma, 0, 255);
   require_range("disparity scale", options.disparity_scale, 1e-3, 100);
+  const auto positions = static_cast<int>(options.positions.size());
+  if (positions != 0 && positions != options.grid.count()) {
+    throw InvalidInput(fmt::format(
+        "cannot render a built-in scene of {} views at {} positions: each view needs one",
+        options.grid.count(), positions));
+  }
   if (options.channels != 1 && options.channels != 3) {
     throw InvalidInput(fmt::format(
         "cannot render a built-in scene with {} channels: it must be 1 (grey) or 3 (RGB)",
@@ -117,6 +123,7 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   info.name = builtin_name(id, options);
   info.source = id == "demo" ? "demo" : "demo:" + text_of(id, options);
   info.reading.reader = kBuiltinReader;
+  info.positions = options.positions;
   info.camera = camera_grid_of(laid.stage, options.disparity_scale);
   Scene scene;
   scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));

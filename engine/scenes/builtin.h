@@ -25,6 +25,10 @@ struct RenderOptions {
   int channels = 3;
   /// Scales every disparity, to make scenes of wider or narrower range.
   double disparity_scale = 1;
+  /// Where the cameras stand, in steps to the right of and below the centre view, view by view;
+  /// empty = on the regular grid. They become LightFieldInfo::positions; the centre view must stand
+  /// at (0, 0).
+  std::vector<CameraPosition> positions{};
   RandomKind kind = RandomKind::Any;  ///< Of a random scene.
   friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };

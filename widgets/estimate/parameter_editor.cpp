@@ -209,16 +209,19 @@ class TextEditor : public ParameterEditor {
   QLineEdit* line_;
 };
 
-/// "auto", or two ends of which the lower one stays below the upper one.
+/// "auto", "found", or two ends of which the lower one stays below the upper one.
 class IntervalEditor : public ParameterEditor {
  public:
   IntervalEditor(const ParameterDescription& description, QWidget* parent)
       : ParameterEditor(parent),
         domain_{description.min, description.max},
         automatic_(new QCheckBox(ParameterEditor::tr("auto"), this)),
+        found_(new QCheckBox(ParameterEditor::tr("found"), this)),
         min_(make_spin(description, "min", this)),
         max_(make_spin(description, "max", this)) {
     automatic_->setObjectName(control_name(description, "auto"));
+    found_->setObjectName(control_name(description, "found"));
+    found_->setToolTip(ParameterEditor::tr("From the images, whatever the files say"));
     min_->setSuffix({});
     for (auto* end : {min_, max_}) end->setButtonSymbols(QAbstractSpinBox::NoButtons);
     min_->setMinimumWidth(44);
@@ -226,15 +229,13 @@ class IntervalEditor : public ParameterEditor {
     if (ends_.length() <= 0) ends_ = domain_;
     auto* row = make_row(this);
     row->addWidget(automatic_);
+    row->addWidget(found_);
     row->addWidget(min_, 1);
     row->addWidget(new QLabel("…", this));
     row->addWidget(max_, 1);
     IntervalEditor::setValue(description.default_value);
-    connect(automatic_, &QCheckBox::toggled, this, [this](bool checked) {
-      min_->setEnabled(!checked);
-      max_->setEnabled(!checked);
-      emit edited();
-    });
+    connect(automatic_, &QCheckBox::toggled, this, [this] { choose(found_); });
+    connect(found_, &QCheckBox::toggled, this, [this] { choose(automatic_); });
     connect(min_, &NumberSpin::valueChanged, this, [this](double value) {
       edit({value, std::max(ends_.max, value + least())});
     });
@@ -244,16 +245,17 @@ class IntervalEditor : public ParameterEditor {
   }
 
   [[nodiscard]] ParameterValue value() const override {
+    if (found_->isChecked()) return IntervalOrAuto::found();
     return automatic_->isChecked() ? IntervalOrAuto{} : IntervalOrAuto(ends_);
   }
 
   void setValue(const ParameterValue& value) override {
     const auto* interval = std::get_if<IntervalOrAuto>(&value);
     if (!interval) return;
-    const QSignalBlocker blocker(automatic_);
-    automatic_->setChecked(!*interval);
-    min_->setEnabled(interval->has_value());
-    max_->setEnabled(interval->has_value());
+    const QSignalBlocker automatic_blocker(automatic_), found_blocker(found_);
+    automatic_->setChecked(!*interval && !interval->is_found);
+    found_->setChecked(interval->is_found);
+    enableEnds();
     if (*interval) ends_ = **interval;
     showEnds();
   }
@@ -262,6 +264,18 @@ class IntervalEditor : public ParameterEditor {
   /// Least length of the interval: one unit of the last decimal.
   [[nodiscard]] double least() const { return std::pow(10.0, -min_->decimals()); }
 
+  /// One of the boxes was clicked: the other one is not what is wanted.
+  void choose(QCheckBox* other) {
+    const QSignalBlocker blocker(other);
+    other->setChecked(false);
+    enableEnds();
+    emit edited();
+  }
+  void enableEnds() {
+    const bool is_given = !automatic_->isChecked() && !found_->isChecked();
+    min_->setEnabled(is_given);
+    max_->setEnabled(is_given);
+  }
   void edit(Interval ends) {
     // At the border of the domain the edited end gives way.
     if (ends.max > domain_.max) ends = {domain_.max - least(), domain_.max};
@@ -282,6 +296,7 @@ class IntervalEditor : public ParameterEditor {
   Interval domain_;
   Interval ends_;
   QCheckBox* automatic_;
+  QCheckBox* found_;
   NumberSpin* min_;
   NumberSpin* max_;
 };

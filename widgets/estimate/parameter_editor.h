@@ -26,7 +26,8 @@ class ParameterEditor : public QWidget {
 };
 
 /// Object names: "<key>" for the editor, "<key>.slider", "<key>.spin", "<key>.check",
-/// "<key>.combo", "<key>.auto", "<key>.min", "<key>.max", "<key>.text" for its controls.
+/// "<key>.combo", "<key>.auto", "<key>.found", "<key>.min", "<key>.max", "<key>.text" for its
+/// controls.
 [[nodiscard]] ParameterEditor* make_parameter_editor(const ParameterDescription& description,
                                                      QWidget* parent);
 

@@ -38,6 +38,7 @@ QString value_text(const ParameterDescription& description, const ParameterValue
   }
   const auto* interval = std::get_if<IntervalOrAuto>(&value);
   const auto* view = std::get_if<ViewOrAuto>(&value);
+  if (interval && interval->is_found) return Text::tr("found");
   if ((interval && !*interval) || (view && !*view)) return Text::tr("auto");
   return with_unit(QString::fromStdString(to_text(value)), description.unit);
 }

@@ -93,8 +93,9 @@ std::string domain_text(const ParameterDescription& parameter) {
   if (!has_numeric_domain(parameter)) return "TEXT";
   const std::string ends = to_text(parameter.min) + " … " + to_text(parameter.max) +
                            (parameter.unit.empty() ? "" : " " + parameter.unit);
-  return std::holds_alternative<IntervalOrAuto>(parameter.default_value) ? "auto or A,B in " + ends
-                                                                         : ends;
+  return std::holds_alternative<IntervalOrAuto>(parameter.default_value)
+             ? "auto, found or A,B in " + ends
+             : ends;
 }
 
 }  // namespace episcope::cli

@@ -47,7 +47,7 @@ void Json::push_back(Json item) {
 Json value_json(const ParameterValue& value) {
   struct Maker {
     Json operator()(const IntervalOrAuto& interval) const {
-      return interval ? interval_json(*interval) : Json("auto");
+      return interval ? interval_json(*interval) : Json(interval.word());
     }
     Json operator()(const ViewOrAuto& view) const { return view ? view_json(*view) : Json("auto"); }
     Json operator()(const std::string& text) const { return text; }

@@ -47,7 +47,7 @@ class Json {
   Value value_;
 };
 
-/// "auto" for an interval that is not set, else [A, B].
+/// "auto" or "found" for an interval that is not set, else [A, B].
 [[nodiscard]] Json value_json(const ParameterValue& value);
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);

@@ -22,6 +22,7 @@ enum class SampleType { UInt8, UInt16, Float32 };
 struct CameraPosition {
   double x = 0;
   double y = 0;
+  friend bool operator==(const CameraPosition&, const CameraPosition&) = default;
 };
 
 /// What is known about a light field besides its samples.

@@ -63,7 +63,7 @@ struct Checker {
     in_domain(interval->min);
     in_domain(interval->max);
     if (!(interval->min < interval->max)) {
-      refuse(description, to_text(interval), "auto or A,B with A < B");
+      refuse(description, to_text(interval), "auto, found or A,B with A < B");
     }
   }
   void operator()(const ViewOrAuto& view) const {
@@ -93,13 +93,14 @@ struct Parser {
   ParameterValue operator()(const std::string&) const { return text; }
   ParameterValue operator()(const IntervalOrAuto&) const {
     if (text == "auto") return IntervalOrAuto{};
+    if (text == "found") return IntervalOrAuto::found();
     const auto comma = text.find(',');
     if (comma != std::string::npos) {
       const auto min = parse_number<double>(std::string_view(text).substr(0, comma));
       const auto max = parse_number<double>(std::string_view(text).substr(comma + 1));
       if (min && max) return IntervalOrAuto(Interval{*min, *max});
     }
-    refuse(description, "'" + text + "'", "auto or two numbers A,B");
+    refuse(description, "'" + text + "'", "auto, found or two numbers A,B");
   }
   ParameterValue operator()(const ViewOrAuto&) const {
     if (text == "auto") return ViewOrAuto{};
@@ -121,7 +122,8 @@ std::string to_text(const ParameterValue& value) {
     std::string operator()(double number) const { return number_text(number); }
     std::string operator()(const std::string& text) const { return text; }
     std::string operator()(const IntervalOrAuto& interval) const {
-      return interval ? number_text(interval->min) + "," + number_text(interval->max) : "auto";
+      return interval ? number_text(interval->min) + "," + number_text(interval->max)
+                      : interval.word();
     }
     std::string operator()(const ViewOrAuto& view) const {
       return view ? view_text(*view) : "auto";

@@ -11,8 +11,25 @@
 
 namespace episcope {
 
-/// An interval, or empty for "auto": found from the data.
-using IntervalOrAuto = std::optional<Interval>;
+/// An interval; or empty: "auto", as files promise, else found from the data, or "found", from the
+/// data whatever files promise.
+struct IntervalOrAuto : std::optional<Interval> {
+  using std::optional<Interval>::optional;
+
+  [[nodiscard]] static IntervalOrAuto found() {
+    IntervalOrAuto interval;
+    interval.is_found = true;
+    return interval;
+  }
+  /// As the command line writes what is no interval: "auto" or "found".
+  [[nodiscard]] const char* word() const { return is_found ? "found" : "auto"; }
+
+  friend bool operator==(const IntervalOrAuto& a, const IntervalOrAuto& b) {
+    return a.is_found == b.is_found && a.has_value() == b.has_value() && (!a || *a == *b);
+  }
+
+  bool is_found = false;  ///< False if there is an interval.
+};
 
 /// A view of the camera grid, or empty for "auto": the centre.
 using ViewOrAuto = std::optional<ViewIndex>;
@@ -39,7 +56,7 @@ struct ParameterDescription {
   std::vector<ParameterValue> searched = {};    ///< Tried by a parameter search; empty = none.
 };
 
-/// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `-1.5,2`, `4,4`.
+/// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `found`, `-1.5,2`, `4,4`.
 [[nodiscard]] std::string to_text(const ParameterValue& value);
 
 /// Reads a value of the type of `description.default_value` and checks its domain.

@@ -5,19 +5,35 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/parameter.h"
 
+#include <string>
+
 namespace episcope {
 
+/// Where a range to search comes from.
+enum class RangeSource { Given, Promised, Found };
+[[nodiscard]] RangeSource range_source(const LightField& light_field, const IntervalOrAuto& wanted);
+
+/// "disparity range -1.65 … 1.50 px, found from the images".
+[[nodiscard]] std::string range_note(Interval range, RangeSource source);
+
+/// Help of a parameter that is a range to search.
+inline constexpr const char* kRangeHelp =
+    "Range of disparities to search; auto takes it from the files or finds it from the images, "
+    "found finds it from the images whatever the files say";
+
 /// The disparity range that an estimator should search, px per view step: `wanted` if given, else
-/// what the files promise (LightFieldInfo::disparity_range), else found from the light field
-/// itself. No estimator ever sees the truth. Throws Cancelled.
+/// what the files promise (LightFieldInfo::disparity_range) unless it is to be found, else found
+/// from the light field itself. No estimator ever sees the truth. Throws Cancelled.
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 
-/// Estimates the range by a coarse, robust pass: the structure tensor on every few rows and columns
-/// of the centre view's EPIs, sheared in whole pixels over ±`limit`, and the span between the first
-/// and the last 0.2 px that hold a small fraction of the coherent pixels. Under noise fewer pixels
-/// are coherent, and the threshold is lowered. A light field without texture gives [−1, 1].
-[[nodiscard]] Interval find_disparity_range(const LightField& light_field, const Progress& progress,
-                                            double limit = 5);
+/// Estimates the range by a coarse, robust pass: the structure tensor on some rows and columns of
+/// the centre view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image, and the
+/// span between the first and the last 0.2 px that hold a small fraction of the coherent pixels and
+/// that the pixels of some rows confirm by matching (label_support.h). Under noise fewer pixels are
+/// coherent, and the threshold is lowered. A light field without texture gives [−1, 1].
+/// Throws Cancelled.
+[[nodiscard]] Interval find_disparity_range(const LightField& light_field,
+                                            const Progress& progress);
 
 }  // namespace episcope

@@ -2,7 +2,11 @@
 #include "engine/disparity/common/estimator.h"
 
 #include "engine/core/error.h"
+#include "engine/core/light_field/view_places.h"
 #include "engine/core/version.h"
+#include "engine/disparity/common/disparity_range.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -13,6 +17,30 @@ void require_device(Device device, const EstimatorInfo& info) {
   throw Unavailable("this build runs on the CPU only; use --device cpu or auto");
 }
 
+namespace {
+
+// For a method without a parameter `positions`: that it takes cameras for equidistant.
+void note_positions(const LightField& light_field, Estimate& estimate) {
+  const auto is_choice = [](const auto& entry) { return entry.first == "positions"; };
+  if (std::ranges::any_of(estimate.parameters, is_choice)) return;
+  const ViewPlaces stated = view_places(light_field.info(), light_field.grid());
+  if (stated.kind != PlacesKind::Irregular) return;
+  estimate.notes.push_back(fmt::format(
+      "cameras stand up to {:.2f} steps off the regular grid, which this method takes for granted; "
+      "stereo methods can use their positions",
+      stated.largest_deviation));
+}
+
+}  // namespace
+
+void note_range(const LightField& light_field, Estimate& estimate) {
+  for (const auto& [key, value] : estimate.parameters) {
+    const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
+    if (key != "range" || !wanted) continue;
+    estimate.notes.push_back(range_note(estimate.range, range_source(light_field, *wanted)));
+  }
+}
+
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds) {
   estimate.method = method;
@@ -20,6 +48,7 @@ void complete_estimate(Estimate& estimate, const std::string& method, const Ligh
   estimate.version = kVersion;
   estimate.source = light_field.info().source;
   estimate.reading = light_field.info().reading;
+  note_positions(light_field, estimate);
 }
 
 }  // namespace episcope

@@ -52,6 +52,10 @@ struct Estimator {
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
+/// Adds to the notes which range was searched and where it comes from, if there is a parameter
+/// `range`.
+void note_range(const LightField& light_field, Estimate& estimate);
+
 /// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds);
@@ -80,6 +84,7 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
     }();
     mark_invalid(light_field, result);
     result.parameters = schema.values(parameters);
+    note_range(light_field, result);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
   };

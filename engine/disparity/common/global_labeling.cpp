@@ -14,10 +14,11 @@
 namespace episcope {
 namespace {
 
-std::string labeling_note(const LiftedResult& result) {
-  return fmt::format("global labeling: energy {:.6g}, gap {:.1e} after {} iterations{}",
-                     result.energy, result.relative_gap(), result.iterations,
-                     result.converged ? "" : " (ended early)");
+std::string labeling_note(const LiftedResult& result, double smoothness) {
+  return fmt::format(
+      "global labeling: λ {:.5g} per px, energy {:.6g}, gap {:.1e} after {} iterations{}",
+      smoothness, result.energy, result.relative_gap(), result.iterations,
+      result.converged ? "" : " (ended early)");
 }
 
 void settle(const GlobalLabelingData& data, const Image<int>& labels, ImageView<const float> g,
@@ -50,8 +51,8 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
       .real("smoothness", &P::smoothness,
             {"Smoothness λ",
              "Weight of the total variation per px of disparity, relative to the mean matching "
-             "cost (stereo) or confidence weight (EPI_G), so that it depends on neither the number "
-             "of labels nor the contrast"},
+             "cost within half a pixel of the best label (stereo) or the mean confidence weight "
+             "(EPI_G), so that it depends on neither labels nor range nor contrast"},
             {0, 100})
       .real("edge_strength", &P::edge_strength,
             {"Edge strength β",
@@ -77,12 +78,13 @@ void label_globally(const LightField& light_field, const GlobalLabelingData& dat
                     const Progress& progress) {
   const Image<float> g = smoothness_weights(light_field, data.view, parameters.edge_strength);
   const double step = data.labels[1] - data.labels[0];
-  const LiftedProblem problem{data.cost, g, parameters.smoothness * data.scale * step};
+  const double smoothness = parameters.smoothness * data.scale;
+  const LiftedProblem problem{data.cost, g, smoothness * step};
   progress.step("labeling");
   const LiftedResult result = solve_lifted_labeling(
       problem, {.max_iterations = parameters.max_iterations, .gap = parameters.gap},
       progress.part(0, 0.85));
-  estimate.notes.push_back(labeling_note(result));
+  estimate.notes.push_back(labeling_note(result, smoothness));
   estimate.field.disparity =
       ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, data.view);
   const ImageView<float> disparity = estimate.field.disparity.view(data.view);

@@ -14,7 +14,7 @@ namespace episcope {
 
 /// Parameters that the global methods ST_*_G and EPI_G share; defaults are each method's.
 struct GlobalLabelingParameters {
-  double smoothness = 1.5;
+  double smoothness = 1.8;
   double edge_strength = 20;
   double settling = 1;
   int max_iterations = 500;
@@ -38,8 +38,8 @@ struct GlobalLabelingData {
 };
 
 /// Disparity of one view by a globally optimal labeling (engine/solvers/lifted/lifted_labeling.h):
-/// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view. Its
-/// energy, gap and iterations go to the notes of `estimate`, its map to `estimate.field`.
+/// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view.
+/// λ·scale, energy, gap and iterations go to the notes of `estimate`, the map to `estimate.field`.
 ///
 /// Labels quantise (variance step²/12) and cause staircases; therefore the map is refined between
 /// labels: TV-L2 of the placements with their weights, g as before and λ = `settling` label steps,

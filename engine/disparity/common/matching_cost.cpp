@@ -5,6 +5,7 @@
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/matching_cost_kernel.h"
+#include "engine/disparity/common/view_shifts.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
 #include <fmt/format.h>
@@ -25,79 +26,19 @@ constexpr int kTileRows = 8;
 constexpr int kTileLayers = 512;
 // Labels whose samples lie within so many pixels share what is read of a view.
 constexpr int kSpread = 24;
-constexpr int kMaxTaps = 4;
-// Shifts this near to whole pixels are taken as whole.
-constexpr double kWhole = 1e-5;
 
 int rounded_up(int lanes) {
   return (lanes + kMatchingSlack - 1) / kMatchingSlack * kMatchingSlack;
-}
-
-// How one axis of a view is sampled at one label.
-struct AxisShift {
-  int origin = 0;  // Pixels from the reference pixel to the first tap.
-  int taps = 1;
-  std::array<float, kMaxTaps> weights{1};
-  // Share of the variance of noise that the weights leave.
-  [[nodiscard]] double noise_left() const {
-    return std::inner_product(weights.begin(), weights.end(), weights.begin(), 0.0);
-  }
-  int first = 0, last = 0;  // Reference pixels whose sample lies within the image.
-};
-
-AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
-  AxisShift result;
-  const double whole = std::floor(shift + kWhole);
-  const double t = shift - whole;
-  result.origin = static_cast<int>(whole);
-  result.first = std::clamp(static_cast<int>(std::ceil(-shift - kWhole)), 0, extent);
-  result.last =
-      std::clamp(static_cast<int>(std::floor(extent - 1 - shift + kWhole)) + 1, 0, extent);
-  if (std::abs(t) <= kWhole) return result;
-  if (interpolation == Interpolation::Bilinear) {
-    result.taps = 2;
-    result.weights = {static_cast<float>(1 - t), static_cast<float>(t)};
-    return result;
-  }
-  // Catmull-Rom: through the samples, exact for parabolas.
-  result.taps = 4;
-  result.origin -= 1;
-  result.weights = {static_cast<float>(t * (-0.5 + t * (1 - 0.5 * t))),
-                    static_cast<float>(1 + t * t * (-2.5 + 1.5 * t)),
-                    static_cast<float>(t * (0.5 + t * (2 - 1.5 * t))),
-                    static_cast<float>(t * t * (-0.5 + 0.5 * t))};
-  return result;
 }
 
 void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
            const std::vector<float>& labels) {
   check_matching(lf, reference);
   if (labels.empty()) throw InvalidInput("stereo needs at least one label");
+  if (cost.places && std::ssize(*cost.places) != lf.grid().count()) {
+    throw InvalidInput("stereo needs the place of every view, or of none");
+  }
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
-}
-
-// Shifts of one axis for every place along it and every label, `[place][label]`.
-std::vector<AxisShift> make_shifts(int places, int reference, int extent,
-                                   Interpolation interpolation, const std::vector<float>& labels) {
-  std::vector<AxisShift> shifts;
-  for (int place = 0; place < places; ++place) {
-    for (const float label : labels) {
-      // u and v grow against the motion of points.
-      const double shift = -static_cast<double>(label) * (place - reference);
-      shifts.push_back(make_shift(shift, extent, interpolation));
-    }
-  }
-  return shifts;
-}
-
-// For each label and reference pixel of one axis: in how many places it is seen, `[label][pixel]`.
-std::vector<float> count_seen(const std::vector<AxisShift>& shifts, int labels, int extent) {
-  std::vector<float> seen(static_cast<std::size_t>(labels) * extent, 0.0F);
-  for (std::size_t i = 0; i < shifts.size(); ++i) {
-    float* row = seen.data() + i % labels * extent;
-    for (int x = shifts[i].first; x < shifts[i].last; ++x) row[x] += 1;
-  }
-  return seen;
 }
 
 // Means of `counts` costs each; `worst` where there is none.
@@ -148,10 +89,12 @@ struct MatchingCostRows::State {
   int tile_rows = 0;
   int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
   std::vector<float> reference_samples, noise, samples, lines, sums;
-  std::vector<float> counts;  // Of the views in each sum; empty: all samples are valid.
+  // Of the views in each sum; empty: rows_seen and columns_seen tell, as all samples are valid.
+  std::vector<float> counts;
 
   State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
         const std::vector<float>& disparities);
+  void find_shifts(const std::vector<float>& disparities);
   void read_reference(const Tile& tile);
   void add_view(const Tile& tile, ViewIndex view);
   [[nodiscard]] bool sees(const Tile& tile, ViewIndex view, int label) const;
@@ -160,10 +103,13 @@ struct MatchingCostRows::State {
   void add_label(const Tile& tile, const Window& window, ViewIndex view, int label);
   void finish(const Tile& tile, int y, VolumeView<float> costs) const;
   [[nodiscard]] const AxisShift& row_shift(ViewIndex view, int label) const {
-    return row_shifts[static_cast<std::size_t>(view.v) * labels + label];
+    return row_shifts[(cost.places ? index_of(view) : view.v) * labels + label];
   }
   [[nodiscard]] const AxisShift& column_shift(ViewIndex view, int label) const {
-    return column_shifts[static_cast<std::size_t>(view.u) * labels + label];
+    return column_shifts[(cost.places ? index_of(view) : view.u) * labels + label];
+  }
+  [[nodiscard]] std::size_t index_of(ViewIndex view) const {
+    return static_cast<std::size_t>(view.v) * light_field.grid().u + view.u;
   }
 };
 
@@ -175,22 +121,38 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
       labels(static_cast<int>(disparities.size())),
       planes(lf, InvalidSamples::AsNan) {
   check(lf, view, wanted, disparities);
-  row_shifts = make_shifts(lf.grid().v, view.v, lf.height(), wanted.interpolation, disparities);
-  column_shifts = make_shifts(lf.grid().u, view.u, lf.width(), wanted.interpolation, disparities);
-  rows_seen = count_seen(row_shifts, labels, lf.height());
-  columns_seen = count_seen(column_shifts, labels, lf.width());
+  find_shifts(disparities);
   tile_rows = std::clamp(kTileLayers / labels, 1, kTileRows);
   cost_pitch = kTileColumns;
   reference_pitch = kTileColumns + kMatchingSlack;
-  sample_pitch = rounded_up(kTileColumns + kSpread + kMaxTaps) + kMatchingSlack;
+  sample_pitch = rounded_up(kTileColumns + kSpread + kMaxShiftTaps) + kMatchingSlack;
   const auto channels = static_cast<std::size_t>(lf.channels());
   reference_samples.resize(channels * tile_rows * reference_pitch + kMatchingSlack);
   noise.resize(static_cast<std::size_t>(tile_rows) * reference_pitch + kMatchingSlack);
-  const std::size_t sample_rows = tile_rows + kSpread + kMaxTaps;
+  const std::size_t sample_rows = tile_rows + kSpread + kMaxShiftTaps;
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
   sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
-  if (!lf.valid().empty()) counts.resize(sums.size());
+  if (!lf.valid().empty() || cost.places) counts.resize(sums.size());
+}
+
+void MatchingCostRows::State::find_shifts(const std::vector<float>& disparities) {
+  const GridShape grid = light_field.grid();
+  const int height = light_field.height(), width = light_field.width();
+  if (cost.places) {
+    const std::size_t origin = index_of(reference);
+    row_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::v), height,
+                             cost.interpolation, disparities);
+    column_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::u), width,
+                                cost.interpolation, disparities);
+    return;
+  }
+  row_shifts =
+      make_shifts(regular_ways(grid.v, reference.v), height, cost.interpolation, disparities);
+  column_shifts =
+      make_shifts(regular_ways(grid.u, reference.u), width, cost.interpolation, disparities);
+  rows_seen = count_seen(row_shifts, labels, height);
+  columns_seen = count_seen(column_shifts, labels, width);
 }
 
 void MatchingCostRows::State::read_reference(const Tile& tile) {
@@ -234,7 +196,8 @@ void MatchingCostRows::State::read_window(const Tile& tile, const Window& window
   for (int y = 0; y < rows; ++y) {
     std::array<float*, 3> out{};
     for (int c = 0; c < light_field.channels(); ++c) {
-      const std::size_t row = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps) + y;
+      const std::size_t row =
+          static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxShiftTaps) + y;
       out[c] = samples.data() + row * sample_pitch;
     }
     const int x = tile.x + window.x;
@@ -257,7 +220,7 @@ void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, 
   work.reference_pitch = reference_pitch;
   work.sample_pitch = sample_pitch;
   for (int c = 0; c < work.channels; ++c) {
-    const std::size_t plane = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxTaps);
+    const std::size_t plane = static_cast<std::size_t>(c) * (tile_rows + kSpread + kMaxShiftTaps);
     work.reference[c] =
         reference_samples.data() + static_cast<std::size_t>(c) * tile_rows * reference_pitch;
     work.samples[c] = samples.data() + (plane + (row.origin - window.y)) * sample_pitch +
@@ -292,7 +255,7 @@ void MatchingCostRows::State::add_view(const Tile& tile, ViewIndex view) {
     int end = label;
     for (; end < labels && sees(tile, view, end); ++end) {
       const Window wider = extend(window, view, end);
-      if (std::max(wider.rows, wider.columns) > kSpread + kMaxTaps) break;
+      if (std::max(wider.rows, wider.columns) > kSpread + kMaxShiftTaps) break;
       window = wider;
     }
     read_window(tile, window, view);
@@ -309,15 +272,15 @@ void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> 
     for (int label = 0; label < labels; ++label) {
       const std::size_t first = (static_cast<std::size_t>(row) * labels + label) * cost_pitch;
       const float* sum = sums.data() + first;
-      const float* columns =
-          columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
-      const float rows =
-          rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
       float* out = costs.row(y + row, label) + tile.x;
       if (!counts.empty()) {
         divide(sum, counts.data() + first, worst, std::span(out, tile.columns));
         continue;
       }
+      const float* columns =
+          columns_seen.data() + static_cast<std::size_t>(label) * light_field.width() + tile.x;
+      const float rows =
+          rows_seen[static_cast<std::size_t>(label) * light_field.height() + tile.y + row];
       for (int x = 0; x < tile.columns; ++x) {
         const float views = cross ? columns[x] + rows - 2 : columns[x] * rows - 1;
         out[x] = views > 0 ? sum[x] / views : worst;

@@ -4,6 +4,7 @@
 #include "engine/core/array/image.h"
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/view_places.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/named.h"
 
@@ -31,6 +32,8 @@ struct MatchingCost {
   /// Variance of the noise of one sample at each pixel of the reference view, `[y][x]`; null =
   /// none.
   std::shared_ptr<const Image<float>> noise = nullptr;
+  /// Where the views stand, one after the other; null = on the regular grid.
+  std::shared_ptr<const std::vector<ViewPlace>> places = nullptr;
 };
 
 /// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.
@@ -58,11 +61,11 @@ class MatchingCostRows {
 /// Matching costs of every pixel of view `reference` and every label, `[y][label][x]`:
 /// ρ(x, d) = 1/n Σ min(ε, |I_n(x + d v_n) − I_c(x)|) over the n views whose sample lies within the
 /// image, samples in [0, 1], Euclidean norm over the channels, v_n the way from the reference to
-/// view n (canonical u and v axes: a point moves by −d per step). Labels are disparities, px per
-/// view step. Where no view sees the point at a label, the cost is the largest possible. Samples
-/// that an invalid pixel (LightField::valid) enters count as outside the image; an invalid pixel of
-/// the reference costs the largest possible at every label.
-/// With `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
+/// view n (canonical u and v axes: a point moves by −d per step), that of `cost.places` if given.
+/// Labels are disparities, px per view step. Where no view sees the point at a label, the cost is
+/// the largest possible. Samples that an invalid pixel (LightField::valid) enters count as outside
+/// the image; an invalid pixel of the reference costs the largest possible at every label. With
+/// `cost.noise` σ², |…| is √(|…|² + c σ² (1 − Σw²)) for c channels and weights w of the
 /// interpolation: what noise it averages away is put back. Otherwise, where noise outweighs
 /// texture, labels that move views by whole pixels cost more than those between (Σw² = 0.41 at half
 /// a pixel on both axes), whatever the truth is.

@@ -182,12 +182,7 @@ Schema<EpiLParameters> epi_l_schema() {
                {"Fusion power",
                 "Horizontal and vertical estimates are averaged with weights coherence^p"},
                {0, 32})
-      .interval("range", &P::range,
-                {"Disparity range",
-                 "Range of disparities to search; auto takes it from the files or estimates it "
-                 "from the light field",
-                 "px"},
-                {-20, 20})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .search("inner_scale", {0.3, 0.5, 0.8, 1.1})
       .search("outer_scale", {0.5, 1, 1.5, 2})
       .search("shear_step", {0.5, 1, 1.5});

@@ -32,7 +32,7 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
                             double limit) {
   require_double_grid(lf);
   const Interval single = search_range(lf, parameters.range, progress.part(0, 0.3));
-  if (parameters.range || lf.info().disparity_range) return single;
+  if (range_source(lf, parameters.range) != RangeSource::Found) return single;
   EpiLParameters coarse = parameters;
   coarse.range = Interval{-limit, limit};
   coarse.shear_step = 1;

@@ -5,6 +5,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/local_noise.h"
+#include "engine/disparity/common/relative_samples.h"
 
 #include <fmt/format.h>
 
@@ -27,6 +28,10 @@ constexpr double kResidualOfNoise = 2.8;
 // Of the guided filter, variance of samples in [0, 1].
 constexpr double kRegularization = 1e-3;
 
+// Half the side of the windows that samples are relative to, px: wide, since what an edge adds to
+// them differs from view to view.
+constexpr int kSurroundings = 100;
+
 // In place of the residual of a pixel that is not valid.
 constexpr float kNothingSeen = -1;
 
@@ -37,7 +42,8 @@ struct Residuals {
 
 // The cross-hair tells as much about noise as all views.
 Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
-  const MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  probe.places = costs.matching.places;
   const std::vector<float> labels = equidistant_labels(
       costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
   const int rows = std::min(kProbedRows, lf.height());
@@ -66,6 +72,10 @@ Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const P
   return residuals;
 }
 
+std::string outlier_text(int outliers) {
+  return outliers == 0 ? "" : fmt::format(" ({} of them not believed)", outliers);
+}
+
 // Where the view is smoother, the noise that interpolation removes need not be added back.
 std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
                                               const Progress& progress) {
@@ -75,17 +85,49 @@ std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex vi
   return noise;
 }
 
+// Sets the places of the views to those that files state, if they match better there.
+void choose_places(const LightField& lf, StereoCosts& costs, Residuals& residuals,
+                   const Progress& progress) {
+  const ViewPlaces stated = view_places(lf.info(), lf.grid());
+  if (stated.kind == PlacesKind::Implausible) {
+    costs.notes.emplace_back("positions of cameras not used: they make no grid");
+  }
+  if (stated.kind != PlacesKind::Irregular) return;
+  costs.matching.places = std::make_shared<const std::vector<ViewPlace>>(stated.places);
+  const Residuals there = find_residuals(lf, costs, progress);
+  const std::string off = fmt::format("up to {:.2f} steps off the regular grid{}",
+                                      stated.largest_deviation, outlier_text(stated.outliers));
+  if (there.median < residuals.median) {
+    residuals = there;
+    costs.notes.push_back("positions of cameras used, " + off);
+    return;
+  }
+  costs.matching.places = nullptr;
+  costs.notes.push_back("positions of cameras not used: " + off +
+                        ", they match no better than the grid");
+}
+
 void apply_profile(MatchedViews views, StereoCostParameters& parameters) {
   if (parameters.profile != Profile::Paper) return;
   parameters.epsilon = views == MatchedViews::All ? 1 : kUncapped;
   parameters.interpolation = Interpolation::Bilinear;
   parameters.aggregation = 0;
+  parameters.cost = Compared::Absolute;
+  parameters.positions = Positions::Ignore;
 }
 
 }  // namespace
 
 Names<Profile> names_of(Profile) {
   return {{Profile::Tuned, "tuned"}, {Profile::Paper, "paper"}};
+}
+
+Names<Compared> names_of(Compared) {
+  return {{Compared::Absolute, "absolute"}, {Compared::Relative, "relative"}};
+}
+
+Names<Positions> names_of(Positions) {
+  return {{Positions::Use, "use"}, {Positions::Ignore, "ignore"}};
 }
 
 Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
@@ -95,7 +137,7 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
               {"Profile",
                "tuned: the settings given here; paper: the method as published, which overrides "
                "the cap, interpolation, aggregation and whatever else the paper does not have, and "
-               "applies a fifth of the smoothness of a global labeling"})
+               "applies a third of the smoothness of a global labeling"})
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
@@ -111,12 +153,15 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
                 "colour; 0 = off",
                 "px"},
                {0, 8})
-      .interval("range", &P::range,
-                {"Disparity range",
-                 "Range of disparities to search; auto takes it from the files or estimates it "
-                 "from the light field",
-                 "px"},
-                {-20, 20})
+      .choice("cost", &P::cost,
+              {"Cost",
+               "absolute: samples are compared as they are; relative: relative to the mean around "
+               "them, for views of different brightness"})
+      .choice("positions", &P::positions,
+              {"Positions of cameras",
+               "use: views are sampled at the positions that files state, if they match better "
+               "there; ignore: on the regular grid"})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
             {"View", "Row and column of the view to estimate; auto = centre view"})
       .completed_by([views](P& p) { apply_profile(views, p); });
@@ -127,16 +172,24 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   StereoCosts costs;
   costs.view = parameters.view.value_or(lf.center());
   check_matching(lf, costs.view);
-  costs.range = search_range(lf, parameters.range, progress.part(0, 0.5));
+  if (parameters.cost == Compared::Relative) {
+    costs.relative = std::make_shared<const LightField>(
+        relative_samples(lf, kSurroundings, progress.part(0, 0.1)));
+  }
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  costs.range = search_range(compared, parameters.range, progress.part(0.1, 0.5));
   costs.labels = equidistant_labels(costs.range, parameters.labels);
   costs.matching.views = views;
   costs.matching.interpolation = parameters.interpolation;
   costs.matching.cap = parameters.epsilon;
   if (parameters.profile != Profile::Paper) {
     progress.step("noise");
-    const Residuals residuals = find_residuals(lf, costs, progress.part(0.5, 0.8));
+    Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
+    if (parameters.positions == Positions::Use) {
+      choose_places(compared, costs, residuals, progress.part(0.7, 0.8));
+    }
     costs.matching.noise =
-        noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+        noise_map(compared, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
     if (parameters.epsilon == 0) {
       costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }
@@ -152,7 +205,7 @@ StereoCostRows::StereoCostRows(const LightField& lf, const StereoCosts& costs)
     : costs_(costs),
       height_(lf.height()),
       width_(lf.width()),
-      matching_(lf, costs.view, costs.matching, costs.labels),
+      matching_(costs.relative ? *costs.relative : lf, costs.view, costs.matching, costs.labels),
       filter_(costs.guide ? std::make_unique<GuidedFilter>(*costs.guide) : nullptr) {}
 
 VolumeView<const float> StereoCostRows::compute(int y, int rows, const Progress& progress) {
@@ -193,6 +246,12 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
 std::string cap_note(const StereoCosts& costs) {
   if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
   return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
+}
+
+std::vector<std::string> cost_notes(const StereoCosts& costs) {
+  std::vector<std::string> notes{cap_note(costs)};
+  notes.insert(notes.end(), costs.notes.begin(), costs.notes.end());
+  return notes;
 }
 
 }  // namespace episcope

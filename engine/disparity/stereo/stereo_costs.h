@@ -18,6 +18,16 @@ inline constexpr double kUncapped = 2;
 enum class Profile { Tuned, Paper };
 [[nodiscard]] Names<Profile> names_of(Profile);
 
+/// What is compared: samples as they are, or relative to their surroundings (relative_samples.h),
+/// which a gain of a view does not change.
+enum class Compared { Absolute, Relative };
+[[nodiscard]] Names<Compared> names_of(Compared);
+
+/// Whether views are sampled at the positions of cameras that files state, where these can be
+/// believed, or on a regular grid.
+enum class Positions { Use, Ignore };
+[[nodiscard]] Names<Positions> names_of(Positions);
+
 /// What all methods of multi-view stereo have in common: which labels of which view are compared
 /// with the other views, and how.
 struct StereoCostParameters {
@@ -26,22 +36,26 @@ struct StereoCostParameters {
   double epsilon = 0;  ///< ε; 0 = from the noise of the light field, kUncapped = none.
   Interpolation interpolation = Interpolation::Cubic;
   int aggregation = 2;
+  Compared cost = Compared::Absolute;
+  Positions positions = Positions::Use;
   IntervalOrAuto range;
   ViewOrAuto view;
 };
 
 /// Profile::Paper overwrites ε (no cap for the cross-hair, 1 for all views), interpolation
-/// (bilinear) and aggregation (none).
+/// (bilinear), aggregation (none), cost (absolute) and positions (ignored).
 [[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);
 
 /// The data term of a view, derived from parameters and light field before the labels of single
 /// pixels are examined. Immutable, shared by threads.
 struct StereoCosts {
   ViewIndex view;
-  Interval range;                           ///< Searched.
-  std::vector<float> labels;                ///< Equidistant over the range.
-  MatchingCost matching;                    ///< With the ε used.
-  std::shared_ptr<const GuideImage> guide;  ///< For the aggregation; null = none.
+  Interval range;                              ///< Searched.
+  std::vector<float> labels;                   ///< Equidistant over the range.
+  MatchingCost matching;                       ///< With the ε used.
+  std::shared_ptr<const GuideImage> guide;     ///< For the aggregation; null = none.
+  std::shared_ptr<const LightField> relative;  ///< Compared in place of the samples; null = none.
+  std::vector<std::string> notes;              ///< About the positions of cameras.
 };
 
 /// Prepares the data term. An ε of 0 is replaced by a multiple of the residual: the median, over
@@ -52,7 +66,9 @@ struct StereoCosts {
 ///
 /// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h): at
 /// each pixel that of its surroundings (local_noise.h), at most what the residual of the best
-/// quarter of the pixels allows. Evidence for both: tests/accuracy/tuning.md. Throws InvalidInput
+/// quarter of the pixels allows. Stated positions of cameras (view_places.h) are used if that
+/// residual is smaller with them than on the regular grid: whatever they say, they do no harm.
+/// Evidence for both: tests/accuracy/tuning.md. Throws InvalidInput
 /// (no such view, a single view), Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,
@@ -60,6 +76,8 @@ struct StereoCosts {
 
 /// For the notes of an estimate: which cap was used.
 [[nodiscard]] std::string cap_note(const StereoCosts& costs);
+/// All notes: also which positions of cameras, if any are stated.
+[[nodiscard]] std::vector<std::string> cost_notes(const StereoCosts& costs);
 
 /// The costs of some rows, aggregated. Not thread-safe: use one object per thread.
 class StereoCostRows {

@@ -2,7 +2,7 @@
 #include "engine/disparity/stereo/stereo_global.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/invalid_pixels.h"
+#include "engine/disparity/common/cost_unit.h"
 #include "engine/disparity/common/sub_label.h"
 
 #include <algorithm>
@@ -50,14 +50,6 @@ ViewStack<float> confidence_map(const Estimate& estimate, const StereoCosts& ste
   return confidence;
 }
 
-double mean_of_valid(const Image<float>& image, const LightField& lf, ViewIndex view) {
-  double sum = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) sum += lf.is_valid(view, y, x) ? image.at(y, x) : 0;
-  }
-  return sum / static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
-}
-
 }  // namespace
 
 Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
@@ -65,7 +57,7 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
       .part(&P::matching, stereo_cost_schema(views))
-      .search("smoothness", {0.25, 0.5, 1, 2, 4, 8})
+      .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
       .search("edge_strength", {0, 20})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
       .completed_by([](P& p) {
@@ -85,7 +77,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
   const Image<float> means = mean_costs(costs, progress.part(0.3, 0.31));
   Estimate estimate;
   estimate.range = stereo.range;
-  estimate.notes.push_back(cap_note(stereo));
+  estimate.notes = cost_notes(stereo);
   const float step = stereo.labels[1] - stereo.labels[0];
   const auto place = [&](int y, int x, int label) {
     const float cost = costs.at(y, label, x);
@@ -98,9 +90,9 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
   };
   const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
-  const double scale = unit * mean_of_valid(means, lf, stereo.view);
+  const double scale = unit * cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
   label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,
-                 estimate, progress.part(0.31, 0.99));
+                 estimate, progress.part(0.32, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));
   return estimate;
 }

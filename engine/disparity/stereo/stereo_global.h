@@ -8,7 +8,7 @@
 namespace episcope {
 
 /// Share of λ that applies under the profile `paper`.
-inline constexpr double kPaperSmoothness = 0.2;
+inline constexpr double kPaperSmoothness = 0.33;
 
 /// Parameters of ST_AV_G and ST_CH_G.
 struct StereoGlobalParameters {
@@ -18,12 +18,13 @@ struct StereoGlobalParameters {
 
 /// The profile `paper` is that of the local methods (no cap or ε = 1, bilinear samples, no
 /// aggregation) without edge weights and settling. The paper does not give λ: of what is set,
-/// kPaperSmoothness applies, since without a cap costs keep rising away from their minimum, so that
-/// their mean says less about how steep the minimum is (tests/accuracy/tuning.md).
+/// kPaperSmoothness applies: without a cap costs that many views share vary less from label to
+/// label than their mean tells (tests/accuracy/tuning.md).
 [[nodiscard]] Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views);
 
 /// min Σ ρ(x, u) + λ ρ̄ Σ g |∇u| for one view: ρ the matching costs of the local methods, ρ̄ their
-/// mean over all pixels and labels, u among the labels (label_globally). Each pixel then settles
+/// mean near each pixel's best label (cost_unit.h), whatever the range, u among the labels
+/// (label_globally). Each pixel then settles
 /// between labels, towards the parabola through the costs of its label and the two neighbouring
 /// labels, weighted by confidence². Confidence: 1 − cost of the label / mean cost over the labels.
 /// β = 20 as in ST_*_S: a smaller one joins the background between thin structures to them. ε,

@@ -115,7 +115,7 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
       }
     };
   });
-  estimate.notes.push_back(cap_note(costs));
+  estimate.notes = cost_notes(costs);
   return estimate;
 }
 

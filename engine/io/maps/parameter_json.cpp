@@ -14,6 +14,7 @@ Json to_json(const ParameterValue& value) {
   return std::visit(
       []<class T>(const T& held) -> Json {
         if constexpr (std::is_same_v<T, IntervalOrAuto>) {
+          if (held.is_found) return held.word();
           return held ? Json::array({held->min, held->max}) : Json();
         } else if constexpr (std::is_same_v<T, ViewOrAuto>) {
           return held ? Json::array({held->v, held->u}) : Json();
@@ -28,6 +29,7 @@ ParameterValue from_json(const Json& value) {
   if (value.is_boolean()) return value.get<bool>();
   if (value.is_number_integer()) return value.get<int>();
   if (value.is_number()) return value.get<double>();
+  if (value == IntervalOrAuto::found().word()) return IntervalOrAuto::found();
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null()) return IntervalOrAuto{};
   const bool is_pair = value.is_array() && value.size() == 2;

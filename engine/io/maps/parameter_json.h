@@ -8,8 +8,8 @@
 namespace episcope::io {
 
 /// Reads what `parameters_to_json` wrote: booleans, whole and real numbers, strings, intervals
-/// `[a, b]` and null for "auto". Anything else, as foreign files may hold, is kept as its JSON
-/// text; text that is no JSON object gives an empty set.
+/// `[a, b]`, null for "auto" and "found". Anything else, as foreign files may hold, is kept as its
+/// JSON text; text that is no JSON object gives an empty set.
 [[nodiscard]] ParameterSet parameters_from_json(const std::string& json);
 
 }  // namespace episcope::io

@@ -20,20 +20,27 @@ struct View {
   std::vector<Bounds> bounds;  // Of every primitive.
 };
 
-View make_view(const Stage& stage, const Model& model, double scale, int step_v, int step_u) {
+View make_view(const Stage& stage, const Model& model, double scale, CameraPosition at) {
   const double parallax = stage.parallax * scale;
   const double baseline = parallax / stage.focal_px;
   const double shift = parallax / stage.zero_depth;
   View view;
-  view.camera.origin[0] = baseline * step_u;
-  view.camera.origin[1] = baseline * step_v;
-  view.camera.principal[0] = (stage.width - 1) / 2.0 + shift * step_u;
-  view.camera.principal[1] = (stage.height - 1) / 2.0 + shift * step_v;
+  view.camera.origin[0] = baseline * at.x;
+  view.camera.origin[1] = baseline * at.y;
+  view.camera.principal[0] = (stage.width - 1) / 2.0 + shift * at.x;
+  view.camera.principal[1] = (stage.height - 1) / 2.0 + shift * at.y;
   view.camera.focal_px = stage.focal_px;
   for (const Primitive& primitive : model.primitives) {
     view.bounds.push_back(bounds_in_view(primitive, view.camera, stage.width, stage.height));
   }
   return view;
+}
+
+// In steps from the centre view.
+CameraPosition position_of(const RenderOptions& options, int index) {
+  if (!options.positions.empty()) return options.positions[index];
+  const ViewIndex view = options.grid.view_at(index), center = options.grid.center();
+  return {static_cast<double>(view.u - center.u), static_cast<double>(view.v - center.v)};
 }
 
 struct RowBuffers {
@@ -70,12 +77,8 @@ class ViewsCast {
         exposure_(model.sensor, {stage.height, stage.width, options.channels, options.noise_sigma,
                                  options.seed}) {
     assert(model.primitives.size() <= kMaxCandidates);
-    const ViewIndex center = options.grid.center();
-    for (int v = 0; v < options.grid.v; ++v) {
-      for (int u = 0; u < options.grid.u; ++u) {
-        views_.push_back(
-            make_view(stage, model, options.disparity_scale, v - center.v, u - center.u));
-      }
+    for (int i = 0; i < options.grid.count(); ++i) {
+      views_.push_back(make_view(stage, model, options.disparity_scale, position_of(options, i)));
     }
     has_panes_ = std::any_of(model.primitives.begin(), model.primitives.end(),
                              [](const Primitive& p) { return p.is_pane; });

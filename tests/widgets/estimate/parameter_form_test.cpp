@@ -122,7 +122,7 @@ class ParameterFormTest : public QObject {
     QCOMPARE(get<int>(form_, "scales"), 1);
     QCOMPARE(get<bool>(form_, "edges"), true);
     QCOMPARE(get<std::string>(form_, "fusion"), std::string("weighted"));
-    QVERIFY(get<IntervalOrAuto>(form_, "range") == (Interval{-8, 2}));
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto(Interval{-8, 2}));
     QCOMPARE(changed.size(), 0);
     QVERIFY(is_accepted());
   }
@@ -196,6 +196,20 @@ class ParameterFormTest : public QObject {
     QVERIFY(range && range->min < range->max);
     control<QCheckBox>("range.auto")->click();
     QVERIFY(!get<IntervalOrAuto>(form_, "range"));
+  }
+
+  void interval_isAutoFoundOrGiven() {
+    auto* automatic = control<QCheckBox>("range.auto");
+    auto* found = control<QCheckBox>("range.found");
+
+    found->click();
+
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto::found());
+    QVERIFY(!automatic->isChecked() && !control<QDoubleSpinBox>("range.min")->isEnabled());
+    QVERIFY(is_accepted());
+    automatic->click();
+    QVERIFY(get<IntervalOrAuto>(form_, "range") == IntervalOrAuto{});
+    QVERIFY(!found->isChecked());
   }
 
   void view_isChosenByRowAndColumn() {

@@ -225,7 +225,8 @@ class ShearTest : public QObject {
     QCOMPARE(after.confidence.view({2, 6}).at(9, 34), 0.2F);  // 3 views · 1 px further right
     QCOMPARE(after.confidence.view({2, 6}).at(9, 35), 0.8F);
     QVERIFY(after.range == (Interval{-2, 0}));
-    QVERIFY(std::get<IntervalOrAuto>(after.parameters[0].second) == (Interval{-2, 0}));
+    QVERIFY(std::get<IntervalOrAuto>(after.parameters[0].second) ==
+            IntervalOrAuto(Interval{-2, 0}));
     QCOMPARE(after.source_hash, std::uint64_t{17});
     QCOMPARE(after.notes.size(), 1U);
   }

@@ -72,6 +72,9 @@ class ParameterTest : public QObject {
     QTest::newRow("auto") << "interval"
                           << "auto"
                           << "auto";
+    QTest::newRow("found") << "interval"
+                           << "found"
+                           << "found";
     QTest::newRow("interval") << "interval"
                               << "-1.5,2"
                               << "-1.5,2";

@@ -2,6 +2,7 @@
 #include "engine/disparity/common/disparity_range.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/registry.h"
 #include "engine/disparity/tensor/structure_tensor.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
@@ -48,6 +49,9 @@ class DisparityRangeTest : public QObject {
  private slots:
   void foundRange_holdsTheTruth_data();
   void foundRange_holdsTheTruth();
+  void foundRange_ofWideBaselines_data();
+  void foundRange_ofWideBaselines();
+  void foundRange_leavesOutAliases();
   void foundRange_ofOneRowOfCameras();
   void foundRange_holdsWhatIsSeenBadly();
   void foundRange_withoutTextureIsDefault();
@@ -55,6 +59,8 @@ class DisparityRangeTest : public QObject {
   void foundRange_ofSmallLightFieldIsFinite();
   void wantedRange_goesFirst();
   void promisedRange_goesBeforeFound();
+  void rangeToBeFound_ignoresThePromise();
+  void note_tellsTheSource();
   void foundRange_ofGridTooLargeIsRefused();
   void stop_throwsCancelled();
   void coveringShears_reachEveryDisparity_data();
@@ -94,6 +100,56 @@ void DisparityRangeTest::foundRange_holdsTheTruth() {
   // Each additional shear costs time and gives noise another chance.
   constexpr double wide = 0.6;
   QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
+}
+
+void DisparityRangeTest::foundRange_ofWideBaselines_data() {
+  QTest::addColumn<QString>("id");
+  QTest::addColumn<int>("views");
+  QTest::addColumn<double>("scale");
+  QTest::addColumn<double>("noise");
+  // Disparities of up to 7 and 14 px.
+  for (const int views : {5, 9, 17}) {
+    QTest::addRow("bars to 7, %d views", views) << "bars" << views << 10.0 << 0.0;
+    QTest::addRow("slant to 7, %d views", views) << "slant" << views << 7.0 << 3.0;
+    QTest::addRow("edge to 14, %d views", views) << "edge" << views << 17.5 << 3.0;
+  }
+  QTest::newRow("demo to 7, 9 views") << "demo" << 9 << 5.0 << 3.0;
+  QTest::newRow("demo to 14, 9 views") << "demo" << 9 << 9.5 << 3.0;
+}
+
+void DisparityRangeTest::foundRange_ofWideBaselines() {
+  QFETCH(QString, id);
+  QFETCH(int, views);
+  QFETCH(double, scale);
+  QFETCH(double, noise);
+  const Scene scene = render(id.toStdString(), 112, 128, {views, views}, scale, noise);
+  const Interval truth = true_range(scene);
+
+  const Interval found = find_disparity_range(*scene.light_field, Progress());
+
+  const QString both = text(found) + " for " + text(truth);
+  // Of 0.2 % of the pixels, the ends may miss a tip.
+  const double missed = 0.03 * truth.length(), wide = 0.7;
+  QVERIFY2(found.min <= truth.min + missed && found.max >= truth.max - missed, qPrintable(both));
+  QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
+}
+
+// A fabric of 7.5 px per thread on one half, at d = 1: three views of a row would match at −6.5,
+// too.
+void DisparityRangeTest::foundRange_leavesOutAliases() {
+  const LightField lf =
+      make_light_field({9, 9}, 120, 120, 1, [](ViewIndex view, int y, int x, int) {
+        const double px = x + view.u - 4, py = y + view.v - 4;
+        const double fabric = std::sin(2 * M_PI * px / 7.5) * std::sin(2 * M_PI * py / 7.5);
+        const double other = std::sin(0.61 * px) + std::sin(0.53 * py + 0.2 * px);
+        const double slow = std::sin(0.05 * px + 0.04 * py);
+        return static_cast<float>(0.5 + 0.03 * slow + 0.15 * (y < 60 ? fabric : other));
+      });
+
+  const Interval found = find_disparity_range(lf, Progress());
+
+  QVERIFY2(found.min > 0 && found.min < 1 && found.max > 1 && found.max < 2,
+           qPrintable(text(found)));
 }
 
 // The first and last columns, which hold the ends of the slant, are left by the lines that would
@@ -156,6 +212,29 @@ void DisparityRangeTest::promisedRange_goesBeforeFound() {
            (Interval{-2.5, 3.5}));
   const Interval found = search_range(*scene.light_field, {}, Progress());
   QVERIFY2(found.min < 0.37 && found.max > 0.37 && found.length() < 1, qPrintable(text(found)));
+}
+
+void DisparityRangeTest::rangeToBeFound_ignoresThePromise() {
+  const Scene scene = render("fronto", 48, 48, {5, 5});
+  const LightField lf = with_promised_range(scene, {-2.5, 3.5});
+
+  QCOMPARE(search_range(lf, IntervalOrAuto::found(), Progress()),
+           find_disparity_range(lf, Progress()));
+}
+
+void DisparityRangeTest::note_tellsTheSource() {
+  const Scene scene = render("fronto", 48, 48, {5, 5});
+  const LightField promising = with_promised_range(scene, {-0.5, 1});
+  const auto note = [](const LightField& lf, const IntervalOrAuto& range) {
+    return find_estimator("st_ch_l").run(lf, {{"range", range}}, {}, Progress()).notes.back();
+  };
+
+  QCOMPARE(note(promising, Interval{-1, 1.5}), "disparity range -1.00 … 1.50 px, as given");
+  QCOMPARE(note(promising, {}), "disparity range -0.50 … 1.00 px, promised by the files");
+  for (const LightField* lf : {&promising, scene.light_field.get()}) {
+    const std::string found = note(*lf, IntervalOrAuto::found());
+    QVERIFY2(found.ends_with("px, found from the images"), found.c_str());
+  }
 }
 
 void DisparityRangeTest::foundRange_ofGridTooLargeIsRefused() {
