@@ -14,7 +14,7 @@ namespace episcope {
 /// along that axis. Places are whole pixels, as in [KZ02]; what rounding leaves is kept.
 struct SideView {
   ViewIndex view;
-  bool is_vertical = false;   ///< The axis: y instead of x.
+  bool is_vertical = false;     ///< The axis: y instead of x.
   std::vector<int> shift{};     ///< Pixels at each label, rounded.
   std::vector<float> beyond{};  ///< Exact minus rounded, in [−½, ½].
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/cuts/interactions.h"
 
+#include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -14,6 +15,8 @@ namespace {
 // Rows in which K is measured, and the least it can be: a step of 8-bit samples, squared.
 constexpr int kProbedRows = 48;
 constexpr double kMinLimit = 1;
+constexpr double kPublishedLimit = 30;
+constexpr double kLimitInLeast = 3;
 
 // Four samples of a row or column around a place between pixels, Catmull-Rom.
 struct Taps {
@@ -52,19 +55,28 @@ void add_squares(const float* samples, const float* others, int count, float sca
 
 }  // namespace
 
+Names<Comparison> names_of(Comparison) {
+  return {{Comparison::BetweenPixels, "between_pixels", "between pixels"},
+          {Comparison::WholePixels, "whole_pixels", "whole pixels"}};
+}
+
+Names<LimitRule> names_of(LimitRule) {
+  return {{LimitRule::Noise, "noise"}, {LimitRule::Quarter, "quarter", "quarter of the labels"}};
+}
+
 Interactions::Interactions(const LightField& lf, ViewIndex reference, std::vector<SideView> sides,
-                           Comparison comparison, double limit, const Progress& progress)
+                           const Matching& matching, const Progress& progress)
     : height_(lf.height()),
       width_(lf.width()),
-      comparison_(comparison),
-      limit_(limit),
+      comparison_(matching.comparison),
+      limit_(matching.limit),
       sides_(std::move(sides)) {
   images_.emplace_back(lf, reference);
   for (const SideView& side : sides_) {
     progress.check();
     images_.emplace_back(lf, side.view);
   }
-  if (limit == 0) find_limit(progress);
+  if (limit_ == 0) find_limit(matching.rule, progress);
 }
 
 Interactions::Seen Interactions::differences(int side, int label, int y, float* out) const {
@@ -105,34 +117,43 @@ void Interactions::gains(int side, int label, int y, std::int32_t* out) const {
   std::fill(out + seen.last, out + width_, 0);
 }
 
-void Interactions::find_limit(const Progress& progress) {
+// The differences of each pixel of a row and side view that see a point, sorted by label: the one
+// of that rank.
+std::vector<float> Interactions::differences_of_rank(int y, int rank) const {
+  std::vector<float> found, of_pixel(labels());
+  Image<float> all(labels(), width_);
+  for (int side = 0; side < static_cast<int>(sides_.size()); ++side) {
+    std::fill(all.begin(), all.end(), INFINITY);
+    for (int label = 0; label < labels(); ++label) {
+      (void)differences(side, label, y, all.row(label));
+    }
+    for (int x = 0; x < width_; ++x) {
+      for (int label = 0; label < labels(); ++label) of_pixel[label] = all.at(label, x);
+      // NaN must not be sorted.
+      std::ranges::replace_if(
+          of_pixel, [](float d) { return !(d < INFINITY); }, INFINITY);
+      std::ranges::nth_element(of_pixel, of_pixel.begin() + rank);
+      if (of_pixel[rank] < INFINITY) found.push_back(of_pixel[rank]);
+    }
+  }
+  return found;
+}
+
+void Interactions::find_limit(LimitRule rule, const Progress& progress) {
   const int rows = std::min(kProbedRows, height_);
-  const int rank = std::clamp(labels() / 4, std::min(3, labels()), labels()) - 1;
-  std::vector<double> sums(rows, 0.0);
-  std::vector<int> counts(rows, 0);
+  const int quarter = std::clamp(labels() / 4, std::min(3, labels()), labels()) - 1;
+  std::vector<std::vector<float>> of_rows(rows);
   parallel_for(rows, progress, [&](int i) {
     const int y = (2 * i + 1) * height_ / (2 * rows);
-    Image<float> all(labels(), width_);
-    std::vector<float> of_pixel(labels());
-    for (int side = 0; side < static_cast<int>(sides_.size()); ++side) {
-      std::fill(all.begin(), all.end(), INFINITY);
-      for (int label = 0; label < labels(); ++label) {
-        (void)differences(side, label, y, all.row(label));
-      }
-      for (int x = 0; x < width_; ++x) {
-        for (int label = 0; label < labels(); ++label) of_pixel[label] = all.at(label, x);
-        // NaN must not be sorted.
-        std::ranges::replace_if(of_pixel, [](float d) { return !(d < INFINITY); }, INFINITY);
-        std::ranges::nth_element(of_pixel, of_pixel.begin() + rank);
-        if (of_pixel[rank] == INFINITY) continue;
-        sums[i] += of_pixel[rank];
-        ++counts[i];
-      }
-    }
+    of_rows[i] = differences_of_rank(y, rule == LimitRule::Quarter ? quarter : 0);
   });
-  const int count = std::accumulate(counts.begin(), counts.end(), 0);
-  const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
-  limit_ = std::max(kMinLimit, count > 0 ? sum / count : 0.0);
+  std::vector<float> all;
+  for (const std::vector<float>& row : of_rows) all.insert(all.end(), row.begin(), row.end());
+  limit_ = rule == LimitRule::Quarter ? kMinLimit : kPublishedLimit;
+  if (all.empty()) return;
+  const double mean =
+      std::accumulate(all.begin(), all.end(), 0.0) / static_cast<double>(all.size());
+  limit_ = std::max(limit_, rule == LimitRule::Quarter ? mean : kLimitInLeast * quantile(all, 0.5));
 }
 
 }  // namespace episcope

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/named.h"
 #include "engine/disparity/cuts/camera_star.h"
 
 #include <cstdint>
@@ -9,9 +10,23 @@
 
 namespace episcope {
 
-/// How the intensities of two pixels that see one point are compared: as they are, at whole pixels
-/// [KZ02], or each with the other view interpolated cubically at the exact place, averaged.
-enum class Comparison { WholePixels, BetweenPixels };
+/// How the intensities of two pixels that see one point are compared: each with the other view,
+/// interpolated cubically at the exact place, and averaged; or as they are, at whole pixels [KZ02].
+enum class Comparison { BetweenPixels, WholePixels };
+[[nodiscard]] Names<Comparison> names_of(Comparison);
+
+/// How K is found: from noise, as three times the median of the least difference that a pixel has
+/// at any label, at least 30, the value of [KZ02]; or as the mean of the difference that a quarter
+/// of the labels fall below, the heuristic of the authors' program [KMT14].
+enum class LimitRule { Noise, Quarter };
+[[nodiscard]] Names<LimitRule> names_of(LimitRule);
+
+/// What pixels must fulfil to interact.
+struct Matching {
+  Comparison comparison = Comparison::BetweenPixels;
+  double limit = 0;  ///< K, (1/255)²; 0 = found by `rule`.
+  LimitRule rule = LimitRule::Noise;
+};
 
 /// The data term of [KZ02]: pixels of the reference view and of a side view that see the same point
 /// at a label interact, and gain by it D = min(0, |I_p − I_q|² − K) ≤ 0, where |…|² is the mean of
@@ -21,10 +36,9 @@ class Interactions {
  public:
   static constexpr std::int32_t kUnit = 1000;
 
-  /// `limit` K > 0, or 0 to find it: the mean, over pixels and side views, of the difference at the
-  /// label that a quarter of the labels match better than. That is the published heuristic [KMT14].
+  /// Throws Cancelled.
   Interactions(const LightField& light_field, ViewIndex reference, std::vector<SideView> sides,
-               Comparison comparison, double limit, const Progress& progress);
+               const Matching& matching, const Progress& progress);
 
   [[nodiscard]] int height() const { return height_; }
   [[nodiscard]] int width() const { return width_; }
@@ -43,12 +57,13 @@ class Interactions {
     int first = 0, last = 0;
   };
   Seen differences(int side, int label, int y, float* out) const;
-  void find_limit(const Progress& progress);
+  void find_limit(LimitRule rule, const Progress& progress);
+  [[nodiscard]] std::vector<float> differences_of_rank(int y, int rank) const;
 
   int height_;
   int width_;
   Comparison comparison_;
-  double limit_;
+  double limit_;  // K
   std::vector<SideView> sides_;
   std::vector<CameraImage> images_;
 };

@@ -3,38 +3,137 @@
 
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
-#include "engine/disparity/common/matching_cost.h"
-#include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/cuts/label_expansion.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <numeric>
-#include <string>
-#include <vector>
 
 namespace episcope {
 namespace {
 
-std::vector<int> order_of(int labels, const char* how) {
-  std::vector<int> order(labels);
-  std::iota(order.begin(), order.end(), 0);
-  if (how && how[0] == 'd') std::reverse(order.begin(), order.end());
-  if (how && how[0] == 's') {
-    int step = 1;
-    while (step * 2 < labels) step *= 2;
-    std::vector<int> strided;
-    std::vector<char> seen(labels, 0);
-    for (; step >= 1; step /= 2)
-      for (int l = step / 2; l < labels; l += step)
-        if (!seen[l]) { seen[l] = 1; strided.push_back(l); }
-    order = strided;
+// λ of the published heuristic, in K [KMT14].
+constexpr double kPublishedSmoothness = 0.2;
+
+// Share of the time that is left after `cycle` cycles: most labels find their place in the first.
+double time_left(int cycle) {
+  return std::pow(0.2, cycle);
+}
+
+// The middle label, those half-way to the ends, and so on.
+std::vector<int> coarse_to_fine(int labels) {
+  std::vector<int> order;
+  std::vector<char> is_listed(labels, 0);
+  for (int step = labels; step >= 1; step /= 2) {
+    for (int label = step / 2; label < labels; label += step) {
+      if (is_listed[label] == 0) order.push_back(label);
+      is_listed[label] = 1;
+    }
+  }
+  for (int label = 0; label < labels; ++label) {
+    if (is_listed[label] == 0) order.push_back(label);
   }
   return order;
+}
+
+struct Expanded {
+  int cycles = 0;  // begun
+  bool converged = false;
+  std::int64_t change = 0;  // of the energy
+};
+
+Expanded expand_all(const Kz02Parameters& parameters, LabelExpansion& expansion,
+                    const Progress& progress) {
+  Expanded result;
+  const std::vector<int> order = coarse_to_fine(parameters.labels);
+  int unchanged = 0;  // labels in succession
+  for (; result.cycles < parameters.cycles && !result.converged; ++result.cycles) {
+    const Progress cycle =
+        progress.part(1 - time_left(result.cycles), 1 - time_left(result.cycles + 1));
+    for (std::size_t i = 0; i < order.size() && !result.converged; ++i) {
+      const auto change = expansion.expand(order[i], cycle);
+      if (!change) return result;
+      result.change += *change;
+      unchanged = *change < 0 ? 0 : unchanged + 1;
+      result.converged = unchanged >= parameters.labels;
+      cycle.report(static_cast<double>(i + 1) / static_cast<double>(order.size()));
+    }
+  }
+  progress.report(1);
+  return result;
+}
+
+// Disparities of the labels, and as confidence which share of the possible gain is reached.
+void read_labels(const LabelExpansion& expansion, const Interactions& interactions,
+                 const std::vector<float>& labels, ViewIndex view, Estimate& estimate) {
+  const Image<std::int16_t>& f = expansion.labels()[0];
+  const int sides = static_cast<int>(interactions.sides().size());
+  estimate.field.disparity = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  estimate.confidence = ViewStack<float>({1, 1}, f.height(), f.width(), 1, view);
+  const auto most = static_cast<float>(sides * Interactions::kUnit);
+  for (int y = 0; y < f.height(); ++y) {
+    for (int x = 0; x < f.width(); ++x) {
+      int gain = 0;
+      for (int side = 0; side < sides; ++side) gain -= expansion.gain(side, y, x);
+      estimate.field.disparity.view(view).at(y, x) = labels[f.at(y, x)];
+      estimate.confidence.view(view).at(y, x) = static_cast<float>(gain) / most;
+    }
+  }
+}
+
+// Moves each pixel between its label and the next by the matching costs over all views.
+void refine(const LightField& lf, const Kz02Parameters& parameters, const Image<std::int16_t>& f,
+            ViewIndex view, Estimate& estimate, const Progress& progress) {
+  const StereoCosts costs = prepare_stereo(
+      lf, MatchedViews::All, {.labels = parameters.labels, .range = estimate.range, .view = view},
+      progress.part(0, 0.1));
+  const float step = costs.labels[1] - costs.labels[0];
+  const ImageView<float> disparity = estimate.field.disparity.view(view);
+  const int rows = stereo_band_rows(lf.height());
+  parallel_for_workers((lf.height() + rows - 1) / rows, progress.part(0.1, 1), [&] {
+    return [&, source = StereoCostRows(lf, costs)](int i) mutable {
+      const int first = i * rows;
+      const auto band = source.compute(first, std::min(rows, lf.height() - first), progress);
+      for (int y = 0; y < band.height; ++y) {
+        for (int x = 0; x < band.width; ++x) {
+          const int label = f.at(first + y, x);
+          if (label == 0 || label + 1 == band.layers) continue;
+          disparity.at(first + y, x) +=
+              step * sub_label_offset(band.at(y, label - 1, x), band.at(y, label, x),
+                                      band.at(y, label + 1, x), parameters.refinement);
+        }
+      }
+    };
+  });
+}
+
+Schema<Matching> matching_schema() {
+  using P = Matching;
+  return Schema<P>()
+      .choice("comparison", &P::comparison,
+              {"Comparison",
+               "Whether views are compared at the nearest pixels or interpolated between them"})
+      .real("limit", &P::limit,
+            {"Limit K",
+             "Two pixels can see the same point if their squared difference, the mean over the "
+             "channels, is less; 0 finds it by the rule below",
+             "(1/255)²"},
+            {0, 10000})
+      .choice(
+          "limit_rule", &P::rule,
+          {"Rule for K",
+           "noise: three times the least difference of a pixel at any label, the median over "
+           "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
+}
+
+void apply_profile(Kz02Parameters& parameters) {
+  if (parameters.profile != Profile::Paper) return;
+  parameters.matching.comparison = Comparison::WholePixels;
+  parameters.matching.rule = LimitRule::Quarter;
+  parameters.refinement = Refinement::None;
+  parameters.smoothness = kPublishedSmoothness;
 }
 
 }  // namespace
@@ -42,74 +141,74 @@ std::vector<int> order_of(int labels, const char* how) {
 Schema<Kz02Parameters> kz02_schema() {
   using P = Kz02Parameters;
   return Schema<P>()
-      .choice("profile", &P::profile, {"Profile", "x"})
+      .choice("profile", &P::profile,
+              {"Profile",
+               "tuned: the settings given here; paper: the method as published, which compares "
+               "whole pixels, finds K from a quarter of the labels, takes smoothness K/5 and does "
+               "not refine labels"})
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
-      .integer("distance", &P::distance, {"Distance of side views", "x", "view steps"}, {1, 16})
-      .real("limit", &P::limit, {"Limit K", "x"}, {0, 10000})
-      .real("smoothness", &P::smoothness, {"Smoothness λ", "x"}, {0, 4})
-      .integer("truncation", &P::truncation, {"Truncation T", "x", "labels"}, {1, 64})
-      .integer("cycles", &P::cycles, {"Cycles", "x"}, {1, 100})
+      .integer("distance", &P::distance,
+               {"Distance of side views",
+                "How far the views on the left, on the right, above and below are from the "
+                "estimated one. Farther views tell disparities apart better but see less of what "
+                "is partly occluded",
+                "view steps"},
+               {1, 16})
+      .part(&P::matching, matching_schema())
+      .real("smoothness", &P::smoothness,
+            {"Smoothness λ",
+             "Cost of a jump by one label between neighbours, as a multiple of K; "
+             "three times as much where they have the same colour"},
+            {0, 4})
+      .integer("truncation", &P::truncation,
+               {"Truncation T", "Jumps by more labels cost no more", "labels"}, {1, 64, true})
+      .integer("cycles", &P::cycles, {"Cycles", "How often every label is expanded, at most"},
+               {1, 100, true})
       .choice("refinement", &P::refinement,
-              {"Refinement", "How the disparity is interpolated between labels"})
-      .interval("range", &P::range, {"Disparity range", "x", "px"}, {-20, 20})
-      .view("view", &P::view, {"View", "x"});
+              {"Refinement",
+               "How the disparity is interpolated between labels, from the costs over all views"})
+      .interval("range", &P::range,
+                {"Disparity range",
+                 "Range of disparities to search; auto takes it from the files or estimates it "
+                 "from the light field",
+                 "px"},
+                {-20, 20})
+      .view("view", &P::view,
+            {"View", "Row and column of the view to estimate; auto = centre view"})
+      .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
+      .search("distance", {2, 3, 4})
+      .completed_by(apply_profile);
 }
 
-Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& p, const Progress& progress) {
-  const ViewIndex view = p.view.value_or(lf.center());
+Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,
+                       const Progress& progress) {
+  const ViewIndex view = parameters.view.value_or(lf.center());
   check_matching(lf, view);
   Estimate estimate;
-  estimate.range = search_range(lf, p.range, progress.part(0, 0.02));
-  const std::vector<float> labels = equidistant_labels(estimate.range, p.labels);
-  Stopwatch watch;
-  const Interactions interactions(
-      lf, view, side_views(lf.grid(), view, p.distance, labels),
-      p.profile == Profile::Paper ? Comparison::WholePixels : Comparison::BetweenPixels, p.limit,
-      progress.part(0.02, 0.03));
-  std::fprintf(stderr, "K %.1f  %.2f s\n", interactions.limit(), watch.seconds());
-  const MultiCameraEnergy energy(
-      interactions,
-      {static_cast<std::int32_t>(std::lround(p.smoothness * Interactions::kUnit)), p.truncation});
+  estimate.range = search_range(lf, parameters.range, progress.part(0, 0.02));
+  const std::vector<float> labels = equidistant_labels(estimate.range, parameters.labels);
+  progress.step("data term");
+  const Interactions interactions(lf, view,
+                                  side_views(lf.grid(), view, parameters.distance, labels),
+                                  parameters.matching, progress.part(0.02, 0.04));
+  const auto weight =
+      static_cast<std::int32_t>(std::lround(parameters.smoothness * Interactions::kUnit));
+  const MultiCameraEnergy energy(interactions, {weight, parameters.truncation});
   LabelExpansion expansion(energy, energy.farthest());
-  int idle = 0;
-  std::fprintf(stderr, "set up %.2f s\n", watch.seconds());
-  const std::vector<int> order = order_of(p.labels, std::getenv("KZ_ORDER"));
-  std::int64_t total = 0;
-  for (int cycle = 0; cycle < p.cycles && idle < p.labels; ++cycle) {
-    int changed = 0;
-    for (int label : order) {
-      const auto change = expansion.expand(label, progress);
-      if (!change) break;
-      total += *change;
-      if (*change < 0) { idle = 0; ++changed; } else if (++idle >= p.labels) break;
-    }
-    std::fprintf(stderr, "cycle %d: E %lld, %d changed, %.1f s\n", cycle, (long long)total, changed,
-                 watch.seconds());
+  const bool is_refined = parameters.refinement != Refinement::None;
+  progress.step("graph cuts");
+  const Expanded expanded =
+      expand_all(parameters, expansion, progress.part(0.04, is_refined ? 0.95 : 1));
+  read_labels(expansion, interactions, labels, view, estimate);
+  if (is_refined) {
+    progress.step("between labels");
+    refine(lf, parameters, expansion.labels()[0], view, estimate, progress.part(0.95, 1));
   }
-  if (std::getenv("KZ_CHECK")) {
-    auto e = energy.of(expansion.labels()), s = energy.of(energy.farthest());
-    std::fprintf(stderr, "check: %lld = %lld\n", e ? (long long)(*e - *s) : -1LL, (long long)total);
-  }
-  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, view);
-  const auto map = estimate.field.disparity.view(view);
-  const float step = labels[1] - labels[0];
-  const MatchingCost cost{MatchedViews::All, Interpolation::Cubic, 0.05};
-  const bool refine = p.refinement != Refinement::None && p.profile != Profile::Paper;
-  parallel_for_workers(lf.height(), progress, [&] {
-    return [&, matching = MatchingCostRows(lf, view, cost, labels),
-            row = Volume<float>(1, p.labels, lf.width())](int y) mutable {
-      if (refine) matching.compute(y, row.view(), progress);
-      for (int x = 0; x < lf.width(); ++x) {
-        const int l = expansion.labels()[0].at(y, x);
-        float place = l;
-        if (refine && l > 0 && l + 1 < p.labels)
-          place += sub_label_offset(row.view().at(0, l - 1, x), row.view().at(0, l, x),
-                                    row.view().at(0, l + 1, x), p.refinement);
-        map.at(y, x) = labels[0] + place * step;
-      }
-    };
-  });
+  estimate.notes.push_back(
+      fmt::format("K = {:.1f} (1/255)²; energy fell by {:.0f} K in {} cycles{}",
+                  interactions.limit(), -static_cast<double>(expanded.change) / Interactions::kUnit,
+                  expanded.cycles, expanded.converged ? ", to a minimum" : ""));
   return estimate;
 }
 
@@ -117,7 +216,7 @@ Estimator kz02_estimator() {
   return make_estimator<Kz02Parameters>(
       {.id = "kz02",
        .name = "KZ02",
-       .summary = "Graph cuts over five views",
+       .summary = "Scene reconstruction from five views by graph cuts, with visibility",
        .reference = "Kolmogorov and Zabih 2002 [KZ02]",
        .iterative = true},
       kz02_schema(),

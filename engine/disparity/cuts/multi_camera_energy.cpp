@@ -41,8 +41,7 @@ MultiCameraEnergy::MultiCameraEnergy(const Interactions& interactions, CameraSmo
 }
 
 CameraLabels MultiCameraEnergy::farthest() const {
-  return CameraLabels(views(),
-                      Image<std::int16_t>(interactions_.height(), interactions_.width()));
+  return CameraLabels(views(), Image<std::int16_t>(interactions_.height(), interactions_.width()));
 }
 
 std::int64_t MultiCameraEnergy::smoothness_of(const CameraLabels& labels) const {

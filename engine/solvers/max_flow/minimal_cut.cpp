@@ -3,9 +3,9 @@
 
 #include "engine/core/error.h"
 
+#include <fmt/format.h>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
 #include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <fmt/format.h>
 
 #include <cassert>
 #include <limits>
@@ -14,9 +14,9 @@
 namespace episcope {
 namespace {
 
-using Graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property,
-                                                 boost::no_property, boost::no_property, unsigned,
-                                                 unsigned>;
+using Graph =
+    boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                       boost::no_property, unsigned, unsigned>;
 using Vertex = boost::graph_traits<Graph>::vertex_descriptor;
 using Arc = boost::graph_traits<Graph>::edge_descriptor;
 using Color = boost::default_color_type;

@@ -13,8 +13,8 @@ namespace episcope {
 
 /// Which side of a cut every node is on.
 struct MinimalCut {
-  std::int64_t cost = 0;                  ///< Of this cut: the least of all.
-  std::int64_t cost_at_source = 0;        ///< With all nodes on the source's side.
+  std::int64_t cost = 0;                   ///< Of this cut: the least of all.
+  std::int64_t cost_at_source = 0;         ///< With all nodes on the source's side.
   std::vector<std::uint8_t> at_sink = {};  ///< [node], 1 = on the sink's side.
 };
 
