@@ -19,7 +19,7 @@ class RecentChanges {
   [[nodiscard]] Image<char> since(int label) const;
   [[nodiscard]] static int tile_of(int pixel) { return pixel / kTile; }
 
-  /// `label` is being expanded; what changes from here on is new to it.
+  /// `label` is being expanded; what other labels change from here on is new to it.
   void begin(int label) { expanded_[label] = ++time_; }
   void mark(int y, int x) { changed_.at(tile_of(y), tile_of(x)) = time_; }
 
