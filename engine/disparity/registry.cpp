@@ -2,6 +2,7 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/cuts/kz02.h"
 #include "engine/disparity/epi/epi_c.h"
 #include "engine/disparity/epi/epi_g.h"
 #include "engine/disparity/epi/epi_l.h"
@@ -25,6 +26,7 @@ std::vector<Estimator> registered_estimators() {
       st_ch_s_estimator(),
       st_ch_g_estimator(),
       epi_two_layer_estimator(),
+      kz02_estimator(),
   };
   // clang-format on
 }

@@ -8,6 +8,7 @@ find_package(PNG REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
+find_package(Boost REQUIRED)
 
 if(EPISCOPE_GUI)
   find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The methods that work on all views together, at 9×9×768×768 RGB: EPI_C and EPI_TWO_LAYER against
-// EPI_S in the same run, which solves the same TV-L2 problem once a view, and against what the
-// memory can copy.
+// The methods that work on several views together, at 9×9×768×768 RGB: EPI_C, EPI_TWO_LAYER and
+// KZ02 against EPI_S in the same run, which solves the same TV-L2 problem once a view, and against
+// what the memory can copy.
+#include "engine/disparity/cuts/kz02.h"
 #include "engine/disparity/epi/epi_c.h"
 #include "engine/disparity/epi/epi_s.h"
 #include "engine/disparity/layers/epi_two_layer.h"
@@ -78,6 +79,17 @@ void epi_two_layer(benchmark::State& state) {
   });
 }
 BENCHMARK(epi_two_layer)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
+
+// Bound by latency: search trees jump through the memory of a graph. Counted are its nodes and
+// edges, written and read once for every label.
+void kz02(benchmark::State& state) {
+  const Kz02Parameters parameters{.cycles = 1, .range = kRange};
+  constexpr double views = 5, edges = 3.5, bytes_a_node = 32, bytes_an_edge = 48;
+  const double pixels = views * rays() / bench::demo_768().grid().count();
+  measure(state, 2 * parameters.labels * pixels * (bytes_a_node + edges * bytes_an_edge),
+          [&] { return estimate_kz02(bench::demo_768(), parameters, Progress()); });
+}
+BENCHMARK(kz02)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealTime();
 
 }  // namespace
 
