@@ -48,25 +48,27 @@ void check_shape(const ImageView<T>& image, int height, int width, const char* w
 
 struct TvL2Solver::State {
   const TvL2Kernel& kernel;
+  const TvL2PenaltyKernel& penalties;
   std::vector<TvL2Grid> grids;
-  std::vector<float> rows;
   float offset = 0;  // weighted mean of f, taken off for the sake of float32
   TvL2Penalty penalty;
   Pace pace;
+  bool paused = true;  // whether z of the level being solved is z itself: TvL2Step
 
   State(int height, int width, Isa isa);
   void load(const TvL2Problem& problem);
   void centre();
   void renew_penalty(std::size_t stage, bool first);
   void correct(std::size_t stage);
-  void iterate(std::size_t stage, int iteration, const Progress& progress);
+  void iterate(std::size_t stage, int iteration, bool pauses, const Progress& progress);
   void climb(const Progress& progress);
   TvL2Result finish(const TvL2Options& options, const Progress& progress);
   void copy_to(ImageView<float> u) const;
 };
 
 TvL2Solver::State::State(int height, int width, Isa isa)
-    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2Kernel)) {
+    : kernel(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2Kernel)),
+      penalties(EPISCOPE_CHOOSE_KERNEL(isa, kTvL2PenaltyKernel)) {
   grids.emplace_back(height, width);
   // Down to a single pixel, whose equation is the mean of all: no smoother would ever find that.
   while (std::max(height, width) > 1 || grids.size() < 2) {
@@ -74,23 +76,22 @@ TvL2Solver::State::State(int height, int width, Isa isa)
     width = (width + 1) / 2;
     grids.emplace_back(height, width);
   }
-  rows.resize(static_cast<std::size_t>(kTvL2ScratchRows) * grids[0].level.pitch);
 }
 
 void TvL2Solver::State::load(const TvL2Problem& problem) {
   const TvL2Level& level = grids[0].level;
   const float inverse_lambda = static_cast<float>(1 / problem.lambda);
   for (int y = 0; y < level.height; ++y) {
-    const long at = y * level.pitch;
     const float* const f = problem.f.row(y);
     const float* const w = problem.w.empty() ? nullptr : problem.w.row(y);
     const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
     for (int x = 0; x < level.width; ++x) {
+      const long i = level.at(y, x);
       const bool known = std::isfinite(f[x]);
       const float weight = !known ? kMinWeight : w != nullptr ? w[x] : 1.0F;
-      level.f[at + x] = known ? f[x] : 0.0F;
-      level.c[at + x] = std::max(weight, kMinWeight) * inverse_lambda;
-      level.g[at + x] = g != nullptr ? std::max(g[x], kMinWeight) : 1.0F;
+      level.c[i] = std::max(weight, kMinWeight) * inverse_lambda;
+      level.cf[i] = known ? level.c[i] * f[x] : 0.0F;
+      level.g[i] = g != nullptr ? std::max(g[x], kMinWeight) : 1.0F;
     }
   }
   centre();
@@ -104,10 +105,10 @@ void TvL2Solver::State::centre() {
   for (int y = 0; y < level.height; ++y) {
     double row_weight = 0, row_sum = 0, row_squares = 0;
     for (int x = 0; x < level.width; ++x) {
-      const double c = level.c[y * level.pitch + x], f = level.f[y * level.pitch + x];
+      const double c = level.c[level.at(y, x)], cf = level.cf[level.at(y, x)];
       row_weight += c;
-      row_sum += c * f;
-      row_squares += c * f * f;
+      row_sum += cf;
+      row_squares += cf * cf / c;
     }
     weight += row_weight;
     sum += row_sum;
@@ -117,7 +118,9 @@ void TvL2Solver::State::centre() {
   const double variance = squares / weight - (sum / weight) * (sum / weight);
   const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
   for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) level.f[y * level.pitch + x] -= offset;
+    for (int x = 0; x < level.width; ++x) {
+      level.cf[level.at(y, x)] -= offset * level.c[level.at(y, x)];
+    }
   }
   penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
 }
@@ -125,14 +128,14 @@ void TvL2Solver::State::centre() {
 void TvL2Solver::State::renew_penalty(std::size_t stage, bool first) {
   TvL2Level& level = grids[stage].level;
   penalty.first = first;
-  kernel.penalise(level, penalty);
+  penalties.penalise(level, penalty);
   level.data_scale = 1;
-  invert_diagonal(level);
+  penalties.invert_diagonal(level);
   for (std::size_t k = stage + 1; k < grids.size(); ++k) {
     // A multigrid cell weighs as much as its pixels together; coarsen_problem halves that.
     grids[k].level.data_scale = 2 * grids[k - 1].level.data_scale;
-    coarsen_penalty(grids[k - 1].level, grids[k].level, pace.coarse_edge);
-    invert_diagonal(grids[k].level);
+    penalties.coarsen_penalty(grids[k - 1].level, grids[k].level, pace.coarse_edge);
+    penalties.invert_diagonal(grids[k].level);
   }
 }
 
@@ -145,25 +148,31 @@ void TvL2Solver::State::correct(std::size_t stage) {
   for (std::size_t k = last; --k > stage;) kernel.ascend(grids[k].level, grids[k + 1].level);
 }
 
-void TvL2Solver::State::iterate(std::size_t stage, int iteration, const Progress& progress) {
+void TvL2Solver::State::iterate(std::size_t stage, int iteration, bool pauses,
+                                const Progress& progress) {
   progress.check();
   if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
   if (iteration > 0) correct(stage);
+  pauses = pauses || (iteration + 1) % kPenaltyEvery == 0;
   kernel.iterate(grids[stage].level, grids[stage + 1].level,
-                 {pace.relaxation, iteration == 0, rows.data()});
+                 {pace.relaxation, iteration == 0, !paused, pauses, grids[stage].row});
+  paused = pauses;
 }
 
 // Coarse to fine, up to the start of the finest level.
 void TvL2Solver::State::climb(const Progress& progress) {
   pace = {};
+  paused = true;
   // The single pixel below has no level to correct it.
   std::size_t stage = grids.size() - 2;
   start_from_data(grids[stage].level);
   for (; stage > 0; --stage) {
-    for (int i = 0; i < kCoarseIterations; ++i) iterate(stage, i, progress);
-    kernel.project(grids[stage].level);
+    for (int i = 0; i < kCoarseIterations; ++i) {
+      iterate(stage, i, i + 1 == kCoarseIterations, progress);
+    }
+    penalties.project(grids[stage].level);
     prolong(grids[stage].level, grids[stage - 1].level);
-    kernel.project(grids[stage - 1].level);
+    penalties.project(grids[stage - 1].level);
   }
 }
 
@@ -173,10 +182,11 @@ TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress&
   double gap_before = std::numeric_limits<double>::infinity();
   bool is_last = false;
   while (!is_last && !result.converged) {
-    iterate(0, result.iterations++, progress);
-    is_last = result.iterations >= options.max_iterations || progress.finish_requested();
-    if (!is_last && result.iterations % check_every != 0) continue;
-    const TvL2Sums sums = kernel.measure(grids[0].level, rows.data());
+    is_last = result.iterations + 1 >= options.max_iterations || progress.finish_requested();
+    const bool checks = is_last || (result.iterations + 1) % check_every == 0;
+    iterate(0, result.iterations++, checks, progress);
+    if (!checks) continue;
+    const TvL2Sums sums = penalties.measure(grids[0].level, grids[0].row);
     result.energy = sums.energy;
     result.gap = sums.energy - sums.dual;
     result.converged = result.gap <= options.gap * sums.energy;
@@ -192,7 +202,7 @@ TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress&
 void TvL2Solver::State::copy_to(ImageView<float> u) const {
   const TvL2Level& level = grids[0].level;
   for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) u.row(y)[x] = level.u[y * level.pitch + x] + offset;
+    for (int x = 0; x < level.width; ++x) u.row(y)[x] = level.u[level.at(y, x)] + offset;
   }
 }
 

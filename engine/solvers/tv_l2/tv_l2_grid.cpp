@@ -4,7 +4,7 @@
 #include "engine/core/array/round_up.h"
 
 #include <algorithm>
-#include <cstdint>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -15,41 +15,49 @@ constexpr int kPlanes = 10;
 constexpr float kOpenEdge = 1;
 
 void open_edges(const TvL2Level& level) {
+  const int evens = (level.width + 1) / 2, odds = level.width / 2;
   for (int y = 0; y < level.height; ++y) {
     const long at = y * level.pitch;
-    std::fill_n(level.rx + at, level.width - 1, kOpenEdge);
-    level.rx[at + level.width - 1] = 0;
-    std::fill_n(level.ry + at, level.width, y + 1 < level.height ? kOpenEdge : 0.0F);
+    const float down = y + 1 < level.height ? kOpenEdge : 0.0F;
+    std::fill_n(level.rx + at, evens, kOpenEdge);
+    std::fill_n(level.rx + at + level.odd, odds, kOpenEdge);
+    level.rx[level.at(y, level.width - 1)] = 0;
+    std::fill_n(level.ry + at, evens, down);
+    std::fill_n(level.ry + at + level.odd, odds, down);
   }
 }
 
-// One row between the coarse rows `here` and `beside`: ¾ and ¼ of the way.
-void blend_rows(const float* here, const float* beside, int count, float* out) {
-  for (int x = 0; x < count; ++x) out[x] = 0.75F * here[x] + 0.25F * beside[x];
+// A row of cells between the coarse rows `here` and `beside`, in the order of their columns.
+void blend_rows(const TvL2Level& level, const float* here, const float* beside, float share,
+                float* out) {
+  const auto blend = [=](long i) { return (1 - share) * here[i] + share * beside[i]; };
+  const int odds = level.width / 2;
+  for (int i = 0; i < odds; ++i) {
+    out[2 * i] = blend(i);
+    out[2 * i + 1] = blend(level.odd + i);
+  }
+  if (level.width > 2 * odds) out[2 * odds] = blend(odds);
 }
 
 // Cell centres: a pixel lies a quarter of a cell beside the centre of its cell.
-void stretch_centres(const float* cells, int count, int width, float* out) {
+void stretch_centres(const float* cells, const TvL2Level& fine, float* out) {
+  const int odds = fine.width / 2, evens = (fine.width + 1) / 2;
+  float* const odd = out + fine.odd;
   const auto value = [=](int cell, int beside) {
     return 0.75F * cells[cell] + 0.25F * cells[beside];
   };
-  for (int cell = 1; cell + 1 < count; ++cell) {
-    out[2 * cell] = value(cell, cell - 1);
-    out[2 * cell + 1] = value(cell, cell + 1);
-  }
-  const int last = count - 1;
   out[0] = cells[0];
-  if (width > 1) out[1] = value(0, std::min(1, last));
-  out[2 * last] = value(last, std::max(last - 1, 0));
-  if (2 * last + 1 < width) out[2 * last + 1] = cells[last];
+  for (int cell = 1; cell < evens; ++cell) out[cell] = value(cell, cell - 1);
+  for (int cell = 0; cell + 1 < evens; ++cell) odd[cell] = value(cell, cell + 1);
+  if (odds == evens) odd[odds - 1] = cells[odds - 1];
 }
 
 // Faces: the right face of a cell is that of its odd pixel; the even pixel's lies midway.
-void stretch_faces(const float* cells, int width, float* out) {
+void stretch_faces(const float* cells, const TvL2Level& fine, float* out) {
+  const int odds = fine.width / 2, evens = (fine.width + 1) / 2;
+  std::copy_n(cells, odds, out + fine.odd);
   out[0] = 0.5F * cells[0];
-  for (int cell = 0; 2 * cell + 1 < width; ++cell) out[2 * cell + 1] = cells[cell];
-  for (int cell = 1; 2 * cell < width; ++cell)
-    out[2 * cell] = 0.5F * (cells[cell] + cells[cell - 1]);
+  for (int cell = 1; cell < evens; ++cell) out[cell] = 0.5F * (cells[cell] + cells[cell - 1]);
 }
 
 }  // namespace
@@ -57,61 +65,35 @@ void stretch_faces(const float* cells, int width, float* out) {
 TvL2Grid::TvL2Grid(int height, int width) {
   level.height = height;
   level.width = width;
-  level.pitch = round_up(width, kTvL2RowUnit) + 2L * kTvL2Margin;
+  level.odd = round_up((width + 1) / 2, kTvL2RowUnit) + kTvL2Margin;
+  level.pitch = 2 * level.odd;
   const std::size_t plane = static_cast<std::size_t>(height + 3) * level.pitch + kTvL2Margin;
-  memory_.assign(kPlanes * plane + 16, 0.0F);
-  const auto misaligned = reinterpret_cast<std::uintptr_t>(memory_.data()) / sizeof(float) % 16;
-  float* next = memory_.data() + (16 - misaligned) % 16 + level.pitch + kTvL2Margin;
-  for (float** to : {&level.f, &level.c, &level.g, &level.u, &level.zx, &level.zy, &level.rx,
+  const std::size_t size = kPlanes * plane + 2 * level.pitch + 2 * kTvL2Margin;
+  memory_ = make_large<float>(size);
+  std::fill_n(memory_.get(), size, 0.0F);
+  float* next = memory_.get() + level.pitch + kTvL2Margin;
+  for (float** to : {&level.cf, &level.c, &level.g, &level.u, &level.zx, &level.zy, &level.rx,
                      &level.ry, &level.inverse, &level.b}) {
     *to = next;
     next += plane;
   }
+  row = next;
 }
 
 void coarsen_problem(const TvL2Level& fine, const TvL2Level& coarse) {
   for (int y = 0; y < coarse.height; ++y) {
     const long below = 2 * y + 1 < fine.height ? fine.pitch : 0;
     for (int x = 0; x < coarse.width; ++x) {
-      const long i = 2L * y * fine.pitch + 2L * x;
-      const long right = 2 * x + 1 < fine.width ? 1 : 0;
+      const long i = fine.at(2 * y, 2 * x);
       // Cells at an odd border count their pixels twice.
-      float c = 0, cf = 0, g = 0;
-      for (const long j : {i, i + right, i + below, i + below + right}) {
-        c += fine.c[j];
-        cf += fine.c[j] * fine.f[j];
-        g += fine.g[j];
-      }
-      const long to = y * coarse.pitch + x;
-      coarse.c[to] = 0.5F * c;
-      coarse.f[to] = cf / c;
-      coarse.g[to] = 0.25F * g;
-    }
-  }
-}
-
-void coarsen_penalty(const TvL2Level& fine, const TvL2Level& coarse, float edge_factor) {
-  for (int y = 0; y < coarse.height; ++y) {
-    const long row = 2L * y * fine.pitch;
-    for (int x = 0; x < coarse.width; ++x) {  // the padding right and below holds zeros
-      const long i = row + 2L * x;
-      const long to = y * coarse.pitch + x;
-      coarse.rx[to] = edge_factor * (fine.rx[i + 1] + fine.rx[i + fine.pitch + 1]);
-      coarse.ry[to] = edge_factor * (fine.ry[i + fine.pitch] + fine.ry[i + fine.pitch + 1]);
-    }
-  }
-}
-
-void invert_diagonal(const TvL2Level& level) {
-  for (int y = 0; y < level.height; ++y) {
-    const long at = y * level.pitch;
-    const float* const c = level.c + at;
-    const float* const rx = level.rx + at;
-    const float* const ry = level.ry + at;
-    float* const inverse = level.inverse + at;
-    for (int x = 0; x < level.width; ++x) {
-      inverse[x] =
-          1.0F / (level.data_scale * c[x] + rx[x] + rx[x - 1] + ry[x] + ry[x - level.pitch]);
+      const long right = 2 * x + 1 < fine.width ? fine.odd : 0;
+      const auto sum = [=](const float* plane) {
+        return plane[i] + plane[i + right] + plane[i + below] + plane[i + below + right];
+      };
+      const long to = coarse.at(y, x);
+      coarse.c[to] = 0.5F * sum(fine.c);
+      coarse.cf[to] = 0.5F * sum(fine.cf);
+      coarse.g[to] = 0.25F * sum(fine.g);
     }
   }
 }
@@ -120,31 +102,31 @@ void prolong(const TvL2Level& coarse, const TvL2Level& fine) {
   std::vector<float> row(coarse.width);
   const int last = coarse.height - 1;
   for (int y = 0; y < fine.height; ++y) {
+    const bool lower = (y & 1) != 0;
     const long cell = y / 2 * coarse.pitch;
-    const long beside =
-        ((y & 1) != 0 ? std::min(y / 2 + 1, last) : std::max(y / 2 - 1, 0)) * coarse.pitch;
+    const long beside = (lower ? std::min(y / 2 + 1, last) : std::max(y / 2 - 1, 0)) * coarse.pitch;
     const long to = y * fine.pitch;
-    blend_rows(coarse.u + cell, coarse.u + beside, coarse.width, row.data());
-    stretch_centres(row.data(), coarse.width, fine.width, fine.u + to);
-    blend_rows(coarse.zx + cell, coarse.zx + beside, coarse.width, row.data());
-    stretch_faces(row.data(), fine.width, fine.zx + to);
-    fine.zx[to + fine.width - 1] = 0;
+    blend_rows(coarse, coarse.u + cell, coarse.u + beside, 0.25F, row.data());
+    stretch_centres(row.data(), fine, fine.u + to);
+    blend_rows(coarse, coarse.zx + cell, coarse.zx + beside, 0.25F, row.data());
+    stretch_faces(row.data(), fine, fine.zx + to);
+    fine.zx[fine.at(y, fine.width - 1)] = 0;
     // The row above the first one is padding: p = 0 there.
     const float* const below = coarse.zy + cell;
-    const float* const above = (y & 1) != 0 ? below : below - coarse.pitch;
-    for (int x = 0; x < coarse.width; ++x) row[x] = 0.5F * (below[x] + above[x]);
-    stretch_centres(row.data(), coarse.width, fine.width, fine.zy + to);
-    if (y + 1 == fine.height) std::fill_n(fine.zy + to, fine.width, 0.0F);
+    blend_rows(coarse, below, lower ? below : below - coarse.pitch, 0.5F, row.data());
+    if (y + 1 == fine.height) std::fill(row.begin(), row.end(), 0.0F);
+    stretch_centres(row.data(), fine, fine.zy + to);
   }
   open_edges(fine);
 }
 
 void start_from_data(const TvL2Level& level) {
   for (int y = 0; y < level.height; ++y) {
-    const long at = y * level.pitch;
-    std::copy_n(level.f + at, level.width, level.u + at);
-    std::fill_n(level.zx + at, level.width, 0.0F);
-    std::fill_n(level.zy + at, level.width, 0.0F);
+    for (int x = 0; x < level.width; ++x) {
+      const long i = level.at(y, x);
+      level.u[i] = level.cf[i] / level.c[i];
+      level.zx[i] = level.zy[i] = 0;
+    }
   }
   open_edges(level);
 }

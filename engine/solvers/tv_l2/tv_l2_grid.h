@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/large_memory.h"
 #include "engine/solvers/tv_l2/tv_l2_kernel.h"
-
-#include <vector>
 
 namespace episcope {
 
@@ -14,21 +13,15 @@ class TvL2Grid {
   TvL2Grid(int height, int width);
 
   TvL2Level level;
+  float* row = nullptr;  ///< Scratch, one row.
 
  private:
-  std::vector<float> memory_;
+  LargeArray<float> memory_;
 };
 
 /// Data term and weights of a coarser image such that minimising there approximates minimising on
 /// `fine`: cells of 2×2, whose variation counts their side of 2 pixels.
 void coarsen_problem(const TvL2Level& fine, const TvL2Level& coarse);
-
-/// The penalty of the edges between cells of 2×2 pixels, times `edge_factor`. 1 is Galerkin's
-/// choice for piecewise constant corrections; ½ fits smooth ones.
-void coarsen_penalty(const TvL2Level& fine, const TvL2Level& coarse, float edge_factor);
-
-/// Fills `inverse` from c, rx, ry.
-void invert_diagonal(const TvL2Level& level);
 
 /// Starts `fine` from the solution on `coarse`, whose z is projected: u bilinear, z linear on the
 /// faces and to be projected, rx and ry 1 where there is an edge, for `penalise` to give them their

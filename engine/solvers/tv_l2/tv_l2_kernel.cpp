@@ -2,160 +2,239 @@
 // Compiled once for each instruction set: see engine/core/parallel/isa.h for what may stand here.
 #include "engine/solvers/tv_l2/tv_l2_kernel.h"
 
-#include "engine/core/parallel/simd.h"
+#include "engine/solvers/tv_l2/tv_l2_lanes.h"
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-inline int padded_pairs(const TvL2Level& level) {
-  return (level.width + 2 * kLanes - 1) / (2 * kLanes) * (2 * kLanes);
+// The pixels of one colour of a row, x + y + colour even: one half of it. Their neighbours to the
+// left and right are the other half, from `left` and from one float further.
+struct ColourRow {
+  long own = 0;
+  long left = 0;
+};
+
+inline ColourRow colour_row(const TvL2Level& level, int y, int colour) {
+  const long even = y * level.pitch;
+  if (((y + colour) & 1) == 0) return {even, even + level.odd - 1};
+  return {even + level.odd, even};
 }
 
-// Lanes of one colour of the chequerboard in row y.
-inline IntVec colour_mask(int y, int colour) {
-  IntVec mask;
-  for (int i = 0; i < kLanes; ++i) mask[i] = ((i + y + colour) & 1) ? 0 : -1;
-  return mask;
+// Rows ahead that memory is asked for, in every stage what it reads first: so memory works all the
+// time, and not only while one stage waits for it.
+constexpr int kAhead = 2;
+
+inline void prefetch(const float* from) {
+  __builtin_prefetch(from, 0, 2);
+}
+inline void prefetch_halves(const TvL2Level& level, const float* plane, long at) {
+  prefetch(plane + at);
+  prefetch(plane + at + level.odd);
 }
 
 // Gauss-Seidel on the pixels of one colour of row y.
+template <bool kFirst>
 void relax_row(const TvL2Level& level, int y, int colour) {
   if (y < 0 || y >= level.height) return;
-  const long at = y * level.pitch;
+  const auto [own, left] = colour_row(level, y, colour);
   const long pitch = level.pitch;
-  float* const u = level.u + at;
-  const float* const rx = level.rx + at;
-  const float* const ry = level.ry + at;
-  const float* const b = level.b + at;
-  const float* const inverse = level.inverse + at;
-  const IntVec mask = colour_mask(y, colour);
-  const int end = whole_registers(level.width);
-  Vec left = load(u - 1);
+  float* const u = level.u + own;
+  const float* const beside = level.u + left;
+  const float* const rx = level.rx + own;
+  const float* const rx_left = level.rx + left;
+  const float* const ry = level.ry + own;
+  const float* const b = level.b + own;
+  const float* const inverse = level.inverse + own;
+  const int end = half_lanes(level);
   for (int x = 0; x < end; x += kLanes) {
-    const Vec here = load(u + x);
-    const Vec sum = load(b + x) + load(rx + x) * load(u + x + 1) + load(rx + x - 1) * left +
-                    load(ry + x) * load(u + x + pitch) + load(ry + x - pitch) * load(u + x - pitch);
-    left = load(u + x + kLanes - 1);  // of the other colour where it counts: not yet overtaken
-    store(u + x, choose(mask, sum * load(inverse + x), here));
+    if constexpr (kFirst) {
+      prefetch(b + x + kAhead * pitch);
+      prefetch(inverse + x + kAhead * pitch);
+      prefetch(rx + x + kAhead * pitch);
+      prefetch(ry + x + kAhead * pitch);
+    }
+    const Vec along =
+        load(b + x) + load(rx + x) * load(beside + x + 1) + load(rx_left + x) * load(beside + x);
+    const Vec across =
+        load(ry + x) * load(u + x + pitch) + load(ry + x - pitch) * load(u + x - pitch);
+    store(u + x, (along + across) * load(inverse + x));
   }
 }
 
 // The same from u = 0.
 void relax_row_from_zero(const TvL2Level& level, int y, int colour) {
   if (y < 0 || y >= level.height) return;
-  const long at = y * level.pitch;
-  const IntVec mask = colour_mask(y, colour);
-  const int end = whole_registers(level.width);
+  const long own = colour_row(level, y, colour).own;
+  const int end = half_lanes(level);
   for (int x = 0; x < end; x += kLanes) {
-    store(level.u + at + x,
-          choose(mask, load(level.b + at + x) * load(level.inverse + at + x), splat(0)));
+    store(level.u + own + x, load(level.b + own + x) * load(level.inverse + own + x));
   }
 }
 
-inline Vec residual_at(const TvL2Level& level, long i) {
+// Residual of colour 0 in row y, in the columns of a vector.
+inline Vec residual_at(const TvL2Level& level, const ColourRow& row, int x) {
+  const long i = row.own + x;
   const float* const u = level.u + i;
+  const float* const beside = level.u + row.left + x;
   const long pitch = level.pitch;
   const Vec here = load(u);
   return load(level.b + i) - level.data_scale * load(level.c + i) * here +
-         load(level.rx + i) * (load(u + 1) - here) + load(level.rx + i - 1) * (load(u - 1) - here) +
+         load(level.rx + i) * (load(beside + 1) - here) +
+         load(level.rx + row.left + x) * (load(beside) - here) +
          load(level.ry + i) * (load(u + pitch) - here) +
          load(level.ry + i - pitch) * (load(u - pitch) - here);
 }
 
-inline Vec sums_of_pairs(Vec low, Vec high) {
-  IntVec even, odd;
-  for (int i = 0; i < kLanes; ++i) even[i] = 2 * i;
-  for (int i = 0; i < kLanes; ++i) odd[i] = 2 * i + 1;
-  return __builtin_shuffle(low, high, even) + __builtin_shuffle(low, high, odd);
-}
-
-// Residual of fine rows 2y and 2y + 1 summed over cells of 2×2.
+// Residual of fine rows 2y and 2y + 1 summed over cells of 2×2. Colour 1, relaxed last, has none.
 void restrict_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
   if (y < 0 || y >= coarse.height) return;
-  const int end = padded_pairs(fine);
+  const int end = half_pairs(fine);
   const bool both = 2 * y + 1 < fine.height;
+  const ColourRow upper = colour_row(fine, 2 * y, 0), lower = colour_row(fine, 2 * y + 1, 0);
+  float* const b = coarse.b + y * coarse.pitch;
   for (int x = 0; x < end; x += 2 * kLanes) {
-    const long i = 2L * y * fine.pitch + x;
-    Vec low = residual_at(fine, i);
-    Vec high = residual_at(fine, i + kLanes);
-    if (both) {
-      low += residual_at(fine, i + fine.pitch);
-      high += residual_at(fine, i + fine.pitch + kLanes);
+    for (int i = 0; i < 2 * kLanes; i += kLanes) {
+      prefetch(fine.c + upper.own + x + i + 2 * kAhead * fine.pitch);
+      prefetch(fine.c + lower.own + x + i + 2 * kAhead * fine.pitch);
     }
-    store(coarse.b + y * coarse.pitch + x / 2, sums_of_pairs(low, high));
+    Vec low = residual_at(fine, upper, x);
+    Vec high = residual_at(fine, upper, x + kLanes);
+    if (both) {
+      low += residual_at(fine, lower, x);
+      high += residual_at(fine, lower, x + kLanes);
+    }
+    store(b + x / 2, __builtin_shuffle(low, high, ramp(0, 2)));
+    store(b + x / 2 + coarse.odd, __builtin_shuffle(low, high, ramp(1, 2)));
   }
 }
 
-// u += correction of the coarse cell.
+// Lanes of two vectors by turns, from their lane `first`.
+inline IntVec interleaved(int first) {
+  IntVec lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = first + i / 2 + (i & 1) * kLanes;
+  return lanes;
+}
+
+// u += correction of the coarse cell, for colour 0: colour 1 is relaxed next, from colour 0 alone.
 void correct_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
   if (y < 0 || y >= fine.height) return;
-  IntVec low, high;
-  for (int i = 0; i < kLanes; ++i) low[i] = i / 2;
-  for (int i = 0; i < kLanes; ++i) high[i] = (i + kLanes) / 2;
-  const int end = padded_pairs(fine);
+  const int end = half_pairs(fine);
   const float* const correction = coarse.u + (y / 2) * coarse.pitch;
-  float* const u = fine.u + y * fine.pitch;
+  float* const u = fine.u + colour_row(fine, y, 0).own;
   for (int x = 0; x < end; x += 2 * kLanes) {
-    const Vec cell = load(correction + x / 2);
-    store(u + x, load(u + x) + __builtin_shuffle(cell, low));
-    store(u + x + kLanes, load(u + x + kLanes) + __builtin_shuffle(cell, high));
+    for (int i = 0; i < 2 * kLanes; i += kLanes) {
+      prefetch(u + x + i + kAhead * fine.pitch);
+      prefetch(u + x + i + (kAhead + 1) * fine.pitch);
+    }
+    const Halves cells = load_halves(coarse, correction, x / 2);
+    store(u + x, load(u + x) + __builtin_shuffle(cells.even, cells.odd, interleaved(0)));
+    store(u + x + kLanes,
+          load(u + x + kLanes) + __builtin_shuffle(cells.even, cells.odd, interleaved(kLanes / 2)));
   }
 }
 
-// Factor that projects z to |p| ≤ g.
-inline Vec shrinkage(Vec zx, Vec zy, Vec g) {
-  return least(splat(1), g * reciprocal_root(greatest(zx * zx + zy * zy, splat(1e-30F))));
+// A vector of pixels of one half of a row, and u around them.
+struct Around {
+  long at = 0;
+  Vec here, left, right, down;
+  Vec rx, rx_left, ry;
+};
+
+// 2p − z.
+struct Reflected {
+  Vec x, y;
+};
+
+// Factors of 1 − |p|/|z|: of z as stored, if it is yet to be relaxed, and as it is to be stored.
+struct Relaxation {
+  Vec gradient, before, after;
+};
+
+// z ← p + relaxed step along the gradient.
+template <bool kResumes>
+inline Reflected move_dual(const TvL2Level& level, const Around& pixels,
+                           const Relaxation& factors) {
+  const long i = pixels.at;
+  const Vec g = load(level.g + i);
+  Vec zx = load(level.zx + i), zy = load(level.zy + i);
+  if constexpr (!kResumes) {
+    const Vec stay = 1.0F - factors.before * (1.0F - shrinkage(zx, zy, g));
+    zx *= stay;
+    zy *= stay;
+  }
+  zx += factors.gradient * pixels.rx * (pixels.right - pixels.here);
+  zy += factors.gradient * pixels.ry * (pixels.down - pixels.here);
+  const Vec keep = shrinkage(zx, zy, g);
+  const Vec stay = 1.0F - factors.after * (1.0F - keep);
+  store(level.zx + i, zx * stay);
+  store(level.zy + i, zy * stay);
+  const Vec mirror = 2.0F * keep - 1.0F;
+  return {zx * mirror, zy * mirror};
 }
 
-// z ← p + relaxed step along the gradient, then b ← c·f + div(2p − z).
+inline void relax(const TvL2Level& level, const Around& pixels, Vec b) {
+  const long i = pixels.at;
+  const Vec along = b + pixels.rx * pixels.right + pixels.rx_left * pixels.left;
+  const Vec across =
+      pixels.ry * pixels.down + load(level.ry + i - level.pitch) * load(level.u + i - level.pitch);
+  store(level.u + i, (along + across) * load(level.inverse + i));
+}
+
+// Moves the dual of row y, then b ← c·f + div(2p − z) and relaxes colour 0, which no dual needs any
+// more. `row` holds the vertical part of the row above, and then of this one.
+template <bool kResumes, bool kRelaxesEven>
+void dual_row_as(const TvL2Level& level, int y, const Relaxation& factors, float* row) {
+  const int end = half_lanes(level);
+  Vec q_left = splat(0), u_left = splat(0), rx_left = splat(0);  // of the odd pixels before
+  for (int x = 0; x < end; x += kLanes) {
+    const long at = y * level.pitch + x;
+    prefetch_halves(level, level.zx, at + kAhead * level.pitch);
+    prefetch_halves(level, level.zy, at + kAhead * level.pitch);
+    prefetch_halves(level, level.g, at + kAhead * level.pitch);
+    prefetch_halves(level, level.cf, at + kAhead * level.pitch);
+    const Halves u = load_halves(level, level.u, at);
+    const Halves down = load_halves(level, level.u, at + level.pitch);
+    const Halves rx = load_halves(level, level.rx, at), ry = load_halves(level, level.ry, at);
+    const Around even{at,        u.even,  shifted(u_left, u.odd),   u.odd,
+                      down.even, rx.even, shifted(rx_left, rx.odd), ry.even};
+    const Around odd{at + level.odd, u.odd,  u.even,  load(level.u + at + 1),
+                     down.odd,       rx.odd, rx.even, ry.odd};
+    const Reflected q_even = move_dual<kResumes>(level, even, factors);
+    const Reflected q_odd = move_dual<kResumes>(level, odd, factors);
+    const Halves above = load_halves(level, row, x);
+    store_halves(level, row, x, {q_even.y, q_odd.y});
+    const Halves cf = load_halves(level, level.cf, at);
+    const Halves b{cf.even + (q_even.x - shifted(q_left, q_odd.x)) + (q_even.y - above.even),
+                   cf.odd + (q_odd.x - q_even.x) + (q_odd.y - above.odd)};
+    store_halves(level, level.b, at, b);
+    kRelaxesEven ? relax(level, even, b.even) : relax(level, odd, b.odd);
+    q_left = q_odd.x;
+    u_left = u.odd;
+    rx_left = rx.odd;
+  }
+}
+
 void dual_row(const TvL2Level& level, int y, const TvL2Step& step) {
   if (y < 0 || y >= level.height) return;
-  const long at = y * level.pitch;
-  float* const qx = step.rows + kTvL2Margin;
-  float* const qy = qx + level.pitch * (1 + (y & 1));
-  const float* const above = qx + level.pitch * (2 - (y & 1));
-  const Vec ahead = splat(step.relaxation);
-  const Vec back = splat(1 - step.relaxation);
-  const int end = whole_registers(level.width);
-  for (int x = 0; x < end; x += kLanes) {
-    const long i = at + x;
-    const Vec g = load(level.g + i);
-    const Vec here = load(level.u + i);
-    const Vec zx = load(level.zx + i), zy = load(level.zy + i);
-    const Vec keep = shrinkage(zx, zy, g);
-    const Vec stay = keep + back * (1.0F - keep);  // p + (1 − relaxation)(z − p), over z
-    const Vec nx = zx * stay + ahead * load(level.rx + i) * (load(level.u + i + 1) - here);
-    const Vec ny =
-        zy * stay + ahead * load(level.ry + i) * (load(level.u + i + level.pitch) - here);
-    store(level.zx + i, nx);
-    store(level.zy + i, ny);
-    const Vec mirror = 2.0F * shrinkage(nx, ny, g) - 1.0F;
-    store(qx + x, nx * mirror);
-    store(qy + x, ny * mirror);
-  }
-  for (int x = 0; x < end; x += kLanes) {
-    const long i = at + x;
-    const Vec divergence = load(qx + x) - load(qx + x - 1) + load(qy + x) - load(above + x);
-    store(level.b + i, load(level.c + i) * load(level.f + i) + divergence);
-  }
-}
-
-void clear_rows(float* rows, long count) {
-  for (long i = 0; i < count; ++i) rows[i] = 0;
+  const Vec relaxation = splat(step.relaxation);
+  const Relaxation factors{relaxation, relaxation, step.pauses ? splat(0) : relaxation};
+  const auto run = (y & 1) == 0
+                       ? (step.resumes ? dual_row_as<true, true> : dual_row_as<false, true>)
+                       : (step.resumes ? dual_row_as<true, false> : dual_row_as<false, false>);
+  run(level, y, factors, step.row);
 }
 
 void iterate(const TvL2Level& level, const TvL2Level& coarse, const TvL2Step& step) {
-  clear_rows(step.rows, 3 * level.pitch);
+  clear_row(step.row, level.pitch);
   // Each stage follows the one before it at the least distance its stencil allows.
   for (int t = 0; t < level.height + 7; ++t) {
     if (!step.first) {
       correct_row(level, coarse, t);
-      relax_row(level, t - 1, 1);
-      relax_row(level, t - 2, 0);
+      relax_row<true>(level, t - 1, 1);
+      relax_row<true>(level, t - 2, 0);
     }
     dual_row(level, t - 3, step);
-    relax_row(level, t - 3, 0);
-    relax_row(level, t - 4, 1);
+    relax_row<false>(level, t - 4, 1);
     if (((t - 6) & 1) == 0) restrict_row(level, coarse, (t - 6) >> 1);
   }
 }
@@ -163,7 +242,7 @@ void iterate(const TvL2Level& level, const TvL2Level& coarse, const TvL2Step& st
 void descend(const TvL2Level& level, const TvL2Level& coarse) {
   for (int t = 0; t < level.height + 5; ++t) {
     relax_row_from_zero(level, t, 0);
-    relax_row(level, t - 1, 1);
+    relax_row<true>(level, t - 1, 1);
     if (((t - 3) & 1) == 0) restrict_row(level, coarse, (t - 3) >> 1);
   }
 }
@@ -171,8 +250,8 @@ void descend(const TvL2Level& level, const TvL2Level& coarse) {
 void ascend(const TvL2Level& level, const TvL2Level& coarse) {
   for (int t = 0; t < level.height + 2; ++t) {
     correct_row(level, coarse, t);
-    relax_row(level, t - 1, 1);
-    relax_row(level, t - 2, 0);
+    relax_row<true>(level, t - 1, 1);
+    relax_row<true>(level, t - 2, 0);
   }
 }
 
@@ -180,97 +259,13 @@ void solve(const TvL2Level& level) {
   constexpr int kSweeps = 8;
   for (int y = 0; y < level.height; ++y) relax_row_from_zero(level, y, 0);
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
-    for (int y = 0; y < level.height; ++y) relax_row(level, y, 1);
-    for (int y = 0; y < level.height; ++y) relax_row(level, y, 0);
+    for (int y = 0; y < level.height; ++y) relax_row<false>(level, y, 1);
+    for (int y = 0; y < level.height; ++y) relax_row<false>(level, y, 0);
   }
-}
-
-void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
-  const Vec low = splat(1 / penalty.spread), high = splat(penalty.spread);
-  const int end = whole_registers(level.width);
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = y * level.pitch + x;
-      const Vec rx = load(level.rx + i), ry = load(level.ry + i);
-      const Vec here = load(level.u + i);
-      const Vec zero = splat(0);
-      const Vec gx = choose(rx > 0.0F, load(level.u + i + 1) - here, zero);
-      const Vec gy = choose(ry > 0.0F, load(level.u + i + level.pitch) - here, zero);
-      const Vec ratio = penalty.knee * reciprocal_root(gx * gx + gy * gy + 1e-16F);
-      const Vec g = load(level.g + i);
-      const Vec next = penalty.scale * g * least(greatest(square_root(ratio), low), high);
-      const Vec zx = load(level.zx + i), zy = load(level.zy + i);
-      if (penalty.first) {  // z holds p, d = ∇u
-        store(level.zx + i, zx + next * gx);
-        store(level.zy + i, zy + next * gy);
-      } else {
-        const Vec keep = shrinkage(zx, zy, g);
-        const Vec any = greatest(rx, ry);
-        const Vec stretch = keep + (1.0F - keep) * next / choose(any > 0.0F, any, splat(1));
-        store(level.zx + i, zx * stretch);
-        store(level.zy + i, zy * stretch);
-      }
-      store(level.rx + i, choose(rx > 0.0F, next, zero));
-      store(level.ry + i, choose(ry > 0.0F, next, zero));
-    }
-  }
-}
-
-void project(const TvL2Level& level) {
-  const int end = whole_registers(level.width);
-  for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = y * level.pitch + x;
-      const Vec zx = load(level.zx + i), zy = load(level.zy + i);
-      const Vec keep = shrinkage(zx, zy, load(level.g + i));
-      store(level.zx + i, zx * keep);
-      store(level.zy + i, zy * keep);
-    }
-  }
-}
-
-inline double total(Vec lanes) {
-  double sum = 0;
-  for (int i = 0; i < kLanes; ++i) sum += static_cast<double>(lanes[i]);
-  return sum;
-}
-
-TvL2Sums measure(const TvL2Level& level, float* rows) {
-  clear_rows(rows, 3 * level.pitch);
-  TvL2Sums sums;
-  const int end = whole_registers(level.width);
-  for (int y = 0; y < level.height; ++y) {
-    float* const px = rows + kTvL2Margin;
-    float* const py = px + level.pitch * (1 + (y & 1));
-    const float* const above = px + level.pitch * (2 - (y & 1));
-    Vec energy{}, dual{};
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = y * level.pitch + x;
-      const Vec zx = load(level.zx + i), zy = load(level.zy + i), g = load(level.g + i);
-      const Vec keep = shrinkage(zx, zy, g);
-      store(px + x, zx * keep);
-      store(py + x, zy * keep);
-      const Vec here = load(level.u + i);
-      const Vec gx = choose(load(level.rx + i) > 0.0F, load(level.u + i + 1) - here, splat(0));
-      const Vec gy =
-          choose(load(level.ry + i) > 0.0F, load(level.u + i + level.pitch) - here, splat(0));
-      const Vec off = here - load(level.f + i);
-      energy += g * square_root(gx * gx + gy * gy) + 0.5F * load(level.c + i) * off * off;
-    }
-    for (int x = 0; x < end; x += kLanes) {
-      const long i = y * level.pitch + x;
-      const Vec c = load(level.c + i);
-      const Vec divergence = load(px + x) - load(px + x - 1) + load(py + x) - load(above + x);
-      dual -= divergence * (load(level.f + i) + 0.5F * divergence / choose(c > 0.0F, c, splat(1)));
-    }
-    sums.energy += total(energy);
-    sums.dual += total(dual);
-  }
-  return sums;
 }
 
 }  // namespace
 
-const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve, penalise, project, measure};
+const TvL2Kernel kTvL2Kernel = {iterate, descend, ascend, solve};
 
 }  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE

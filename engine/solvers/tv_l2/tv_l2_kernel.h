@@ -5,33 +5,39 @@
 
 namespace episcope {
 
-/// Floats before and after each row that a kernel may touch; a row is padded to whole pairs of the
-/// widest vector.
+/// Floats before and after each half row that a kernel may touch; a half row is padded to whole
+/// pairs of the widest vector.
 inline constexpr int kTvL2Margin = 16;
 inline constexpr int kTvL2RowUnit = 32;
 
-/// One level of the grid hierarchy of the TV-L2 solver. Planes are `[y][x]`, `pitch` apart, with
-/// one row of padding above and two below; all padding is 0 and stays harmless because the
-/// coefficients there are 0. Outside the stage that solves a level, u and b hold the multigrid
-/// correction.
+/// One level of the grid hierarchy of the TV-L2 solver. Rows of a plane lie `pitch` apart and are
+/// split: first the pixels of the even columns, `odd` floats further those of the odd ones. So the
+/// pixels of either colour of a chequerboard, and their neighbours, are contiguous. One row of
+/// padding above and two below; all padding is 0 and stays harmless because the coefficients there
+/// are 0. Outside the stage that solves a level, u and b hold the multigrid correction.
 struct TvL2Level {
   int height = 0, width = 0;
-  long pitch = 0;
-  float *f = nullptr, *c = nullptr, *g = nullptr;  ///< Observation, w/λ, weight of the variation.
+  long pitch = 0, odd = 0;
+  float *cf = nullptr, *c = nullptr;  ///< w/λ, and the same times the observation.
+  float* g = nullptr;                 ///< Weight of the variation.
   float* u = nullptr;
   float *zx = nullptr, *zy = nullptr;  ///< p + R·d: the dual is its projection to |p| ≤ g.
   float *rx = nullptr, *ry = nullptr;  ///< Penalty R of the edges right and down; 0 at the border.
   float* inverse = nullptr;            ///< 1/diagonal of the linear system, 0 in the padding.
   float* b = nullptr;                  ///< Right-hand side.
   float data_scale = 1;                ///< Factor of c when the level serves as multigrid level.
+
+  [[nodiscard]] long at(int y, int x) const { return y * pitch + (x & 1) * odd + (x >> 1); }
 };
 
+/// How one iteration follows the one before it, and leaves z for the next.
 struct TvL2Step {
   float relaxation = 1;
-  bool first = false;     ///< No multigrid correction is pending.
-  float* rows = nullptr;  ///< Scratch, `kTvL2ScratchRows` rows of the level's pitch.
+  bool first = false;    ///< No multigrid correction is pending.
+  bool resumes = false;  ///< The iteration before has stored z already relaxed.
+  bool pauses = false;   ///< Stores z itself, which everything but an iteration needs.
+  float* row = nullptr;  ///< Scratch, one row of the level's pitch.
 };
-inline constexpr int kTvL2ScratchRows = 3;
 
 /// Penalty R = scale·g·clamp(√(knee/|∇u|), 1/spread, spread).
 struct TvL2Penalty {
@@ -43,7 +49,7 @@ struct TvL2Sums {
   double energy = 0, dual = 0;
 };
 
-/// The kernel's entry points, one set for each instruction set.
+/// The entry points of the iteration, one set for each instruction set.
 struct TvL2Kernel {
   /// One iteration on the level being solved, fused row by row: adds the coarse correction,
   /// smooths, moves the dual, renews the right-hand side, smooths, restricts the residual to
@@ -55,14 +61,24 @@ struct TvL2Kernel {
   void (*ascend)(const TvL2Level&, const TvL2Level& coarse);
   /// Smooths from 0 until solved: for the coarsest level.
   void (*solve)(const TvL2Level&);
+};
+
+/// What happens between iterations.
+struct TvL2PenaltyKernel {
   /// Renews R from u, keeping p and d where |p| = g.
   void (*penalise)(const TvL2Level&, const TvL2Penalty&);
+  /// The penalty of the edges between cells of 2×2 pixels, times `edge_factor`. 1 is Galerkin's
+  /// choice for piecewise constant corrections; ½ fits smooth ones.
+  void (*coarsen_penalty)(const TvL2Level& fine, const TvL2Level& coarse, float edge_factor);
+  /// Fills `inverse` from c, rx, ry.
+  void (*invert_diagonal)(const TvL2Level&);
   /// z ← p, its projection to |p| ≤ g.
   void (*project)(const TvL2Level&);
-  /// P(u) and D(p); sums of rows in double, in fixed order.
-  TvL2Sums (*measure)(const TvL2Level&, float* rows);
+  /// P(u) and D(p); sums of rows in double, in fixed order. `row` is scratch as in TvL2Step.
+  TvL2Sums (*measure)(const TvL2Level&, float* row);
 };
 
 EPISCOPE_DECLARE_KERNEL(extern const TvL2Kernel kTvL2Kernel);
+EPISCOPE_DECLARE_KERNEL(extern const TvL2PenaltyKernel kTvL2PenaltyKernel);
 
 }  // namespace episcope

@@ -257,29 +257,32 @@ void TvL2Test::measure_usesAdjointOperators() {
   constexpr int kHeight = 13, kWidth = 29;
   TvL2Grid grid(kHeight, kWidth);
   TvL2Level& level = grid.level;
+  Image<float> f(kHeight, kWidth);
   std::mt19937 random(3);
   std::uniform_real_distribution<float> uniform(-0.5F, 0.5F);
   double product = 0;
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const long i = y * level.pitch + x;
-      level.f[i] = uniform(random);
+      const long i = level.at(y, x);
+      f.at(y, x) = uniform(random);
       level.g[i] = 1;      // |p| < 1: the projection leaves p alone
       level.c[i] = 1e12F;  // D(p) = −⟨f, div p⟩
+      level.cf[i] = 1e12F * f.at(y, x);
       level.zx[i] = x + 1 < kWidth ? uniform(random) : 0.0F;
       level.zy[i] = y + 1 < kHeight ? uniform(random) : 0.0F;
     }
   }
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
-      const long i = y * level.pitch + x;
-      product += static_cast<double>(level.zx[i]) * (level.f[i + 1] - level.f[i]);
-      product += static_cast<double>(level.zy[i]) * (level.f[i + level.pitch] - level.f[i]);
+      const long i = level.at(y, x);
+      const float right = f.at(y, std::min(x + 1, kWidth - 1));
+      const float below = f.at(std::min(y + 1, kHeight - 1), x);
+      product += static_cast<double>(level.zx[i]) * (right - f.at(y, x));
+      product += static_cast<double>(level.zy[i]) * (below - f.at(y, x));
     }
   }
-  std::vector<float> rows(kTvL2ScratchRows * level.pitch);
 
-  const TvL2Sums sums = baseline::kTvL2Kernel.measure(level, rows.data());
+  const TvL2Sums sums = baseline::kTvL2PenaltyKernel.measure(level, grid.row);
 
   QVERIFY(std::fabs(sums.dual - product) < 1e-5 * std::fabs(product));
 }
