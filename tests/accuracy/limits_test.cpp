@@ -33,7 +33,7 @@ const accuracy::Measurement& measured(const std::string& method, const std::stri
   const auto key = std::make_tuple(method, id, noise);
   if (const auto found = kept.find(key); found != kept.end()) return found->second;
   return kept
-      .emplace(key, accuracy::measure(id, scene(id, noise), find_estimator(method), Progress()))
+      .emplace(key, accuracy::measure(id, scene(id, noise), find_estimator(method), {}, Progress()))
       .first->second;
 }
 

@@ -4,6 +4,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/io/open/open.h"
 #include "engine/scenes/builtin.h"
+#include "tests/accuracy/ablation.h"
 #include "tests/accuracy/measure.h"
 
 #include <CLI/CLI.hpp>
@@ -16,11 +17,14 @@ namespace {
 
 using namespace episcope;
 
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout);
+}
+
 void print_rows(const std::string& name, const Scene& scene) {
   for (const Estimator& estimator : registered_estimators()) {
-    const auto row = accuracy::table_row(accuracy::measure(name, scene, estimator, Progress()));
-    std::fputs(row.c_str(), stdout);
-    std::fflush(stdout);
+    print(accuracy::table_row(accuracy::measure(name, scene, estimator, {}, Progress())));
   }
 }
 
@@ -49,8 +53,17 @@ int main(int argc, char** argv) {
   app.add_option("--data", data, "Folder that holds the scenes still_life and cotton")
       ->envname("EPISCOPE_SHARED_DATA")
       ->check(CLI::ExistingDirectory);
+  std::string ablation;
+  app.add_option("--ablation", ablation,
+                 "Instead, what each part of the methods is worth: a file like "
+                 "tests/accuracy/ablation.json")
+      ->check(CLI::ExistingFile);
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!ablation.empty()) {
+      accuracy::run_ablation(accuracy::read_ablation(ablation), print, Progress());
+      return 0;
+    }
     std::fputs(accuracy::table_head().c_str(), stdout);
     for (const char* id : {"fronto", "slant", "edge", "bars", "objects", "demo"}) {
       print_builtin(id, small ? 256 : 512);

@@ -16,10 +16,11 @@ double metric(const Evaluation& evaluation, const char* key) {
 }  // namespace
 
 Measurement measure(const std::string& name, const Scene& scene, const Estimator& estimator,
-                    const Progress& progress) {
+                    const MeasuredRun& run, const Progress& progress) {
   const ViewIndex center = scene.light_field->center();
-  const auto views = estimator.info.all_views ? ViewSelection::All : ViewSelection::Center;
-  const Estimate estimate = estimator.run(*scene.light_field, {}, {.views = views}, progress);
+  const auto views = estimator.info.all_views ? run.views : ViewSelection::Center;
+  const Estimate estimate =
+      estimator.run(*scene.light_field, run.values, {.views = views}, progress);
   const auto judge = [&](Protocol protocol) {
     return evaluate(estimate.field.view(center), scene.truth->field.view(center), {},
                     {.protocol = protocol});

@@ -9,7 +9,7 @@
 
 namespace episcope::accuracy {
 
-/// How one method did on one scene, with its default parameters; errors of the centre view.
+/// How one method did on one scene; errors of the centre view.
 struct Measurement {
   std::string scene;
   std::string method;
@@ -21,9 +21,16 @@ struct Measurement {
   Interval range;
 };
 
-/// Runs `estimator` for all views if it can. The scene must have truth for its centre view.
+/// How a method is measured.
+struct MeasuredRun {
+  ParameterSet values = {};
+  ViewSelection views = ViewSelection::All;  ///< If the method can.
+};
+
+/// Runs `estimator`. The scene must have truth for its centre view.
 [[nodiscard]] Measurement measure(const std::string& name, const Scene& scene,
-                                  const Estimator& estimator, const Progress& progress);
+                                  const Estimator& estimator, const MeasuredRun& run,
+                                  const Progress& progress);
 
 /// The head of a Markdown table of measurements, and a row.
 [[nodiscard]] std::string table_head();

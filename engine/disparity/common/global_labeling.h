@@ -21,6 +21,8 @@ struct GlobalLabelingParameters {
   double gap = 1e-3;
 };
 [[nodiscard]] Schema<GlobalLabelingParameters> global_labeling_schema();
+/// The values that weigh all variation alike and keep the labels, as the paper.
+[[nodiscard]] ParameterSet plain_labeling();
 
 /// The disparity between labels of a pixel with a given label.
 struct Placement {

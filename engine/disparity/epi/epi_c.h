@@ -13,6 +13,7 @@ struct EpiCParameters {
   double rise = 0.01;
   double softness = 0.05;
   int sweeps = 4;
+  bool replace_occluded = true;
   LineCheck line_check = {};
   /// All views together need less smoothing than each by itself.
   DenoiseParameters denoising{.lambda = 0.06, .edge_strength = 30};

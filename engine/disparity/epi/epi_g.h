@@ -7,10 +7,15 @@
 
 namespace episcope {
 
+/// How the costs of both directions become one: their sum, or the lesser.
+enum class DirectionCosts { Sum, Least };
+[[nodiscard]] Names<DirectionCosts> names_of(DirectionCosts);
+
 /// Parameters of EPI_G: of the labeling, and those of EPI_L.
 struct EpiGParameters {
   GlobalLabelingParameters labeling{.smoothness = 3, .edge_strength = 15, .settling = 3};
   int labels = 64;
+  DirectionCosts direction_costs = DirectionCosts::Sum;
   double truncation = 0.3;
   double weight_power = 2;
   LineCheck line_check = {};

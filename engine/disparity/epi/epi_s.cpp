@@ -6,7 +6,11 @@ namespace episcope {
 Schema<EpiSParameters> epi_s_schema() {
   return Schema<EpiSParameters>()
       .part(&EpiSParameters::denoising, denoise_schema())
+      .part(&EpiSParameters::line_check, line_check_schema())
       .part(&EpiSParameters::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"check_lines", false}})
       .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
       .search("weight_power", {0, 2, 6, 12})
       .search("edge_strength", {0, 10, 20});
@@ -15,7 +19,11 @@ Schema<EpiSParameters> epi_s_schema() {
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress) {
   Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
-  denoise(lf, parameters.denoising, estimate, progress.part(0.4, 0.98));
+  if (parameters.line_check.is_on) {
+    progress.step("checking lines");
+    reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
+  }
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98));
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }

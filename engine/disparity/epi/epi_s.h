@@ -3,12 +3,14 @@
 
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/line_check.h"
 
 namespace episcope {
 
 /// Parameters of EPI_S.
 struct EpiSParameters {
   DenoiseParameters denoising = {};
+  LineCheck line_check = {};
   EpiLParameters tensor = {};
 };
 

@@ -75,27 +75,12 @@ std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex vi
   return noise;
 }
 
-void apply_profile(MatchedViews views, StereoCostParameters& parameters) {
-  if (parameters.profile != Profile::Paper) return;
-  parameters.epsilon = views == MatchedViews::All ? 1 : kUncapped;
-  parameters.interpolation = Interpolation::Bilinear;
-  parameters.aggregation = 0;
-}
-
 }  // namespace
-
-Names<Profile> names_of(Profile) {
-  return {{Profile::Tuned, "tuned"}, {Profile::Paper, "paper"}};
-}
 
 Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
   using P = StereoCostParameters;
   return Schema<P>()
-      .choice("profile", &P::profile,
-              {"Profile",
-               "tuned: the settings given here; paper: the method as published, which overrides "
-               "the cap, interpolation, aggregation and whatever else the paper does not have, and "
-               "applies a fifth of the smoothness of a global labeling"})
+      .part(&P::profile, profile_schema())
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
@@ -105,6 +90,10 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
             {0, kUncapped})
       .choice("interpolation", &P::interpolation,
               {"Interpolation", "How views are interpolated between pixels"})
+      .flag("compensate_noise", &P::compensate_noise,
+            {"Compensate noise",
+             "Add to the costs what interpolation averages away of the noise, so that labels that "
+             "move views by whole pixels are at no disadvantage"})
       .integer("aggregation", &P::aggregation,
                {"Aggregation",
                 "Radius of the guided filter that averages the costs of neighbours of similar "
@@ -119,7 +108,11 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
                 {-20, 20})
       .view("view", &P::view,
             {"View", "Row and column of the view to estimate; auto = centre view"})
-      .completed_by([views](P& p) { apply_profile(views, p); });
+      .preset(kProfileKey, kPaperProfile,
+              {{"epsilon", views == MatchedViews::All ? 1.0 : kUncapped},
+               {"interpolation", std::string("bilinear")},
+               {"compensate_noise", false},
+               {"aggregation", 0}});
 }
 
 StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
@@ -132,11 +125,13 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   costs.matching.views = views;
   costs.matching.interpolation = parameters.interpolation;
   costs.matching.cap = parameters.epsilon;
-  if (parameters.profile != Profile::Paper) {
+  if (parameters.compensate_noise || parameters.epsilon == 0) {
     progress.step("noise");
     const Residuals residuals = find_residuals(lf, costs, progress.part(0.5, 0.8));
-    costs.matching.noise =
-        noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    if (parameters.compensate_noise) {
+      costs.matching.noise =
+          noise_map(lf, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    }
     if (parameters.epsilon == 0) {
       costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }

@@ -3,6 +3,7 @@
 
 #include "engine/core/parameter/schema.h"
 #include "engine/disparity/common/matching_cost.h"
+#include "engine/disparity/common/profile.h"
 #include "engine/disparity/stereo/guided_filter.h"
 
 #include <memory>
@@ -14,24 +15,21 @@ namespace episcope {
 /// A cap ε that no difference of samples in [0, 1] reaches, √3 being the largest: uncapped.
 inline constexpr double kUncapped = 2;
 
-/// Whether a method of multi-view stereo runs with tuned settings or as published.
-enum class Profile { Tuned, Paper };
-[[nodiscard]] Names<Profile> names_of(Profile);
-
 /// What all methods of multi-view stereo have in common: which labels of which view are compared
 /// with the other views, and how.
 struct StereoCostParameters {
-  Profile profile = Profile::Tuned;
+  ProfileChoice profile = {};
   int labels = 64;
   double epsilon = 0;  ///< ε; 0 = from the noise of the light field, kUncapped = none.
   Interpolation interpolation = Interpolation::Cubic;
+  bool compensate_noise = true;
   int aggregation = 2;
   IntervalOrAuto range;
   ViewOrAuto view;
 };
 
-/// Profile::Paper overwrites ε (no cap for the cross-hair, 1 for all views), interpolation
-/// (bilinear) and aggregation (none).
+/// The profile `paper` sets ε (no cap for the cross-hair, 1 for all views), interpolation
+/// (bilinear), no compensation of noise and no aggregation.
 [[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);
 
 /// The data term of a view, derived from parameters and light field before the labels of single
@@ -50,7 +48,7 @@ struct StereoCosts {
 /// fixed ε that is best on clean light fields takes nearly all differences for occlusions under
 /// noise.
 ///
-/// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h): at
+/// With `compensate_noise` the matching also gets the noise of the view (matching_cost.h): at
 /// each pixel that of its surroundings (local_noise.h), at most what the residual of the best
 /// quarter of the pixels allows. Evidence for both: tests/accuracy/tuning.md. Throws InvalidInput
 /// (no such view, a single view), Cancelled.

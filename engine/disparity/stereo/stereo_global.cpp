@@ -65,14 +65,14 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
       .part(&P::matching, stereo_cost_schema(views))
+      .begin_with(kProfileKey)
       .search("smoothness", {0.25, 0.5, 1, 2, 4, 8})
       .search("edge_strength", {0, 20})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
-      .completed_by([](P& p) {
-        if (p.matching.profile != Profile::Paper) return;
-        p.labeling.edge_strength = 0;
-        p.labeling.settling = 0;
-      });
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness",
+                     {0.05, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2});
 }
 
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
@@ -97,8 +97,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     }
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
   };
-  const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
-  const double scale = unit * mean_of_valid(means, lf, stereo.view);
+  const double scale = mean_of_valid(means, lf, stereo.view);
   label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,
                  estimate, progress.part(0.31, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));

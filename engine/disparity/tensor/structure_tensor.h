@@ -17,10 +17,15 @@ struct TensorSearch {
   /// Shears in half pixels per view step; every disparity of interest lies within `limit` of one.
   std::vector<int> half_step_shears;
   double limit = 0.6;
+  /// Reads the disparity off the eigenvector of the tensor, instead of by least squares.
+  bool eigenvector = false;
 };
 
 /// Shears that cover `range`, `step_half_px` half pixels apart, whole multiples of that.
 [[nodiscard]] TensorSearch cover_range(Interval range, int step_half_px);
+/// Likewise with as few shears as the range demands: none up to ±1.2 px, where any orientation
+/// found counts, else whole pixels and what lies within 1.1 px of them.
+[[nodiscard]] TensorSearch cover_range_sparsely(Interval range);
 
 /// A rectangle of image pixels seen by one row or column of cameras.
 struct TensorTask {
