@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
+#include <cstdlib>
 namespace episcope {
 
 Schema<EpiSParameters> epi_s_schema() {
@@ -23,7 +24,7 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
     progress.step("checking lines");
     reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
   }
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), getenv("MINW") ? atof(getenv("MINW")) : 0.01F);
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }

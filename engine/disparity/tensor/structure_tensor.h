@@ -54,7 +54,10 @@ struct TensorExtent {
 /// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture
 ///   beside it and objects grow by the size of the window.
 /// - The tensor of the chosen shear, turned back to unsheared coordinates, is averaged over
-///   neighbouring EPIs before the disparity is read off, by least squares.
+///   neighbouring EPIs before the disparity is read off, by least squares. Neighbours count less
+///   the more their own disparity differs, 0.2 px by half: averages over all of them make objects
+///   grow by the size of that window as well.
+/// With `TensorSearch::eigenvector` the disparity is that of the formula, EPI by EPI.
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
 /// out right.
 ///
