@@ -5,25 +5,40 @@
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/text/join.h"
 #include "engine/scenes/cast/caster.h"
+#include "engine/scenes/random/random_scene.h"
 #include "engine/scenes/recipes/recipes.h"
 #include "engine/scenes/recipes/scribble.h"
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 
 namespace episcope::scenes {
 namespace {
 
-const Recipe& find_recipe(const std::string& id) {
-  std::vector<std::string> ids;
-  for (const Recipe& recipe : recipes()) {
-    if (recipe.id == id) return recipe;
-    ids.emplace_back(recipe.id);
+// What is rendered: the cameras and what they see.
+struct Laid {
+  Stage stage;
+  Model model;
+  bool has_scribbles = false;
+};
+
+Laid lay_out(const std::string& id, const RenderOptions& options) {
+  if (id == kRandomScene) {
+    RandomScene scene = random_scene(options.width, options.height, options.seed, options.kind);
+    return {scene.stage, std::move(scene.model), true};
   }
-  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + joined(ids, ", ") +
-                    ")");
+  const Stage stage = make_stage(options.width, options.height);
+  const Recipe& recipe = *std::ranges::find(recipes(), id, &Recipe::id);
+  return {stage, recipe.lay_out(stage), recipe.has_scribbles};
+}
+
+// "random?seed=7&kind=thin"; other scenes are their ids.
+std::string text_of(const std::string& id, const RenderOptions& options) {
+  if (id != kRandomScene) return id;
+  const std::string text = fmt::format("{}?seed={}", id, options.seed);
+  return options.kind == RandomKind::Any ? text : text + "&kind=" + random_kind_name(options.kind);
 }
 
 void require_range(const char* name, double value, double min, double max) {
@@ -72,25 +87,40 @@ std::span<const Recipe> recipes() {
 std::vector<BuiltinSceneInfo> builtin_scenes() {
   std::vector<BuiltinSceneInfo> scenes;
   for (const Recipe& recipe : recipes()) scenes.push_back({recipe.id, recipe.summary});
+  scenes.push_back({kRandomScene, "3 to 40 objects drawn from a seed: random?seed=7&kind=thin"});
   return scenes;
+}
+
+void require_builtin(const std::string& id) {
+  std::vector<std::string> ids;
+  for (const BuiltinSceneInfo& scene : builtin_scenes()) ids.push_back(scene.id);
+  if (std::ranges::find(ids, id) != ids.end()) return;
+  throw Unavailable(no_such_name("built-in scene", id, ids) + " (there are " + joined(ids, ", ") +
+                    ")");
+}
+
+std::string builtin_name(const std::string& id, const RenderOptions& options) {
+  if (id != kRandomScene) return id;
+  if (options.kind == RandomKind::Any) return fmt::format("{}_{}", id, options.seed);
+  return fmt::format("{}_{}_{}", id, random_kind_name(options.kind), options.seed);
 }
 
 Scene render_builtin(const std::string& id, const RenderOptions& options,
                      const Progress& progress) {
-  const Recipe& recipe = find_recipe(id);
+  require_builtin(id);
   check(options);
+  const Laid laid = lay_out(id, options);
   progress.step("rendering the scene " + id);
-  const Stage stage = make_stage(options.width, options.height);
-  Cast cast = cast_views(stage, recipe.lay_out(stage), options, progress);
+  Cast cast = cast_views(laid.stage, laid.model, options, progress);
 
   LightFieldInfo info;
-  info.name = id;
-  info.source = id == "demo" ? "demo" : "demo:" + id;
+  info.name = builtin_name(id, options);
+  info.source = id == "demo" ? "demo" : "demo:" + text_of(id, options);
   info.reading.reader = kBuiltinReader;
-  info.camera = camera_grid_of(stage, options.disparity_scale);
+  info.camera = camera_grid_of(laid.stage, options.disparity_scale);
   Scene scene;
   scene.light_field = std::make_shared<const LightField>(std::move(cast.samples), std::move(info));
-  if (recipe.has_scribbles) {
+  if (laid.has_scribbles) {
     const ViewIndex center = options.grid.center();
     scene.scribbles.views.push_back({center, scribble(cast.truth.labels.view(center))});
   }

@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/scenes/random/kinds.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +11,8 @@
 namespace episcope::scenes {
 
 struct BuiltinSceneInfo {
-  std::string id;  ///< "fronto", "slant", "edge", "bars", "objects", "transparent", "demo", …
+  std::string
+      id;  ///< "fronto", "slant", "edge", "bars", "objects", "transparent", "random", "demo", …
   std::string summary;  ///< One line.
 };
 
@@ -19,21 +21,33 @@ struct RenderOptions {
   int height = 512;
   int width = 512;
   double noise_sigma = 0;  ///< Gaussian noise in units of 1/255.
-  unsigned seed = 1;
+  unsigned seed = 1;       ///< Of a random scene, and of the noise.
   int channels = 3;
   /// Scales every disparity, to make scenes of wider or narrower range.
   double disparity_scale = 1;
+  RandomKind kind = RandomKind::Any;  ///< Of a random scene.
+  friend bool operator==(const RenderOptions&, const RenderOptions&) = default;
 };
+
+/// The scene that is drawn from `RenderOptions::seed`.
+inline constexpr const char* kRandomScene = "random";
 
 /// What LightFieldInfo::reading names as the reader of built-in scenes.
 inline constexpr const char* kBuiltinReader = "builtin";
 
-/// All built-in scenes, simple ones that each test one thing first, the demo last.
+/// All built-in scenes: the demo, simple ones that each test one thing, and the random one.
 [[nodiscard]] std::vector<BuiltinSceneInfo> builtin_scenes();
+
+/// Throws Unavailable for an unknown scene, naming the nearest and all.
+void require_builtin(const std::string& id);
+
+/// Name for lists and files: the id; of a random scene with kind and seed ("random_thin_7").
+[[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
 
 /// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
 /// pixel centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded
 /// noise. Deterministic: the same options give the same bytes on every machine and thread count.
+/// `id` is a scene alone (request.h reads queries).
 /// Throws Unavailable for an unknown id (naming the nearest), InvalidInput, Cancelled.
 [[nodiscard]] Scene render_builtin(const std::string& id, const RenderOptions& options,
                                    const Progress& progress);

@@ -5,9 +5,10 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/io/open/reader.h"
-#include "engine/scenes/builtin.h"
+#include "engine/scenes/request.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace episcope::cli {
 namespace {
@@ -40,7 +41,13 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
 void check_builtin_scene(const std::string& id) {
   std::vector<std::string> ids;
   for (const auto& scene : scenes::builtin_scenes()) ids.push_back(scene.id);
-  if (std::ranges::find(ids, id) == ids.end()) throw unknown_name("built-in scene", id, ids);
+  const std::string scene = id.substr(0, id.find('?'));
+  if (std::ranges::find(ids, scene) == ids.end()) throw unknown_name("built-in scene", scene, ids);
+  try {
+    std::ignore = scenes::read_request(id);
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
 }
 
 void check_input(const std::string& input) {

@@ -6,6 +6,7 @@
 #include "engine/io/open/reader.h"
 #include "engine/io/open/scene_name.h"
 #include "engine/io/sequence/sequence_reader.h"
+#include "engine/scenes/request.h"
 
 #include <fmt/format.h>
 
@@ -29,7 +30,7 @@ int frames_of(const std::string& input, const io::OpenOptions& options) {
 io::CollectionEntry single(const std::string& input, const io::OpenOptions& options) {
   const std::string builtin = builtin_scene_id(input);
   return {.path = input,
-          .name = builtin.empty() ? io::scene_name(input) : builtin,
+          .name = builtin.empty() ? io::scene_name(input) : scenes::read_request(builtin).name(),
           .reader = {},
           .probe = {.frames = frames_of(input, options)}};
 }

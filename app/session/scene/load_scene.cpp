@@ -8,7 +8,7 @@
 #include "engine/io/open/open.h"
 #include "engine/io/open/reader.h"
 #include "engine/io/open/undecided.h"
-#include "engine/scenes/builtin.h"
+#include "engine/scenes/request.h"
 
 #include <system_error>
 #include <utility>
@@ -33,23 +33,28 @@ LightFieldPtr renamed(const LightField& light_field, const std::string& name,
                                             light_field.valid().clone());
 }
 
-Scene render_center_view(const std::string& id, const scenes::RenderOptions& options,
-                         const Progress& progress) {
-  scenes::RenderOptions center_only = options;
-  center_only.grid = {1, 1};
-  return scenes::render_builtin(id, center_only, progress);
+// Of scenes with options there is no end: they are rendered each time.
+bool is_worth_keeping(const scenes::BuiltinRequest& request) {
+  return request.is_plain() && request.scene != scenes::kRandomScene;
 }
 
-void show_center_view(const std::string& id, const Scene& center, GridShape grid,
-                      const io::OpenOptions& open) {
+SceneCache cache_for(const scenes::BuiltinRequest& request, const std::filesystem::path& folder) {
+  return SceneCache(is_worth_keeping(request) ? folder : std::filesystem::path());
+}
+
+Scene render_center_view(const scenes::BuiltinRequest& request, const Progress& progress) {
+  scenes::RenderOptions center_only = request.options;
+  center_only.grid = {1, 1};
+  return scenes::render_builtin(request.scene, center_only, progress);
+}
+
+void show_center_view(const Scene& center, GridShape grid, const io::OpenOptions& open) {
   const LightField& light_field = *center.light_field;
   if (!open.on_center_view || light_field.sample_type() != SampleType::UInt8) return;
   const ImageView<const std::uint8_t> view = light_field.view<std::uint8_t>({0, 0});
   Image<std::uint8_t> rgb(view.height, view.width, view.channels);
   std::copy_n(view.data, view.size(), rgb.data());
-  LightFieldInfo info = light_field.info();
-  info.name = id;
-  open.on_center_view(rgb, info, grid);
+  open.on_center_view(rgb, light_field.info(), grid);
 }
 
 // What a kept built-in scene lacks: where it comes from and, in older archives, its region masks.
@@ -73,25 +78,25 @@ Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
 
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
-  const scenes::RenderOptions render;
+  const scenes::BuiltinRequest request = scenes::read_request(id);
   progress.step("rendering the centre view");
-  const Scene center = render_center_view(id, render, progress.part(0, 0.02));
-  show_center_view(id, center, render.grid, options.open);
+  const Scene center = render_center_view(request, progress.part(0, 0.02));
+  show_center_view(center, request.options.grid, options.open);
   progress.step("reading the built-in scene");
+  const SceneCache cache = cache_for(request, options.cache_folder);
   if (!options.needs_truth) {
-    auto samples = SceneCache(options.cache_folder).read_samples(id, render, progress);
+    auto samples = cache.read_samples(request.scene, request.options, progress);
     if (samples) return without_truth(std::move(*samples), center, source);
   }
-  std::optional<Scene> scene =
-      SceneCache(options.cache_folder).read(id, render, progress.part(0.02, 0.9));
+  std::optional<Scene> scene = cache.read(request.scene, request.options, progress.part(0.02, 0.9));
   if (scene) {
     complete_kept_scene(*scene, center);
   } else {
     progress.step("rendering all views");
-    scene = scenes::render_builtin(id, render, progress.part(0.02, 1));
+    scene = scenes::render_builtin(request.scene, request.options, progress.part(0.02, 1));
   }
   if (scene->light_field->info().source != source) {
-    scene->light_field = renamed(*scene->light_field, id, source);
+    scene->light_field = renamed(*scene->light_field, request.name(), source);
   }
   return std::move(*scene);
 }
@@ -143,11 +148,12 @@ void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
   if (id.empty() || cache_folder.empty() || scene.convention.focus_px != 0) return;
+  const scenes::BuiltinRequest request = scenes::read_request(id);
+  if (!is_worth_keeping(request)) return;
   const SceneCache cache(cache_folder);
-  const scenes::RenderOptions render;
   std::error_code ignored;
-  if (!std::filesystem::exists(cache.place(id, render), ignored)) {
-    cache.write(id, render, scene, progress);
+  if (!std::filesystem::exists(cache.place(request.scene, request.options), ignored)) {
+    cache.write(request.scene, request.options, scene, progress);
   }
 }
 

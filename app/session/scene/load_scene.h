@@ -20,24 +20,25 @@ struct LoadOptions {
   bool needs_truth = true;
 };
 
-/// The id of a built-in scene if `input` is `demo` or `demo:<scene>`, else empty.
+/// What follows `demo:` if `input` is `demo` or `demo:<scene>`, which `scenes::read_request` reads;
+/// else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);
 
 /// Id of the reader of an input (engine/io/open/reader.h), "builtin" for built-in scenes; empty if
 /// nobody reads it. Throws IoError if it is not there or damaged.
 [[nodiscard]] std::string reader_of(const std::string& input, const io::OpenOptions& options);
 
-/// Opens anything that a user can name: `demo`, `demo:<scene>`, or a path that `io::open_scene`
-/// opens. The light field's `source` is what opens it again. A built-in scene is read from the
-/// cache where it is there and whole, else rendered; `store_in_cache` keeps it for the next time.
-/// Throws IoError, IsCollection for a folder of several light fields, Unavailable for an unknown
-/// built-in scene, Cancelled.
+/// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
+/// that `io::open_scene` opens. The light field's `source` is what opens it again. A built-in scene
+/// is read from the cache where it is there and whole, else rendered; `store_in_cache` keeps it for
+/// the next time. Throws IoError, IsCollection for a folder of several light fields, Unavailable
+/// for an unknown built-in scene, InvalidInput for what cannot be read behind its '?', Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
                                const Progress& progress);
 
 /// Keeps a built-in scene that `load_scene` rendered. Does nothing for other inputs, for a scene
-/// that is kept already or has a focus plane baked in, without a cache folder, or where that cannot
-/// be written: a cache is a convenience. Throws Cancelled.
+/// that is random, has options, is kept already or has a focus plane baked in, without a cache
+/// folder, or where that cannot be written: a cache is a convenience. Throws Cancelled.
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress);
 

@@ -5,7 +5,6 @@
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/scenes/cast/trace_kernel.h"
-#include "engine/scenes/recipes/sensor_noise.h"
 
 #include <algorithm>
 #include <cassert>
@@ -64,7 +63,12 @@ struct RowBuffers {
 class ViewsCast {
  public:
   ViewsCast(const Stage& stage, const Model& model, const RenderOptions& options)
-      : stage_(stage), model_(model), options_(options), trace_row_(trace_row_for(best_isa())) {
+      : stage_(stage),
+        model_(model),
+        options_(options),
+        trace_row_(trace_row_for(best_isa())),
+        exposure_(model.sensor, {stage.height, stage.width, options.channels, options.noise_sigma,
+                                 options.seed}) {
     assert(model.primitives.size() <= kMaxCandidates);
     const ViewIndex center = options.grid.center();
     for (int v = 0; v < options.grid.v; ++v) {
@@ -133,19 +137,9 @@ class ViewsCast {
 
   void write_samples(ViewIndex index, int y, const RowBuffers& buffers) {
     const auto out = cast_.samples.view(index);
-    const auto sigma = static_cast<float>(options_.noise_sigma);
-    const int channels = options_.channels;
-    std::uint64_t counter =
-        static_cast<std::uint64_t>(out.row(y) - cast_.samples.data());  // Of this sample.
-    for (int x = 0; x < stage_.width; ++x) {
-      const float* rgb = &buffers.color[3 * static_cast<std::size_t>(x)];
-      const float grey = 0.299F * rgb[0] + 0.587F * rgb[1] + 0.114F * rgb[2];  // BT.601
-      for (int c = 0; c < channels; ++c, ++counter) {
-        float value = 255.0F * (channels == 1 ? grey : rgb[c]);
-        if (sigma > 0) value += sigma * sensor_noise(options_.seed, counter);
-        out.at(y, x, c) = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
-      }
-    }
+    const ViewIndex center = options_.grid.center();
+    exposure_.write_row({index.v - center.v, index.u - center.u}, y, buffers.color.data(),
+                        static_cast<std::uint64_t>(out.row(y) - cast_.samples.data()), out.row(y));
   }
 
   void write_truth(ViewIndex index, int y, const RowBuffers& buffers) {
@@ -212,6 +206,7 @@ class ViewsCast {
   const Model& model_;
   const RenderOptions& options_;
   TraceRow trace_row_;
+  Exposure exposure_;
   std::vector<View> views_;
   bool has_panes_ = false;
   Cast cast_;

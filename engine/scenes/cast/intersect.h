@@ -15,6 +15,11 @@ using namespace episcope::EPISCOPE_KERNEL_NAMESPACE;
 /// Depth of a ray that hits nothing.
 constexpr float kMiss = 1e30F;
 
+/// Whether all of a shape lies in z = 0.
+constexpr bool is_flat(Shape shape) {
+  return shape != Shape::Box && shape != Shape::Revolution;
+}
+
 template <class R>
 struct Rays {
   Pack<R> dx;  ///< Directions (dx, dy, 1).
@@ -77,18 +82,40 @@ inline Pack<R> along(const LocalRays<R>& rays, int axis, const Pack<R>& t) {
   return rays.start[axis] + t * rays.direction[axis];
 }
 
+/// Distance to the nearest multiple of `pitch`.
+template <class R>
+inline Pack<R> from_multiple(const Pack<R>& x, R pitch) {
+  // Adding 1.5 times the first number that has no fraction, and taking it away, rounds.
+  const R no_fraction = sizeof(R) == 4 ? R(12582912) : R(6755399441055744);
+  const Pack<R> multiple = (x * (R(1) / pitch) + no_fraction) - no_fraction;
+  return absolute(x - multiple * pitch);
+}
+
+/// Whether a flat primitive has material at (x, y).
+template <class R>
+inline Mask<R> covers_point(const Primitive& primitive, const Pack<R>& x, const Pack<R>& y) {
+  const auto extent_x = static_cast<R>(primitive.extent[0]);
+  const auto extent_y = static_cast<R>(primitive.extent[1]);
+  if (primitive.shape == Shape::Disc) return x * x + y * y <= extent_x * extent_x;
+  if (primitive.shape == Shape::Leaf) {
+    const Pack<R> share = x * (R(1) / extent_x);
+    return absolute(y) <= (R(1) - share * share) * extent_y;
+  }
+  const Mask<R> inside = (absolute(x) <= extent_x) & (absolute(y) <= extent_y);
+  if (primitive.shape != Shape::Lattice) return inside;
+  const auto upright = static_cast<R>(primitive.profile[2]);
+  const auto level = static_cast<R>(primitive.extent[2]);
+  return inside & ((from_multiple(x, static_cast<R>(primitive.profile[0])) <= upright) |
+                   (from_multiple(y, static_cast<R>(primitive.profile[1])) <= level));
+}
+
 /// Each returns t from the start of the local rays, or kMiss.
 template <class R>
 inline Pack<R> hit_plane(const Primitive& primitive, const LocalRays<R>& rays) {
   const Pack<R> t = -rays.start[2] / rays.direction[2];
   const Pack<R> x = along(rays, 0, t);
   const Pack<R> y = along(rays, 1, t);
-  const auto extent_x = static_cast<R>(primitive.extent[0]);
-  const auto extent_y = static_cast<R>(primitive.extent[1]);
-  const Mask<R> inside = primitive.shape == Shape::Disc
-                             ? (x * x + y * y <= extent_x * extent_x)
-                             : ((absolute(x) <= extent_x) & (absolute(y) <= extent_y));
-  return choose(inside, t, Pack<R>(R(kMiss)));
+  return choose(covers_point(primitive, x, y), t, Pack<R>(R(kMiss)));
 }
 
 template <class R>
@@ -139,6 +166,8 @@ inline Pack<R> hit_depth(const Primitive& primitive, const LocalRays<R>& rays) {
   switch (primitive.shape) {
     case Shape::Rectangle:
     case Shape::Disc:
+    case Shape::Leaf:
+    case Shape::Lattice:
       t = hit_plane(primitive, rays);
       break;
     case Shape::Box:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// For kernel sources only: soft light on points of the scene. It depends on the point alone, never
-// on the view, so that every surface looks the same from everywhere.
+// For kernel sources only: soft light on points of the scene. It depends on the point alone, not on
+// the view, so that every surface looks the same from everywhere; highlights may move.
 
 #include "engine/scenes/cast/surface.h"
 
@@ -56,18 +56,19 @@ inline Shade shade(const Fragments& f, const ModelView& model) {
   return seen;
 }
 
-/// A soft highlight, as seen from the centre view.
-inline Floats highlight(const Fragments& f, const Lighting& lighting) {
+/// A soft highlight, as seen from `eye`.
+inline Floats highlight(const Fragments& f, const Lighting& lighting, const float* eye) {
   Floats half[3];
-  const Floats to_view = -1.0F / square_root(dot(f.position, f.position));
-  for (int k = 0; k < 3; ++k) half[k] = f.position[k] * to_view + lighting.key_direction[k];
+  for (int k = 0; k < 3; ++k) half[k] = f.position[k] - eye[k];
+  const Floats to_view = -1.0F / square_root(dot(half, half));
+  for (int k = 0; k < 3; ++k) half[k] = half[k] * to_view + lighting.key_direction[k];
   Floats power = greatest(dot(f.normal, half), Floats(0.0F)) / square_root(dot(half, half));
   for (int i = 0; i < 5; ++i) power = power * power;
   return power;
 }
 
 /// Lights all fragments and adds them to the row.
-inline void flush(Fragments& f, const ModelView& model, float* row) {
+inline void flush(Fragments& f, const ModelView& model, const ViewCamera& camera, float* row) {
   if (f.count == 0) return;
   for (int lane = f.count; lane < Floats::kLanes; ++lane) f.weight[lane] = 0.0F;
   Floats light[3] = {1.0F, 1.0F, 1.0F};
@@ -81,7 +82,11 @@ inline void flush(Fragments& f, const ModelView& model, float* row) {
       const Floats sky = Floats(lighting.ground[c]) + up * (lighting.sky[c] - lighting.ground[c]);
       light[c] = sky * seen.sky + key * lighting.key[c];
     }
-    glint = highlight(f, lighting) * f.gloss * seen.key;
+    float eye[3] = {};  // Of the centre view.
+    if (lighting.has_moving_highlights) {
+      for (int k = 0; k < 3; ++k) eye[k] = static_cast<float>(camera.origin[k]);
+    }
+    glint = highlight(f, lighting, eye) * f.gloss * seen.key;
   }
   for (int c = 0; c < 3; ++c) {
     const Floats lit = (f.color[c] * light[c] + glint) * f.weight;

@@ -10,7 +10,11 @@ namespace episcope::scenes {
 enum class Shape {
   Rectangle,  ///< z = 0 in its own frame, |x| ≤ extent[0], |y| ≤ extent[1].
   Disc,       ///< z = 0, x² + y² ≤ extent[0]².
-  Box,        ///< |x|, |y|, |z| ≤ extent.
+  Leaf,       ///< z = 0, |y| ≤ extent[1]·(1 − (x/extent[0])²): pointed at both ends.
+  /// A Rectangle of bars: upright ones at x = k·profile[0] of half width profile[2], level ones at
+  /// y = k·profile[1] of half width extent[2]; a half width below 0 = none of them.
+  Lattice,
+  Box,  ///< |x|, |y|, |z| ≤ extent.
   /// Surface of revolution about y between extent[0] and extent[1], seen from outside and inside:
   /// x² + z² = profile[0] + profile[1]·y + profile[2]·y². Spheres, cylinders, cones, vases.
   Revolution
@@ -63,6 +67,9 @@ struct Lighting {
   float ground[3] = {};                 ///< and on what faces down.
   float key[3] = {};                    ///< Of the key light,
   float key_direction[3] = {0, -1, 0};  ///< towards it, of length 1.
+  /// Highlights move over the surface with the view, as on polished things; else they are those of
+  /// the centre view everywhere.
+  bool has_moving_highlights = false;
 };
 
 /// Borrowed scene.
@@ -91,7 +98,7 @@ struct Candidate {
 };
 
 /// Most primitives of a scene.
-inline constexpr int kMaxCandidates = 64;
+inline constexpr int kMaxCandidates = 192;
 
 /// What is found in one row of one view. Arrays are as long as the row; `width` is a multiple of 16
 /// or padded to it.

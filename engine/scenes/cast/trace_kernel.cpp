@@ -102,10 +102,10 @@ void Row::add_fragment(const Frame<float>& frame, const Rays<float>& rays, int x
   if (!job.model.lighting.is_on) return;
   fragments.label[slot] = primitive.label;
   fragments.gloss[slot] = texture.gloss;
-  const bool is_flat = primitive.shape == Shape::Rectangle || primitive.shape == Shape::Disc;
+  const bool has_one_normal = is_flat(primitive.shape);
   float normal[3];
   for (int i = 0; i < 3; ++i) {
-    normal[i] = is_flat ? points.normal[i][0] : sum(points.normal[i] * weight) * scale;
+    normal[i] = has_one_normal ? points.normal[i][0] : sum(points.normal[i] * weight) * scale;
   }
   const float mean_depth = sum(depth * weight) * scale;
   const bool is_whole = total == static_cast<float>(kSamples);
@@ -154,7 +154,7 @@ void Row::trace_samples(int x) {
     Ints hit = convert<int>(hits.primitive) == i;
     if (primitive.is_pane) hit = hit & behind_pane;
     if (!any(hit)) continue;
-    if (fragments.count == Floats::kLanes) flush(fragments, job.model, out.color);
+    if (fragments.count == Floats::kLanes) flush(fragments, job.model, job.camera, out.color);
     add_fragment(samples[i], rays, x, choose(hit, hits.depth, Floats(1.0F)),
                  choose(hit, primitive.is_pane ? pane_weight : solid_weight, zero));
     if (label != 0 && label != primitive.label && !primitive.is_pane) out.is_edge[x] = 1;
@@ -170,7 +170,7 @@ void trace_row(const RowJob& job, const RowResult& out) {
   Row row(job, out);
   for (int x = 0; x < job.width; x += kCenters) row.trace_centers(x);
   for (int x = 0; x < job.width; ++x) row.trace_samples(x);
-  flush(row.fragments, job.model, out.color);
+  flush(row.fragments, job.model, job.camera, out.color);
 }
 
 }  // namespace episcope::scenes::EPISCOPE_KERNEL_NAMESPACE

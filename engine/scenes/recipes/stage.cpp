@@ -17,6 +17,8 @@ Hull hull_of(const Primitive& primitive) {
   const double* e = primitive.extent;
   switch (primitive.shape) {
     case Shape::Rectangle:
+    case Shape::Leaf:
+    case Shape::Lattice:
       return {{e[0], e[1], 0}, 0};
     case Shape::Disc:
       return {{e[0], e[0], 0}, 0};
@@ -70,6 +72,29 @@ Texture noise_texture(double pixel_units, unsigned seed, const std::array<float,
   return texture;
 }
 
+void revolve(Primitive& piece, double height, const Radii& radii) {
+  const double bottom = radii.bottom * radii.bottom;
+  const double middle = radii.middle * radii.middle;
+  const double top = radii.top * radii.top;
+  piece.shape = Shape::Revolution;
+  piece.extent[0] = 0;
+  piece.extent[1] = height;
+  piece.profile[0] = bottom;
+  piece.profile[1] = (4 * middle - 3 * bottom - top) / height;
+  piece.profile[2] = 2 * (bottom + top - 2 * middle) / (height * height);
+}
+
+void set_pattern(Texture& texture, Pattern pattern, double pixel_units, double period,
+                 const std::array<Vector3, 2>& axes) {
+  constexpr double step_px = 3;
+  texture.pattern = pattern;
+  texture.pattern_step = step_px * pixel_units;
+  texture.pattern_sharpness = static_cast<float>(period / 2 / texture.pattern_step);
+  for (int i = 0; i < 2; ++i) {
+    for (int k = 0; k < 3; ++k) texture.pattern_axis[i][k] = axes[i][k] / period;
+  }
+}
+
 Primitive make_card(const Stage& stage, const Card& card) {
   const double depth = stage.depth(card.disparity_px);
   const Vector3 center =
@@ -94,6 +119,14 @@ Primitive make_plane(const Stage& stage, const DisparityPlane& plane) {
   for (const Vector3& axis : {x, y, z}) std::copy(axis.begin(), axis.end(), primitive.axes[row++]);
   primitive.extent[0] = primitive.extent[1] = 1e6;
   return primitive;
+}
+
+Interval depths_of(const Primitive& primitive) {
+  const Hull hull = hull_of(primitive);
+  const double middle = primitive.center[2] + hull.middle_y * primitive.axes[1][2];
+  double reach = 0;
+  for (int i = 0; i < 3; ++i) reach += hull.half[i] * std::abs(primitive.axes[i][2]);
+  return {middle - reach, middle + reach};
 }
 
 Bounds bounds_in_view(const Primitive& primitive, const ViewCamera& camera, int width, int height) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/indices.h"
 #include "engine/scenes/cast/model.h"
+#include "engine/scenes/recipes/sensor.h"
 #include "engine/scenes/recipes/vector3.h"
 
 #include <array>
@@ -40,6 +42,7 @@ struct Model {
   std::vector<Texture> textures;
   std::vector<Occluder> occluders;
   Lighting lighting;
+  Sensor sensor;
 
   /// Index of the added texture.
   int add(const Texture& texture);
@@ -50,6 +53,20 @@ struct Model {
 /// `color`, of `contrast` between 0 and 1.
 [[nodiscard]] Texture noise_texture(double pixel_units, unsigned seed,
                                     const std::array<float, 3>& color, float contrast);
+
+/// Squared radii of a piece of a surface of revolution at its bottom (y = 0), at half its height
+/// and at its top are those of `radii`; a parabola lies between.
+struct Radii {
+  double bottom = 0;
+  double middle = 0;
+  double top = 0;
+};
+void revolve(Primitive& piece, double height, const Radii& radii);
+
+/// A pattern along `axes` with the given period, with edges as hard as pixels of size `pixel_units`
+/// allow. Its second colour is left to the caller.
+void set_pattern(Texture& texture, Pattern pattern, double pixel_units, double period,
+                 const std::array<Vector3, 2>& axes);
 
 /// A rectangle facing the cameras between two pixels' corners of the centre view, at a disparity.
 struct Card {
@@ -69,6 +86,9 @@ struct DisparityPlane {
   double per_y = 0;
 };
 [[nodiscard]] Primitive make_plane(const Stage& stage, const DisparityPlane& plane);
+
+/// Between which depths all of a primitive lies.
+[[nodiscard]] Interval depths_of(const Primitive& primitive);
 
 /// Rectangle of pixels of a view that may show a primitive, [x_begin, x_end) × [y_begin, y_end).
 struct Bounds {

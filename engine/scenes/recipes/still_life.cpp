@@ -76,15 +76,7 @@ void StillLife::sphere(const Place& center, double radius, const Texture& textur
 
 void StillLife::surface_of_revolution(const Place& place, double height, const Radii& radii,
                                       int texture, int label) {
-  const double bottom = radii.bottom * radii.bottom;
-  const double middle = radii.middle * radii.middle;
-  const double top = radii.top * radii.top;
-  Primitive& piece = add(Shape::Revolution, place, texture, label);
-  piece.extent[0] = 0;
-  piece.extent[1] = height;
-  piece.profile[0] = bottom;
-  piece.profile[1] = (4 * middle - 3 * bottom - top) / height;
-  piece.profile[2] = 2 * (bottom + top - 2 * middle) / (height * height);
+  revolve(add(Shape::Revolution, place, texture, label), height, radii);
 }
 
 void StillLife::disc(const Place& center, double radius, int texture, int label) {
@@ -128,13 +120,7 @@ Texture StillLife::noise_at(const Place& place, unsigned seed, const std::array<
 
 void StillLife::add_pattern(Texture& texture, Pattern pattern, const Place& place, double period,
                             const std::array<Vector3, 2>& axes) const {
-  constexpr double step_px = 3;
-  texture.pattern = pattern;
-  texture.pattern_step = step_px * pixel_at(place);
-  texture.pattern_sharpness = static_cast<float>(period / 2 / texture.pattern_step);
-  for (int i = 0; i < 2; ++i) {
-    for (int k = 0; k < 3; ++k) texture.pattern_axis[i][k] = axes[i][k] / period;
-  }
+  set_pattern(texture, pattern, pixel_at(place), period, axes);
 }
 
 void StillLife::light(const Lighting& lighting, const Vector3& key_direction) {

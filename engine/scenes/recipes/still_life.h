@@ -26,12 +26,7 @@ class StillLife {
   /// `place` is the middle of the bottom.
   void box(const Place& place, const Vector3& half, const Texture& texture, int label);
   void sphere(const Place& center, double radius, const Texture& texture, int label);
-  struct Radii {
-    double bottom = 0;
-    double middle = 0;  ///< At half the height.
-    double top = 0;
-  };
-  /// A piece of a surface of revolution whose squared radius is a parabola through the three given.
+  /// A piece of a surface of revolution, see `revolve`.
   void surface_of_revolution(const Place& place, double height, const Radii& radii, int texture,
                              int label);
   void disc(const Place& center, double radius, int texture, int label);

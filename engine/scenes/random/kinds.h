@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace episcope::scenes {
+
+/// What random scenes are made of, so that a weakness can be looked at by itself.
+enum class RandomKind {
+  Any,        ///< A mixture of all below.
+  Occlusion,  ///< Bars before textured layers, steps up to 1.5 px, noise growing downwards.
+  Dark,       ///< Little light, disparities of ±3.1 px.
+  Thin,       ///< Bars, lattices and leaves.
+  Plain,      ///< Surfaces with little texture.
+  Periodic,   ///< Stripes, checks and rings.
+  Shiny,      ///< Highlights that move with the view.
+  Uneven,     ///< Views of different gain, vignetting, a defocused background.
+  Noisy       ///< Noise of 5 to 10/255.
+};
+
+/// All kinds as they are written, in the order of the enumeration.
+[[nodiscard]] const std::vector<std::string>& random_kind_names();
+[[nodiscard]] const std::string& random_kind_name(RandomKind kind);
+
+}  // namespace episcope::scenes

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/scenes/random/plan.h"
+
+namespace episcope::scenes {
+
+/// A random texture of a surface where a pixel has size `pixel_units`: band-limited there, and
+/// fading where the surface slants away. `contrast` is that of the plan. Flat things keep their
+/// pattern in their plane.
+[[nodiscard]] Texture draw_texture(Draw draw, Finish finish, double pixel_units, double contrast);
+
+/// What is seen of a far background out of focus: large soft blobs.
+[[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, double contrast);
+
+}  // namespace episcope::scenes

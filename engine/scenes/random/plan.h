@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+#include "engine/scenes/random/draw.h"
+#include "engine/scenes/random/kinds.h"
+#include "engine/scenes/recipes/stage.h"
+
+namespace episcope::scenes {
+
+/// Largest disparity of a random scene, px per view step, of either sign.
+inline constexpr double kMostDisparity = 3.5;
+
+/// What an object is made of.
+enum class Finish { Textured, Plain, Periodic, Shiny };
+inline constexpr std::size_t kFinishes = 4;
+
+/// What an object is.
+enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant };
+inline constexpr std::size_t kForms = 11;
+
+/// What a random scene is to be like, before anything is placed.
+struct Plan {
+  Interval range;  ///< All disparities lie in it, within the views of a 9×9 grid.
+  int objects = 3;
+  std::array<double, kFinishes> finishes{};  ///< Weights.
+  std::array<double, kForms> forms{};        ///< Weights.
+  bool has_ground = true;
+  bool has_layers = false;    ///< Bars before flat layers instead of objects in a room.
+  bool is_defocused = false;  ///< The background.
+  double contrast = 1;        ///< Factor of the contrast of all textures.
+  bool is_lit = true;
+  bool has_moving_highlights = false;
+  Sensor sensor;
+};
+
+[[nodiscard]] Plan draw_plan(Draw draw, RandomKind kind);
+
+/// Cameras that see `range` with a depth that looks natural: the far end 1.3 to 3 times as far away
+/// as the near end.
+[[nodiscard]] Stage draw_stage(int width, int height, const Interval& range, Draw draw);
+
+}  // namespace episcope::scenes

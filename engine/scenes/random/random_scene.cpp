@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/scenes/random/random_scene.h"
+
+#include "engine/scenes/random/backdrop.h"
+#include "engine/scenes/random/materials.h"
+#include "engine/scenes/random/things.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace episcope::scenes {
+namespace {
+
+constexpr std::size_t kMostOccluders = 24;
+constexpr double kLeastGap = 0.15;  // Share of the range between a thing and what is behind.
+constexpr double kMostStep = 1.5;   // Of disparity, px, where layers occlude each other.
+
+class Composer {
+ public:
+  Composer(const Stage& stage, const Plan& plan, Draw draw)
+      : stage_(stage), plan_(plan), draw_(draw), backdrop_(stage, plan, draw.part(1)) {
+    next_label_ = backdrop_.build(model_, plan, draw.part(2));
+  }
+
+  Model compose() {
+    if (plan_.has_layers) add_fences(draw_.part(3));
+    for (int i = 0; i < plan_.objects; ++i) add_thing(draw_.part(100 + i));
+    set_light(draw_.part(4));
+    model_.sensor = plan_.sensor;
+    return std::move(model_);
+  }
+
+ private:
+  void add_thing(Draw draw) {
+    const auto form = static_cast<Form>(draw.weighted(plan_.forms));
+    const auto finish = static_cast<Finish>(draw.weighted(plan_.finishes));
+    const bool stands = plan_.has_ground && can_stand(form) && draw.chance(0.75);
+    const Spot spot = stands ? draw_standing(draw) : draw_floating(draw);
+    std::vector<Primitive> parts =
+        make_thing(stage_, form, spot, plan_.range.max, stands, draw.part(1));
+    if (model_.primitives.size() + parts.size() > kMaxCandidates) return;
+    taken_.push_back({spot.x, spot.y});
+    dress(parts, finish, draw.part(2));
+    if (can_stand(form)) add_occluder(parts.front(), spot);
+    ++next_label_;
+  }
+
+  // Gives a thing its textures and its label.
+  void dress(const std::vector<Primitive>& parts, Finish finish, const Draw& draw) {
+    for (Primitive part : parts) {
+      const double pixel = stage_.pixel(part.center[2]);
+      Texture texture = draw_texture(draw, finish, pixel, plan_.contrast);
+      texture.seed += static_cast<unsigned>(model_.primitives.size());  // No two leaves are alike.
+      part.texture = model_.add(texture);
+      part.label = next_label_;
+      model_.primitives.push_back(part);
+    }
+  }
+
+  void add_occluder(const Primitive& part, const Spot& spot) {
+    if (model_.occluders.size() >= kMostOccluders) return;
+    const Interval depths = depths_of(part);
+    const double depth = (depths.min + depths.max) / 2;
+    const Vector3 at = stage_.point(spot.x, spot.y, depth);
+    Occluder occluder;
+    for (int k = 0; k < 3; ++k) occluder.center[k] = static_cast<float>(at[k]);
+    occluder.radius = static_cast<float>(0.7 * spot.half_px * stage_.pixel(depth));
+    occluder.label = next_label_;
+    model_.occluders.push_back(occluder);
+  }
+
+  // Few things are large, many are small; some of each are neither.
+  double draw_half_px(Draw& draw) const {
+    const double side = std::min(stage_.width, stage_.height);
+    const double usual = 0.42 / std::sqrt(static_cast<double>(plan_.objects));
+    const double share = std::max(usual, 0.06) * draw.between(0.55, 1.5);
+    return std::max(side * share, 4.0);
+  }
+
+  // Of several places the one farthest from other things.
+  std::pair<double, double> draw_place(Draw& draw, double top, double bottom) const {
+    std::pair<double, double> best{};
+    double farthest = -1;
+    for (int i = 0; i < 6; ++i) {
+      const double x = draw.between(0.04, 0.96) * stage_.width;
+      const double y = draw.between(top, bottom);
+      double nearest = 1e18;
+      for (const auto& [other_x, other_y] : taken_) {
+        const double squared = (x - other_x) * (x - other_x) + (y - other_y) * (y - other_y);
+        nearest = std::min(nearest, squared);
+      }
+      if (nearest <= farthest) continue;
+      farthest = nearest;
+      best = {x, y};
+    }
+    return best;
+  }
+
+  Spot draw_standing(Draw& draw) const {
+    Spot spot;
+    spot.half_px = draw_half_px(draw);
+    const double top = backdrop_.horizon() + 0.05 * stage_.height;
+    const auto [x, foot] = draw_place(draw, top, 1.02 * stage_.height);
+    spot.x = x;
+    spot.y = foot - 0.95 * spot.half_px;
+    spot.disparity_px = backdrop_.disparity_at(x, foot);
+    return spot;
+  }
+
+  Spot draw_floating(Draw& draw) const {
+    Spot spot;
+    spot.half_px = draw_half_px(draw);
+    const auto [x, y] = draw_place(draw, 0.04 * stage_.height, 0.96 * stage_.height);
+    spot.x = x;
+    spot.y = y;
+    const double behind = backdrop_.disparity_at(x, y);
+    double room = plan_.range.max - behind;
+    if (plan_.has_layers) room = std::min(room, kMostStep);
+    const double least = std::min(kLeastGap * plan_.range.length(), room);
+    spot.disparity_px = behind + draw.between(least, room);
+    return spot;
+  }
+
+  // Lattices across the image, one before the other, each slanted so that the step of disparity
+  // grows along its bars.
+  void add_fences(Draw draw) {
+    const int count = draw.integer(1, 3);
+    double behind = plan_.range.min + 0.45 * plan_.range.length();
+    for (int i = 0; i < count; ++i) {
+      const double room = std::min(plan_.range.max - behind, kMostStep);
+      DisparityPlane plane;
+      plane.center = behind + room * draw.between(0.4, 0.7);
+      const double steepness =
+          0.8 * std::min(plan_.range.max - plane.center, plane.center - behind);
+      const double along = draw.sign() * draw.between(0, steepness);
+      plane.per_y = along / stage_.height;
+      add_fence(plane, draw.part(i));
+      behind = plane.center + std::abs(along) / 2;
+    }
+  }
+
+  void add_fence(const DisparityPlane& plane, Draw draw) {
+    Primitive fence = make_plane(stage_, plane);
+    const double pixel = stage_.pixel(fence.center[2]);
+    const double half_width = (0.5 + 6 * draw.small()) * pixel;
+    fence.shape = Shape::Lattice;
+    fence.extent[0] = draw.between(0.2, 0.6) * stage_.width * pixel;
+    fence.extent[1] = draw.between(0.25, 0.6) * stage_.height * pixel;
+    fence.extent[2] = draw.chance(0.3) ? half_width : -1;
+    fence.profile[0] = half_width * draw.between(4, 9) + 4 * pixel;
+    fence.profile[1] = half_width * draw.between(8, 20) + 8 * pixel;
+    fence.profile[2] = half_width;
+    const double aside = draw.between(-0.3, 0.3) * stage_.width * pixel;
+    for (int k = 0; k < 3; ++k) fence.center[k] += aside * fence.axes[0][k];
+    const auto finish = static_cast<Finish>(draw.weighted(plan_.finishes));
+    dress({fence}, finish, draw.part(0));
+    ++next_label_;
+  }
+
+  void set_light(Draw draw) {
+    Lighting& light = model_.lighting;
+    light.is_on = plan_.is_lit;
+    light.has_moving_highlights = plan_.has_moving_highlights;
+    for (int c = 0; c < 3; ++c) {
+      light.sky[c] = static_cast<float>(draw.between(0.5, 0.65));
+      light.ground[c] = static_cast<float>(draw.between(0.25, 0.4));
+      light.key[c] = static_cast<float>(draw.between(0.45, 0.7));
+    }
+    const double x = draw.between(-1, 1);
+    const double y = draw.between(-1.3, -0.5);
+    const double z = draw.between(-1, -0.3);
+    const Vector3 key = normalized({x, y, z});
+    for (int k = 0; k < 3; ++k) light.key_direction[k] = static_cast<float>(key[k]);
+  }
+
+  const Stage& stage_;
+  const Plan& plan_;
+  Draw draw_;
+  Backdrop backdrop_;
+  Model model_;
+  int next_label_ = 1;
+  std::vector<std::pair<double, double>> taken_;  // Places of things.
+};
+
+}  // namespace
+
+RandomScene random_scene(int width, int height, unsigned seed, RandomKind kind) {
+  const Draw draw(seed * std::uint64_t{64} + static_cast<std::uint64_t>(kind));
+  const Plan plan = draw_plan(draw.part(1), kind);
+  RandomScene scene;
+  scene.stage = draw_stage(width, height, plan.range, draw.part(2));
+  scene.model = Composer(scene.stage, plan, draw.part(3)).compose();
+  return scene;
+}
+
+}  // namespace episcope::scenes

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/scenes/builtin.h"
+
+namespace episcope::scenes {
+
+/// A built-in scene as users write it.
+struct BuiltinRequest {
+  std::string scene;
+  RenderOptions options;
+
+  /// Whether anything but the scene was said.
+  [[nodiscard]] bool is_plain() const { return options == RenderOptions(); }
+  /// See builtin_name.
+  [[nodiscard]] std::string name() const { return builtin_name(scene, options); }
+};
+
+/// Reads "<scene>" or "<scene>?key=value&key=value", e.g. "random?seed=7&kind=thin". Keys: seed
+/// (of a random scene, and of noise), kind (of a random scene: random_kind_names()), size (px,
+/// "256" or "320x240" for width and height), grid ("9x9", rows and columns of views) and noise (in
+/// units of 1/255). Throws Unavailable for an unknown scene and InvalidInput for a query that is
+/// not of this form; the message says what is possible.
+[[nodiscard]] BuiltinRequest read_request(const std::string& text);
+
+}  // namespace episcope::scenes
