@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
+#include "engine/scenes/request.h"
 #include "tests/accuracy/measure.h"
 
 #include <fmt/format.h>
@@ -20,15 +21,6 @@ using Json = nlohmann::ordered_json;
 
 // Keeps the logarithm of a perfect score finite.
 constexpr double kMinError = 1e-6;
-
-AblationScene scene_from(const Json& json) {
-  AblationScene scene{json.at("scene"), {}};
-  scene.options.height = scene.options.width = json.at("size");
-  scene.options.noise_sigma = json.value("noise", 0.0);
-  scene.options.seed = json.value("seed", 1U);
-  scene.options.disparity_scale = json.value("scale", 1.0);
-  return scene;
-}
 
 AblatedMethod method_from(const Json& json) {
   AblatedMethod method{json.at("method"), {}};
@@ -75,8 +67,8 @@ std::string table(const Ablation& ablation, const AblatedMethod& method,
                   const std::vector<Scores>& scores) {
   std::string text = fmt::format("\n| {} | ratio | as good | BadPix(0.07) % |", method.method);
   std::string rule = "\n|---|---:|---:|---:|";
-  for (const AblationScene& scene : ablation.scenes) {
-    text += " " + scene.name() + " |";
+  for (const std::string& scene : ablation.scenes) {
+    text += " " + scene + " |";
     rule += "---:|";
   }
   text += rule + "\n";
@@ -88,21 +80,12 @@ std::string table(const Ablation& ablation, const AblatedMethod& method,
 
 }  // namespace
 
-std::string AblationScene::name() const {
-  std::string text = fmt::format("{} {}", id, options.width);
-  if (options.seed != 1) text += fmt::format(", seed {}", options.seed);
-  if (options.noise_sigma > 0) text += fmt::format(", noise {}", options.noise_sigma);
-  if (options.disparity_scale != 1) text += fmt::format(", scale {}", options.disparity_scale);
-  return text;
-}
-
 Ablation read_ablation(const std::filesystem::path& file) {
   std::ifstream stream(file);
   if (!stream) throw IoError(file, "cannot be read; name a file as tests/accuracy/ablation.json");
   try {
     const Json json = Json::parse(stream);
-    Ablation ablation{json.at("set"), {}, {}};
-    for (const Json& scene : json.at("scenes")) ablation.scenes.push_back(scene_from(scene));
+    Ablation ablation{json.at("set"), json.at("scenes"), {}};
     for (const Json& method : json.at("methods")) ablation.methods.push_back(method_from(method));
     return ablation;
   } catch (const Json::exception& error) {
@@ -113,8 +96,9 @@ Ablation read_ablation(const std::filesystem::path& file) {
 void run_ablation(const Ablation& ablation, const std::function<void(const std::string&)>& print,
                   const Progress& progress) {
   std::vector<Scene> rendered;
-  for (const AblationScene& scene : ablation.scenes) {
-    rendered.push_back(scenes::render_builtin(scene.id, scene.options, progress));
+  for (const std::string& scene : ablation.scenes) {
+    const scenes::BuiltinRequest request = scenes::read_request(scene);
+    rendered.push_back(scenes::render_builtin(request.scene, request.options, progress));
   }
   print("Scenes: " + ablation.set + ".\n");
   for (const AblatedMethod& method : ablation.methods) {
@@ -124,7 +108,7 @@ void run_ablation(const Ablation& ablation, const std::function<void(const std::
       Scores& own = scores.emplace_back();
       for (std::size_t i = 0; i < rendered.size(); ++i) {
         const Measurement measured =
-            measure(ablation.scenes[i].name(), rendered[i], estimator,
+            measure(ablation.scenes[i], rendered[i], estimator,
                     {variant.values, ViewSelection::Center}, progress);
         own.mse_100.push_back(measured.mse_100);
         own.badpix += measured.badpix_0070 / static_cast<double>(rendered.size());

@@ -3,7 +3,6 @@
 
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/parameter.h"
-#include "engine/scenes/builtin.h"
 
 #include <filesystem>
 #include <functional>
@@ -11,14 +10,6 @@
 #include <vector>
 
 namespace episcope::accuracy {
-
-/// A built-in scene of an ablation.
-struct AblationScene {
-  std::string id;
-  scenes::RenderOptions options;
-  /// "bars 256, noise 5"
-  [[nodiscard]] std::string name() const;
-};
 
 /// A method with some parameters set.
 struct AblationVariant {
@@ -35,13 +26,12 @@ struct AblatedMethod {
 /// Which parts of methods are worth what, on which scenes.
 struct Ablation {
   std::string set;  ///< Of scenes, as it is called in `README.md`.
-  std::vector<AblationScene> scenes;
+  std::vector<std::string> scenes;  ///< As scenes::read_request takes them.
   std::vector<AblatedMethod> methods;
 };
 
-/// Reads an ablation from JSON: `set`, `scenes` (each with `scene`, `size`, and optionally `noise`
-/// in 1/255, `seed`, `scale` of disparities), `methods` (each with `method` and `variants`: `name`
-/// and `parameters` as texts). Throws InvalidInput for what no method or scene takes.
+/// Reads an ablation from JSON: `set`, `scenes`, `methods` (each with `method` and `variants`: `name`
+/// and `parameters` as texts). Throws InvalidInput for what no method takes.
 [[nodiscard]] Ablation read_ablation(const std::filesystem::path& file);
 
 /// Runs every variant on every scene in the centre view and hands out a Markdown table for each

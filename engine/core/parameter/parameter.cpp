@@ -149,10 +149,8 @@ void apply(const Preset& preset, std::vector<ParameterDescription>& descriptions
 std::vector<ParameterDescription> described_under(std::vector<ParameterDescription> descriptions,
                                                   const ParameterSet& values) {
   std::vector<Preset> presets;
-  for (ParameterDescription& description : descriptions) {
-    if (description.presets.empty()) continue;
+  for (const ParameterDescription& description : descriptions) {
     if (const Preset* preset = chosen_preset(description, values)) presets.push_back(*preset);
-    description.default_value = chosen(description, values);
   }
   for (const Preset& preset : presets) apply(preset, descriptions);
   return descriptions;
@@ -169,15 +167,11 @@ ParameterSet preset_values(const std::vector<ParameterDescription>& descriptions
 }
 
 std::string presets_text(const ParameterDescription& description) {
-  std::string text;
-  for (const Preset& preset : description.presets) {
-    if (!text.empty()) text += "; ";
-    text += preset.choice;
-    text += " sets ";
-    text += joined(preset.values, ", ",
-                   [](const auto& value) { return value.first + " " + to_text(value.second); });
-  }
-  return text;
+  const auto value_text = [](const auto& value) { return value.first + " " + to_text(value.second); };
+  return joined(description.presets, "; ", [&](const Preset& preset) {
+    std::string text = preset.choice;
+    return text.append(" sets ").append(joined(preset.values, ", ", value_text));
+  });
 }
 
 std::string to_text(const ParameterValue& value) {

@@ -48,9 +48,8 @@ struct ParameterDescription {
   std::vector<Preset> presets = {};             ///< Of choices: what they mean for others.
 };
 
-/// The same parameters with the defaults and searched values that hold once `values` are given:
-/// those of a parameter with presets become its default, and its preset changes the others. Values
-/// of parameters without presets, and unknown keys, change nothing.
+/// The same parameters with the defaults and searched values of others that hold once `values`
+/// choose presets. Values of parameters without presets, and unknown keys, change nothing.
 [[nodiscard]] std::vector<ParameterDescription> described_under(
     std::vector<ParameterDescription> descriptions, const ParameterSet& values);
 

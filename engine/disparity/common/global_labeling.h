@@ -14,7 +14,7 @@ namespace episcope {
 
 /// Parameters that the global methods ST_*_G and EPI_G share; defaults are each method's.
 struct GlobalLabelingParameters {
-  double smoothness = 1.5;
+  double smoothness = 0.75;
   double edge_strength = 20;
   double settling = 1;
   int max_iterations = 500;

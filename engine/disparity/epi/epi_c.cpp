@@ -223,6 +223,7 @@ Schema<EpiCParameters> epi_c_schema() {
       .preset(kProfileKey, kPaperProfile, plain_denoising())
       .preset(kProfileKey, kPaperProfile,
               {{"lambda", 0.1}, {"check_lines", false}, {"replace_occluded", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
       .search("lambda", {0.03, 0.06, 0.12, 0.24})
       .search("fall", {0.03, 0.1, 0.3});
 }
@@ -260,7 +261,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_c_schema(), estimate_epi_c);
 }
 

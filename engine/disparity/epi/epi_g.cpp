@@ -110,10 +110,12 @@ Schema<EpiGParameters> epi_g_schema() {
       .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile, plain_labeling())
       .preset(kProfileKey, kPaperProfile,
-              {{"direction_costs", std::string("least")},
+              {{"smoothness", 0.75},
+               {"direction_costs", std::string("least")},
                {"truncation", 5.0},
                {"weight_power", 1.0},
                {"check_lines", false}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness", {0.05, 0.1, 0.2, 0.4, 0.75, 1.5})
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
       .search("weight_power", {0, 2, 8})
       .search("truncation", {0.1, 0.3, 1});
@@ -154,7 +156,7 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

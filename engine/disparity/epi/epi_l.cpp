@@ -250,7 +250,7 @@ Estimator epi_l_estimator() {
        .summary = "Local orientation of lines on epipolar plane images (structure tensor)",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
-       .revision = 2},
+       .revision = 3},
       epi_l_schema(), estimate_epi_l);
 }
 

@@ -17,20 +17,23 @@ enum class Orientation { LeastSquares, Eigenvector };
 enum class Fusion { Weighted, Winner };
 [[nodiscard]] Names<Fusion> names_of(Fusion);
 
+/// Cross scale of the methods that smooth what EPI_L finds: they need less of it.
+inline constexpr double kCrossScaleOfDenoised = 0.5;
+
 /// Parameters of EPI_L, and of every method that begins with it.
 struct EpiLParameters {
   ProfileChoice profile = {};
   double inner_scale = 0.5;
   double outer_scale = 1.0;
   double view_scale = 1.8;
-  double cross_scale = 1.0;
+  double cross_scale = 0.7;
   double shear_step = 0.5;
   double contrast = 2;
   double noise = 0.15;
   Orientation orientation = Orientation::LeastSquares;
   Fusion fusion = Fusion::Weighted;
   int fusion_power = 8;
-  IntervalOrAuto range;
+  IntervalOrAuto range = {};
 };
 
 [[nodiscard]] Schema<EpiLParameters> epi_l_schema();

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
-#include <cstdlib>
 namespace episcope {
+namespace {
+
+// Pixels that the views contradict should follow their neighbours.
+constexpr float kMinWeight = 0.003F;
+
+}  // namespace
 
 Schema<EpiSParameters> epi_s_schema() {
   return Schema<EpiSParameters>()
@@ -12,9 +17,10 @@ Schema<EpiSParameters> epi_s_schema() {
       .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile, plain_denoising())
       .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"check_lines", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
       .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
-      .search("weight_power", {0, 2, 6, 12})
-      .search("edge_strength", {0, 10, 20});
+      .search("weight_power", {0, 2, 4, 8})
+      .search("edge_strength", {0, 15, 30});
 }
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
@@ -24,7 +30,7 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
     progress.step("checking lines");
     reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
   }
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), getenv("MINW") ? atof(getenv("MINW")) : 0.01F);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), kMinWeight);
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }
@@ -37,7 +43,7 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_s_schema(), estimate_epi_s);
 }
 

@@ -312,7 +312,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

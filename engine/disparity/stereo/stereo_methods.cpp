@@ -67,7 +67,7 @@ Estimator st_av_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 3},
+                           .revision = 4},
                           MatchedViews::All, stereo_global_schema, estimate_stereo_global);
 }
 
@@ -77,7 +77,7 @@ Estimator st_ch_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 3},
+                           .revision = 4},
                           MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
 }
 
