@@ -107,9 +107,8 @@ void run_ablation(const Ablation& ablation, const std::function<void(const std::
     for (const AblationVariant& variant : method.variants) {
       Scores& own = scores.emplace_back();
       for (std::size_t i = 0; i < rendered.size(); ++i) {
-        const Measurement measured =
-            measure(ablation.scenes[i], rendered[i], estimator,
-                    {variant.values, ViewSelection::Center}, progress);
+        const Measurement measured = measure(ablation.scenes[i], rendered[i], estimator,
+                                             {variant.values, ViewSelection::Center}, progress);
         own.mse_100.push_back(measured.mse_100);
         own.badpix += measured.badpix_0070 / static_cast<double>(rendered.size());
       }

@@ -25,13 +25,13 @@ struct AblatedMethod {
 
 /// Which parts of methods are worth what, on which scenes.
 struct Ablation {
-  std::string set;  ///< Of scenes, as it is called in `README.md`.
+  std::string set;                  ///< Of scenes, as it is called in `README.md`.
   std::vector<std::string> scenes;  ///< As scenes::read_request takes them.
   std::vector<AblatedMethod> methods;
 };
 
-/// Reads an ablation from JSON: `set`, `scenes`, `methods` (each with `method` and `variants`: `name`
-/// and `parameters` as texts). Throws InvalidInput for what no method takes.
+/// Reads an ablation from JSON: `set`, `scenes`, `methods` (each with `method` and `variants`:
+/// `name` and `parameters` as texts). Throws InvalidInput for what no method takes.
 [[nodiscard]] Ablation read_ablation(const std::filesystem::path& file);
 
 /// Runs every variant on every scene in the centre view and hands out a Markdown table for each

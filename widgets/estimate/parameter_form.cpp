@@ -90,8 +90,8 @@ void ParameterForm::followPresets() {
   const std::vector<ParameterDescription> described = described_under(descriptions_, values());
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     Row& row = rows_[i];
-    const bool follows = row.editor->value() == row.description.default_value &&
-                         row.description.presets.empty();
+    const bool follows =
+        row.editor->value() == row.description.default_value && row.description.presets.empty();
     row.description = described[i];
     if (follows) row.editor->setValue(row.description.default_value);
     row.label->setToolTip(tool_tip(row.description));

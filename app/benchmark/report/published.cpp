@@ -90,7 +90,8 @@ TitledTable published_table(const BenchmarkReport& report) {
   const std::vector<MethodSearch> searches = gather_searches(report.searched);
   TitledTable titled{
       "Beside figure 7 of the paper: mean squared error × 100 of the centre view (vmv2013)",
-      "The paper searched for the best parameters of each scene; ratios are to its figure. Speed is "
+      "The paper searched for the best parameters of each scene; ratios are to its figure. Speed "
+      "is "
       "that of figure 8: fast, less than five seconds; medium, less than a minute.",
       {{"scene", "algorithm", "figure 7", "run", "run / figure 7"}, {}},
       {}};

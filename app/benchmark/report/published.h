@@ -33,8 +33,9 @@ struct PublishedFigures {
   std::vector<double> averages;  ///< As printed; the paper averaged unrounded scores.
   std::vector<PublishedAlgorithm> ranking;
 
-  /// The error of an algorithm on a scene; empty if the paper has no such pair. Letters may be large
-  /// or small, and what is neither letter nor digit is passed over: "still_life" is "stillLife".
+  /// The error of an algorithm on a scene; empty if the paper has no such pair. Letters may be
+  /// large or small, and what is neither letter nor digit is passed over: "still_life" is
+  /// "stillLife".
   [[nodiscard]] std::optional<double> mse_100(const std::string& scene,
                                               const std::string& algorithm) const;
   /// Null for an algorithm that the paper does not have.
@@ -42,9 +43,9 @@ struct PublishedFigures {
 };
 [[nodiscard]] const PublishedFigures& published_figures();
 
-/// Scores of the paper's algorithms on the paper's scenes beside those of figure 7: of the runs, and
-/// of a search the best point of each scene, which is how the paper chose its parameters. No rows
-/// if the report has none of these scenes.
+/// Scores of the paper's algorithms on the paper's scenes beside those of figure 7: of the runs,
+/// and of a search the best point of each scene, which is how the paper chose its parameters. No
+/// rows if the report has none of these scenes.
 [[nodiscard]] TitledTable published_table(const BenchmarkReport& report);
 
 }  // namespace episcope

@@ -3,7 +3,8 @@
 
 namespace episcope {
 
-/// The text of resources/vmv2013.json, compiled in: its source is made when the build is configured.
+/// The text of resources/vmv2013.json, compiled in: its source is made when the build is
+/// configured.
 extern const char* const kPublishedData;
 
 }  // namespace episcope

@@ -65,8 +65,8 @@ ParameterDescription profile_description() {
   return profile;
 }
 
-/// `values` become defaults, with all that they mean for others. A method that lacks a key keeps its
-/// own.
+/// `values` become defaults, with all that they mean for others. A method that lacks a key keeps
+/// its own.
 std::vector<ParameterDescription> with_defaults(std::vector<ParameterDescription> parameters,
                                                 const ParameterSet& values) {
   parameters = described_under(std::move(parameters), values);

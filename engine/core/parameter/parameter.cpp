@@ -167,7 +167,9 @@ ParameterSet preset_values(const std::vector<ParameterDescription>& descriptions
 }
 
 std::string presets_text(const ParameterDescription& description) {
-  const auto value_text = [](const auto& value) { return value.first + " " + to_text(value.second); };
+  const auto value_text = [](const auto& value) {
+    return value.first + " " + to_text(value.second);
+  };
   return joined(description.presets, "; ", [&](const Preset& preset) {
     std::string text = preset.choice;
     return text.append(" sets ").append(joined(preset.values, ", ", value_text));

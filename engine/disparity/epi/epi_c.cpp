@@ -167,7 +167,8 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
-  if (sweeps > 0 && parameters.replace_occluded) replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
+  if (sweeps > 0 && parameters.replace_occluded)
+    replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {

@@ -32,9 +32,9 @@ struct EpiGParameters {
 /// pixel moves to the mean, weighted by r^p, of those of d_h and d_v that lie within one label of
 /// the solution. Confidence is the larger coherence.
 ///
-/// The profile `paper` has labels over the range, no edge weights, no settling and no check of lines,
-/// EPI_L as published, and as data term min(r_h |l − d_h|, r_v |l − d_v|), which is how [WG12] is
-/// remembered; λ is not given: 0.75. TV is LiftedProblem's, isotropic to 8 %.
+/// The profile `paper` has labels over the range, no edge weights, no settling and no check of
+/// lines, EPI_L as published, and as data term min(r_h |l − d_h|, r_v |l − d_v|), which is how
+/// [WG12] is remembered; λ is not given: 0.75. TV is LiftedProblem's, isotropic to 8 %.
 ///
 /// Truncating each direction separately lets one or both
 /// be overruled as outliers, whereas min(r_h |l − d_h|, r_v |l − d_v|) must follow one of them.

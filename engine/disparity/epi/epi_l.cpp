@@ -56,7 +56,7 @@ void take_winner(const float* disparity, const float* coherence, int count, floa
 
 StructureTensor::Sink merge_into(const Maps& maps, const EpiLParameters& parameters, int u) {
   return [&maps, &parameters, u](int v, PixelIndex begin, int count, const float* disparity,
-                           const float* coherence) {
+                                 const float* coherence) {
     prefetch_run(maps.disparity, {v, u}, begin, count);
     prefetch_run(maps.confidence, {v, u}, begin, count);
     float* const to_disparity = maps.disparity.view({v, u}).row(begin.y) + begin.x;

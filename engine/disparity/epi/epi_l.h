@@ -12,13 +12,12 @@ namespace episcope {
 /// Where both directions agree within 0.3 px their mean weighted by coherence^p is taken, else the
 /// more coherent one. Confidence is the coherence in [0, 1].
 ///
-/// The profile `paper` is the published method: one scale, the eigenvector of the tensor of each EPI
-/// alone, the coherence ((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss)², of both directions the more coherent
-/// one; no gradients toned down, no noise floor, shears only where the range exceeds ±1.2 px. The
-/// publications do not give the scales: σ = 0.8 px throughout. Outside the range an orientation has
-/// no coherence and counts as the nearest end.
-/// Reference: Wanner and Goldluecke 2012 [WG12], as EPI_L in Wanner, Meister, Goldluecke 2013
-/// [WMG13].
+/// The profile `paper` is the published method: one scale, the eigenvector of the tensor of each
+/// EPI alone, the coherence ((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss)², of both directions the more
+/// coherent one; no gradients toned down, no noise floor, shears only where the range exceeds ±1.2
+/// px. The publications do not give the scales: σ = 0.8 px throughout. Outside the range an
+/// orientation has no coherence and counts as the nearest end. Reference: Wanner and Goldluecke
+/// 2012 [WG12], as EPI_L in Wanner, Meister, Goldluecke 2013 [WMG13].
 [[nodiscard]] Estimate estimate_epi_l(const LightField& light_field,
                                       const EpiLParameters& parameters, ViewSelection views,
                                       const Progress& progress);

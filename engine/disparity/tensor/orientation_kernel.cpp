@@ -106,8 +106,7 @@ void resolve(const TensorAverage& average) {
     Vec sum[3] = {};
     for (int i = 0; i < average.count; ++i) {
       const Vec off = slope_of(average.tensor[i], n) - own;
-      const Vec weight =
-          average.weights[i] * kDisagreement * reciprocal(kDisagreement + off * off);
+      const Vec weight = average.weights[i] * kDisagreement * reciprocal(kDisagreement + off * off);
       for (int j = 0; j < 3; ++j) sum[j] += weight * load(average.tensor[i][j] + n);
     }
     const Vec xx = sum[0] + 1e-20F;

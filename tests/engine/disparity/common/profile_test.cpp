@@ -74,7 +74,9 @@ void add_methods() {
   for (const char* method : kMethods) QTest::newRow(method) << method;
 }
 
-void ProfileTest::paper_runsAndDiffersFromTuned_data() { add_methods(); }
+void ProfileTest::paper_runsAndDiffersFromTuned_data() {
+  add_methods();
+}
 
 void ProfileTest::paper_runsAndDiffersFromTuned() {
   QFETCH(QString, method);
@@ -90,7 +92,9 @@ void ProfileTest::paper_runsAndDiffersFromTuned() {
   QVERIFY2(differ > 900, qPrintable(QString::number(differ)));  // a tenth of the pixels
 }
 
-void ProfileTest::values_areStoredAndGivenOnesWin_data() { add_methods(); }
+void ProfileTest::values_areStoredAndGivenOnesWin_data() {
+  add_methods();
+}
 
 void ProfileTest::values_areStoredAndGivenOnesWin() {
   QFETCH(QString, method);
@@ -98,8 +102,7 @@ void ProfileTest::values_areStoredAndGivenOnesWin() {
   const ParameterSet preset = preset_values(estimator.parameters, kPaper);
   QVERIFY(!preset.empty());
   const auto& [given, published] = preset.front();
-  const auto found =
-      std::ranges::find(estimator.parameters, given, &ParameterDescription::key);
+  const auto found = std::ranges::find(estimator.parameters, given, &ParameterDescription::key);
   ParameterSet values{{given, found->default_value}};
   values.insert(values.end(), kPaper.begin(), kPaper.end());
 
