@@ -26,7 +26,7 @@ struct EpiLParameters {
   double inner_scale = 0.5;
   double outer_scale = 1.0;
   double view_scale = 1.8;
-  double cross_scale = 0.7;
+  double cross_scale = 1.0;
   double shear_step = 0.5;
   double contrast = 2;
   double noise = 0.15;

@@ -20,7 +20,7 @@ struct EpiTwoLayerParameters {
   double double_outer_scale = 2;
   double double_contrast = 10;
   StopParameters stop{.max_iterations = 30};
-  EpiLParameters tensor{.cross_scale = 1.0};
+  EpiLParameters tensor = {};
 };
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();

@@ -97,7 +97,7 @@ inline Vec slope_of(const float* const* tensor, int n) {
 }
 
 // Neighbours whose disparity differs by so much, squared, count half: they see another surface.
-constexpr float kDisagreement = 0.04F;
+constexpr float kDisagreement = 0.09F;
 
 // Least squares of ∂s + d ∂x = 0 over the averaged tensor; coherence in the frame sheared by d.
 void resolve(const TensorAverage& average) {

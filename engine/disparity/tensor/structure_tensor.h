@@ -55,7 +55,7 @@ struct TensorExtent {
 ///   beside it and objects grow by the size of the window.
 /// - The tensor of the chosen shear, turned back to unsheared coordinates, is averaged over
 ///   neighbouring EPIs before the disparity is read off, by least squares. Neighbours count less
-///   the more their own disparity differs, 0.2 px by half: averages over all of them make objects
+///   the more their own disparity differs, 0.3 px by half: averages over all of them make objects
 ///   grow by the size of that window as well.
 /// With `TensorSearch::eigenvector` the disparity is that of the formula, EPI by EPI.
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
