@@ -103,12 +103,12 @@ void LimitsTest::errors_stayWithinLimits_data() {
   add("fronto", 0, 0.01, 0, 0.01, 0);
   add("slant", 0, 0.01, 0, 0.02, 0);
   // Occlusion: the window that straddles an edge decides.
-  add("edge", 0, 1.7, 2, 1.6, 1.9);
-  add("bars", 0, 10.8, 21, 9.9, 22);
-  add("objects", 0, 3.4, 11.8, 3.1, 10.7);
-  add("demo", 0, 6.4, 22, 5.9, 22.2);
+  add("edge", 0, 0.065, 2, 0.02, 1.9);
+  add("bars", 0, 0.2, 21, 0.034, 22);
+  add("objects", 0, 2.3, 11.8, 0.57, 10.7);
+  add("demo", 0, 4.5, 22, 1.3, 22.2);
   // Noise of a camera, in 1/255: what averaging and denoising can do.
-  add("slant", 5, 0.16, 6.4, 0.047, 0.85);
+  add("slant", 5, 0.22, 7.3, 0.047, 0.85);
   add("objects", 5, 4.3, 24.1, 3.8, 16.8);
   add_others();
   add_random();

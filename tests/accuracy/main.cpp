@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Prints Markdown tables: how well every method does on scenes whose truth is known.
 #include "engine/core/error.h"
+#include "tests/accuracy/ablation.h"
 #include "tests/accuracy/means.h"
 #include "tests/accuracy/scene_sets.h"
 #include "tests/accuracy/variant.h"
@@ -22,6 +23,7 @@ struct Request {
   std::vector<std::string> settings;
   std::string profile;
   std::string data;
+  std::string ablation;
   std::string sets = EPISCOPE_SCENE_SETS;
   bool is_small = false;
   bool center_only = false;
@@ -45,6 +47,10 @@ void declare(CLI::App& app, Request& request) {
   app.add_option("--data", request.data, "Folder that holds the scenes still_life and cotton")
       ->envname("EPISCOPE_SHARED_DATA")
       ->check(CLI::ExistingDirectory);
+  app.add_option("--ablation", request.ablation,
+                 "Instead, what each part of the methods is worth: a file like "
+                 "tests/accuracy/ablation.json")
+      ->check(CLI::ExistingFile);
   app.add_option("--sets", request.sets, "The file with the sets")->check(CLI::ExistingFile);
 }
 
@@ -103,6 +109,10 @@ int main(int argc, char** argv) {
   declare(app, request);
   CLI11_PARSE(app, argc, argv);
   try {
+    if (!request.ablation.empty()) {
+      run_ablation(read_ablation(request.ablation), print, Progress(request.threads));
+      return 0;
+    }
     run(std::move(request));
   } catch (const Error& error) {
     std::fprintf(stderr, "episcope_accuracy: %s\n", error.what());

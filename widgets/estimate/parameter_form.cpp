@@ -24,6 +24,10 @@ QString tool_tip(const ParameterDescription& d) {
            facts.join(" · ").toHtmlEscaped(), QString::fromStdString(d.key).toHtmlEscaped());
 }
 
+QString reset_tip(const ParameterDescription& d) {
+  return ParameterForm::tr("Reset to the default, %1").arg(value_text(d, d.default_value));
+}
+
 }  // namespace
 
 ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGridLayout(this)) {
@@ -42,6 +46,7 @@ void ParameterForm::setParameters(const std::vector<ParameterDescription>& param
     delete row.reset;
   }
   rows_.clear();
+  descriptions_ = parameters;
   for (const auto& description : parameters) addRow(description);
 }
 
@@ -49,9 +54,7 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   const QString key = QString::fromStdString(description.key);
   auto* label = new QLabel(schema_text(description.label), this);
   auto* editor = make_parameter_editor(description, this);
-  const QString fallback = value_text(description, description.default_value);
-  auto* reset = make_tool_button(
-      {key + ".reset", "reset", tr("Reset to the default, %1").arg(fallback)}, this);
+  auto* reset = make_tool_button({key + ".reset", "reset", reset_tip(description)}, this);
   label->setObjectName(key + ".label");
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
@@ -62,22 +65,40 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   keeps_place.setRetainSizeWhenHidden(true);
   reset->setSizePolicy(keeps_place);
 
-  const int line = static_cast<int>(rows_.size());
+  const std::size_t index = rows_.size();
+  const int line = static_cast<int>(index);
   layout_->addWidget(label, line, 0);
   layout_->addWidget(editor, line, 1);
   layout_->addWidget(reset, line, 2);
   const Row row{description, label, editor, reset};
   rows_.push_back(row);
   showModified(row);
-  connect(editor, &ParameterEditor::edited, this, [this, row] {
-    showModified(row);
-    emit valuesChanged();
+  connect(editor, &ParameterEditor::edited, this, [this, index] { edit(index); });
+  connect(reset, &QToolButton::clicked, this, [this, index] {
+    rows_[index].editor->setValue(rows_[index].description.default_value);
+    edit(index);
   });
-  connect(reset, &QToolButton::clicked, this, [this, row] {
-    row.editor->setValue(row.description.default_value);
+}
+
+void ParameterForm::edit(std::size_t index) {
+  if (!rows_[index].description.presets.empty()) followPresets();
+  showModified(rows_[index]);
+  emit valuesChanged();
+}
+
+void ParameterForm::followPresets() {
+  const std::vector<ParameterDescription> described = described_under(descriptions_, values());
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    const bool follows =
+        row.editor->value() == row.description.default_value && row.description.presets.empty();
+    row.description = described[i];
+    if (follows) row.editor->setValue(row.description.default_value);
+    row.label->setToolTip(tool_tip(row.description));
+    row.editor->setToolTip(tool_tip(row.description));
+    row.reset->setToolTip(reset_tip(row.description));
     showModified(row);
-    emit valuesChanged();
-  });
+  }
 }
 
 void ParameterForm::showModified(const Row& row) const {
@@ -89,13 +110,19 @@ void ParameterForm::showModified(const Row& row) const {
 }
 
 void ParameterForm::setValues(const ParameterSet& values) {
-  for (const auto& [key, value] : values) {
-    for (const auto& row : rows_) {
-      if (row.description.key != key) continue;
-      row.editor->setValue(value);
-      showModified(row);
+  const auto set = [&](bool chooses_preset) {
+    for (const auto& [key, value] : values) {
+      for (const auto& row : rows_) {
+        if (row.description.key != key) continue;
+        if (row.description.presets.empty() == chooses_preset) continue;
+        row.editor->setValue(value);
+        showModified(row);
+      }
     }
-  }
+  };
+  set(true);
+  followPresets();
+  set(false);
 }
 
 ParameterSet ParameterForm::values() const {
@@ -116,10 +143,11 @@ ParameterSet ParameterForm::modifiedValues() const {
 
 void ParameterForm::resetToDefaults() {
   if (modifiedValues().empty()) return;
-  for (const auto& row : rows_) {
-    row.editor->setValue(row.description.default_value);
-    showModified(row);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].description = descriptions_[i];
+    rows_[i].editor->setValue(descriptions_[i].default_value);
   }
+  followPresets();
   emit valuesChanged();
 }
 

@@ -107,7 +107,8 @@ bool is_summary(const std::vector<std::string>& row) {
 
 // Of a column: whether words stand in it rather than numbers.
 bool holds_words(const std::string& header) {
-  return header.ends_with("parameters") || header == "speed" || header == "all views";
+  return header.ends_with("parameters") || header == "algorithm" || header == "speed" ||
+         header == "all views";
 }
 
 std::string row_html(const TitledTable& titled, std::size_t row) {

@@ -2,6 +2,7 @@
 #include "app/benchmark/report/report_files.h"
 
 #include "app/benchmark/report/html_page.h"
+#include "app/benchmark/report/published.h"
 #include "app/benchmark/report/report_json.h"
 #include "engine/evaluation/tables/search_tables.h"
 #include "engine/io/durable/atomic_file.h"
@@ -19,6 +20,8 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 
 std::vector<TitledTable> report_tables(const BenchmarkReport& report) {
   std::vector<TitledTable> tables = benchmark_tables(report.results);
+  TitledTable published = published_table(report);
+  if (!published.table.rows.empty()) tables.push_back(std::move(published));
   for (auto& table : search_tables(report.searched)) tables.push_back(std::move(table));
   return tables;
 }

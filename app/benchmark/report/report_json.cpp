@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/report/report_json.h"
 
+#include "app/benchmark/report/published.h"
 #include "app/benchmark/report/scene_files.h"
 #include "engine/core/version.h"
 #include "engine/evaluation/tables/benchmark_tables.h"
@@ -34,6 +35,8 @@ Json result_json(const BenchmarkResult& result) {
         std::pair{Protocol::Benchmark2016, &result.benchmark2016}}) {
     for (const auto& [key, value] : *metrics) json[protocol_name(protocol)][key] = value;
   }
+  const auto published = published_figures().mse_100(result.scene, result.entry);
+  if (published) json["figure_7"] = *published;
   if (!result.problem.empty()) json["problem"] = result.problem;
   if (result.has_failed) json["failed"] = true;
   if (!result.notes.empty()) json["notes"] = result.notes;

@@ -8,8 +8,9 @@
 namespace episcope {
 
 /// One JSON object: "program", "version", "scenes", "ranking" (entry, rank, average MSE × 100,
-/// scenes averaged over), "results" (every metric of both protocols; what is not known is absent),
-/// and of a search "search": by method the points with their scores by scene, P-opt, P-fix, LOSO.
+/// scenes averaged over), "results" (every metric of both protocols; what is not known is absent;
+/// "figure_7" where the paper has scene and entry), and of a search "search": by method the points
+/// with their scores by scene, P-opt, P-fix, LOSO.
 [[nodiscard]] std::string report_to_json(const BenchmarkReport& report);
 
 }  // namespace episcope

@@ -48,7 +48,9 @@ OptionValue<ParameterValue> value_of(const ParameterDescription& parameter) {
 std::string help_text(const ParameterDescription& parameter) {
   const std::string preset = to_text(parameter.default_value);
   const bool is_told = preset.empty() || parameter.help.find("by default") != std::string::npos;
-  return parameter.help + (is_told ? "" : " (default " + preset + ")");
+  const std::string others = presets_text(parameter);
+  return parameter.help + (others.empty() ? "" : "; " + others) +
+         (is_told ? "" : " (default " + preset + ")");
 }
 
 }  // namespace

@@ -3,9 +3,11 @@
 #include "app/benchmark/report/report_json.h"
 #include "app/benchmark/run/benchmark.h"
 #include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/parameter_options.h"
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/scene_inputs.h"
 #include "app/cli/verbs/verbs.h"
+#include "engine/disparity/common/profile.h"
 #include "engine/disparity/registry.h"
 
 #include <fmt/format.h>
@@ -25,6 +27,7 @@ struct Request {
   std::string output;
   bool has_search = false;
   bool is_json = false;
+  ParameterOptions profile;
   JobOptions job;
   ReadOptions read;
 };
@@ -54,6 +57,27 @@ OptionValue<std::vector<Estimator>> methods_value() {
           [](const std::string&, const std::string& text) { return methods_named(text); }};
 }
 
+ParameterDescription profile_description() {
+  ParameterDescription profile = profile_schema().description(kProfileKey);
+  profile.help =
+      "Defaults of every method: tuned, the best known; paper, the method as published. With "
+      "--search, paper is the experiment of the paper";
+  return profile;
+}
+
+/// `values` become defaults, with all that they mean for others. A method that lacks a key keeps
+/// its own.
+std::vector<ParameterDescription> with_defaults(std::vector<ParameterDescription> parameters,
+                                                const ParameterSet& values) {
+  parameters = described_under(std::move(parameters), values);
+  for (ParameterDescription& parameter : parameters) {
+    for (const auto& [key, value] : values) {
+      if (key == parameter.key) parameter.default_value = value;
+    }
+  }
+  return parameters;
+}
+
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser(
       "benchmark",
@@ -66,6 +90,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
   parser.option("--methods", request.methods, methods_value(),
                 "Ids of estimators, separated by commas, or all");
+  request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
   parser.list_option("--submission", request.submissions, "DIR...",
@@ -81,6 +106,9 @@ BenchmarkOptions benchmark_options(const Request& request, const std::vector<Sce
   BenchmarkOptions options;
   for (const SceneInput& scene : scenes) options.inputs.push_back(scene.input);
   options.methods = request.methods;
+  for (Estimator& method : options.methods) {
+    method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
+  }
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
   options.folder = request.output;
   options.views = request.job.run_options().views;

@@ -18,6 +18,9 @@ Json parameter_json(const ParameterDescription& parameter) {
   json["unit"] = parameter.unit;
   json["default"] = value_json(parameter.default_value);
   if (!parameter.choices.empty()) json["choices"] = parameter.choices;
+  for (const Preset& preset : parameter.presets) {
+    json["presets"][preset.choice] = parameters_json(preset.values);
+  }
   if (has_numeric_domain(parameter)) {
     json["min"] = parameter.min;
     json["max"] = parameter.max;

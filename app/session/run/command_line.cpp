@@ -38,7 +38,7 @@ std::string shell_quoted(const std::string& word) {
 ParameterSet changed_parameters(const std::string& method, const ParameterSet& values) {
   std::vector<ParameterDescription> descriptions;
   for (const Estimator& estimator : registered_estimators()) {
-    if (estimator.info.id == method) descriptions = estimator.parameters;
+    if (estimator.info.id == method) descriptions = described_under(estimator.parameters, values);
   }
   ParameterSet changed;
   for (const auto& [key, value] : values) {

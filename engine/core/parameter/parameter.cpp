@@ -2,6 +2,7 @@
 #include "engine/core/parameter/parameter.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/join.h"
 
 #include <algorithm>
 #include <charconv>
@@ -113,7 +114,68 @@ struct Parser {
   }
 };
 
+// The value of a parameter with presets: as given, else its default.
+const ParameterValue& chosen(const ParameterDescription& description, const ParameterSet& values) {
+  const auto given = std::find_if(values.begin(), values.end(), [&](const auto& value) {
+    return value.first == description.key;
+  });
+  return given == values.end() ? description.default_value : given->second;
+}
+
+// Empty if the choice means nothing for others.
+const Preset* chosen_preset(const ParameterDescription& description, const ParameterSet& values) {
+  if (description.presets.empty()) return nullptr;
+  const auto found = std::find_if(
+      description.presets.begin(), description.presets.end(), [&](const Preset& preset) {
+        return chosen(description, values) == ParameterValue(preset.choice);
+      });
+  return found == description.presets.end() ? nullptr : &*found;
+}
+
+void apply(const Preset& preset, std::vector<ParameterDescription>& descriptions) {
+  for (ParameterDescription& other : descriptions) {
+    for (const auto& [key, value] : preset.values) {
+      if (key != other.key) continue;
+      other.default_value = value;
+      other.searched.clear();
+    }
+    for (const auto& [key, searched] : preset.searched) {
+      if (key == other.key) other.searched = searched;
+    }
+  }
+}
+
 }  // namespace
+
+std::vector<ParameterDescription> described_under(std::vector<ParameterDescription> descriptions,
+                                                  const ParameterSet& values) {
+  std::vector<Preset> presets;
+  for (const ParameterDescription& description : descriptions) {
+    if (const Preset* preset = chosen_preset(description, values)) presets.push_back(*preset);
+  }
+  for (const Preset& preset : presets) apply(preset, descriptions);
+  return descriptions;
+}
+
+ParameterSet preset_values(const std::vector<ParameterDescription>& descriptions,
+                           const ParameterSet& values) {
+  ParameterSet all;
+  for (const ParameterDescription& description : descriptions) {
+    const Preset* preset = chosen_preset(description, values);
+    if (preset) all.insert(all.end(), preset->values.begin(), preset->values.end());
+  }
+  return all;
+}
+
+std::string presets_text(const ParameterDescription& description) {
+  const auto value_text = [](const auto& value) {
+    return value.first + " " + to_text(value.second);
+  };
+  return joined(description.presets, "; ", [&](const Preset& preset) {
+    std::string text = preset.choice;
+    return text.append(" sets ").append(joined(preset.values, ", ", value_text));
+  });
+}
 
 std::string to_text(const ParameterValue& value) {
   struct Writer {

@@ -40,6 +40,14 @@ using ParameterValue = std::variant<bool, int, double, std::string, IntervalOrAu
 /// Values by key, in the order of the schema.
 using ParameterSet = std::vector<std::pair<std::string, ParameterValue>>;
 
+/// What one choice of a parameter means for others, as "paper" of a profile does.
+struct Preset {
+  std::string choice;
+  ParameterSet values;  ///< Defaults of other parameters under this choice.
+  /// What a search tries for them, by key; those of `values` that have none are not searched.
+  std::vector<std::pair<std::string, std::vector<ParameterValue>>> searched = {};
+};
+
 /// Everything that a form, a command line or a document needs to know about one parameter.
 struct ParameterDescription {
   std::string key;    ///< As on the command line: `--key VALUE`.
@@ -54,7 +62,21 @@ struct ParameterDescription {
   std::vector<std::string> choices = {};  ///< For strings: the only values allowed.
   std::vector<std::string> choice_labels = {};  ///< How users read each of them; empty = as it is.
   std::vector<ParameterValue> searched = {};    ///< Tried by a parameter search; empty = none.
+  std::vector<Preset> presets = {};             ///< Of choices: what they mean for others.
 };
+
+/// The same parameters with the defaults and searched values of others that hold once `values`
+/// choose presets. Values of parameters without presets, and unknown keys, change nothing.
+[[nodiscard]] std::vector<ParameterDescription> described_under(
+    std::vector<ParameterDescription> descriptions, const ParameterSet& values);
+
+/// The defaults of other parameters that `values`, or without them the defaults, choose.
+[[nodiscard]] ParameterSet preset_values(const std::vector<ParameterDescription>& descriptions,
+                                         const ParameterSet& values);
+
+/// "paper sets lambda 0.2, edge_strength 0": what the choices of a parameter mean for others;
+/// empty if nothing.
+[[nodiscard]] std::string presets_text(const ParameterDescription& description);
 
 /// Value as a command line writes it: `true`, `3`, `0.25`, `auto`, `found`, `-1.5,2`, `4,4`.
 [[nodiscard]] std::string to_text(const ParameterValue& value);

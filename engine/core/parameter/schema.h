@@ -5,6 +5,8 @@
 #include "engine/core/parameter/named.h"
 #include "engine/core/parameter/parameter.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
 #include <initializer_list>
 #include <string>
@@ -71,31 +73,58 @@ class Schema {
     return add(key, member, text, {0, 0});
   }
 
-  /// All parameters of a member that is a parameter struct of its own, as `schema` describes and
-  /// completes them. Defaults are those of the member in a value-initialised `P`; the values for a
-  /// search are dropped.
+  /// All parameters of a member that is a parameter struct of its own, as `schema` describes them.
+  /// Defaults are those of the member in a value-initialised `P`; presets stay, but what a search
+  /// tries is dropped.
   template <class Part>
   Schema& part(Part P::*member, const Schema<Part>& schema) {
     for (std::size_t i = 0; i < schema.descriptions_.size(); ++i) {
       ParameterDescription description = schema.descriptions_[i];
       description.default_value = schema.read_[i](P{}.*member);
       description.searched.clear();
+      for (Preset& preset : description.presets) preset.searched.clear();
       descriptions_.push_back(std::move(description));
       read_.push_back([member, read = schema.read_[i]](const P& p) { return read(p.*member); });
       write_.push_back([member, write = schema.write_[i]](P& p, const ParameterValue& value) {
         write(p.*member, value);
       });
     }
-    for (const auto& complete : schema.completions_) {
-      completions_.push_back([member, complete](P& p) { complete(p.*member); });
-    }
     return *this;
   }
 
-  /// Further constraints: `complete` is called on everything that `parse` returns, and may change
-  /// some parameters depending on others. Parts declared earlier are completed earlier.
-  Schema& completed_by(std::function<void(P&)> complete) {
-    completions_.push_back(std::move(complete));
+  /// Moves a parameter before all others.
+  Schema& begin_with(const char* key) {
+    const auto index = static_cast<std::ptrdiff_t>(index_of(key));
+    const auto move_first = [index](auto& list) {
+      std::rotate(list.begin(), list.begin() + index, list.begin() + index + 1);
+    };
+    move_first(descriptions_);
+    move_first(read_);
+    move_first(write_);
+    return *this;
+  }
+
+  /// With `choice` for the parameter `key`, other parameters have these defaults; whatever is given
+  /// beside it still wins. Values of a whole join those of its parts. Throws InvalidInput for an
+  /// unknown key or a value that a parameter does not take.
+  Schema& preset(const char* key, const char* choice, const ParameterSet& values) {
+    Preset& changed = preset_of(key, choice);
+    for (const auto& [other, value] : values) {
+      check_parameter(descriptions_[index_of(other)], value);
+      std::erase_if(changed.values, [&](const auto& known) { return known.first == other; });
+      changed.values.emplace_back(other, value);
+    }
+    return *this;
+  }
+  /// What a search tries for a number that the preset sets; without, it is not searched there.
+  Schema& preset_search(const char* key, const char* choice, const char* searched,
+                        std::initializer_list<double> values) {
+    std::vector<ParameterValue> typed;
+    for (const double value : values) {
+      typed.push_back(like_default(searched, value));
+      check_parameter(descriptions_[index_of(searched)], typed.back());
+    }
+    preset_of(key, choice).searched.emplace_back(searched, std::move(typed));
     return *this;
   }
 
@@ -125,16 +154,17 @@ class Schema {
     return descriptions_[index_of(key)];
   }
 
-  /// Defaults, overridden by `values`. Throws InvalidInput for an unknown key (naming the nearest),
-  /// a wrong type or a value outside its domain.
+  /// Defaults, overridden by the presets that are chosen, and both by `values`. Throws InvalidInput
+  /// for an unknown key (naming the nearest), a wrong type or a value outside its domain.
   [[nodiscard]] P parse(const ParameterSet& values) const {
     P parameters{};
-    for (const auto& [key, value] : values) {
-      const std::size_t index = index_of(key);
-      check_parameter(descriptions_[index], value);
-      write_[index](parameters, value);
+    for (const ParameterSet& set : {preset_values(descriptions_, values), values}) {
+      for (const auto& [key, value] : set) {
+        const std::size_t index = index_of(key);
+        check_parameter(descriptions_[index], value);
+        write_[index](parameters, value);
+      }
     }
-    for (const auto& complete : completions_) complete(parameters);
     return parameters;
   }
 
@@ -189,6 +219,15 @@ class Schema {
     return *this;
   }
 
+  Preset& preset_of(const char* key, const char* choice) {
+    ParameterDescription& description = descriptions_[index_of(key)];
+    check_parameter(description, std::string(choice));
+    for (Preset& preset : description.presets) {
+      if (preset.choice == choice) return preset;
+    }
+    return description.presets.emplace_back(Preset{choice, {}});
+  }
+
   [[nodiscard]] std::size_t index_of(const std::string& key) const {
     std::vector<std::string> keys;
     for (std::size_t i = 0; i < descriptions_.size(); ++i) {
@@ -201,7 +240,6 @@ class Schema {
   std::vector<ParameterDescription> descriptions_;
   std::vector<Read> read_;
   std::vector<Write> write_;
-  std::vector<std::function<void(P&)>> completions_;
 };
 
 }  // namespace episcope

@@ -83,6 +83,10 @@ Schema<DenoiseParameters> denoise_schema() {
       .part(&P::stop, stop_schema());
 }
 
+ParameterSet plain_denoising() {
+  return {{"weight_power", 0.0}, {"edge_strength", 0.0}};
+}
+
 void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
                        Image<float>& weights) {
   for (int y = 0; y < confidence.height; ++y) {

@@ -25,6 +25,8 @@ struct DenoiseParameters {
   StopParameters stop = {};
 };
 [[nodiscard]] Schema<DenoiseParameters> denoise_schema();
+/// The values that weigh neither data nor variation, as the paper's denoising.
+[[nodiscard]] ParameterSet plain_denoising();
 
 /// The data weight w = max(r^power, minimum) of a pixel of confidence r. No pixel gets weight 0,
 /// which keeps the solution unique.

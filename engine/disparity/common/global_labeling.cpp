@@ -73,6 +73,10 @@ Schema<GlobalLabelingParameters> global_labeling_schema() {
             {1e-6, 0.1, true});
 }
 
+ParameterSet plain_labeling() {
+  return {{"edge_strength", 0.0}, {"settling", 0.0}};
+}
+
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress) {

@@ -14,13 +14,15 @@ namespace episcope {
 
 /// Parameters that the global methods ST_*_G and EPI_G share; defaults are each method's.
 struct GlobalLabelingParameters {
-  double smoothness = 1.8;
+  double smoothness = 0.9;
   double edge_strength = 20;
   double settling = 1;
   int max_iterations = 500;
   double gap = 1e-3;
 };
 [[nodiscard]] Schema<GlobalLabelingParameters> global_labeling_schema();
+/// The values that weigh all variation alike and keep the labels, as the paper.
+[[nodiscard]] ParameterSet plain_labeling();
 
 /// The disparity between labels of a pixel with a given label.
 struct Placement {

@@ -128,24 +128,12 @@ Schema<Matching> matching_schema() {
            "pixels, at least 30; quarter: the mean of what a quarter of the labels fall below"});
 }
 
-void apply_profile(Kz02Parameters& parameters) {
-  if (parameters.profile != Profile::Paper) return;
-  parameters.matching.comparison = Comparison::WholePixels;
-  parameters.matching.rule = LimitRule::Quarter;
-  parameters.refinement = Refinement::None;
-  parameters.smoothness = kPublishedSmoothness;
-}
-
 }  // namespace
 
 Schema<Kz02Parameters> kz02_schema() {
   using P = Kz02Parameters;
   return Schema<P>()
-      .choice("profile", &P::profile,
-              {"Profile",
-               "tuned: the settings given here; paper: the method as published, which compares "
-               "whole pixels, finds K from a quarter of the labels, takes smoothness K/5 and does "
-               "not refine labels"})
+      .part(&P::profile, profile_schema())
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .integer("distance", &P::distance,
@@ -168,17 +156,16 @@ Schema<Kz02Parameters> kz02_schema() {
       .choice("refinement", &P::refinement,
               {"Refinement",
                "How the disparity is interpolated between labels, from the costs over all views"})
-      .interval("range", &P::range,
-                {"Disparity range",
-                 "Range of disparities to search; auto takes it from the files or estimates it "
-                 "from the light field",
-                 "px"},
-                {-20, 20})
+      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
             {"View", "Row and column of the view to estimate; auto = centre view"})
       .search("smoothness", {0.005, 0.01, 0.02, 0.05, 0.2})
       .search("distance", {2, 3, 4})
-      .completed_by(apply_profile);
+      .preset(kProfileKey, kPaperProfile,
+              {{"comparison", std::string("whole_pixels")},
+               {"limit_rule", std::string("quarter")},
+               {"refinement", std::string("none")},
+               {"smoothness", kPublishedSmoothness}});
 }
 
 Estimate estimate_kz02(const LightField& lf, const Kz02Parameters& parameters,

@@ -2,15 +2,15 @@
 #pragma once
 
 #include "engine/disparity/common/estimator.h"
+#include "engine/disparity/common/profile.h"
 #include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/cuts/interactions.h"
-#include "engine/disparity/stereo/stereo_costs.h"
 
 namespace episcope {
 
 /// Parameters of KZ02.
 struct Kz02Parameters {
-  Profile profile = Profile::Tuned;
+  ProfileChoice profile = {};
   int labels = 64;
   int distance = 4;
   Matching matching = {};

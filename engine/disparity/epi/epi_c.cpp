@@ -167,7 +167,8 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
-  if (sweeps > 0) replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
+  if (sweeps > 0 && parameters.replace_occluded)
+    replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
@@ -213,9 +214,17 @@ Schema<EpiCParameters> epi_c_schema() {
       .integer("sweeps", &P::sweeps,
                {"Sweeps", "Number of times every view is fitted to its neighbours; 0 = off"},
                {0, 50})
+      .flag("replace_occluded", &P::replace_occluded,
+            {"Replace occluded",
+             "Before the first sweep, replace the disparity of rays that other views see through"})
       .part(&P::line_check, line_check_schema())
       .part(&P::denoising, denoise_schema())
       .part(&P::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile,
+              {{"lambda", 0.1}, {"check_lines", false}, {"replace_occluded", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
       .search("lambda", {0.03, 0.06, 0.12, 0.24})
       .search("fall", {0.03, 0.1, 0.3});
 }
@@ -253,7 +262,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_c_schema(), estimate_epi_c);
 }
 

@@ -36,20 +36,22 @@ class DirectionalData {
       : directions_{Direction(orientations.horizontal, view, power),
                     Direction(orientations.vertical, view, power)} {}
 
-  [[nodiscard]] Volume<float> costs(const std::vector<float>& labels, double truncation,
+  [[nodiscard]] Volume<float> costs(const std::vector<float>& labels,
+                                    const EpiGParameters& parameters,
                                     const Progress& progress) const {
     const Image<float>& shape = directions_[0].disparity;
     Volume<float> volume(shape.height(), static_cast<int>(labels.size()), shape.width());
-    const auto most = static_cast<float>(truncation);
+    const auto most = static_cast<float>(parameters.truncation);
+    const bool least = parameters.direction_costs == DirectionCosts::Least;
     parallel_for(shape.height(), progress, [&](int y) {
       for (std::size_t l = 0; l < labels.size(); ++l) {
         float* const cost = volume.view().row(y, static_cast<int>(l));
-        std::fill_n(cost, shape.width(), 0.0F);
-        for (const Direction& direction : directions_) {
-          const float* const d = direction.disparity.row(y);
-          const float* const w = direction.weight.row(y);
+        for (std::size_t i = 0; i < 2; ++i) {
+          const float* const d = directions_[i].disparity.row(y);
+          const float* const w = directions_[i].weight.row(y);
           for (int x = 0; x < shape.width(); ++x) {
-            cost[x] += w[x] * std::min(std::fabs(labels[l] - d[x]), most);
+            const float own = w[x] * std::min(std::fabs(labels[l] - d[x]), most);
+            cost[x] = i == 0 ? own : least ? std::min(cost[x], own) : cost[x] + own;
           }
         }
       }
@@ -83,12 +85,20 @@ class DirectionalData {
 
 }  // namespace
 
+Names<DirectionCosts> names_of(DirectionCosts) {
+  return {{DirectionCosts::Sum, "sum"}, {DirectionCosts::Least, "least"}};
+}
+
 Schema<EpiGParameters> epi_g_schema() {
   using P = EpiGParameters;
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
+      .choice("direction_costs", &P::direction_costs,
+              {"Directions",
+               "sum: horizontal and vertical estimates both count, each truncated; least: the one "
+               "that is nearer to the label counts"})
       .real("truncation", &P::truncation,
             {"Truncation κ", "Estimates farther than this from the label are treated as outliers",
              "px"},
@@ -97,6 +107,15 @@ Schema<EpiGParameters> epi_g_schema() {
             {"Coherence exponent p", "The data term is weighted by coherence^p"}, {0, 16})
       .part(&P::line_check, line_check_schema())
       .part(&P::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile,
+              {{"smoothness", 0.75},
+               {"direction_costs", std::string("least")},
+               {"truncation", 5.0},
+               {"weight_power", 1.0},
+               {"check_lines", false}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness", {0.05, 0.1, 0.2, 0.4, 0.75, 1.5})
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
       .search("weight_power", {0, 2, 8})
       .search("truncation", {0.1, 0.3, 1});
@@ -121,7 +140,7 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
                  estimate.confidence.data(), [](float a, float b) { return std::max(a, b); });
   const DirectionalData data(directions, view, parameters.weight_power);
   const std::vector<float> labels = equidistant_labels(estimate.range, parameters.labels);
-  const Volume<float> costs = data.costs(labels, parameters.truncation, progress.part(0.1, 0.12));
+  const Volume<float> costs = data.costs(labels, parameters, progress.part(0.1, 0.12));
   const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
   const double scale = data.mean_weight(std::max<std::size_t>(1, count_valid(lf, view)));
@@ -137,7 +156,7 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

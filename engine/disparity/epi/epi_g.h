@@ -7,14 +7,19 @@
 
 namespace episcope {
 
+/// How the costs of both directions become one: their sum, or the lesser.
+enum class DirectionCosts { Sum, Least };
+[[nodiscard]] Names<DirectionCosts> names_of(DirectionCosts);
+
 /// Parameters of EPI_G: of the labeling, and those of EPI_L.
 struct EpiGParameters {
-  GlobalLabelingParameters labeling{.smoothness = 3, .edge_strength = 15, .settling = 3};
+  GlobalLabelingParameters labeling{.smoothness = 1.5, .edge_strength = 15, .settling = 3};
   int labels = 64;
+  DirectionCosts direction_costs = DirectionCosts::Sum;
   double truncation = 0.3;
   double weight_power = 2;
   LineCheck line_check = {};
-  EpiLParameters tensor = {};
+  EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
 
 [[nodiscard]] Schema<EpiGParameters> epi_g_schema();
@@ -27,7 +32,11 @@ struct EpiGParameters {
 /// pixel moves to the mean, weighted by r^p, of those of d_h and d_v that lie within one label of
 /// the solution. Confidence is the larger coherence.
 ///
-/// The data term of [WG12] was not recovered. Truncating each direction separately lets one or both
+/// The profile `paper` has labels over the range, no edge weights, no settling and no check of
+/// lines, EPI_L as published, and as data term min(r_h |l − d_h|, r_v |l − d_v|), which is how
+/// [WG12] is remembered; λ is not given: 0.75. TV is LiftedProblem's, isotropic to 8 %.
+///
+/// Truncating each direction separately lets one or both
 /// be overruled as outliers, whereas min(r_h |l − d_h|, r_v |l − d_v|) must follow one of them.
 /// Evidence: tests/accuracy/tuning.md.
 /// Reference: Wanner and Goldluecke 2012 [WG12], as EPI_G in the paper.

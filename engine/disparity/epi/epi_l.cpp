@@ -44,14 +44,29 @@ void prefetch_run(const ViewStack<float>& stack, ViewIndex view, PixelIndex begi
   for (int i = 0; i < count; i += kCacheLine) __builtin_prefetch(first + i, 1);
 }
 
-StructureTensor::Sink merge_into(const Maps& maps, int power, int u) {
-  return [&maps, power, u](int v, PixelIndex begin, int count, const float* disparity,
-                           const float* coherence) {
+// The more coherent of two directions.
+void take_winner(const float* disparity, const float* coherence, int count, float* to_disparity,
+                 float* to_coherence) {
+  for (int i = 0; i < count; ++i) {
+    const bool wins = coherence[i] > to_coherence[i];
+    to_disparity[i] = wins ? disparity[i] : to_disparity[i];
+    to_coherence[i] = wins ? coherence[i] : to_coherence[i];
+  }
+}
+
+StructureTensor::Sink merge_into(const Maps& maps, const EpiLParameters& parameters, int u) {
+  return [&maps, &parameters, u](int v, PixelIndex begin, int count, const float* disparity,
+                                 const float* coherence) {
     prefetch_run(maps.disparity, {v, u}, begin, count);
     prefetch_run(maps.confidence, {v, u}, begin, count);
-    merge_orientations(disparity, coherence, count, power,
-                       maps.disparity.view({v, u}).row(begin.y) + begin.x,
-                       maps.confidence.view({v, u}).row(begin.y) + begin.x);
+    float* const to_disparity = maps.disparity.view({v, u}).row(begin.y) + begin.x;
+    float* const to_coherence = maps.confidence.view({v, u}).row(begin.y) + begin.x;
+    if (parameters.fusion == Fusion::Winner) {
+      take_winner(disparity, coherence, count, to_disparity, to_coherence);
+    } else {
+      merge_orientations(disparity, coherence, count, parameters.fusion_power, to_disparity,
+                         to_coherence);
+    }
   };
 }
 
@@ -134,59 +149,25 @@ TensorScales scales_of(const EpiLParameters& p) {
 }
 
 TensorSearch search_of(const EpiLParameters& p, Interval range) {
-  return cover_range(range, std::max(1, static_cast<int>(std::lround(2 * p.shear_step))));
+  const int half_steps = static_cast<int>(std::lround(2 * p.shear_step));
+  TensorSearch search =
+      half_steps > 0 ? cover_range(range, half_steps) : cover_range_sparsely(range);
+  search.eigenvector = p.orientation == Orientation::Eigenvector;
+  return search;
 }
 
-Schema<EpiLParameters> scales_schema() {
-  using P = EpiLParameters;
-  return Schema<P>()
-      .real("inner_scale", &P::inner_scale,
-            {"Inner scale",
-             "Standard deviation of the Gaussian applied to the samples before derivatives", "px"},
-            {0, 2})
-      .real("outer_scale", &P::outer_scale,
-            {"Outer scale",
-             "Standard deviation of the Gaussian window over which orientation is averaged, along "
-             "the EPI",
-             "px"},
-            {0, 2})
-      .real("view_scale", &P::view_scale,
-            {"View scale", "Standard deviation of the same window along the views", "views"},
-            {0, 3})
-      .real("cross_scale", &P::cross_scale,
-            {"Cross scale", "Standard deviation of the same window across neighbouring EPIs", "px"},
-            {0, 2});
+// What the publications call coherence is the square of the tensor's.
+void finish_confidence(const LightField& lf, Orientation orientation, ViewStack<float>& confidence,
+                       const Progress& progress) {
+  clear_invalid(lf, confidence);
+  if (orientation == Orientation::LeastSquares) return;
+  parallel_for(confidence.grid().count(), progress, [&](int i) {
+    float* const view = confidence.data() + i * confidence.view_size();
+    for (std::size_t n = 0; n < confidence.view_size(); ++n) view[n] *= view[n];
+  });
 }
 
 }  // namespace
-
-Schema<EpiLParameters> epi_l_schema() {
-  using P = EpiLParameters;
-  return scales_schema()
-      .real("shear_step", &P::shear_step,
-            {"Shear step",
-             "Spacing of the shears that bring every line close to upright before its orientation "
-             "is measured; rounded to half pixels",
-             "px"},
-            {0.5, 1.5})
-      .real("contrast", &P::contrast,
-            {"Contrast limit",
-             "Gradients above this are attenuated, so that silhouettes do not drown the texture "
-             "beside them; large values disable this",
-             "1/255"},
-            {0.1, 255, true})
-      .real("noise", &P::noise,
-            {"Noise floor", "Texture with less contrast than this loses confidence", "1/255"},
-            {0, 50})
-      .integer("fusion_power", &P::fusion_power,
-               {"Fusion power",
-                "Horizontal and vertical estimates are averaged with weights coherence^p"},
-               {0, 32})
-      .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
-      .search("inner_scale", {0.3, 0.5, 0.8, 1.1})
-      .search("outer_scale", {0.5, 1, 1.5, 2})
-      .search("shear_step", {0.5, 1, 1.5});
-}
 
 Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
                         const Progress& progress) {
@@ -226,10 +207,10 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
   }
   if (lf.grid().v > 1) {
     progress.step("vertical EPIs");
-    const auto merge = [&](int u) { return merge_into(maps, parameters.fusion_power, u); };
+    const auto merge = [&](int u) { return merge_into(maps, parameters, u); };
     run_vertical(maps, scales, search, merge, progress.part(half, 1));
   }
-  clear_invalid(lf, estimate.confidence);
+  finish_confidence(lf, parameters.orientation, estimate.confidence, progress.part(1, 1));
   return estimate;
 }
 
@@ -256,8 +237,9 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
     const auto store = [&](int u) { return store_column_into(vertical, u); };
     run_vertical(vertical, scales, search, store, progress.part(0.55, 1));
   }
-  clear_invalid(lf, directions.horizontal.confidence);
-  clear_invalid(lf, directions.vertical.confidence);
+  for (Estimate* estimate : {&directions.horizontal, &directions.vertical}) {
+    finish_confidence(lf, parameters.orientation, estimate->confidence, progress.part(1, 1));
+  }
   return directions;
 }
 
@@ -268,7 +250,7 @@ Estimator epi_l_estimator() {
        .summary = "Local orientation of lines on epipolar plane images (structure tensor)",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
-       .revision = 2},
+       .revision = 3},
       epi_l_schema(), estimate_epi_l);
 }
 

@@ -2,20 +2,35 @@
 #include "engine/disparity/epi/epi_s.h"
 
 namespace episcope {
+namespace {
+
+// Pixels that the views contradict should follow their neighbours.
+constexpr float kMinWeight = 0.003F;
+
+}  // namespace
 
 Schema<EpiSParameters> epi_s_schema() {
   return Schema<EpiSParameters>()
       .part(&EpiSParameters::denoising, denoise_schema())
+      .part(&EpiSParameters::line_check, line_check_schema())
       .part(&EpiSParameters::tensor, epi_l_schema())
+      .begin_with(kProfileKey)
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"check_lines", false}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
       .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
-      .search("weight_power", {0, 2, 6, 12})
-      .search("edge_strength", {0, 10, 20});
+      .search("weight_power", {0, 2, 4, 8})
+      .search("edge_strength", {0, 15, 30});
 }
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress) {
   Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
-  denoise(lf, parameters.denoising, estimate, progress.part(0.4, 0.98));
+  if (parameters.line_check.is_on) {
+    progress.step("checking lines");
+    reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
+  }
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), kMinWeight);
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }
@@ -28,7 +43,7 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_s_schema(), estimate_epi_s);
 }
 

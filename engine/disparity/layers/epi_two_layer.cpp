@@ -270,7 +270,7 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {"Contrast limit, two layers", "Second derivatives above this are attenuated", "1/255"},
             {0.1, 255, true})
       .part(&P::stop, stop_schema())
-      .part(&P::tensor, epi_l_schema())
+      .part(&P::tensor, orientation_schema())
       .search("lambda", {0.05, 0.1, 0.2, 0.4})
       .search("weight_power", {2, 6})
       .search("decision", {0.1, 0.15, 0.25});
@@ -312,7 +312,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

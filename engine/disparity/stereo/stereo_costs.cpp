@@ -107,20 +107,7 @@ void choose_places(const LightField& lf, StereoCosts& costs, Residuals& residual
                         ", they match no better than the grid");
 }
 
-void apply_profile(MatchedViews views, StereoCostParameters& parameters) {
-  if (parameters.profile != Profile::Paper) return;
-  parameters.epsilon = views == MatchedViews::All ? 1 : kUncapped;
-  parameters.interpolation = Interpolation::Bilinear;
-  parameters.aggregation = 0;
-  parameters.cost = Compared::Absolute;
-  parameters.positions = Positions::Ignore;
-}
-
 }  // namespace
-
-Names<Profile> names_of(Profile) {
-  return {{Profile::Tuned, "tuned"}, {Profile::Paper, "paper"}};
-}
 
 Names<Compared> names_of(Compared) {
   return {{Compared::Absolute, "absolute"}, {Compared::Relative, "relative"}};
@@ -133,11 +120,7 @@ Names<Positions> names_of(Positions) {
 Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
   using P = StereoCostParameters;
   return Schema<P>()
-      .choice("profile", &P::profile,
-              {"Profile",
-               "tuned: the settings given here; paper: the method as published, which overrides "
-               "the cap, interpolation, aggregation and whatever else the paper does not have, and "
-               "applies a third of the smoothness of a global labeling"})
+      .part(&P::profile, profile_schema())
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
@@ -147,6 +130,10 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
             {0, kUncapped})
       .choice("interpolation", &P::interpolation,
               {"Interpolation", "How views are interpolated between pixels"})
+      .flag("compensate_noise", &P::compensate_noise,
+            {"Compensate noise",
+             "Add to the costs what interpolation averages away of the noise, so that labels that "
+             "move views by whole pixels are at no disadvantage"})
       .integer("aggregation", &P::aggregation,
                {"Aggregation",
                 "Radius of the guided filter that averages the costs of neighbours of similar "
@@ -164,7 +151,11 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
             {"View", "Row and column of the view to estimate; auto = centre view"})
-      .completed_by([views](P& p) { apply_profile(views, p); });
+      .preset(kProfileKey, kPaperProfile,
+              {{"epsilon", views == MatchedViews::All ? 1.0 : kUncapped},
+               {"interpolation", std::string("bilinear")},
+               {"compensate_noise", false},
+               {"aggregation", 0}});
 }
 
 StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
@@ -182,14 +173,17 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   costs.matching.views = views;
   costs.matching.interpolation = parameters.interpolation;
   costs.matching.cap = parameters.epsilon;
-  if (parameters.profile != Profile::Paper) {
+  if (parameters.compensate_noise || parameters.epsilon == 0 ||
+      parameters.positions == Positions::Use) {
     progress.step("noise");
     Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
     if (parameters.positions == Positions::Use) {
       choose_places(compared, costs, residuals, progress.part(0.7, 0.8));
     }
-    costs.matching.noise =
-        noise_map(compared, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    if (parameters.compensate_noise) {
+      costs.matching.noise =
+          noise_map(compared, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+    }
     if (parameters.epsilon == 0) {
       costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }

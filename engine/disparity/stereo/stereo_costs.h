@@ -3,6 +3,7 @@
 
 #include "engine/core/parameter/schema.h"
 #include "engine/disparity/common/matching_cost.h"
+#include "engine/disparity/common/profile.h"
 #include "engine/disparity/stereo/guided_filter.h"
 
 #include <memory>
@@ -13,10 +14,6 @@ namespace episcope {
 
 /// A cap ε that no difference of samples in [0, 1] reaches, √3 being the largest: uncapped.
 inline constexpr double kUncapped = 2;
-
-/// Whether a method of multi-view stereo runs with tuned settings or as published.
-enum class Profile { Tuned, Paper };
-[[nodiscard]] Names<Profile> names_of(Profile);
 
 /// What is compared: samples as they are, or relative to their surroundings (relative_samples.h),
 /// which a gain of a view does not change.
@@ -31,10 +28,11 @@ enum class Positions { Use, Ignore };
 /// What all methods of multi-view stereo have in common: which labels of which view are compared
 /// with the other views, and how.
 struct StereoCostParameters {
-  Profile profile = Profile::Tuned;
+  ProfileChoice profile = {};
   int labels = 64;
   double epsilon = 0;  ///< ε; 0 = from the noise of the light field, kUncapped = none.
   Interpolation interpolation = Interpolation::Cubic;
+  bool compensate_noise = true;
   int aggregation = 2;
   Compared cost = Compared::Absolute;
   Positions positions = Positions::Use;
@@ -42,8 +40,8 @@ struct StereoCostParameters {
   ViewOrAuto view;
 };
 
-/// Profile::Paper overwrites ε (no cap for the cross-hair, 1 for all views), interpolation
-/// (bilinear), aggregation (none), cost (absolute) and positions (ignored).
+/// The profile `paper` sets ε (no cap for the cross-hair, 1 for all views), interpolation
+/// (bilinear), no compensation of noise, no aggregation, cost (absolute) and positions (ignored).
 [[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);
 
 /// The data term of a view, derived from parameters and light field before the labels of single
@@ -64,7 +62,7 @@ struct StereoCosts {
 /// fixed ε that is best on clean light fields takes nearly all differences for occlusions under
 /// noise.
 ///
-/// Unless the profile is Paper, the matching also gets the noise of the view (matching_cost.h): at
+/// With `compensate_noise` the matching also gets the noise of the view (matching_cost.h): at
 /// each pixel that of its surroundings (local_noise.h), at most what the residual of the best
 /// quarter of the pixels allows. Stated positions of cameras (view_places.h) are used if that
 /// residual is smaller with them than on the regular grid: whatever they say, they do no harm.

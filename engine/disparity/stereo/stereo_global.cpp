@@ -57,14 +57,14 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::labeling, global_labeling_schema())
       .part(&P::matching, stereo_cost_schema(views))
+      .begin_with(kProfileKey)
       .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
       .search("edge_strength", {0, 20})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
-      .completed_by([](P& p) {
-        if (p.matching.profile != Profile::Paper) return;
-        p.labeling.edge_strength = 0;
-        p.labeling.settling = 0;
-      });
+      .preset(kProfileKey, kPaperProfile, plain_labeling())
+      .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
+      .preset_search(kProfileKey, kPaperProfile, "smoothness",
+                     {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
 }
 
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
@@ -89,8 +89,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     }
     return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
   };
-  const double unit = parameters.matching.profile == Profile::Paper ? kPaperSmoothness : 1;
-  const double scale = unit * cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
+  const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
   label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,
                  estimate, progress.part(0.32, 0.99));
   estimate.confidence = confidence_map(estimate, stereo, costs, means, progress.part(0.99, 1));

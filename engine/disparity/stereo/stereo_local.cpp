@@ -69,11 +69,10 @@ Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
       .part(&P::matching, stereo_cost_schema(views))
       .choice("refinement", &P::refinement,
               {"Refinement", "How the disparity is interpolated between labels"})
+      .begin_with(kProfileKey)
       .search("epsilon", {0, 0.01, 0.02, 0.05, 0.1, kUncapped})
       .search("aggregation", {0, 2})
-      .completed_by([](P& p) {
-        if (p.matching.profile == Profile::Paper) p.refinement = Refinement::None;
-      });
+      .preset(kProfileKey, kPaperProfile, {{"refinement", std::string("none")}});
 }
 
 Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
@@ -82,15 +81,14 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
   return Schema<P>()
       .part(&P::denoising, denoise_schema())
       .part(&P::local, stereo_local_schema(views))
+      .begin_with(kProfileKey)
       .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
       .search("weight_power", {0, 2})
       .search("epsilon", {0, 0.02, kUncapped})
       .search("aggregation", {0, 2})
-      .completed_by([](P& p) {
-        if (p.local.matching.profile != Profile::Paper) return;
-        p.denoising.weight_power = 0;
-        p.denoising.edge_strength = 0;
-      });
+      .preset(kProfileKey, kPaperProfile, plain_denoising())
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}})
+      .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
 }
 
 Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,

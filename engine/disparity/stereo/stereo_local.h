@@ -20,7 +20,7 @@ struct StereoSmoothParameters {
   StereoLocalParameters local = {};
 };
 
-/// Profile::Paper has no refinement, and weights neither data nor variation.
+/// The profile `paper` has no refinement, and weights neither data nor variation; λ = 0.2.
 [[nodiscard]] Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views);
 [[nodiscard]] Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views);
 

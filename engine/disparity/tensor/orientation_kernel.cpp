@@ -91,15 +91,23 @@ void select(const TensorBlock& block, const TensorFilters& filters, const Shear&
   }
 }
 
+// The slope of ∂s + d ∂x = 0, −d, of one tensor by least squares.
+inline Vec slope_of(const float* const* tensor, int n) {
+  return load(tensor[1] + n) * reciprocal(load(tensor[0] + n) + 1e-20F);
+}
+
+// Neighbours whose disparity differs by so much, squared, count half: they see another surface.
+constexpr float kDisagreement = 0.09F;
+
 // Least squares of ∂s + d ∂x = 0 over the averaged tensor; coherence in the frame sheared by d.
 void resolve(const TensorAverage& average) {
   for (int n = 0; n < average.length; n += kLanes) {
-    Vec sum[3];
-    for (int j = 0; j < 3; ++j) {
-      sum[j] = average.weights[0] * load(average.tensor[0][j] + n);
-      for (int i = 1; i < average.count; ++i) {
-        sum[j] += average.weights[i] * load(average.tensor[i][j] + n);
-      }
+    const Vec own = slope_of(average.tensor[average.count / 2], n);
+    Vec sum[3] = {};
+    for (int i = 0; i < average.count; ++i) {
+      const Vec off = slope_of(average.tensor[i], n) - own;
+      const Vec weight = average.weights[i] * kDisagreement * reciprocal(kDisagreement + off * off);
+      for (int j = 0; j < 3; ++j) sum[j] += weight * load(average.tensor[i][j] + n);
     }
     const Vec xx = sum[0] + 1e-20F;
     const Vec disparity = -sum[1] / xx;

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel/isa.h"
+#include "engine/disparity/tensor/eigenvector_kernel.h"
 #include "engine/disparity/tensor/sample_planes.h"
 #include "engine/disparity/tensor/structure_tensor_kernel.h"
 
@@ -67,12 +68,26 @@ TensorSearch cover_range(Interval range, int step_half_px) {
   return search;
 }
 
+TensorSearch cover_range_sparsely(Interval range) {
+  constexpr double kUnsheared = 1.2;
+  constexpr double kLimit = 1.1;
+  constexpr double kNoLimit = 1000;
+  TensorSearch search = cover_range(range, 2);
+  search.accepted = {range.min - kOvershoot, range.max + kOvershoot};
+  search.limit = kLimit;
+  if (range.min < -kUnsheared || range.max > kUnsheared) return search;
+  search.half_step_shears = {0};
+  search.limit = kNoLimit;
+  return search;
+}
+
 struct StructureTensor::State {
   const LightField& light_field;
   Direction direction;
   TensorSearch search;
   const TensorKernel& tensors = EPISCOPE_CHOOSE_KERNEL(best_isa(), kTensorKernel);
   const OrientationKernel& orientations = EPISCOPE_CHOOSE_KERNEL(best_isa(), kOrientationKernel);
+  const EigenvectorKernel& eigenvectors = EPISCOPE_CHOOSE_KERNEL(best_isa(), kEigenvectorKernel);
   const TensorFilterSet set;
   const TensorFilters& filters = set.filters;
   const Taps& across = set.across;
@@ -226,7 +241,11 @@ void StructureTensor::State::run_shears(const TensorTask& task, int count) {
                       static_cast<float>(search.accepted.min),
                       static_cast<float>(search.accepted.max)};
     tensors.accumulate(block, filters, shear);
-    orientations.select(block, filters, shear);
+    if (search.eigenvector || search.limit >= 1) {
+      eigenvectors.select(block, filters, shear, search.eigenvector);
+    } else {
+      orientations.select(block, filters, shear);
+    }
   }
 }
 

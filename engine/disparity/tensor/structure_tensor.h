@@ -17,10 +17,15 @@ struct TensorSearch {
   /// Shears in half pixels per view step; every disparity of interest lies within `limit` of one.
   std::vector<int> half_step_shears;
   double limit = 0.6;
+  /// Reads the disparity off the eigenvector of the tensor, instead of by least squares.
+  bool eigenvector = false;
 };
 
 /// Shears that cover `range`, `step_half_px` half pixels apart, whole multiples of that.
 [[nodiscard]] TensorSearch cover_range(Interval range, int step_half_px);
+/// Likewise with as few shears as the range demands: none up to ±1.2 px, where any orientation
+/// found counts, else whole pixels and what lies within 1.1 px of them.
+[[nodiscard]] TensorSearch cover_range_sparsely(Interval range);
 
 /// A rectangle of image pixels seen by one row or column of cameras.
 struct TensorTask {
@@ -49,7 +54,10 @@ struct TensorExtent {
 /// - Products are divided by (1 + |∇|²/contrast²): else a silhouette drowns the weaker texture
 ///   beside it and objects grow by the size of the window.
 /// - The tensor of the chosen shear, turned back to unsheared coordinates, is averaged over
-///   neighbouring EPIs before the disparity is read off, by least squares.
+///   neighbouring EPIs before the disparity is read off, by least squares. Neighbours count less
+///   the more their own disparity differs, 0.3 px by half: averages over all of them make objects
+///   grow by the size of that window as well.
+/// With `TensorSearch::eigenvector` the disparity is that of the formula, EPI by EPI.
 /// Filters are truncated at the first and last view and renormalised, so that slopes there come
 /// out right.
 ///

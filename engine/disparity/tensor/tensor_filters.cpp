@@ -95,6 +95,12 @@ float sample_energy(double contrast, int channels) {
   return static_cast<float>(channels * contrast * contrast / (255.0 * 255.0));
 }
 
+// Weights of contrast/(energy + contrast) are 1 for all energies that samples have.
+float contrast_energy(double contrast, int channels) {
+  constexpr float kNoLimit = 1e20F;
+  return contrast >= 255 ? kNoLimit : sample_energy(contrast, channels);
+}
+
 // The farthest row that any row takes in.
 int reach_of(const std::vector<RowTaps>& filter) {
   int reach = 0;
@@ -130,7 +136,7 @@ TensorFilterSet make_tensor_filters(int rows, int channels, const TensorScales& 
   set.filters.row_smooth = set.row_smooth.data();
   set.filters.row_derivative = set.row_derivative.data();
   set.filters.row_integrate = set.row_integrate.data();
-  set.filters.contrast_energy = sample_energy(scales.contrast, channels);
+  set.filters.contrast_energy = contrast_energy(scales.contrast, channels);
   set.filters.noise_energy = sample_energy(scales.noise, channels);
   set.across = gaussian_taps(scales.across);
   return set;

@@ -13,7 +13,7 @@ struct TensorScales {
   double outer = 1.0;   ///< σ_o in px: Gaussian over the products of derivatives, along the EPI.
   double views = 1.5;   ///< The same along the views.
   double across = 1.0;  ///< The same in px across neighbouring EPIs.
-  double contrast = 2;  ///< Gradients above this are toned down, in 1/255.
+  double contrast = 2;  ///< Gradients above this are toned down, in 1/255; 255 = none are.
   double noise = 0.15;  ///< Contrast below which coherence fades, in 1/255.
 };
 

@@ -241,6 +241,38 @@ class ParameterFormTest : public QObject {
     QCOMPARE(get<double>(form_, "inner"), 0.8);
   }
 
+  void preset_movesRowsAtTheirDefaultAndNoOthers() {
+    Schema<Parameters> with_preset = schema();
+    with_preset.preset("fusion", "best", {{"scales", 5}, {"weight", 1.0}});
+    form_.setParameters(with_preset.descriptions());
+    form_.setValues({{"weight", 0.5}});
+    auto* const combo = form_.findChild<QComboBox*>("fusion.combo");
+
+    combo->setCurrentIndex(1);
+    emit combo->activated(1);
+    QCOMPARE(get<int>(form_, "scales"), 5);
+    QCOMPARE(get<double>(form_, "weight"), 0.5);
+    QCOMPARE(form_.modifiedValues().size(), std::size_t{2});  // the choice itself and the weight
+
+    form_.findChild<QToolButton*>("weight.reset")->click();
+    QCOMPARE(get<double>(form_, "weight"), 1.0);
+    form_.resetToDefaults();
+    QCOMPARE(get<int>(form_, "scales"), 3);
+    QCOMPARE(get<double>(form_, "weight"), 0.2);
+    QVERIFY(form_.modifiedValues().empty());
+  }
+
+  void setValues_takesThePresetAndWhatIsGivenBesideIt() {
+    Schema<Parameters> with_preset = schema();
+    with_preset.preset("fusion", "best", {{"scales", 5}, {"weight", 1.0}});
+    form_.setParameters(with_preset.descriptions());
+
+    form_.setValues({{"weight", 0.2}, {"fusion", std::string("best")}});
+
+    QCOMPARE(get<int>(form_, "scales"), 5);
+    QCOMPARE(get<double>(form_, "weight"), 0.2);
+  }
+
   void resetToDefaults_resetsAllAtOnce() {
     form_.setValues({{"inner", 2.0}, {"scales", 4}, {"edges", false}});
     QSignalSpy changed(&form_, &ParameterForm::valuesChanged);

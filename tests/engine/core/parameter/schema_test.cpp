@@ -207,25 +207,66 @@ class SchemaTest : public QObject {
     QVERIFY(whole.descriptions()[2].searched == (std::vector<ParameterValue>{1, 9}));
   }
 
-  void part_isCompletedBeforeTheWhole() {
-    Schema<Tuning> completed = tuning_schema();
-    completed.completed_by([](Tuning& tuning) { tuning.rounds = 1; });
+  void preset_changesDefaultsAndGivenValuesWin() {
+    Schema<Tuning> with_preset = schema();
+    with_preset.preset("fusion", "best", {{"rounds", 7}});
+    const std::pair<std::string, ParameterValue> best{"fusion", std::string("best")};
 
-    Schema<Method> whole = method_schema(completed);
-    whole.completed_by([](Method& method) { method.labels = 10 * method.tuning.rounds; });
-
-    QCOMPARE(whole.parse({{"rounds", 5}}).tuning.rounds, 1);
-    QCOMPARE(whole.parse({{"rounds", 5}}).labels, 10);
+    QCOMPARE(with_preset.parse({}).rounds, Tuning{}.rounds);
+    QCOMPARE(with_preset.parse({best}).rounds, 7);
+    QCOMPARE(with_preset.parse({best, {"rounds", 5}}).rounds, 5);
+    QCOMPARE(with_preset.parse({{"rounds", 5}, best}).rounds, 5);
   }
 
-  void completion_seesWhatWasParsed() {
-    Schema<Tuning> completed = schema();
-    completed.completed_by([](Tuning& tuning) {
-      if (tuning.fusion == Fusion::Best) tuning.rounds = 1;
-    });
+  void preset_ofAPartIsJoinedByThatOfTheWhole() {
+    Schema<Tuning> part = schema();
+    part.preset("fusion", "best", {{"rounds", 7}});
+    Schema<Method> whole = method_schema(part);
+    whole.preset("fusion", "best", {{"labels", 3}}).preset("fusion", "best", {{"rounds", 8}});
 
-    QCOMPARE(completed.parse({{"rounds", 5}}).rounds, 5);
-    QCOMPARE(completed.parse({{"rounds", 5}, {"fusion", std::string("best")}}).rounds, 1);
+    const Method method = whole.parse({{"fusion", std::string("best")}});
+
+    QCOMPARE(method.tuning.rounds, 8);
+    QCOMPARE(method.labels, 3);
+  }
+
+  void preset_isCheckedWhenItIsDeclared() {
+    Schema<Tuning> wrong = schema();
+
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, wrong.preset("fusion", "best", {{"scale", 9.0}}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, wrong.preset("fusion", "worst", {{"rounds", 7}}));
+    QVERIFY_THROWS_EXCEPTION(InvalidInput, wrong.preset("rounds", "best", {{"scale", 1.0}}));
+  }
+
+  void describedUnder_hasTheDefaultsAndSearchedValuesOfThePreset() {
+    Schema<Tuning> with_preset = schema();
+    with_preset.search("scale", {1, 2}).search("rounds", {1, 9});
+    with_preset.preset("fusion", "best", {{"rounds", 7}, {"scale", 3.0}});
+    with_preset.preset_search("fusion", "best", "scale", {3, 4});
+
+    const auto plain = described_under(with_preset.descriptions(), {});
+    const auto best =
+        described_under(with_preset.descriptions(), {{"fusion", std::string("best")}});
+
+    const auto named = [](const auto& all, const char* key) {
+      return *std::ranges::find(all, key, &ParameterDescription::key);
+    };
+    QVERIFY(named(plain, "rounds").default_value == ParameterValue(Tuning{}.rounds));
+    QCOMPARE(named(plain, "rounds").searched.size(), std::size_t{2});
+    QVERIFY(named(best, "rounds").default_value == ParameterValue(7));
+    QVERIFY(named(best, "rounds").searched.empty());
+    QVERIFY(named(best, "scale").searched == (std::vector<ParameterValue>{3.0, 4.0}));
+    QVERIFY(named(best, "fusion").default_value == named(plain, "fusion").default_value);
+  }
+
+  void beginWith_movesAParameterToTheFront() {
+    Schema<Tuning> moved = schema();
+    moved.begin_with("fusion");
+
+    QCOMPARE(moved.descriptions().front().key, std::string("fusion"));
+    QCOMPARE(moved.descriptions()[1].key, schema().descriptions().front().key);
+    QCOMPARE(moved.values(Tuning{}).front().first, std::string("fusion"));
+    QCOMPARE(moved.parse({{"rounds", 5}}).rounds, 5);
   }
 
   void searchedValues_haveTheTypeOfTheParameter() {

@@ -53,7 +53,7 @@ class StereoTest : public QObject {
  private slots:
   void smoothSurface_isExact_data();
   void smoothSurface_isExact();
-  void paperProfile_overridesTheRest();
+  void paperProfile_setsTheRest();
   void paperProfile_findsTheSurface();
   void cap_helpsAtOcclusions();
   void capFromNoise_isBetterThanAFixedOne();
@@ -86,16 +86,15 @@ void StereoTest::smoothSurface_isExact() {
   QVERIFY2(slant < limit, qPrintable(QString::number(slant)));
 }
 
-void StereoTest::paperProfile_overridesTheRest() {
-  ParameterSet values = kPaper;
-  values.emplace_back("aggregation", 4);
-  const Estimate all = run("st_av_s", scene("edge"), values);
-  const Estimate cross = run("st_ch_l", scene("edge"), values);
+void StereoTest::paperProfile_setsTheRest() {
+  const Estimate all = run("st_av_s", scene("edge"), kPaper);
+  const Estimate cross = run("st_ch_l", scene("edge"), kPaper);
   QCOMPARE(std::get<double>(value_of(all, "epsilon")), 1.0);
   QCOMPARE(std::get<double>(value_of(cross, "epsilon")), kUncapped);
   QCOMPARE(std::get<std::string>(value_of(all, "interpolation")), std::string("bilinear"));
   QCOMPARE(std::get<std::string>(value_of(all, "refinement")), std::string("none"));
   QCOMPARE(std::get<int>(value_of(all, "aggregation")), 0);
+  QCOMPARE(std::get<bool>(value_of(all, "compensate_noise")), false);
   QCOMPARE(std::get<double>(value_of(all, "weight_power")), 0.0);
   QCOMPARE(std::get<double>(value_of(all, "edge_strength")), 0.0);
   QCOMPARE(cross.notes.front(), std::string("matching cost uncapped"));
