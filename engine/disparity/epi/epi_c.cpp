@@ -12,7 +12,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -45,6 +48,51 @@ struct Work {
   }
 };
 
+// Calls visit(neighbour, way) for the neighbours of a view whose lines count.
+template <class Visit>
+void for_each_neighbour(const Work& work, ViewIndex view, const Visit& visit) {
+  for (const ViewIndex way : kWays) {
+    const ViewIndex other = neighbour(view, way);
+    if (work.u.contains(other) && count_valid(work.light_field, other) > 0) visit(other, way);
+  }
+}
+
+// λ Σ g |∇u| + ½ Σ w (u − f)² of one view.
+double own_energy(const Work& work, ViewIndex view, ImageView<const float> u,
+                  const Image<float>& edges) {
+  const DenoiseParameters& parameters = work.parameters.denoising;
+  Image<float> weights(u.height, u.width);
+  fill_data_weights(work.confidence.view(view), {parameters.weight_power, kMinWeight}, weights);
+  double sum = 0;
+  for (int y = 0; y < u.height; ++y) {
+    const float* const row = u.row(y);
+    const float* const below = u.row(std::min(y + 1, u.height - 1));
+    const float* const f = work.f.view(view).row(y);
+    const float* const w = weights.row(y);
+    const float* const g = edges.row(y);
+    const auto lambda = static_cast<float>(parameters.lambda);
+    float of_row = 0;
+    for (int x = 0; x < u.width; ++x) {
+      const float right = row[std::min(x + 1, u.width - 1)] - row[x], down = below[x] - row[x];
+      const float off = row[x] - f[x];
+      of_row += lambda * g[x] * std::sqrt(right * right + down * down) + 0.5F * w[x] * off * off;
+    }
+    sum += static_cast<double>(of_row);
+  }
+  return sum;
+}
+
+// The same and its lines.
+double energy_of(const Work& work, ViewIndex view, const Image<float>& edges) {
+  const ImageView<const float> u = std::as_const(work.u).view(view);
+  double sum = own_energy(work, view, u, edges);
+  for_each_neighbour(work, view, [&](ViewIndex other, ViewIndex way) {
+    sum +=
+        ordering_energy(u, u, std::as_const(work.u).view(other), step_along(way), work.penalty());
+  });
+  return sum;
+}
+
 // Improves one view after the other; one per thread.
 class ViewStep {
  public:
@@ -75,15 +123,13 @@ class ViewStep {
     std::fill(force_.begin(), force_.end(), 0.0F);
     const ImageView<const float> here = std::as_const(work_.u).view(view);
     const OrderingPull pull{curvature_.view(), force_.view()};
-    for (const ViewIndex way : kWays) {
-      const ViewIndex other = neighbour(view, way);
-      if (!work_.u.contains(other) || count_valid(work_.light_field, other) == 0) continue;
+    for_each_neighbour(work_, view, [&](ViewIndex other, ViewIndex way) {
       const ImageView<const float> there = std::as_const(work_.u).view(other);
       progress.check();
       add_pull_on_from(here, here, there, step_along(way), work_.penalty(), pull);
       const ViewIndex back{-way.v, -way.u};
       add_pull_on_to(there, there, here, step_along(back), work_.penalty(), pull);
-    }
+    });
   }
 
   // ½ w (u − f)² and the majoriser as one weighted observation.
@@ -180,6 +226,20 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
     gap = i % 2 == 0 ? other : std::max(gap, other);
   }
   return gap;
+}
+
+double epi_c_energy(const LightField& lf, const EpiCParameters& parameters,
+                    const ViewStack<float>& observed, Estimate& estimate,
+                    const Progress& progress) {
+  const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
+  const GridShape grid = work.u.grid();
+  std::vector<double> energies(grid.count());
+  parallel_for(grid.count(), progress, [&](int i) {
+    const ViewIndex view = grid.view_at(i);
+    const Image<float> edges = smoothness_weights(lf, view, parameters.denoising.edge_strength);
+    energies[i] = energy_of(work, view, edges);
+  });
+  return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
 double ordering_violations(const ViewStack<float>& disparity, const Progress& progress) {

@@ -36,8 +36,9 @@ struct EpiCParameters {
 /// Solved by block descent: views are coloured like a chequerboard, so that all neighbours of a
 /// view have the other colour. In turn, one colour is fixed and each view of the other minimises
 /// its part with ψ replaced by its quadratic majoriser, which is TvL2Solver's problem with other f
-/// and w. For fixed lines every step lowers the energy, since ψ is smooth and TV is separable over
-/// views; lines are traced anew through the current u at each step.
+/// and w. For fixed lines that lowers the energy, since ψ is smooth and TV is separable over views.
+/// Lines are traced anew through the current u at each step; of lines that move with u the energy
+/// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
 ///
 /// Defaults: λ = 0.06, p = 6, β = 30, the set that beats EPI_S in every view of the scenes tried
 /// (tests/accuracy/tuning.md).
@@ -61,6 +62,13 @@ struct EpiCParameters {
 double denoise_with_ordering(const LightField& light_field, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
                              const Progress& progress);
+
+/// The energy above of `estimate.field`, for `observed` f and the weights from
+/// `estimate.confidence`; all cover all views. Lines are those of `estimate.field` itself.
+/// Throws Cancelled.
+[[nodiscard]] double epi_c_energy(const LightField& light_field, const EpiCParameters& parameters,
+                                  const ViewStack<float>& observed, Estimate& estimate,
+                                  const Progress& progress);
 
 /// Share in [0, 1] of the lines to neighbouring views, within the image, that violate the ordering:
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
