@@ -8,6 +8,7 @@
 #include "engine/disparity/epi/epi_l.h"
 #include "engine/disparity/epi/epi_s.h"
 #include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/plane/plane_pm.h"
 #include "engine/disparity/stereo/stereo_methods.h"
 
 namespace episcope {
@@ -27,6 +28,7 @@ std::vector<Estimator> registered_estimators() {
       st_ch_g_estimator(),
       epi_two_layer_estimator(),
       kz02_estimator(),
+      plane_pm_estimator(),
   };
   // clang-format on
 }

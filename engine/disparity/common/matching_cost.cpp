@@ -5,6 +5,7 @@
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/matching_cost_kernel.h"
+#include "engine/disparity/common/surfaces_in_views.h"
 #include "engine/disparity/common/view_shifts.h"
 #include "engine/disparity/tensor/sample_planes.h"
 
@@ -41,10 +42,12 @@ void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
 }
 
-// Means of `counts` costs each; `worst` where there is none.
-void divide(const float* sums, const float* counts, float worst, std::span<float> out) {
+// Means of `counts` costs each, beside `prior` of the worst; the worst where there is none.
+void divide(const float* sums, const float* counts, const float* worst, float prior,
+            std::span<float> out) {
   for (std::size_t x = 0; x < out.size(); ++x) {
-    out[x] = counts[x] > 0 ? sums[x] / counts[x] : worst;
+    const float count = counts[x] + prior;
+    out[x] = count > 0 ? (sums[x] + prior * worst[x]) / count : worst[x];
   }
 }
 
@@ -80,6 +83,7 @@ struct MatchingCostRows::State {
   const LightField& light_field;
   ViewIndex reference;
   MatchingCost cost;
+  std::vector<float> disparities;
   int labels = 0;
   SamplePlanes planes;
   const MatchingKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kMatchingKernel);
@@ -89,14 +93,26 @@ struct MatchingCostRows::State {
   int tile_rows = 0;
   int reference_pitch = 0, sample_pitch = 0, cost_pitch = 0;
   std::vector<float> reference_samples, noise, samples, lines, sums;
-  // Of the views in each sum; empty: rows_seen and columns_seen tell, as all samples are valid.
-  std::vector<float> counts;
+  std::vector<float> counts;         // Of the views in each sum; empty: all samples count.
+  std::vector<float> caps, nearest;  // Beside counts only.
 
   State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
         const std::vector<float>& disparities);
-  void find_shifts(const std::vector<float>& disparities);
+  void find_shifts();
   void read_reference(const Tile& tile);
   void add_view(const Tile& tile, ViewIndex view);
+  [[nodiscard]] float largest_cost() const {
+    return static_cast<float>(
+        std::min(cost.cap, std::sqrt(static_cast<double>(light_field.channels()))));
+  }
+  [[nodiscard]] float views_compared() const {
+    const GridShape grid = light_field.grid();
+    return static_cast<float>(cost.views == MatchedViews::CrossHair ? grid.u + grid.v - 2
+                                                                    : grid.count() - 1);
+  }
+  [[nodiscard]] bool weighs() const { return cost.caps || cost.occluders; }
+  void read_nearest(const Tile& tile, const Window& window, ViewIndex view);
+  void add_occluders(const Window& window, ViewIndex view, int label, MatchingTile& work) const;
   [[nodiscard]] bool sees(const Tile& tile, ViewIndex view, int label) const;
   [[nodiscard]] Window extend(const Window& window, ViewIndex view, int label) const;
   void read_window(const Tile& tile, const Window& window, ViewIndex view);
@@ -114,14 +130,15 @@ struct MatchingCostRows::State {
 };
 
 MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const MatchingCost& wanted,
-                               const std::vector<float>& disparities)
+                               const std::vector<float>& wanted_labels)
     : light_field(lf),
       reference(view),
       cost(wanted),
+      disparities(wanted_labels),
       labels(static_cast<int>(disparities.size())),
       planes(lf, InvalidSamples::AsNan) {
   check(lf, view, wanted, disparities);
-  find_shifts(disparities);
+  find_shifts();
   tile_rows = std::clamp(kTileLayers / labels, 1, kTileRows);
   cost_pitch = kTileColumns;
   reference_pitch = kTileColumns + kMatchingSlack;
@@ -133,10 +150,14 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
   samples.resize(channels * sample_rows * sample_pitch + kMatchingSlack);
   lines.resize(channels * sample_pitch + kMatchingSlack);
   sums.resize(static_cast<std::size_t>(tile_rows) * labels * cost_pitch + kMatchingSlack);
-  if (!lf.valid().empty() || cost.places) counts.resize(sums.size());
+  if (lf.valid().empty() && !cost.places && !weighs()) return;
+  counts.resize(sums.size());
+  caps.assign(static_cast<std::size_t>(tile_rows) * reference_pitch + kMatchingSlack,
+              largest_cost());
+  nearest.assign(sample_rows * sample_pitch + kMatchingSlack, kNothingNear);
 }
 
-void MatchingCostRows::State::find_shifts(const std::vector<float>& disparities) {
+void MatchingCostRows::State::find_shifts() {
   const GridShape grid = light_field.grid();
   const int height = light_field.height(), width = light_field.width();
   if (cost.places) {
@@ -163,9 +184,13 @@ void MatchingCostRows::State::read_reference(const Tile& tile) {
                (static_cast<std::size_t>(c) * tile_rows + y) * reference_pitch;
     }
     planes.read(reference, tile.y + y, tile.x, tile.x + tile.columns, out.data());
-    if (!cost.noise) continue;
-    std::copy_n(cost.noise->row(tile.y + y) + tile.x, tile.columns,
-                noise.data() + static_cast<std::size_t>(y) * reference_pitch);
+    const std::size_t at = static_cast<std::size_t>(y) * reference_pitch;
+    if (cost.noise) {
+      std::copy_n(cost.noise->row(tile.y + y) + tile.x, tile.columns, noise.data() + at);
+    }
+    if (cost.caps) {
+      std::copy_n(cost.caps->row(tile.y + y) + tile.x, tile.columns, caps.data() + at);
+    }
   }
 }
 
@@ -203,6 +228,33 @@ void MatchingCostRows::State::read_window(const Tile& tile, const Window& window
     const int x = tile.x + window.x;
     planes.read_clamped(view, tile.y + window.y + y, x, x + columns, out.data());
   }
+  if (cost.occluders) read_nearest(tile, window, view);
+}
+
+void MatchingCostRows::State::read_nearest(const Tile& tile, const Window& window, ViewIndex view) {
+  const ImageView<const float> surface = cost.occluders->nearest.view(view);
+  const int rows = tile.rows + window.rows - 1, columns = tile.columns + window.columns - 1;
+  for (int y = 0; y < rows; ++y) {
+    const float* const row = surface.row(std::clamp(tile.y + window.y + y, 0, surface.height - 1));
+    float* const out = nearest.data() + static_cast<std::size_t>(y) * sample_pitch;
+    const int first = tile.x + window.x;
+    for (int x = 0; x < columns; ++x) out[x] = row[std::clamp(first + x, 0, surface.width - 1)];
+  }
+}
+
+void MatchingCostRows::State::add_occluders(const Window& window, ViewIndex view, int label,
+                                            MatchingTile& work) const {
+  work.caps = caps.data();
+  work.nearest = nearest.data();
+  work.limit = 1;
+  work.steepness = 1;
+  if (!cost.occluders) return;
+  const int y = row_shift(view, label).nearest - window.y;
+  const int x = column_shift(view, label).nearest - window.x;
+  work.nearest += static_cast<std::ptrdiff_t>(y) * sample_pitch + x;
+  const Occluders& occluders = *cost.occluders;
+  work.limit = disparities[label] + occluders.tolerance + occluders.softness;
+  work.steepness = 1 / occluders.softness;
 }
 
 void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, ViewIndex view,
@@ -241,6 +293,7 @@ void MatchingCostRows::State::add_label(const Tile& tile, const Window& window, 
     work.seen = counts.data() + static_cast<std::size_t>(label) * cost_pitch;
   }
   work.cost_pitch = static_cast<long>(labels) * cost_pitch;
+  if (weighs()) add_occluders(window, view, label, work);
   kernel.add(work);
 }
 
@@ -265,8 +318,8 @@ void MatchingCostRows::State::add_view(const Tile& tile, ViewIndex view) {
 
 // Sums to means over the views that see the pixel.
 void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> costs) const {
-  const auto worst = static_cast<float>(
-      std::min(cost.cap, std::sqrt(static_cast<double>(light_field.channels()))));
+  const float worst = largest_cost();
+  const float prior = cost.occluders ? cost.occluders->prior * views_compared() : 0.0F;
   const bool cross = cost.views == MatchedViews::CrossHair;
   for (int row = 0; row < tile.rows; ++row) {
     for (int label = 0; label < labels; ++label) {
@@ -274,7 +327,8 @@ void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> 
       const float* sum = sums.data() + first;
       float* out = costs.row(y + row, label) + tile.x;
       if (!counts.empty()) {
-        divide(sum, counts.data() + first, worst, std::span(out, tile.columns));
+        divide(sum, counts.data() + first, caps.data() + row * reference_pitch, prior,
+               std::span(out, tile.columns));
         continue;
       }
       const float* columns =

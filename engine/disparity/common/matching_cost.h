@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/array/image.h"
+#include "engine/core/array/view_stack.h"
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/view_places.h"
@@ -23,6 +24,19 @@ enum class MatchedViews { All, CrossHair };
 enum class Interpolation { Bilinear, Cubic };
 [[nodiscard]] Names<Interpolation> names_of(Interpolation);
 
+/// What stands before the points of a view, as far as it is known.
+struct Occluders {
+  /// The nearest surface in every view, px of disparity; −∞ where none is known.
+  ViewStack<float> nearest;
+  /// A sample counts in full while the surface is nearer by at most `tolerance`, and not at all
+  /// from `tolerance + softness` on, px of disparity.
+  float tolerance = 0.1F;
+  float softness = 0.05F;
+  /// Views that cost ε are added for this share of the views, so that what nearly all views call
+  /// occluded is not believed for the sake of a few.
+  float prior = 0.05F;
+};
+
 /// What a matching cost is made of.
 struct MatchingCost {
   MatchedViews views = MatchedViews::All;
@@ -34,6 +48,10 @@ struct MatchingCost {
   std::shared_ptr<const Image<float>> noise = nullptr;
   /// Where the views stand, one after the other; null = on the regular grid.
   std::shared_ptr<const std::vector<ViewPlace>> places = nullptr;
+  /// ε at each pixel of the reference view, `[y][x]`, instead of `cap`; null = the same everywhere.
+  std::shared_ptr<const Image<float>> caps = nullptr;
+  /// Null = every sample counts.
+  std::shared_ptr<const Occluders> occluders = nullptr;
 };
 
 /// Throws InvalidInput if the view is not in the grid or there is no other view to compare it with.

@@ -38,6 +38,8 @@ struct Line {
   const float* noise;
   float* costs;
   float* seen;
+  const float* nearest;
+  const float* caps;
 };
 
 Line make_line(const MatchingTile& tile, int y) {
@@ -45,6 +47,10 @@ Line make_line(const MatchingTile& tile, int y) {
   line.costs = tile.costs + y * tile.cost_pitch;
   line.seen = tile.seen ? tile.seen + y * tile.cost_pitch : nullptr;
   line.noise = tile.noise + static_cast<long>(y) * tile.reference_pitch;
+  if (tile.nearest) {
+    line.nearest = tile.nearest + static_cast<long>(y) * tile.sample_pitch;
+    line.caps = tile.caps + static_cast<long>(y) * tile.reference_pitch;
+  }
   for (int c = 0; c < tile.channels; ++c) {
     const float* row = tile.samples[c] + static_cast<long>(y) * tile.sample_pitch;
     line.reference[c] = tile.reference[c] + static_cast<long>(y) * tile.reference_pitch;
@@ -113,8 +119,31 @@ void add_known(const MatchingTile& tile, const Line& line) {
   }
 }
 
+// The same where samples count more or less, as they are before or behind what is known to be
+// there.
+template <int kTaps, int kChannels>
+void add_visible(const MatchingTile& tile, const Line& line) {
+  Vec weights[kTaps];
+  for (int i = 0; i < kTaps; ++i) weights[i] = splat(tile.column_weights[i]);
+  const Vec lost = splat(tile.noise_lost), limit = splat(tile.limit);
+  const Vec steepness = splat(tile.steepness), one = splat(1);
+  const Vec numbers = lane_numbers();
+  for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
+    const Vec off = distance<kTaps, kChannels>(line, x, weights, lost);
+    const Vec column = numbers + static_cast<float>(x);
+    const IntVec seen = (off == off) & (column >= static_cast<float>(tile.first_column)) &
+                        (column < static_cast<float>(tile.last_column));
+    const Vec free = (limit - load(line.nearest + x)) * steepness;
+    const Vec share = choose(seen, least(greatest(free, Vec{}), one), Vec{});
+    const Vec cost = choose(seen, least(off, load(line.caps + x)), Vec{});
+    store(line.costs + x, load(line.costs + x) + share * cost);
+    store(line.seen + x, load(line.seen + x) + share);
+  }
+}
+
 template <int kTaps, int kChannels>
 void add_either(const MatchingTile& tile, const Line& line) {
+  if (line.nearest) return add_visible<kTaps, kChannels>(tile, line);
   if (line.seen) return add_known<kTaps, kChannels>(tile, line);
   add_line<kTaps, kChannels>(tile, line);
 }

@@ -38,6 +38,13 @@ struct MatchingTile {
   /// of `costs`. Null: none is NaN.
   float* seen = nullptr;
   long cost_pitch = 0;
+
+  /// What may stand before the sample, and a cap for every pixel: null, or both are given together
+  /// with `seen`. A sample then counts as clamp((limit − nearest)·steepness, 0, 1) of a view.
+  const float* nearest = nullptr;  ///< Like `samples`, at the pixel next to the sample.
+  float limit = 0;
+  float steepness = 0;
+  const float* caps = nullptr;  ///< Instead of `cap`, one plane like `reference`.
 };
 
 /// Adds min(cap, √(|samples − reference|² + noise_lost·noise)) to the costs.

@@ -15,6 +15,7 @@ AxisShift make_shift(double shift, int extent, Interpolation interpolation) {
   const double whole = std::floor(shift + kWhole);
   const double t = shift - whole;
   result.origin = static_cast<int>(whole);
+  result.nearest = result.origin + (t > 0.5 ? 1 : 0);
   result.first = std::clamp(static_cast<int>(std::ceil(-shift - kWhole)), 0, extent);
   result.last =
       std::clamp(static_cast<int>(std::floor(extent - 1 - shift + kWhole)) + 1, 0, extent);

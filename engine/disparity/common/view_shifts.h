@@ -15,7 +15,8 @@ inline constexpr int kMaxShiftTaps = 4;
 
 /// How one axis of a view is sampled at one label.
 struct AxisShift {
-  int origin = 0;  ///< Pixels from the reference pixel to the first tap.
+  int origin = 0;   ///< Pixels from the reference pixel to the first tap,
+  int nearest = 0;  ///< and to the pixel next to the sample, one of the taps.
   int taps = 1;
   std::array<float, kMaxShiftTaps> weights{1};
   /// Share of the variance of noise that the weights leave.

@@ -117,10 +117,9 @@ Names<Positions> names_of(Positions) {
   return {{Positions::Use, "use"}, {Positions::Ignore, "ignore"}};
 }
 
-Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
+Schema<StereoCostParameters> stereo_matching_schema() {
   using P = StereoCostParameters;
   return Schema<P>()
-      .part(&P::profile, profile_schema())
       .integer("labels", &P::labels, {"Labels", "Number of equidistant disparities tested"},
                {2, 512, true})
       .real("epsilon", &P::epsilon,
@@ -150,12 +149,20 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
                "there; ignore: on the regular grid"})
       .interval("range", &P::range, {"Disparity range", kRangeHelp, "px"}, {-20, 20})
       .view("view", &P::view,
-            {"View", "Row and column of the view to estimate; auto = centre view"})
+            {"View", "Row and column of the view to estimate; auto = centre view"});
+}
+
+Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
+  return stereo_matching_schema()
+      .part(&StereoCostParameters::profile, profile_schema())
+      .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile,
               {{"epsilon", views == MatchedViews::All ? 1.0 : kUncapped},
                {"interpolation", std::string("bilinear")},
                {"compensate_noise", false},
-               {"aggregation", 0}});
+               {"aggregation", 0},
+               {"cost", std::string("absolute")},
+               {"positions", std::string("ignore")}});
 }
 
 StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,

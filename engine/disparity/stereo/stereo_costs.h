@@ -40,6 +40,8 @@ struct StereoCostParameters {
   ViewOrAuto view;
 };
 
+/// All but the profile, for methods that no paper tells.
+[[nodiscard]] Schema<StereoCostParameters> stereo_matching_schema();
 /// The profile `paper` sets ε (no cap for the cross-hair, 1 for all views), interpolation
 /// (bilinear), no compensation of noise, no aggregation, cost (absolute) and positions (ignored).
 [[nodiscard]] Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views);

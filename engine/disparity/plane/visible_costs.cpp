@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/plane/visible_costs.h"
+
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/plane/local_caps.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace episcope {
+namespace {
+
+// Between a view that counts and one that does not, px of disparity.
+constexpr float kSoftness = 0.05F;
+
+}  // namespace
+
+Schema<VisibilityParameters> visibility_schema() {
+  using P = VisibilityParameters;
+  return Schema<P>()
+      .integer("rounds", &P::rounds,
+               {"Rounds",
+                "Number of times the costs are computed again without the views in which the "
+                "last result says a point is occluded; 0 = off"},
+               {0, 10})
+      .real("tolerance", &P::tolerance,
+            {"Tolerance", "A surface nearer than a point by more than this occludes it", "px"},
+            {0, 2})
+      .real("prior", &P::prior,
+            {"Prior",
+             "Share of the views that is taken to cost ε, so that what nearly all views call "
+             "occluded is not believed for the sake of a few"},
+            {0, 1})
+      .real("cap_share", &P::cap_share, {"Least cap", "The least cap of a pixel, as a share of ε"},
+            {0, 10})
+      .real("cap_offset", &P::cap_offset,
+            {"Cap offset",
+             "The cap of a pixel follows what a disparity that is off by this much costs there; 0 "
+             "uses ε for all pixels",
+             "px"},
+            {0, 2});
+}
+
+void set_local_caps(const LightField& lf, const VisibilityParameters& parameters,
+                    const Progress& progress, StereoCosts& costs) {
+  if (parameters.cap_offset <= 0 || !costs.matching.noise) return;
+  auto caps = std::make_shared<Image<float>>(
+      local_caps(lf, costs.view, *costs.matching.noise,
+                 {.offset = static_cast<float>(parameters.cap_offset)}, progress));
+  const auto least = static_cast<float>(parameters.cap_share * costs.matching.cap);
+  for (float& cap : *caps) cap = std::max(cap, least);
+  costs.matching.caps = std::move(caps);
+}
+
+void set_occluders(const LightField& lf, ImageView<const float> disparity,
+                   const VisibilityParameters& parameters, const Progress& progress,
+                   StereoCosts& costs) {
+  auto occluders = std::make_shared<Occluders>();
+  occluders->nearest = surfaces_in_views(disparity, costs.view, lf.grid(), progress);
+  occluders->tolerance = static_cast<float>(parameters.tolerance);
+  occluders->softness = kSoftness;
+  occluders->prior = static_cast<float>(parameters.prior);
+  costs.matching.occluders = std::move(occluders);
+}
+
+Volume<float> visible_costs(const LightField& lf, const StereoCosts& costs,
+                            const Progress& progress) {
+  Volume<float> volume = stereo_volume(lf, costs, progress.part(0, 0.95));
+  if (!costs.matching.caps) return volume;
+  const Image<float>& caps = *costs.matching.caps;
+  const auto mean = static_cast<float>(std::accumulate(caps.begin(), caps.end(), 0.0) /
+                                       static_cast<double>(caps.size()));
+  const VolumeView<float> view = volume.view();
+  parallel_for(view.height, progress.part(0.95, 1), [&](int y) {
+    const float* const cap = caps.row(y);
+    for (int label = 0; label < view.layers; ++label) {
+      float* const cost = view.row(y, label);
+      for (int x = 0; x < view.width; ++x) cost[x] *= mean / cap[x];
+    }
+  });
+  return volume;
+}
+
+}  // namespace episcope

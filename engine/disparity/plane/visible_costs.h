@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/common/surfaces_in_views.h"
+#include "engine/disparity/stereo/stereo_costs.h"
+
+namespace episcope {
+
+/// Which views count, and how much a difference does.
+struct VisibilityParameters {
+  int rounds = 1;            ///< Times that costs are computed anew with what occludes what.
+  double tolerance = 0.1;    ///< Occluders::tolerance, px.
+  double prior = 0.02;       ///< Occluders::prior.
+  double cap_share = 0.7;    ///< Of StereoCosts' ε that is the least cap of a pixel.
+  double cap_offset = 0.03;  ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.
+};
+[[nodiscard]] Schema<VisibilityParameters> visibility_schema();
+
+/// Gives every pixel a cap of its own (local_caps.h), at least a share of the ε found for the
+/// whole view. Throws Cancelled.
+void set_local_caps(const LightField& light_field, const VisibilityParameters& parameters,
+                    const Progress& progress, StereoCosts& costs);
+
+/// From here on views in which `disparity` occludes a point do not count for it. Throws Cancelled.
+void set_occluders(const LightField& light_field, ImageView<const float> disparity,
+                   const VisibilityParameters& parameters, const Progress& progress,
+                   StereoCosts& costs);
+
+/// The costs of all rows (stereo_volume), divided by the cap of their pixel and times the mean cap:
+/// a smooth region whose noise is low then says as much as one of strong contrast, and is not
+/// overruled by the smoothness. Throws Cancelled.
+[[nodiscard]] Volume<float> visible_costs(const LightField& light_field, const StereoCosts& costs,
+                                          const Progress& progress);
+
+}  // namespace episcope

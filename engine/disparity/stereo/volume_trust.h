@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+#include "engine/core/array/volume.h"
+#include "engine/disparity/stereo/stereo_costs.h"
+
+namespace episcope {
+
+/// How far a volume of matching costs `[y][label][x]` is to be trusted at its pixels.
+
+/// The mean cost of each pixel over the labels. Throws Cancelled.
+[[nodiscard]] Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress);
+
+/// The mean of an image over the valid pixels of a view.
+[[nodiscard]] double mean_of_valid(const Image<float>& image, const LightField& light_field,
+                                   ViewIndex view);
+
+/// 1 − cost / mean cost, in [0, 1]; 0 without costs.
+[[nodiscard]] float cost_trust(float cost, float mean);
+
+/// The same of each pixel, by the cost of the label nearest to its disparity: one view,
+/// `costs.view`. Throws Cancelled.
+[[nodiscard]] ViewStack<float> volume_confidence(ImageView<const float> disparity,
+                                                 const StereoCosts& stereo,
+                                                 VolumeView<const float> costs,
+                                                 const Image<float>& means,
+                                                 const Progress& progress);
+
+}  // namespace episcope
