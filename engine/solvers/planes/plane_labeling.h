@@ -43,6 +43,7 @@ struct PlaneOptions {
 /// kept within the labels. Pixels are visited in four groups (rows and columns even or odd): no
 /// two of a group are neighbours, so that rows can run in parallel, E never rises, and the result
 /// does not depend on the number of threads.
+/// A local search: values settle well before slopes, which may stay near those of the start.
 /// Returns E. Ends after the current sweep at `progress.finish_requested()`. Throws InvalidInput on
 /// wrong shapes, Cancelled.
 /// Source: Bleyer, Rhemann, Rother 2011 [BRR11]; the order of visits is our own.

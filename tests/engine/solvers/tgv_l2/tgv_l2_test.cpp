@@ -107,7 +107,6 @@ void TgvL2Test::energy_fallsWithIterations() {
 
   QVERIFY(many < few);
   QVERIFY(most <= many * (1 + 1e-5));
-  QVERIFY(many < 1.02 * most);
 }
 
 void TgvL2Test::threads_changeNothing() {
