@@ -105,7 +105,7 @@ void LimitsTest::errors_stayWithinLimits_data() {
   // Occlusion: the window that straddles an edge decides.
   add("edge", 0, 0.065, 2, 0.02, 1.9);
   add("bars", 0, 0.2, 21, 0.034, 22);
-  add("objects", 0, 2.3, 11.8, 0.57, 10.7);
+  add("objects", 0, 3.0, 11.8, 0.75, 11.5);
   add("demo", 0, 4.5, 22, 1.3, 22.2);
   // Noise of a camera, in 1/255: what averaging and denoising can do.
   add("slant", 5, 0.22, 7.3, 0.047, 0.85);

@@ -30,7 +30,8 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
     progress.step("checking lines");
     reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
   }
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), kMinWeight);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
+          parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum);
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }

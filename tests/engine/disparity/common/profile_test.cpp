@@ -26,6 +26,7 @@ const Scene& scene(const std::string& id) {
   options.height = 96;
   options.width = 96;
   options.seed = 3;
+  options.noise_sigma = 2;  // without any, thin bars leave nothing to smooth
   return kept.emplace(id, scenes::render_builtin(id, options, Progress())).first->second;
 }
 
@@ -86,7 +87,7 @@ void ProfileTest::paper_runsAndDiffersFromTuned() {
   const float* const b = tuned.field.disparity.data();
   int differ = 0;
   for (std::size_t i = 0; i < paper.field.disparity.size(); ++i) {
-    QVERIFY(std::isfinite(a[i]) && a[i] >= paper.range.min && a[i] <= paper.range.max);
+    QVERIFY(a[i] >= paper.range.min - 1e-6 && a[i] <= paper.range.max + 1e-6);
     differ += std::fabs(a[i] - b[i]) > 1e-3F ? 1 : 0;
   }
   QVERIFY2(differ > 900, qPrintable(QString::number(differ)));  // a tenth of the pixels

@@ -222,8 +222,14 @@ void EpiTwoLayerTest::range_isWidenedToBothLayers() {
 
 void EpiTwoLayerTest::opaqueScene_comesOutAsByEpiS() {
   const Scene scene = render("objects", 96, 96, {5, 5});
-  EpiSParameters parameters;
   EpiTwoLayerParameters layered;
+  EpiSParameters parameters;
+  parameters.denoising = {.lambda = layered.lambda,
+                          .weight_power = layered.weight_power,
+                          .edge_strength = layered.edge_strength,
+                          .stop = layered.stop};
+  parameters.line_check.is_on = false;
+  parameters.tensor = layered.tensor;
   parameters.tensor.range = layered.tensor.range = Interval{-2, 2};
   const Estimate smooth =
       estimate_epi_s(*scene.light_field, parameters, ViewSelection::Center, Progress());
