@@ -4,6 +4,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/cuts/label_expansion.h"
+#include "engine/disparity/stereo/stereo_costs.h"
 
 #include <fmt/format.h>
 
