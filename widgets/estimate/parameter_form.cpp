@@ -34,7 +34,7 @@ ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGr
   setObjectName("parameterForm");
   layout_->setContentsMargins(0, 0, 0, 0);
   layout_->setHorizontalSpacing(theme::kSpacing);
-  layout_->setVerticalSpacing(4);
+  layout_->setVerticalSpacing(2);
   layout_->setColumnStretch(0, 2);
   layout_->setColumnStretch(1, 3);
 }

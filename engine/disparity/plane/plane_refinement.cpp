@@ -90,8 +90,7 @@ Schema<PlaneRefinementParameters> plane_refinement_schema() {
             {"Truncation", "No pair of neighbours is taken to differ by more than this", "px"},
             {0.001, 20, true})
       .real("reach", &P::reach, {"Reach", "Planes move no pixel by more than this", "px"}, {0, 20})
-      .real("settling", &P::settling,
-            {"Settling", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
+      .real("tgv", &P::tgv, {"TGV²", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
       .real("bend", &P::bend,
             {"Bend", "Cost of a bend against that of a jump in the final denoising", "px"},
             {0.01, 100, true})
@@ -106,10 +105,10 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
     progress.step("matching planes");
     match_planes(data, parameters, progress.part(0, 0.5), disparity);
   }
-  if (parameters.settling <= 0 || progress.finish_requested()) return;
+  if (parameters.tgv <= 0 || progress.finish_requested()) return;
   progress.step("denoising");
   Observations seen = observe(data, disparity, progress.part(0.5, 0.55));
-  solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.settling, parameters.bend},
+  solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.tgv, parameters.bend},
                parameters.tgv_iterations, progress.part(0.55, 1), seen.values.view());
   const float step = label_step(data.stereo);
   for (int y = 0; y < disparity.height; ++y) {

@@ -13,7 +13,7 @@ struct PlaneRefinementParameters {
   double plane_smoothness = 1.5;
   double truncation = 0.5;
   double reach = 0.1;
-  double settling = 0.1;
+  double tgv = 0.1;
   double bend = 2;
   int tgv_iterations = 100;
 };

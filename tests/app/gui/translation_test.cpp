@@ -33,7 +33,8 @@ QString unwrapped(QString text) {
   while (text.contains(wrapped)) text.remove(wrapped);
   static const QRegularExpression tags("<[^>]*>|--[a-z_-]+");
   // Methods, paths, the name of the light field, the program.
-  static const QRegularExpression names("\\b(EPI|ST)_[A-Z_]+\\b|(/[\\w.-]+)+|\\bedge\\b|Episcope");
+  static const QRegularExpression names(
+      "\\b(EPI|ST|PLANE)_[A-Z_]+\\b|\\bKZ02\\b|(/[\\w.-]+)+|\\bedge\\b|Episcope");
   static const QRegularExpression keys(
       "\\b(Ctrl|Shift|Alt|Return|Enter|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|Left|Right|"
       "Tab|"

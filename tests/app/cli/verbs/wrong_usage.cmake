@@ -24,7 +24,7 @@ wrong("'disparty'; did you mean 'disparity'" show lf.h5 -o x.png --what disparty
 wrong("'virids'; did you mean 'viridis'" show lf.h5 -o x.png --colormap virids)
 wrong("--inner_scale is 'much', but must be a number from 0 to 2" estimate epi_l lf.h5 -o x.h5 --inner_scale much)
 wrong("--inner_scale is '-3', but must be a number from 0 to 2" estimate epi_l lf.h5 -o x.h5 --inner_scale -3)
-wrong("--range is 2,1, but must be auto or A,B with A < B" estimate epi_l lf.h5 -o x.h5 --range 2,1)
+wrong("--range is 2,1, but must be auto, found or A,B with A < B" estimate epi_l lf.h5 -o x.h5 --range 2,1)
 wrong("--range is '2,1', but must be" show lf.h5 -o x.png --range 2,1)
 wrong("--view is '2', but must be" show lf.h5 -o x.png --view 2)
 wrong("--row and --column exclude" show lf.h5 -o x.png --what epi --row 1 --column 1)

@@ -4,6 +4,8 @@
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
+#include <algorithm>
+
 namespace episcope::in_kz02_test {
 
 using namespace episcope::test;
@@ -54,7 +56,9 @@ void Kz02Test::finish_givesTheLabelsSoFar() {
   const Estimate estimate = kz02_estimator().run(*scene.light_field, {}, {}, progress);
 
   QVERIFY(all_finite(estimate.field.disparity));
-  QVERIFY(estimate.notes.back().find("in 0 cycles") != std::string::npos);
+  QVERIFY(std::ranges::any_of(estimate.notes, [](const std::string& note) {
+    return note.find("in 0 cycles") != std::string::npos;
+  }));
 }
 
 }  // namespace episcope::in_kz02_test
