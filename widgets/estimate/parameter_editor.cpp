@@ -15,6 +15,7 @@
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QSpinBox>
+#include <QVBoxLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -228,8 +229,11 @@ class IntervalEditor : public ParameterEditor {
     ends_ = {std::max(domain_.min, -1.0), std::min(domain_.max, 1.0)};
     if (ends_.length() <= 0) ends_ = domain_;
     auto* row = make_row(this);
-    row->addWidget(automatic_);
-    row->addWidget(found_);
+    auto* choices = new QVBoxLayout;
+    choices->setSpacing(0);
+    choices->addWidget(automatic_);
+    choices->addWidget(found_);
+    row->addLayout(choices);
     row->addWidget(min_, 1);
     row->addWidget(new QLabel("…", this));
     row->addWidget(max_, 1);

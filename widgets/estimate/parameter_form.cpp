@@ -11,6 +11,8 @@
 #include <QToolButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
@@ -27,6 +29,8 @@ QString tool_tip(const ParameterDescription& d) {
 QString reset_tip(const ParameterDescription& d) {
   return ParameterForm::tr("Reset to the default, %1").arg(value_text(d, d.default_value));
 }
+
+constexpr int kLabelWidth = 92;  ///< In px, that no editor takes away.
 
 }  // namespace
 
@@ -59,6 +63,9 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
   label->setWordWrap(true);
+  // Only long labels take a second line, however much room the editors would like.
+  label->setMinimumWidth(
+      std::min(label->fontMetrics().horizontalAdvance(label->text()) + 4, kLabelWidth));
   editor->setToolTip(tool_tip(description));
   reset->setIconSize({12, 12});
   QSizePolicy keeps_place = reset->sizePolicy();

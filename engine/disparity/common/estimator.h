@@ -52,8 +52,7 @@ struct Estimator {
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
-/// Adds to the notes which range was searched and where it comes from, if there is a parameter
-/// `range`.
+/// Adds to the notes which range was searched, if the parameter `range` asked to find it.
 void note_range(const LightField& light_field, Estimate& estimate);
 
 /// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
