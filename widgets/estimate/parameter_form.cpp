@@ -30,8 +30,6 @@ QString reset_tip(const ParameterDescription& d) {
   return ParameterForm::tr("Reset to the default, %1").arg(value_text(d, d.default_value));
 }
 
-constexpr int kLabelWidth = 92;  ///< In px, that no editor takes away.
-
 }  // namespace
 
 ParameterForm::ParameterForm(QWidget* parent) : QWidget(parent), layout_(new QGridLayout(this)) {
@@ -63,9 +61,6 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
   label->setWordWrap(true);
-  // Only long labels take a second line, however much room the editors would like.
-  label->setMinimumWidth(
-      std::min(label->fontMetrics().horizontalAdvance(label->text()) + 4, kLabelWidth));
   editor->setToolTip(tool_tip(description));
   reset->setIconSize({12, 12});
   QSizePolicy keeps_place = reset->sizePolicy();

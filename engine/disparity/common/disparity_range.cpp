@@ -219,11 +219,9 @@ RangeSource range_source(const LightField& lf, const IntervalOrAuto& wanted) {
   return is_promised ? RangeSource::Promised : RangeSource::Found;
 }
 
-std::string range_note(Interval range, RangeSource source) {
-  const char* const origin = source == RangeSource::Given      ? "as given"
-                             : source == RangeSource::Promised ? "promised by the files"
-                                                               : "found from the images";
-  return fmt::format("disparity range {:.2f} … {:.2f} px, {}", range.min, range.max, origin);
+std::string found_range_note(Interval range) {
+  return fmt::format("disparity range {:.2f} … {:.2f} px, found from the images", range.min,
+                     range.max);
 }
 
 Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,

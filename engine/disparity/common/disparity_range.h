@@ -14,7 +14,7 @@ enum class RangeSource { Given, Promised, Found };
 [[nodiscard]] RangeSource range_source(const LightField& light_field, const IntervalOrAuto& wanted);
 
 /// "disparity range -1.65 … 1.50 px, found from the images".
-[[nodiscard]] std::string range_note(Interval range, RangeSource source);
+[[nodiscard]] std::string found_range_note(Interval range);
 
 /// Help of a parameter that is a range to search.
 inline constexpr const char* kRangeHelp =

@@ -33,11 +33,11 @@ void note_positions(const LightField& light_field, Estimate& estimate) {
 
 }  // namespace
 
-void note_range(const LightField& light_field, Estimate& estimate) {
+void note_range(Estimate& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
     if (key != "range" || !wanted || !wanted->is_found) continue;
-    estimate.notes.push_back(range_note(estimate.range, range_source(light_field, *wanted)));
+    estimate.notes.push_back(found_range_note(estimate.range));
   }
 }
 

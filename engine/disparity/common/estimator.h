@@ -53,7 +53,7 @@ template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
 /// Adds to the notes which range was searched, if the parameter `range` asked to find it.
-void note_range(const LightField& light_field, Estimate& estimate);
+void note_range(Estimate& estimate);
 
 /// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
@@ -83,7 +83,7 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
     }();
     mark_invalid(light_field, result);
     result.parameters = schema.values(parameters);
-    note_range(light_field, result);
+    note_range(result);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
   };

@@ -60,7 +60,7 @@ class DisparityRangeTest : public QObject {
   void wantedRange_goesFirst();
   void promisedRange_goesBeforeFound();
   void rangeToBeFound_ignoresThePromise();
-  void note_tellsTheSource();
+  void note_tellsOfARangeToBeFound();
   void foundRange_ofGridTooLargeIsRefused();
   void stop_throwsCancelled();
   void coveringShears_reachEveryDisparity_data();
@@ -222,19 +222,18 @@ void DisparityRangeTest::rangeToBeFound_ignoresThePromise() {
            find_disparity_range(lf, Progress()));
 }
 
-void DisparityRangeTest::note_tellsTheSource() {
+void DisparityRangeTest::note_tellsOfARangeToBeFound() {
   const Scene scene = render("fronto", 48, 48, {5, 5});
   const LightField promising = with_promised_range(scene, {-0.5, 1});
-  const auto note = [](const LightField& lf, const IntervalOrAuto& range) {
-    return find_estimator("st_ch_l").run(lf, {{"range", range}}, {}, Progress()).notes.back();
+  const auto is_noted = [](const LightField& lf, const IntervalOrAuto& range) {
+    const Estimate estimate = find_estimator("st_ch_l").run(lf, {{"range", range}}, {}, Progress());
+    return std::ranges::count(estimate.notes, found_range_note(estimate.range)) == 1;
   };
 
-  QCOMPARE(note(promising, Interval{-1, 1.5}), "disparity range -1.00 … 1.50 px, as given");
-  QCOMPARE(note(promising, {}), "disparity range -0.50 … 1.00 px, promised by the files");
-  for (const LightField* lf : {&promising, scene.light_field.get()}) {
-    const std::string found = note(*lf, IntervalOrAuto::found());
-    QVERIFY2(found.ends_with("px, found from the images"), found.c_str());
-  }
+  QVERIFY(!is_noted(promising, Interval{-1, 1.5}));
+  QVERIFY(!is_noted(promising, {}));
+  QVERIFY(is_noted(promising, IntervalOrAuto::found()));
+  QVERIFY(is_noted(*scene.light_field, IntervalOrAuto::found()));
 }
 
 void DisparityRangeTest::foundRange_ofGridTooLargeIsRefused() {
