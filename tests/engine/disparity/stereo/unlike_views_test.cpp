@@ -172,13 +172,15 @@ void UnlikeViewsTest::rowsFartherApart_areMeasuredInColumns() {
 }
 
 void UnlikeViewsTest::methodsOfEpis_sayWhatTheyAssume() {
-  const auto note = [](const Scene& scene) {
-    return find_estimator("epi_l")
-        .run(*scene.light_field, {}, {.views = ViewSelection::Center}, Progress())
-        .notes.back();
+  const auto notes_cameras = [](const Scene& scene) {
+    const Estimate estimate = find_estimator("epi_l").run(
+        *scene.light_field, {}, {.views = ViewSelection::Center}, Progress());
+    return std::ranges::any_of(estimate.notes, [](const std::string& note) {
+      return note.starts_with("cameras stand up to 0.");
+    });
   };
-  QVERIFY(note(render_at(jittered(kGrid))).starts_with("cameras stand up to 0."));
-  QVERIFY(!note(render_at({})).starts_with("cameras"));
+  QVERIFY(notes_cameras(render_at(jittered(kGrid))));
+  QVERIFY(!notes_cameras(render_at({})));
 }
 
 void UnlikeViewsTest::wrongPositions_doNoHarm_data() {
