@@ -5,6 +5,7 @@
 #include "engine/disparity/registry.h"
 #include "engine/scenes/request.h"
 #include "tests/accuracy/measure.h"
+#include "tests/accuracy/variant.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,18 +25,14 @@ constexpr double kMinError = 1e-6;
 
 AblatedMethod method_from(const Json& json) {
   AblatedMethod method{json.at("method"), {}};
-  const std::vector<ParameterDescription> parameters = find_estimator(method.method).parameters;
   for (const Json& each : json.at("variants")) {
-    AblationVariant variant{each.at("name"), {}};
     const Json values = each.value("parameters", Json::object());
+    std::vector<std::string> settings;
     for (const auto& [key, text] : values.items()) {
-      const auto known = std::ranges::find(parameters, key, &ParameterDescription::key);
-      if (known == parameters.end()) {
-        throw InvalidInput(method.method + " has no parameter '" + key + "'; see " + variant.name);
-      }
-      variant.values.emplace_back(key, parse_parameter(*known, text.get<std::string>()));
+      settings.push_back(key + "=" + text.get<std::string>());
     }
-    method.variants.push_back(std::move(variant));
+    method.variants.push_back(
+        {each.at("name"), variants({method.method}, settings).front().values});
   }
   return method;
 }

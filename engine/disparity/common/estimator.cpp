@@ -19,6 +19,15 @@ void require_device(Device device, const EstimatorInfo& info) {
 
 namespace {
 
+// For a parameter `range` that asked to find it.
+void note_range(Estimate& estimate) {
+  for (const auto& [key, value] : estimate.parameters) {
+    const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
+    if (key != "range" || !wanted || !wanted->is_found) continue;
+    estimate.notes.push_back(found_range_note(estimate.range));
+  }
+}
+
 // For a method without a parameter `positions`: that it takes cameras for equidistant.
 void note_positions(const LightField& light_field, Estimate& estimate) {
   const auto is_choice = [](const auto& entry) { return entry.first == "positions"; };
@@ -33,14 +42,6 @@ void note_positions(const LightField& light_field, Estimate& estimate) {
 
 }  // namespace
 
-void note_range(Estimate& estimate) {
-  for (const auto& [key, value] : estimate.parameters) {
-    const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
-    if (key != "range" || !wanted || !wanted->is_found) continue;
-    estimate.notes.push_back(found_range_note(estimate.range));
-  }
-}
-
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds) {
   estimate.method = method;
@@ -48,6 +49,7 @@ void complete_estimate(Estimate& estimate, const std::string& method, const Ligh
   estimate.version = kVersion;
   estimate.source = light_field.info().source;
   estimate.reading = light_field.info().reading;
+  note_range(estimate);
   note_positions(light_field, estimate);
 }
 

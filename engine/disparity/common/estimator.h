@@ -52,10 +52,9 @@ struct Estimator {
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
-/// Adds to the notes which range was searched, if the parameter `range` asked to find it.
-void note_range(Estimate& estimate);
-
-/// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago.
+/// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago, and
+/// notes what its parameters leave open: a range that was to be found, cameras taken for
+/// equidistant.
 void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
                        double seconds);
 
@@ -83,7 +82,6 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
     }();
     mark_invalid(light_field, result);
     result.parameters = schema.values(parameters);
-    note_range(result);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
   };

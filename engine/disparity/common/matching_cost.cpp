@@ -160,18 +160,15 @@ MatchingCostRows::State::State(const LightField& lf, ViewIndex view, const Match
 void MatchingCostRows::State::find_shifts() {
   const GridShape grid = light_field.grid();
   const int height = light_field.height(), width = light_field.width();
-  if (cost.places) {
-    const std::size_t origin = index_of(reference);
-    row_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::v), height,
-                             cost.interpolation, disparities);
-    column_shifts = make_shifts(stated_ways(*cost.places, origin, &ViewPlace::u), width,
-                                cost.interpolation, disparities);
-    return;
-  }
-  row_shifts =
-      make_shifts(regular_ways(grid.v, reference.v), height, cost.interpolation, disparities);
+  const auto ways = [&](int places, int at, double ViewPlace::*axis) {
+    return cost.places ? stated_ways(*cost.places, index_of(reference), axis)
+                       : regular_ways(places, at);
+  };
+  row_shifts = make_shifts(ways(grid.v, reference.v, &ViewPlace::v), height, cost.interpolation,
+                           disparities);
   column_shifts =
-      make_shifts(regular_ways(grid.u, reference.u), width, cost.interpolation, disparities);
+      make_shifts(ways(grid.u, reference.u, &ViewPlace::u), width, cost.interpolation, disparities);
+  if (cost.places) return;
   rows_seen = count_seen(row_shifts, labels, height);
   columns_seen = count_seen(column_shifts, labels, width);
 }

@@ -79,6 +79,13 @@ inline Vec distance(const Line& line, int x, const Vec* weights, Vec noise_lost)
   return square_root(sum);
 }
 
+// Which lanes from x on are columns that the view sees.
+inline IntVec in_columns(const MatchingTile& tile, Vec numbers, int x) {
+  const Vec column = numbers + static_cast<float>(x);
+  return (column >= static_cast<float>(tile.first_column)) &
+         (column < static_cast<float>(tile.last_column));
+}
+
 template <int kTaps, int kChannels>
 void add_line(const MatchingTile& tile, const Line& line) {
   Vec weights[kTaps];
@@ -95,9 +102,7 @@ void add_line(const MatchingTile& tile, const Line& line) {
   const Vec numbers = lane_numbers();
   for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
     const Vec cost = least(distance<kTaps, kChannels>(line, x, weights, lost), cap);
-    const Vec column = numbers + static_cast<float>(x);
-    const IntVec seen = (column >= static_cast<float>(tile.first_column)) &
-                        (column < static_cast<float>(tile.last_column));
+    const IntVec seen = in_columns(tile, numbers, x);
     store(line.costs + x, load(line.costs + x) + choose(seen, cost, Vec{}));
   }
 }
@@ -111,9 +116,7 @@ void add_known(const MatchingTile& tile, const Line& line) {
   const Vec numbers = lane_numbers();
   for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
     const Vec off = distance<kTaps, kChannels>(line, x, weights, lost);
-    const Vec column = numbers + static_cast<float>(x);
-    const IntVec seen = (off == off) & (column >= static_cast<float>(tile.first_column)) &
-                        (column < static_cast<float>(tile.last_column));
+    const IntVec seen = (off == off) & in_columns(tile, numbers, x);
     store(line.costs + x, load(line.costs + x) + choose(seen, least(off, cap), Vec{}));
     store(line.seen + x, load(line.seen + x) + choose(seen, one, Vec{}));
   }
@@ -130,9 +133,7 @@ void add_visible(const MatchingTile& tile, const Line& line) {
   const Vec numbers = lane_numbers();
   for (int x = tile.first_column / kLanes * kLanes; x < tile.last_column; x += kLanes) {
     const Vec off = distance<kTaps, kChannels>(line, x, weights, lost);
-    const Vec column = numbers + static_cast<float>(x);
-    const IntVec seen = (off == off) & (column >= static_cast<float>(tile.first_column)) &
-                        (column < static_cast<float>(tile.last_column));
+    const IntVec seen = (off == off) & in_columns(tile, numbers, x);
     const Vec free = (limit - load(line.nearest + x)) * steepness;
     const Vec share = choose(seen, least(greatest(free, Vec{}), one), Vec{});
     const Vec cost = choose(seen, least(off, load(line.caps + x)), Vec{});

@@ -2,7 +2,6 @@
 #include "engine/disparity/plane/plane_pm.h"
 
 #include "engine/disparity/common/smoothness_weights.h"
-#include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 #include <fmt/format.h>
@@ -12,27 +11,15 @@
 namespace episcope {
 namespace {
 
-constexpr float kMinWeight = 0.01F;
-
 // Labels the costs, with every pixel placed at the parabola through its label and the two beside.
 void label_costs(const LightField& lf, const PlaneParameters& parameters,
                  const PlaneRefinementData& data, Estimate& estimate, const Progress& progress) {
-  const VolumeView<const float>& costs = data.costs;
-  const std::vector<float>& labels = data.stereo.labels;
-  const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) {
-    const float cost = costs.at(y, label, x);
-    const float trust = cost_trust(cost, data.means.at(y, x));
-    float offset = 0;
-    if (label > 0 && label + 1 < costs.layers) {
-      offset = sub_label_offset(costs.at(y, label - 1, x), cost, costs.at(y, label + 1, x),
-                                Refinement::Parabola);
-    }
-    return Placement{labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
+    return place_by_costs(data.stereo, data.costs, data.means, y, x, label);
   };
   estimate.notes.clear();
-  label_globally(lf, {data.stereo.view, labels, costs, data.scale, place}, parameters.labeling,
-                 estimate, progress);
+  label_globally(lf, {data.stereo.view, data.stereo.labels, data.costs, data.scale, place},
+                 parameters.labeling, estimate, progress);
 }
 
 // Costs with what is known of the visibility, labeled; the last time also refined.

@@ -2,7 +2,6 @@
 #include "engine/disparity/plane/plane_refinement.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/planes/plane_labeling.h"
 #include "engine/solvers/tgv_l2/tgv_l2.h"
@@ -12,9 +11,6 @@
 
 namespace episcope {
 namespace {
-
-// No pixel gets weight 0 when it is placed between labels.
-constexpr float kMinWeight = 0.01F;
 
 float label_step(const StereoCosts& stereo) {
   return stereo.labels[1] - stereo.labels[0];
@@ -54,19 +50,13 @@ Observations observe(const PlaneRefinementData& data, ImageView<const float> dis
   Observations all{Image<float>(disparity.height, disparity.width),
                    Image<float>(disparity.height, disparity.width)};
   const float step = label_step(data.stereo), first = data.stereo.labels.front();
-  const VolumeView<const float>& costs = data.costs;
   parallel_for(disparity.height, progress, [&](int y) {
     for (int x = 0; x < disparity.width; ++x) {
       const float place = (disparity.at(y, x) - first) / step;
-      const int label = std::clamp(static_cast<int>(place + 0.5F), 0, costs.layers - 1);
-      const float trust = cost_trust(costs.at(y, label, x), data.means.at(y, x));
-      all.weights.at(y, x) = std::max(trust * trust, kMinWeight);
-      float offset = 0;
-      if (label > 0 && label + 1 < costs.layers) {
-        offset = sub_label_offset(costs.at(y, label - 1, x), costs.at(y, label, x),
-                                  costs.at(y, label + 1, x), Refinement::Parabola);
-      }
-      all.values.at(y, x) = data.stereo.labels[label] + offset * step;
+      const int label = std::clamp(static_cast<int>(place + 0.5F), 0, data.costs.layers - 1);
+      const Placement placed = place_by_costs(data.stereo, data.costs, data.means, y, x, label);
+      all.values.at(y, x) = placed.disparity;
+      all.weights.at(y, x) = placed.weight;
     }
   });
   return all;

@@ -107,6 +107,11 @@ void choose_places(const LightField& lf, StereoCosts& costs, Residuals& residual
                         ", they match no better than the grid");
 }
 
+std::string cap_note(const StereoCosts& costs) {
+  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
+  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
+}
+
 }  // namespace
 
 Names<Compared> names_of(Compared) {
@@ -242,11 +247,6 @@ Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
     };
   });
   return volume;
-}
-
-std::string cap_note(const StereoCosts& costs) {
-  if (costs.matching.cap >= kUncapped) return "matching cost uncapped";
-  return fmt::format("matching cost capped at ε = {:.3f}", costs.matching.cap);
 }
 
 std::vector<std::string> cost_notes(const StereoCosts& costs) {

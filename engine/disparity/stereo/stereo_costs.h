@@ -74,9 +74,8 @@ struct StereoCosts {
                                          const StereoCostParameters& parameters,
                                          const Progress& progress);
 
-/// For the notes of an estimate: which cap was used.
-[[nodiscard]] std::string cap_note(const StereoCosts& costs);
-/// All notes: also which positions of cameras, if any are stated.
+/// For the notes of an estimate: which cap was used, and which positions of cameras if any are
+/// stated.
 [[nodiscard]] std::vector<std::string> cost_notes(const StereoCosts& costs);
 
 /// The costs of some rows, aggregated. Not thread-safe: use one object per thread.

@@ -2,19 +2,9 @@
 #include "engine/disparity/stereo/stereo_global.h"
 
 #include "engine/disparity/common/cost_unit.h"
-#include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
-#include <algorithm>
-#include <vector>
-
 namespace episcope {
-namespace {
-
-// No pixel gets weight 0 when it is placed between labels.
-constexpr float kMinWeight = 0.01F;
-
-}  // namespace
 
 Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
   using P = StereoGlobalParameters;
@@ -44,14 +34,7 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
   estimate.notes = cost_notes(stereo);
   const float step = stereo.labels[1] - stereo.labels[0];
   const auto place = [&](int y, int x, int label) {
-    const float cost = costs.at(y, label, x);
-    const float trust = cost_trust(cost, means.at(y, x));
-    float offset = 0;
-    if (label > 0 && label + 1 < costs.layers) {
-      offset = sub_label_offset(costs.at(y, label - 1, x), cost, costs.at(y, label + 1, x),
-                                Refinement::Parabola);
-    }
-    return Placement{stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
+    return place_by_costs(stereo, costs, means, y, x, label);
   };
   const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
   label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,

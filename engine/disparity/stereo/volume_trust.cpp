@@ -3,10 +3,17 @@
 
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/invalid_pixels.h"
+#include "engine/disparity/common/sub_label.h"
 
 #include <algorithm>
 
 namespace episcope {
+namespace {
+
+// No pixel gets weight 0 when it is placed between labels.
+constexpr float kMinWeight = 0.01F;
+
+}  // namespace
 
 Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress) {
   Image<float> means(costs.height, costs.width);
@@ -23,6 +30,19 @@ Image<float> mean_costs(VolumeView<const float> costs, const Progress& progress)
 
 float cost_trust(float cost, float mean) {
   return mean > 0 ? std::clamp(1 - cost / mean, 0.0F, 1.0F) : 0;
+}
+
+Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,
+                         const Image<float>& means, int y, int x, int label) {
+  const float cost = costs.at(y, label, x);
+  const float trust = cost_trust(cost, means.at(y, x));
+  float offset = 0;
+  if (label > 0 && label + 1 < costs.layers) {
+    offset = sub_label_offset(costs.at(y, label - 1, x), cost, costs.at(y, label + 1, x),
+                              Refinement::Parabola);
+  }
+  const float step = stereo.labels[1] - stereo.labels[0];
+  return {stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
 }
 
 ViewStack<float> volume_confidence(ImageView<const float> disparity, const StereoCosts& stereo,

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/image.h"
 #include "engine/core/array/volume.h"
+#include "engine/disparity/common/global_labeling.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
 namespace episcope {
@@ -19,7 +20,12 @@ namespace episcope {
 /// 1 − cost / mean cost, in [0, 1]; 0 without costs.
 [[nodiscard]] float cost_trust(float cost, float mean);
 
-/// The same of each pixel, by the cost of the label nearest to its disparity: one view,
+/// A pixel of a label at the parabola through its cost and those of the labels beside it, with the
+/// square of its trust as weight, at least 0.01.
+[[nodiscard]] Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,
+                                       const Image<float>& means, int y, int x, int label);
+
+/// The trust of each pixel, by the cost of the label nearest to its disparity: one view,
 /// `costs.view`. Throws Cancelled.
 [[nodiscard]] ViewStack<float> volume_confidence(ImageView<const float> disparity,
                                                  const StereoCosts& stereo,

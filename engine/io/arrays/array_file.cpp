@@ -16,6 +16,15 @@ constexpr std::size_t kSmall = std::size_t{64} << 20;
 
 }  // namespace
 
+std::string last_name(const std::string& name) {
+  return name.substr(name.rfind('/') + 1);
+}
+
+std::string content_text(const ArrayEntry& entry) {
+  if (!entry.other_kind.empty()) return entry.other_kind;
+  return array_shape_text(in_index_order(entry.shape, entry.order));
+}
+
 void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,
                             NumberType type, std::uint64_t bytes) {
   const std::size_t count = element_count(shape);

@@ -22,6 +22,11 @@ struct ArrayEntry {
   std::string other_kind{};   ///< "struct", "text": what it is if it is no array of numbers.
 };
 
+/// A name without the structures or groups that the array lies in: "LF" of "s/LF".
+[[nodiscard]] std::string last_name(const std::string& name);
+/// "9×9×512×512×3", in the order of indices, or what it is if it is no array of numbers.
+[[nodiscard]] std::string content_text(const ArrayEntry& entry);
+
 /// A file of one or several arrays with names.
 class ArrayFile {
  public:

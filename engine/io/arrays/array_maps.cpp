@@ -17,7 +17,7 @@ namespace {
 
 std::optional<MapKind> kind_of(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return std::nullopt;
-  const std::string name = entry.name.substr(entry.name.rfind('/') + 1);
+  const std::string name = last_name(entry.name);
   if (lower_case(name) == "gt") return MapKind::Disparity;
   return map_kind(name);
 }
@@ -68,8 +68,8 @@ ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind 
 }
 
 FileUse not_used(const ArrayEntry& entry) {
-  const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
-  return {entry.other_kind.empty() ? "array of " + shape : entry.other_kind, 1, entry.name, false};
+  const std::string content = content_text(entry);
+  return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
 }
 
 }  // namespace

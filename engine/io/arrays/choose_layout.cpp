@@ -18,21 +18,16 @@ namespace {
 
 constexpr int kWindow = 256;
 
-std::string last_part(const std::string& name) {
-  const std::size_t slash = name.rfind('/');
-  return lower_case(slash == std::string::npos ? name : name.substr(slash + 1));
-}
-
 bool is_light_field_name(const std::string& name) {
   constexpr const char* kNames[] = {"lf",    "lightfield", "light_field", "light-field", "lf_rgb",
                                     "views", "lf_data",    "lfs",         "lightfields"};
-  return std::ranges::find(kNames, last_part(name)) != std::end(kNames);
+  return std::ranges::find(kNames, lower_case(last_name(name))) != std::end(kNames);
 }
 
 /// Words for maps and for what describes a camera.
 bool is_other_name(const std::string& name) {
   constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
-  const std::string last = last_part(name);
+  const std::string last = lower_case(last_name(name));
   return std::ranges::any_of(
       kWords, [&](const char* word) { return last.find(word) != std::string::npos; });
 }
@@ -43,8 +38,7 @@ std::size_t letter_count(const std::string& axes) {
 }
 
 std::string entry_text(const ArrayEntry& entry) {
-  if (!entry.other_kind.empty()) return entry.name + ", " + entry.other_kind;
-  return entry.name + ", " + array_shape_text(in_index_order(entry.shape, entry.order));
+  return entry.name + ", " + content_text(entry);
 }
 
 /// "rows of views, columns of views, rows, columns, channels".

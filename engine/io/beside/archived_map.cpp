@@ -42,10 +42,6 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, GridShape grid) {
   return layout;
 }
 
-std::string last_name(const ArrayEntry& entry) {
-  return entry.name.substr(entry.name.rfind('/') + 1);
-}
-
 struct FoundMap {
   ArrayEntry entry;
   ArrayLayout layout;
@@ -57,14 +53,13 @@ FoundMap find_map(const ArrayFile& file, GridShape grid, Kinds kinds) {
     if (auto layout = map_layout(entry, grid)) maps.push_back({entry, std::move(*layout)});
   }
   const auto named = std::ranges::find_if(maps, [&](const FoundMap& map) {
-    const auto kind = map_kind(last_name(map.entry));
+    const auto kind = map_kind(last_name(map.entry.name));
     return kind && std::ranges::find(kinds, *kind) != kinds.end();
   });
   if (named != maps.end()) return *named;
   if (maps.size() == 1) return maps.front();
   const std::string held = joined(file.entries(), ", ", [](const ArrayEntry& entry) {
-    const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
-    return entry.name + " (" + (entry.other_kind.empty() ? shape : entry.other_kind) + ")";
+    return entry.name + " (" + content_text(entry) + ")";
   });
   throw IoError(file.path(),
                 fmt::format("the file holds {}: {} of one view or of {}×{} views; store the map "

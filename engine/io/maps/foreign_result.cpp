@@ -11,6 +11,7 @@
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/maps/pfm.h"
+#include "engine/io/maps/submission_folder.h"
 
 #include <fmt/format.h>
 
@@ -116,13 +117,14 @@ DisparityField read_npy_field(const fs::path& path, GridShape grid) {
 
 /// `disp_maps/<scene>.pfm`, or the only map if no scene is named.
 fs::path submitted_map(const fs::path& folder, const std::string& scene) {
-  const fs::path maps = folder / "disp_maps";
+  const fs::path named = submitted_map_file(folder, scene);
+  const fs::path maps = named.parent_path();
   if (!fs::is_directory(maps)) {
     throw IoError(folder,
                   "this folder has no disp_maps, unlike a submission to the 2016 benchmark; name a "
                   "result file");
   }
-  if (!scene.empty() && fs::exists(maps / (scene + ".pfm"))) return maps / (scene + ".pfm");
+  if (!scene.empty() && fs::exists(named)) return named;
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(maps)) {
     if (suffix_of(entry.path()) == ".pfm") found.push_back(entry.path());
@@ -186,7 +188,7 @@ Estimate read_foreign_result(const fs::path& path, GridShape grid, const std::st
   estimate.field = read_disparity_map(map, grid);
   estimate.method = fs::absolute(path / "x").parent_path().filename().string();
   estimate.source = map.stem().string();
-  estimate.seconds = read_seconds(path / "runtimes" / (map.stem().string() + ".txt"));
+  estimate.seconds = read_seconds(submitted_runtime_file(path, map.stem().string()));
   return estimate;
 }
 
