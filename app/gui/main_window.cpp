@@ -9,6 +9,7 @@
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/job_view.h"
 #include "app/gui/frame/jobs.h"
+#include "app/gui/frame/keyboard_home.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
@@ -20,7 +21,9 @@
 #include "widgets/canvas/view_canvas.h"
 
 #include <QCloseEvent>
+#include <QDialog>
 #include <QMenuBar>
+#include <QScreen>
 #include <QSettings>
 #include <QToolBar>
 
@@ -28,6 +31,7 @@ namespace episcope {
 namespace {
 
 constexpr QSize kFirstSize(1280, 800);
+constexpr QSize kDecorations(4, 40);
 
 }  // namespace
 
@@ -41,6 +45,7 @@ struct MainWindow::Core {
         messages(*frame),
         stage(new Stage(frame)),
         commands(&window, frame->viewer()),
+        keyboard(window, [this] { return stage->activeCanvas(); }),
         overlay(session, *stage, nullptr),
         document(session, nullptr),
         labels(document, nullptr),
@@ -58,6 +63,7 @@ struct MainWindow::Core {
   Messages messages;
   Stage* stage;
   Commands commands;
+  KeyboardHome keyboard;
   Overlay overlay;
   DocumentController document;
   LabelChoice labels;
@@ -81,6 +87,7 @@ MainWindow::MainWindow(QWidget* parent)
   });
   for (const Feature& feature : features()) feature.add(bench);
   addTabCommands();
+  connect(&bench.frame, &Frame::tabShown, &core_->keyboard, &KeyboardHome::goHomeFromControls);
   buildBars();
   bench.session.on_changed([&commands = bench.commands](Parts parts) {
     if (parts != Part::CrossHair) commands.refresh();
@@ -126,7 +133,10 @@ void MainWindow::buildBars() {
 
 void MainWindow::restoreLayout() {
   const QByteArray geometry = QSettings().value("geometry").toByteArray();
-  if (geometry.isEmpty() || !restoreGeometry(geometry)) resize(kFirstSize);
+  if (geometry.isEmpty() || !restoreGeometry(geometry)) {
+    // The title bar, which the desktop adds, needs its room too.
+    resize(kFirstSize.boundedTo(screen()->availableSize() - kDecorations));
+  }
   core_->stage->canvas()->setFocus();
 }
 
@@ -137,6 +147,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   QSettings().setValue("geometry", saveGeometry());
+  for (auto* dialog : findChildren<QDialog*>()) dialog->close();
   event->accept();
 }
 

@@ -8,6 +8,16 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+std::string name_of_method(const std::string& id) {
+  for (const Estimator& estimator : registered_estimators()) {
+    if (estimator.info.id == id) return estimator.info.name;
+  }
+  return id;
+}
+
+}  // namespace
 
 Session::Session(JobRunner::Post post)
     : post_(std::move(post)),
@@ -62,11 +72,7 @@ LightFieldPtr Session::light_field() const {
   return scene_ ? scene_->light_field : nullptr;
 }
 
-std::string Session::unique_name(const std::string& method) const {
-  std::string name = method;
-  for (const Estimator& estimator : registered_estimators()) {
-    if (estimator.info.id == method) name = estimator.info.name;
-  }
+std::string Session::unique_name(const std::string& name) const {
   const auto is_taken = [this](const std::string& candidate) {
     return std::any_of(estimates_.begin(), estimates_.end(),
                        [&](const EstimateEntry& entry) { return entry.name == candidate; });
@@ -80,7 +86,7 @@ std::string Session::unique_name(const std::string& method) const {
 
 int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation) {
   if (generation != generation_ || !scene_ || !estimate) return 0;
-  const std::string name = unique_name(estimate->method);
+  const std::string name = unique_name(name_of_method(estimate->method));
   estimates_.push_back({++last_id_, name, std::move(estimate), display_range});
   changed(Part::Estimates);
   show_estimate(last_id_);
@@ -104,6 +110,32 @@ void Session::remove_estimate(int id) {
     is_compared_chosen_ = false;
   }
   changed(Part::Shown);
+}
+
+void Session::restore_estimate(EstimateEntry entry, std::size_t place) {
+  if (!scene_ || find_estimate(entry.id)) return;
+  const int id = entry.id;
+  entry.name = unique_name(entry.name);
+  estimates_.insert(estimates_.begin() + static_cast<long>(std::min(place, estimates_.size())),
+                    std::move(entry));
+  changed(Part::Estimates);
+  show_estimate(id);
+}
+
+EstimateEntry* Session::entry_of(int id) {
+  const auto found = std::ranges::find(estimates_, id, &EstimateEntry::id);
+  return found == estimates_.end() ? nullptr : &*found;
+}
+
+void Session::rename_estimate(int id, const std::string& name) {
+  EstimateEntry* entry = entry_of(id);
+  if (!entry || name.empty() || name == entry->name) return;
+  entry->name = unique_name(name);
+  changed(Part::Estimates);
+}
+
+void Session::mark_saved(int id) {
+  if (EstimateEntry* entry = entry_of(id)) entry->is_saved = true;
 }
 
 const EstimateEntry* Session::find_estimate(int id) const {
@@ -151,9 +183,14 @@ bool Session::has_truth(ViewIndex view) const {
 }
 
 Interval Session::disparity_range() const {
+  return shown_range(known_range(), {});
+}
+
+Interval Session::known_range() const {
+  if (known_range_.length() > 0) return known_range_;
   const auto found = std::ranges::find_if(
       estimates_, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
-  return shown_range(known_range_, found == estimates_.end() ? Interval{} : found->display_range);
+  return found == estimates_.end() ? Interval{} : found->display_range;
 }
 
 void Session::set_true_labels(TrueLabelsPtr labels) {

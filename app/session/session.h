@@ -16,9 +16,10 @@ namespace episcope {
 /// An estimate of the session. Ids are never given twice.
 struct EstimateEntry {
   int id = 0;
-  std::string name;  ///< Unique in the list: "EPI_L", "EPI_L 2".
+  std::string name;  ///< Unique in the list: "EPI_L", "EPI_L 2", or as the user calls it.
   EstimatePtr estimate;
   Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
+  bool is_saved = false;   ///< A file holds it.
 };
 
 /// What is open and what is known about it: scene, estimates, evaluations, and the current view and
@@ -51,6 +52,13 @@ class Session {
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
   /// Shows the neighbour if the removed one was shown. Unknown ids are ignored.
   void remove_estimate(int id);
+  /// Brings back a removed entry, with its id, at its former place in the list, and shows it. Its
+  /// name gets a number if it was given away meanwhile.
+  void restore_estimate(EstimateEntry entry, std::size_t place);
+  /// Unknown ids and empty names are ignored; a name that is taken gets a number.
+  void rename_estimate(int id, const std::string& name);
+  /// Notes that a file holds it. Unknown ids are ignored.
+  void mark_saved(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return estimates_; }
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
 
@@ -80,6 +88,8 @@ class Session {
   /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
   /// else those of the first estimate. It does not change with the shown estimate.
   [[nodiscard]] Interval disparity_range() const;
+  /// The same; {0, 0} while nothing is known.
+  [[nodiscard]] Interval known_range() const;
 
   /// View and cross-hair are clamped to the light field.
   void set_view(ViewIndex view);
@@ -92,7 +102,8 @@ class Session {
  private:
   void changed(Parts parts);
   void deliver();
-  [[nodiscard]] std::string unique_name(const std::string& method) const;
+  [[nodiscard]] EstimateEntry* entry_of(int id);
+  [[nodiscard]] std::string unique_name(const std::string& name) const;
 
   JobRunner::Post post_;
   std::vector<Listener> listeners_;

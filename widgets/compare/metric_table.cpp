@@ -153,6 +153,7 @@ void MetricTable::setTable(const std::vector<MetricColumn>& columns,
     header->setToolTip(columns[i].help);
     header->setTextAlignment((i == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     table_->setHorizontalHeaderItem(static_cast<int>(i), header);
+    table_->setColumnHidden(static_cast<int>(i), !columns[i].is_shown);
   }
   for (std::size_t i = 0; i < rows.size(); ++i) fillRow(static_cast<int>(i), rows[i]);
   stressBest();
@@ -282,9 +283,11 @@ QString MetricTable::toLatex() const {
   }
   for (int row = 0; row < table_->rowCount(); ++row) {
     auto& cells = text.rows.emplace_back();
+    auto& stressed = text.stressed.emplace_back();
     for (int column = 0; column < table_->columnCount(); ++column) {
       const auto* item = table_->item(row, column);
       cells.push_back(is_absent(item->data(kValueRole)) ? "--" : item->text().toStdString());
+      stressed.push_back(item->font().bold());
     }
   }
   return QString::fromStdString(table_to_latex(text));

@@ -23,6 +23,7 @@ struct MetricColumn {
   QString help;   ///< Tool tip.
   int decimals = 3;
   BestValue best = BestValue::None;
+  bool is_shown = true;  ///< Else it stands in copied and saved tables only.
 };
 
 struct MetricRow {
@@ -48,7 +49,8 @@ class MetricTable : public QWidget {
 
   /// RFC 4180, full precision, decimal point, keys as header; absent values are empty.
   [[nodiscard]] QString toCsv() const;
-  /// A `tabular` with the decimals shown; absent values are "--".
+  /// A `tabular` with the decimals shown and the best of each column in bold; absent values are
+  /// "--".
   [[nodiscard]] QString toLatex() const;
 
  public slots:

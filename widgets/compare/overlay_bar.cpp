@@ -59,6 +59,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   focus_spin_->setObjectName("overlay.focusSpin");
   focus_spin_->setDecimals(2);
   focus_spin_->setSingleStep(0.05);
+  focus_spin_->setRange(-kFarthestFocus, kFarthestFocus);
   focus_spin_->setSuffix(tr(" px"));
   auto* reset =
       make_tool_button({"overlay.focusReset", "reset", tr("Reset the focus plane to 0 px")}, this);
@@ -123,13 +124,11 @@ void OverlayBar::setOpacity(double opacity) {
 
 void OverlayBar::setFocusRange(Interval range_px) {
   const QSignalBlocker slider_blocker(focus_slider_);
-  const QSignalBlocker spin_blocker(focus_spin_);
-  // Zero, the plane of the files, is always within reach.
-  const double min = std::min(0.0, range_px.min);
-  const double max = std::max(0.0, range_px.max);
+  // Zero, the plane of the files, is always within reach, and so is what is in focus.
+  const double min = std::min({0.0, focus(), range_px.min});
+  const double max = std::max({0.0, focus(), range_px.max});
   focus_slider_->setRange(slider_value(min), slider_value(max));
   focus_slider_->setPageStep(10);
-  focus_spin_->setRange(min, max);
 }
 
 void OverlayBar::addFocusAction(QAction* action) {
@@ -144,7 +143,10 @@ void OverlayBar::setFocus(double focus_px) {
 void OverlayBar::showFocus(double focus_px) {
   const QSignalBlocker slider_blocker(focus_slider_);
   const QSignalBlocker spin_blocker(focus_spin_);
-  focus_slider_->setValue(slider_value(focus_px));
+  const int place = slider_value(focus_px);
+  focus_slider_->setRange(std::min(focus_slider_->minimum(), place),
+                          std::max(focus_slider_->maximum(), place));
+  focus_slider_->setValue(place);
   focus_spin_->setValue(focus_px);
 }
 

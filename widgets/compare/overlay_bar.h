@@ -24,6 +24,8 @@ class OverlayBar : public QWidget {
   Q_OBJECT
 
  public:
+  static constexpr double kFarthestFocus = 100;
+
   explicit OverlayBar(QWidget* parent = nullptr);
 
   /// Quantities that can be shown now; others are listed greyed out. "None" always can.
@@ -33,7 +35,8 @@ class OverlayBar : public QWidget {
   /// Quantity::View = no overlay.
   void setQuantity(render::Quantity quantity);
   void setOpacity(double opacity);
-  /// Reach of the focus slider, px per view step.
+  /// Reach of the focus slider, px per view step. The field beside it takes numbers of up to
+  /// kFarthestFocus; the slider then reaches that far too.
   void setFocusRange(Interval range_px);
   void setFocus(double focus_px);
   /// A button for what can be done with the focus plane, beside its controls.

@@ -19,7 +19,9 @@ namespace episcope {
 namespace {
 
 constexpr int kBarSteps = 1000;
-constexpr double kRowsInSight = 3.5;  // Half a row tells that there is more.
+constexpr int kBarHeight = 6;
+constexpr int kRowSpacing = 2;
+constexpr double kRowsInSight = 1.3;  // the top of the next tells that there is more
 
 }  // namespace
 
@@ -55,8 +57,9 @@ JobPanel::JobPanel(QWidget* parent)
   scroll_->hide();
   auto* all = new QVBoxLayout(this);
   all->setContentsMargins(0, 0, 0, 0);
-  all->addWidget(idle_);
+  all->addWidget(idle_, 0, Qt::AlignTop);
   all->addWidget(scroll_);
+  fitHeight();
   updateColors();
 }
 
@@ -77,7 +80,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   row.bar->setObjectName(name + ".bar");
   row.bar->setRange(0, kBarSteps);
   row.bar->setTextVisible(false);
-  row.bar->setFixedHeight(6);
+  row.bar->setFixedHeight(kBarHeight);
   row.stage = new ElidedLabel(row.widget);
   row.stage->setObjectName(name + ".stage");
   row.stage->setFullText(tr("waiting"));
@@ -85,7 +88,7 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   auto* grid = new QGridLayout(row.widget);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(theme::kSpacing);
-  grid->setVerticalSpacing(2);
+  grid->setVerticalSpacing(kRowSpacing);
   grid->addWidget(title_label, 0, 0);
   grid->addWidget(row.finish, 0, 1, 3, 1, Qt::AlignVCenter);
   grid->addWidget(row.cancel, 0, 2, 3, 1, Qt::AlignVCenter);
@@ -96,13 +99,16 @@ void JobPanel::addJob(quint64 id, const QString& title) {
   connect(row.cancel, &QToolButton::clicked, this, [this, id] { emit cancelRequested(id); });
   rows_.emplace(id, row);
   updateColors();
-  fitHeight();
+  showRows();
 }
 
 void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
   Row* row = find(id);
   if (!row) return;
-  if (!row->clock.isValid()) row->clock.start();
+  if (!row->clock.isValid()) {
+    row->clock.start();
+    row->finish->setVisible(row->is_iterative);
+  }
   row->bar->setValue(static_cast<int>(std::lround(kBarSteps * std::clamp(fraction, 0.0, 1.0))));
   if (!row->finish->isEnabled()) return;  // It says how it is being ended.
   QStringList parts{stage, tr("%1 %").arg(std::lround(100 * fraction)),
@@ -112,7 +118,10 @@ void JobPanel::setProgress(quint64 id, double fraction, const QString& stage) {
 }
 
 void JobPanel::setIterative(quint64 id) {
-  if (Row* row = find(id)) row->finish->show();
+  Row* row = find(id);
+  if (!row) return;
+  row->is_iterative = true;
+  row->finish->setVisible(row->clock.isValid());  // what waits has nothing yet
 }
 
 void JobPanel::setCancelling(quint64 id) {
@@ -143,21 +152,23 @@ void JobPanel::removeJob(quint64 id) {
   found->second.widget->deleteLater();
   found->second.widget->hide();
   rows_.erase(found);
-  fitHeight();
+  showRows();
+}
+
+void JobPanel::showRows() {
+  idle_->setVisible(rows_.empty());
+  scroll_->setVisible(!rows_.empty());
 }
 
 void JobPanel::fitHeight() {
-  idle_->setVisible(rows_.empty());
-  scroll_->setVisible(!rows_.empty());
-  if (rows_.empty()) return;
-  const int row = rows_.begin()->second.widget->sizeHint().height() + layout_->spacing();
-  const double in_sight = std::min(kRowsInSight, static_cast<double>(rows_.size()));
-  scroll_->setFixedHeight(static_cast<int>(in_sight * row) - layout_->spacing());
+  const int row = 2 * fontMetrics().height() + kBarHeight + 2 * kRowSpacing;
+  setFixedHeight(static_cast<int>(kRowsInSight * row) + theme::kSpacing);
 }
 
 void JobPanel::changeEvent(QEvent* event) {
   QWidget::changeEvent(event);
   if (event->type() == QEvent::PaletteChange) updateColors();
+  if (event->type() == QEvent::FontChange) fitHeight();
 }
 
 void JobPanel::updateColors() {

@@ -23,7 +23,8 @@ class ElidedLabel;
 
 /// Running and waiting jobs, one row each, with bar, stage, time left and a cancel button; a job
 /// that can end early has a button for that beside it. Shows a quiet line when there are none.
-/// However many there are, it grows to a few rows only: the rest is scrolled to.
+/// However many there are, it keeps its height, of one row and the top of the next: the rest is
+/// scrolled to.
 class JobPanel : public QWidget {
   Q_OBJECT
 
@@ -34,7 +35,7 @@ class JobPanel : public QWidget {
   void addJob(quint64 id, const QString& title);
   /// Ignored for an unknown id. The clock of a job starts with its first progress.
   void setProgress(quint64 id, double fraction, const QString& stage);
-  /// Offers to take what an iterative job has so far.
+  /// Offers to take what an iterative job has so far, once it has begun.
   void setIterative(quint64 id);
   /// The row says so until it is removed.
   void setCancelling(quint64 id);
@@ -58,11 +59,13 @@ class JobPanel : public QWidget {
     QToolButton* finish;
     QToolButton* cancel;
     QElapsedTimer clock;
+    bool is_iterative = false;
   };
 
   [[nodiscard]] Row* find(quint64 id);
   void end(quint64 id, const QString& stage, bool cancelled);
   void updateColors();
+  void showRows();
   void fitHeight();
 
   QScrollArea* scroll_;

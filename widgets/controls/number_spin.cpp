@@ -3,6 +3,8 @@
 
 #include "widgets/style/number_text.h"
 
+#include <QToolTip>
+
 namespace episcope {
 namespace {
 
@@ -35,7 +37,30 @@ double NumberSpin::valueFromText(const QString& text) const {
 
 QValidator::State NumberSpin::validate(QString& text, int& position) const {
   QString plain = with_hyphen(text);
-  return QDoubleSpinBox::validate(plain, position);
+  const QValidator::State state = QDoubleSpinBox::validate(plain, position);
+  const auto number = typed(text);
+  const bool is_beyond = number && (*number < minimum() || *number > maximum());
+  return is_beyond ? QValidator::Intermediate : state;
+}
+
+std::optional<double> NumberSpin::typed(const QString& text) const {
+  QString plain = with_hyphen(text);
+  if (!suffix().isEmpty() && plain.endsWith(suffix())) plain.chop(suffix().size());
+  bool is_number = false;
+  const double number = plain.trimmed().toDouble(&is_number);
+  return is_number ? std::optional(number) : std::nullopt;
+}
+
+void NumberSpin::fixup(QString& text) const {
+  const auto number = typed(text);
+  if (!number) return QDoubleSpinBox::fixup(text);
+  const bool is_low = *number < minimum();
+  const QString limit = textFromValue(is_low ? minimum() : maximum()) + suffix();
+  text = limit;
+  QToolTip::showText(
+      mapToGlobal(QPoint(0, height())),
+      (is_low ? tr("The least possible value is %1") : tr("The largest possible value is %1"))
+          .arg(limit));
 }
 
 }  // namespace episcope

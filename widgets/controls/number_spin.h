@@ -3,10 +3,13 @@
 
 #include <QDoubleSpinBox>
 
+#include <optional>
+
 namespace episcope {
 
 /// A field for a number with a decimal point, whatever the language, and a true minus; a hyphen may
-/// be typed for it.
+/// be typed for it. Any number can be typed: one beyond the range becomes the limit, which a tool
+/// tip says.
 class NumberSpin : public QDoubleSpinBox {
   Q_OBJECT
 
@@ -20,8 +23,11 @@ class NumberSpin : public QDoubleSpinBox {
   [[nodiscard]] QString textFromValue(double value) const override;
   [[nodiscard]] double valueFromText(const QString& text) const override;
   QValidator::State validate(QString& text, int& position) const override;
+  void fixup(QString& text) const override;
 
  private:
+  [[nodiscard]] std::optional<double> typed(const QString& text) const;
+
   int least_decimals_ = 100;
 };
 

@@ -46,8 +46,8 @@ ResultList::ResultList(QWidget* parent)
       export_(make_tool_button({"results.export", "export",
                                 tr("Save this result as HDF5, PFM, TIFF or PLY"), tr("Export")},
                                this)),
-      remove_(make_tool_button(
-          {"results.remove", "trash", tr("Remove this result (Delete)"), tr("Remove")}, this)),
+      remove_(make_tool_button({"results.remove", "trash", tr("Remove this result"), tr("Remove")},
+                               this)),
       reuse_(make_tool_button({"results.reuse", "reuse",
                                tr("Copy the parameters of this result to the form"), tr("Reuse")},
                               this)) {
@@ -108,6 +108,13 @@ void ResultList::setUpTree() {
   connect(remove, &QAction::triggered, this, [this] {
     if (const auto id = selectedId()) emit removeRequested(*id);
   });
+  tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);  // only names can be edited
+  connect(tree_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item, int column) {
+    if (column == kMethod) tree_->editItem(item, kMethod);
+  });
+  connect(tree_, &QTreeWidget::itemChanged, this, [this](const QTreeWidgetItem* item, int column) {
+    if (column == kMethod) emit renameRequested(id_of(item), item->text(kMethod));
+  });
   connect(tree_, &QTreeWidget::customContextMenuRequested, this, &ResultList::showMenu);
   connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
     updateButtons();
@@ -118,10 +125,14 @@ void ResultList::setUpTree() {
 void ResultList::setResults(const std::vector<ResultRow>& results) {
   const auto kept = selectedId();
   const QSignalBlocker blocker(tree_);
-  tree_->clear();
-  for (const auto& result : results) {
-    auto* item = new QTreeWidgetItem(tree_);
+  // Rows that stay are kept, so that a name can be edited while numbers come in.
+  if (!hasRowsOf(results)) tree_->clear();
+  const bool is_same = tree_->topLevelItemCount() > 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const ResultRow& result = results[i];
+    auto* item = is_same ? tree_->topLevelItem(static_cast<int>(i)) : new QTreeWidgetItem(tree_);
     item->setData(kMark, Qt::UserRole, result.id);
+    item->setFlags(item->flags() | Qt::ItemIsEditable);
     // As tall as the row with the icon.
     item->setSizeHint(kMark, {0, fontMetrics().height() + kRowPadding});
     item->setText(kMethod, result.method);
@@ -144,12 +155,21 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
   updateButtons();
 }
 
+bool ResultList::hasRowsOf(const std::vector<ResultRow>& results) const {
+  if (tree_->topLevelItemCount() != static_cast<int>(results.size())) return false;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    if (id_of(tree_->topLevelItem(static_cast<int>(i))) != results[i].id) return false;
+  }
+  return true;
+}
+
 void ResultList::setExpecting(bool is_expecting) {
   hint_->setText(is_expecting ? tr("The result appears here.")
                               : tr("No results yet. Run a method above."));
 }
 
 void ResultList::setShown(std::optional<quint64> id, std::optional<quint64> compared) {
+  const QSignalBlocker blocker(tree_);  // marks are no edits
   const bool is_new = id != shown_;
   shown_ = id;
   compared_ = compared;
@@ -211,6 +231,13 @@ std::optional<quint64> ResultList::target() const {
   return selected || tree_->topLevelItemCount() == 0 ? selected : shown_;
 }
 
+void ResultList::editName(quint64 id) {
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    auto* item = tree_->topLevelItem(i);
+    if (id_of(item) == id) tree_->editItem(item, kMethod);
+  }
+}
+
 void ResultList::updateButtons() {
   for (auto* button : {export_, remove_, reuse_}) button->setEnabled(target().has_value());
 }
@@ -231,6 +258,7 @@ void ResultList::showMenu(const QPoint& position) {
   add("reuse", tr("Reuse parameters"), &ResultList::reuseRequested);
   add("copy", tr("Copy as command"), &ResultList::copyCommandRequested);
   menu->addSeparator();
+  menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
   add("export", tr("Export…"), &ResultList::exportRequested);
   add("trash", tr("Remove"), &ResultList::removeRequested);
   menu->popup(tree_->viewport()->mapToGlobal(position));

@@ -24,8 +24,9 @@ struct ResultRow {
 };
 
 /// Results of this light field, newest last, with the shown one (A) and the compared one (B)
-/// marked. Choosing a row is an intent to show it, a click on its mark to compare with it; remove,
-/// export and the rest are in buttons and in the context menu.
+/// marked. Choosing a row is an intent to show it, a click on its mark to compare with it, a double
+/// click on its name to change that; remove, export and the rest are in buttons and in the context
+/// menu.
 class ResultList : public QWidget {
   Q_OBJECT
 
@@ -44,6 +45,7 @@ class ResultList : public QWidget {
   void selected(quint64 id);
   void compareRequested(quint64 id);
   void removeRequested(quint64 id);
+  void renameRequested(quint64 id, const QString& name);
   void exportRequested(quint64 id);
   void copyCommandRequested(quint64 id);
   /// Bring its parameters back into the form.
@@ -56,6 +58,8 @@ class ResultList : public QWidget {
   void setUpTree();
   void fitMethods();
   void showMenu(const QPoint& position);
+  void editName(quint64 id);
+  [[nodiscard]] bool hasRowsOf(const std::vector<ResultRow>& results) const;
   /// What the buttons act on: the selected result, else the shown one.
   [[nodiscard]] std::optional<quint64> target() const;
   void updateButtons();

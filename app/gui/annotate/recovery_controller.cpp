@@ -48,7 +48,7 @@ RecoveryController::RecoveryController(const Workbench& bench)
       bar_(new MessageBar(&bench.frame)),
       job_(this) {
   bar_->setObjectName("recoveryBar");
-  bench.frame.addLine(Line::Recovery, bar_);
+  bench.frame.addFloating(bar_);
   connect(&bench.frame, &Frame::started, this, &RecoveryController::look);
   connect(&document_, &DocumentController::replaced, this, [this] {
     if (!awaited_ || !isOpen(awaited_->owner)) return;

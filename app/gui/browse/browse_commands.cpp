@@ -17,16 +17,14 @@ void BrowseController::addStep(const QString& id, const QString& text, const QSt
                        .tip = tip,
                        .keys = {QKeySequence(key)},
                        .run = [this, dv, du] { step(dv, du); },
-                       .section = section::kWalk,
-                       .scope = KeyScope::Viewer});
+                       .section = section::kWalk});
   bench_.commands.add({.id = "view." + id + "_most",
                        .menu = Menu::View,
                        .text = tr("%1, to the end").arg(text),
                        .tip = tr("%1, at the end of the grid").arg(tip),
                        .keys = {QKeySequence(Qt::ShiftModifier | key)},
                        .run = [this, dv, du] { jump(dv, du); },
-                       .section = section::kWalk,
-                       .scope = KeyScope::Viewer});
+                       .section = section::kWalk});
 }
 
 void BrowseController::addWalkCommands() {
@@ -40,8 +38,7 @@ void BrowseController::addWalkCommands() {
                        .tip = tr("Shows the view in the middle of the grid"),
                        .keys = {Qt::Key_Home},
                        .run = [this] { goToCenter(); },
-                       .section = section::kWalk,
-                       .scope = KeyScope::Viewer});
+                       .section = section::kWalk});
   QAction* play = bench_.commands.add({.id = "view.play",
                                        .menu = Menu::View,
                                        .text = tr("Play"),

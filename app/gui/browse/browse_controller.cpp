@@ -26,8 +26,7 @@
 namespace episcope {
 namespace {
 
-// Truth may hold marks for "nothing" that are no disparity.
-constexpr double kFarthestFocus = 100;
+constexpr double kUnknownReach = 20;  // px per view, of the focus slider
 
 }  // namespace
 
@@ -110,6 +109,7 @@ void BrowseController::update(Parts parts) {
   if (parts.has(Part::View)) grid_->setCurrent(session_.view());
   if (parts.has_any(Part::Scene | Part::View | Part::Focus)) showView();
   if (parts.has_any(Part::Scene | Part::View | Part::Focus | Part::CrossHair)) showEpis();
+  if (parts.has(Part::Estimates)) showFocusReach();
   if (parts.has_any(Part::Shown | Part::Estimates)) showSlopes();
 }
 
@@ -125,12 +125,18 @@ void BrowseController::showScene() {
     stage_.canvas()->showEmpty();
     return;
   }
-  const Interval range = session_.disparity_range();
-  const double reach = std::ceil(
-      std::clamp(std::max(std::abs(range.min), std::abs(range.max)), 1.0, kFarthestFocus));
-  stage_.overlayBar()->setFocusRange({-reach, reach});
+  showFocusReach();
   startThumbnails();
   stage_.canvas()->zoomToFit();
+}
+
+void BrowseController::showFocusReach() {
+  const Interval range = session_.known_range();
+  const double known = std::max(std::abs(range.min), std::abs(range.max));
+  const double reach = range.length() > 0
+                           ? std::ceil(std::clamp(known, 1.0, OverlayBar::kFarthestFocus))
+                           : kUnknownReach;
+  stage_.overlayBar()->setFocusRange({-reach, reach});
 }
 
 void BrowseController::markPainted() {

@@ -51,6 +51,7 @@ class BrowseController : public QObject {
   void update(Parts parts);
   void setPreviewing(bool is_previewing);
   void showScene();
+  void showFocusReach();
   void showView();
   void showPicture(const QImage& picture);
   void showEpis();

@@ -77,12 +77,14 @@ FocusController::Kept FocusController::kept() const {
   Kept kept{session_.view(),
             session_.cross_hair(),
             {},
+            {},
             session_.estimates().size(),
             session_.estimates().size()};
   for (const EstimateEntry& entry : session_.estimates()) {
     if (session_.shown() == &entry) kept.shown = kept.estimates.size();
     if (session_.compared() == &entry) kept.compared = kept.estimates.size();
     kept.estimates.push_back(entry.estimate);
+    kept.names.push_back(entry.name);
   }
   return kept;
 }
@@ -114,6 +116,7 @@ void FocusController::moveResults(const Kept& kept, double moved_px) {
         std::vector<int> ids;
         for (const FinishedEstimate& each : moved) {
           ids.push_back(session_.add_estimate(each.estimate, each.display_range, generation));
+          session_.rename_estimate(ids.back(), kept.names[ids.size() - 1]);
         }
         if (kept.shown < ids.size()) session_.show_estimate(ids[kept.shown]);
         if (kept.compared < ids.size()) session_.compare_with(ids[kept.compared]);

@@ -6,6 +6,7 @@
 
 #include <QObject>
 
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -31,6 +32,7 @@ class FocusController : public QObject {
     ViewIndex view;
     PixelIndex cross_hair;
     std::vector<EstimatePtr> estimates;
+    std::vector<std::string> names;
     std::size_t shown = 0;     ///< Place in `estimates`,
     std::size_t compared = 0;  ///< or their number if there is none.
   };

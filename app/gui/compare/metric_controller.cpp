@@ -5,6 +5,7 @@
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/text_file.h"
+#include "app/session/run/command_line.h"
 #include "app/session/run/run_estimator.h"
 #include "widgets/compare/metric_table.h"
 
@@ -99,9 +100,33 @@ void MetricController::fillTable() {
       {"method", tr("Result"), tr("Name of the result"), 0, BestValue::None}};
   for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
   columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
+  const auto add_text = [&columns](const QString& key, const QString& label) {
+    columns.push_back({key, label, {}, 0, BestValue::None, false});
+  };
+  add_text("scene", tr("Scene"));
+  add_text("method_id", tr("Method"));
+  add_text("parameters", tr("Parameters"));
+  add_text("ended_early", tr("Ended early"));
   std::vector<MetricRow> rows;
-  for (const Judged& each : judged) rows.push_back(row_of(each, places));
+  for (const Judged& each : judged) {
+    rows.push_back(row_of(each, places));
+    for (const QString& cell : provenanceOf(*session_.find_estimate(each.id))) {
+      rows.back().values.emplace_back(cell);
+    }
+  }
   table_->setTable(columns, rows);
+}
+
+QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
+  const Estimate& estimate = *entry.estimate;
+  QStringList parameters;
+  for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
+    parameters << QString::fromStdString(key + "=" + to_text(value));
+  }
+  const bool is_early = std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
+  return {QString::fromStdString(session_.light_field()->info().name),
+          QString::fromStdString(estimate.method), parameters.join(' '),
+          is_early ? tr("yes") : tr("no")};
 }
 
 std::vector<Judged> MetricController::judgeAll() {

@@ -33,6 +33,7 @@ class MetricController : public QObject {
  private:
   void update(Parts parts);
   void fillTable();
+  [[nodiscard]] QStringList provenanceOf(const EstimateEntry& entry) const;
   [[nodiscard]] std::vector<Judged> judgeAll();
   /// Warns of metrics that are missing, once for each light field.
   void tell(const std::vector<std::string>& notes);

@@ -74,6 +74,15 @@ void EstimateController::addResultCommands() {
                        .run = [this] { removeShown(); },
                        .section = kResults,
                        .enabled = has_result});
+  bench_.commands.add({.id = "estimate.restore",
+                       .menu = Menu::Estimate,
+                       .text = tr("Restore removed result"),
+                       .tip = tr("Brings back the result that was removed last"),
+                       .icon = "undo",
+                       .keys = {tr("Ctrl+Shift+Delete")},
+                       .run = [this] { restoreRemoved(); },
+                       .section = kResults,
+                       .enabled = [this] { return !removed_.empty(); }});
   bench_.commands.add({.id = "file.export",
                        .menu = Menu::File,
                        .text = tr("Export result…"),

@@ -115,7 +115,11 @@ void EstimateController::connectResults() {
   connect(results_, &ResultList::compareRequested, this,
           [this](quint64 id) { session_.compare_with(static_cast<int>(id)); });
   connect(results_, &ResultList::removeRequested, this,
-          [this](quint64 id) { session_.remove_estimate(static_cast<int>(id)); });
+          [this](quint64 id) { remove(static_cast<int>(id)); });
+  connect(results_, &ResultList::renameRequested, this, [this](quint64 id, const QString& name) {
+    session_.rename_estimate(static_cast<int>(id), name.trimmed().toStdString());
+    listResults();  // the row holds what was typed
+  });
   const auto with_entry = [this](auto act) {
     return [this, act](quint64 id) {
       if (const auto* entry = session_.find_estimate(static_cast<int>(id))) act(*entry);
@@ -165,7 +169,24 @@ void EstimateController::cancel() {
 }
 
 void EstimateController::removeShown() {
-  if (const EstimateEntry* shown = session_.shown()) session_.remove_estimate(shown->id);
+  if (const EstimateEntry* shown = session_.shown()) remove(shown->id);
+}
+
+void EstimateController::remove(int id) {
+  const auto& entries = session_.estimates();
+  const auto found = std::ranges::find(entries, id, &EstimateEntry::id);
+  if (found == entries.end()) return;
+  removed_.push_back({*found, static_cast<std::size_t>(found - entries.begin())});
+  session_.remove_estimate(id);
+  bench_.messages.offer(tr("Removed: %1").arg(QString::fromStdString(removed_.back().entry.name)),
+                        tr("Undo"), [this] { restoreRemoved(); });
+}
+
+void EstimateController::restoreRemoved() {
+  if (removed_.empty()) return;
+  Removed last = std::move(removed_.back());
+  removed_.pop_back();
+  session_.restore_estimate(std::move(last.entry), last.place);
 }
 
 void EstimateController::showNeighbour(int step) {
@@ -180,6 +201,7 @@ void EstimateController::showNeighbour(int step) {
 
 void EstimateController::update(Parts parts) {
   if (parts.has(Part::Scene)) {
+    removed_.clear();
     method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();

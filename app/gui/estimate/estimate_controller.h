@@ -8,6 +8,8 @@
 
 #include <QObject>
 
+#include <vector>
+
 namespace episcope {
 
 class MethodPanel;
@@ -26,11 +28,19 @@ class EstimateController : public QObject {
   /// Cancels all runs.
   void cancel();
   void removeShown();
+  /// Brings back the result that was removed last.
+  void restoreRemoved();
   /// The line for what the form says.
   void copyCommand();
   void showNeighbour(int step);
 
  private:
+  struct Removed {
+    EstimateEntry entry;
+    std::size_t place = 0;  ///< In the list.
+  };
+
+  void remove(int id);
   void addTab();
   void addCommands();
   void addResultCommands();
@@ -47,6 +57,7 @@ class EstimateController : public QObject {
   Session& session_;
   MethodPanel* method_;
   ResultList* results_;
+  std::vector<Removed> removed_;  // of this light field, the latest last
 };
 
 }  // namespace episcope

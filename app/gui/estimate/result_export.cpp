@@ -38,10 +38,12 @@ void export_result(const Workbench& bench, const EstimateEntry& entry, const QSt
   const EstimatePtr result = entry.estimate;
   const auto form = map_form_of(file);
   if (form == MapForm::Result) {
-    write_in_background(bench.jobs, bench.messages, path,
-                        [file, result, input = bench.session.input()](const Progress& progress) {
-                          save_result(file, *result, input, progress);
-                        });
+    write_in_background(
+        bench.jobs, bench.messages, path,
+        [file, result, input = bench.session.input()](const Progress& progress) {
+          save_result(file, *result, input, progress);
+        },
+        [&session = bench.session, id = entry.id] { session.mark_saved(id); });
     return;
   }
   const ViewIndex view = bench.session.view();

@@ -69,14 +69,18 @@ bool has_suffix(const QString& path, const QStringList& suffixes, Messages& mess
 }
 
 void write_in_background(Jobs& jobs, Messages& messages, const QString& path,
-                         std::function<void(const Progress&)> write) {
+                         std::function<void(const Progress&)> write,
+                         std::function<void()> written) {
   jobs.start<bool>(
       Lane::Export, Text::tr("Writing %1").arg(QFileInfo(path).fileName()),
       [write = std::move(write)](const Progress& progress) {
         write(progress);
         return true;
       },
-      [&messages, path](bool) { messages.written(path); });
+      [&messages, path, written = std::move(written)](bool) {
+        messages.written(path);
+        if (written) written();
+      });
 }
 
 }  // namespace episcope

@@ -33,8 +33,9 @@ void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer ans
 /// Whether `path` has one of the suffixes; if not, the user is told and nothing is written.
 [[nodiscard]] bool has_suffix(const QString& path, const QStringList& suffixes, Messages& messages);
 
-/// Writes as a job, and tells the user.
+/// Writes as a job, tells the user, then calls `written`.
 void write_in_background(Jobs& jobs, Messages& messages, const QString& path,
-                         std::function<void(const Progress&)> write);
+                         std::function<void(const Progress&)> write,
+                         std::function<void()> written = nullptr);
 
 }  // namespace episcope

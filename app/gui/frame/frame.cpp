@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/frame/frame.h"
 
+#include "app/gui/frame/floating.h"
 #include "widgets/style/theme.h"
 
 #include <QSplitter>
@@ -22,7 +23,8 @@ Frame::Frame(QWidget* parent)
     : QWidget(parent),
       viewer_(new QWidget(this)),
       column_(new QSplitter(Qt::Vertical, viewer_)),
-      browser_(new QSplitter(Qt::Horizontal, viewer_)) {
+      browser_(new QSplitter(Qt::Horizontal, viewer_)),
+      floating_(new Floating(*viewer_)) {
   viewer_->setObjectName("viewer");
   column_->setChildrenCollapsible(false);
   browser_->addWidget(column_);
@@ -84,6 +86,10 @@ void Frame::addLine(Line line, QWidget* widget) {
   lines_[line] = widget;
   const auto place = std::distance(lines_.begin(), lines_.find(line));
   rows_->insertWidget(1 + static_cast<int>(place), widget);
+}
+
+void Frame::addFloating(QWidget* widget) {
+  floating_->add(widget);
 }
 
 void Frame::showTab(const QString& id) {

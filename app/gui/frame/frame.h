@@ -14,6 +14,8 @@ class QVBoxLayout;
 
 namespace episcope {
 
+class Floating;
+
 /// A tab at the right.
 struct Tab {
   QString id;  ///< "compare"; its command is "tab.compare".
@@ -26,7 +28,7 @@ struct Tab {
 };
 
 /// Lines under everything else, in their order.
-enum class Line { Time, Recovery, Messages, Values };
+enum class Line { Time, Values };
 
 /// The places of the main window, where features put their widgets: the viewer with a column at its
 /// left, tabs at the right, and lines under both.
@@ -47,6 +49,8 @@ class Frame : public QWidget {
   /// Under the tabs.
   void addUnderTabs(QWidget* widget);
   void addLine(Line line, QWidget* widget);
+  /// Over the stage: what comes and goes without moving anything.
+  void addFloating(QWidget* widget);
 
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
@@ -65,6 +69,7 @@ class Frame : public QWidget {
   QSplitter* column_;
   int fixed_count_ = 0;  // of widgets in the column that do not stretch; they stand first
   QSplitter* browser_;
+  Floating* floating_;  // over the browser
   QTabWidget* book_;
   QVBoxLayout* right_;
   QVBoxLayout* rows_;

@@ -16,6 +16,7 @@ class LeaveGuards {
     std::function<bool()> may_leave;  ///< Whether nothing would be lost now.
     /// Asks the user and calls back once nothing is lost any more, or never.
     std::function<void(Continue)> ask;
+    bool is_of_results = false;  ///< Not asked where results are brought back.
   };
 
   void add(Guard guard) { guards_.push_back(std::move(guard)); }
@@ -28,14 +29,18 @@ class LeaveGuards {
   }
 
   /// Calls `go_on` once every guard agrees: at once if nothing would be lost, or never.
-  void leave(const Continue& go_on) const { ask(0, go_on); }
+  void leave(const Continue& go_on) const { ask(0, go_on, false); }
+  /// The same where results are brought back afterwards.
+  void leave_with_results(const Continue& go_on) const { ask(0, go_on, true); }
 
  private:
-  void ask(std::size_t first, const Continue& go_on) const {
+  void ask(std::size_t first, const Continue& go_on, bool keeps_results) const {
+    while (first < guards_.size() && keeps_results && guards_[first].is_of_results) ++first;
     if (first == guards_.size()) {
       go_on();
     } else {
-      guards_[first].ask([this, first, go_on] { ask(first + 1, go_on); });
+      guards_[first].ask(
+          [this, first, go_on, keeps_results] { ask(first + 1, go_on, keeps_results); });
     }
   }
 

@@ -7,7 +7,7 @@
 namespace episcope {
 
 Messages::Messages(Frame& frame) : bar_(new MessageBar(&frame)) {
-  frame.addLine(Line::Messages, bar_);
+  frame.addFloating(bar_);
 }
 
 void Messages::hint(const QString& sentence) {
@@ -28,6 +28,10 @@ void Messages::fail(const QString& sentence) {
 
 void Messages::written(const QString& path) {
   success(tr("Written: %1").arg(path));
+}
+
+void Messages::offer(const QString& sentence, const QString& button, std::function<void()> run) {
+  bar_->showMessage(Severity::Info, sentence, {button, std::move(run)});
 }
 
 void Messages::dismiss() {

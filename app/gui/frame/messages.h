@@ -4,12 +4,14 @@
 #include <QObject>
 #include <QString>
 
+#include <functional>
+
 namespace episcope {
 
 class Frame;
 class MessageBar;
 
-/// Messages for the user, in a line of the frame that blocks nothing.
+/// Messages for the user, floating over the view, that block nothing.
 class Messages : public QObject {
   Q_OBJECT
 
@@ -23,6 +25,8 @@ class Messages : public QObject {
   void fail(const QString& sentence);
   /// "Written: …".
   void written(const QString& path);
+  /// What was done, with a button that does something about it.
+  void offer(const QString& sentence, const QString& button, std::function<void()> run);
   void dismiss();
 
  private:

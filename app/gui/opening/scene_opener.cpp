@@ -134,7 +134,7 @@ void SceneOpener::reopenAt(double focus_px, std::function<void()> then) {
   if (!session_.scene()) return;
   Reading reading = session_.light_field()->info().reading;
   reading.set_focus(focus_px);
-  load({QString::fromStdString(session_.input()), reading.options, false, std::move(then)});
+  load({QString::fromStdString(session_.input()), reading.options, false, std::move(then), true});
 }
 
 void SceneOpener::reopenFrame(int frame, std::function<void()> then) {
@@ -168,8 +168,12 @@ LoadOptions SceneOpener::loadOptions(quint64 number, const ParameterSet& given) 
   return options;
 }
 
-void SceneOpener::load(Load load) {
-  guards_.leave([this, load = std::move(load)] { start(load); });
+void SceneOpener::load(const Load& load) {
+  leave(load, [this, load] { start(load); });
+}
+
+void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
+  load.keeps_results ? guards_.leave_with_results(go_on) : guards_.leave(go_on);
 }
 
 void SceneOpener::start(const Load& load) {
@@ -197,7 +201,7 @@ void SceneOpener::start(const Load& load) {
           return;
         }
         // Painting may have gone on while this was read.
-        guards_.leave([this, number, load, scene = opened.scene] {
+        leave(load, [this, number, load, scene = opened.scene] {
           if (number != number_) return;
           finish(load.input, scene);
           if (load.then) load.then();
@@ -221,7 +225,7 @@ void SceneOpener::ask(const Load& load, const io::Undecided& question) {
       remember_conventions(input, given);
       if (then) then();
     };
-    this->load(std::move(again));
+    this->load(again);
   });
   dialog->open();
 }

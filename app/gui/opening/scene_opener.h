@@ -64,9 +64,11 @@ class SceneOpener : public QObject {
     ParameterSet given;
     bool is_remembered = false;  ///< Conventions that do not fit any more are passed over.
     std::function<void()> then;
+    bool keeps_results = false;  ///< `then` brings them back.
   };
 
-  void load(Load load);
+  void load(const Load& load);
+  void leave(const Load& load, const std::function<void()>& go_on);
   void start(const Load& load);
   [[nodiscard]] LoadOptions loadOptions(quint64 number, const ParameterSet& given);
   void showLoading(quint64 job, double fraction);

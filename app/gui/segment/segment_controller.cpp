@@ -86,6 +86,10 @@ bool SegmentController::has_map(render::Quantity quantity) const {
   return live_.labeling(session_.view()) != nullptr;
 }
 
+bool SegmentController::awaits_map(render::Quantity quantity) const {
+  return live_.has_input() && (quantity != render::Quantity::WrongLabels || session_.true_labels());
+}
+
 std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
                                                        ViewIndex view) const {
   const AnnotationDocument* document = std::as_const(document_).document();

@@ -45,6 +45,7 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;
+  [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
   [[nodiscard]] std::optional<MapSource> map_source(render::Quantity quantity,
                                                     ViewIndex view) const override;
 

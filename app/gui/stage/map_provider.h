@@ -12,8 +12,10 @@ class MapProvider {
  public:
   virtual ~MapProvider() = default;
 
-  /// Whether a quantity can be shown now, in some view.
+  /// Whether a quantity can be shown now, in the current view.
   [[nodiscard]] virtual bool has_map(render::Quantity quantity) const = 0;
+  /// Whether there may be maps of it later, so that what is shown stays chosen until then.
+  [[nodiscard]] virtual bool awaits_map(render::Quantity quantity) const = 0;
   /// What the map of a view is made from; nothing if there is no such map.
   [[nodiscard]] virtual std::optional<MapSource> map_source(render::Quantity quantity,
                                                             ViewIndex view) const = 0;

@@ -65,9 +65,14 @@ void Overlay::setProvider(Subject subject, const MapProvider* provider) {
 }
 
 void Overlay::updateProvided() {
-  if (!isAvailable(quantity_)) quantity_ = Quantity::View;
+  if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
   showAvailable();
   draw();
+}
+
+bool Overlay::isAwaited(Quantity quantity) const {
+  const auto provider = providers_.find(render::info_of(quantity).subject);
+  return provider != providers_.end() && provider->second->awaits_map(quantity);
 }
 
 void Overlay::update(Parts parts) {
@@ -86,7 +91,7 @@ void Overlay::update(Parts parts) {
   }
   const Parts of_choice = Part::Scene | Part::Estimates | Part::Shown | Part::TrueLabels;
   if (parts.has_any(of_choice)) {
-    if (!isAvailable(quantity_)) quantity_ = Quantity::View;
+    if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
     if (!session_.compared()) shows_difference_ = false;
     showAvailable();
   }

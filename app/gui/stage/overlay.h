@@ -76,6 +76,7 @@ class Overlay : public QObject {
   void drawn();
 
  private:
+  [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
   void update(Parts parts);
   void showAvailable();

@@ -118,7 +118,15 @@ std::string table_to_latex(const TextTable& table) {
   columns.front() = 'l';
   std::string text = "\\begin{tabular}{" + columns + "}\n\\toprule\n" +
                      joined(table.header, " & ", latex_cell) + " \\\\\n\\midrule\n";
-  for (const auto& row : table.rows) text += joined(row, " & ", latex_cell) + " \\\\\n";
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    std::size_t column = 0;
+    const auto cell = [&](const std::string& each) {
+      const std::size_t place = column++;
+      const bool is_stressed = row < table.stressed.size() && table.stressed[row][place];
+      return is_stressed ? "\\textbf{" + latex_cell(each) + "}" : latex_cell(each);
+    };
+    text += joined(table.rows[row], " & ", cell) + " \\\\\n";
+  }
   return text + "\\bottomrule\n\\end{tabular}\n";
 }
 

@@ -10,6 +10,7 @@ namespace episcope {
 struct TextTable {
   std::vector<std::string> header;
   std::vector<std::vector<std::string>> rows;
+  std::vector<std::vector<bool>> stressed{};  ///< Cells of rows in bold, in LaTeX; empty = none.
 };
 
 /// Aligned columns: the first to the left, the others to the right.
@@ -18,7 +19,7 @@ struct TextTable {
 [[nodiscard]] std::string table_to_narrow_text(const TextTable& table);
 /// RFC 4180, "." as the decimal point.
 [[nodiscard]] std::string table_to_csv(const TextTable& table);
-/// A `tabular` with rules of booktabs.
+/// A `tabular` with rules of booktabs, stressed cells in bold.
 [[nodiscard]] std::string table_to_latex(const TextTable& table);
 
 /// Rows and columns swapped: the first column becomes the header.

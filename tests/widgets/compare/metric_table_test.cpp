@@ -131,6 +131,21 @@ class MetricTableTest : public QObject {
       if (inner->item(row, 1)->font().bold()) bold << inner->item(row, 0)->text();
     }
     QCOMPARE(bold, QStringList("stereo"));
+    QVERIFY(table.toLatex().contains("stereo & \\textbf{0.300} & "));
+    QCOMPARE(table.toLatex().count("\\textbf"), 1);
+  }
+
+  void columnOfTextsOnly_isCopiedButNotShown() {
+    MetricTable table;
+    auto names = columns();
+    names[2].is_shown = false;
+
+    table.setTable(names, rows());
+
+    const auto* inner = table.findChild<QTableWidget*>();
+    QVERIFY(inner->isColumnHidden(2) && !inner->isColumnHidden(1));
+    QVERIFY(table.toCsv().contains("EPI_L,10.5,plain"));
+    QVERIFY(table.toLatex().contains("& plain"));
   }
 
   void sides_areMarked() {

@@ -81,7 +81,8 @@ class OverlayBarTest : public QObject {
     QCOMPARE(focus.last()[0].toDouble(), 0.0);
     QCOMPARE(focus.size(), 3);
     bar.stepFocus(100);
-    QCOMPARE(bar.focus(), 2.0);  // Not beyond the range.
+    QCOMPARE(bar.focus(), 5.0);  // the range is where the slider begins to reach
+    QCOMPARE(slider->value(), 500);
   }
 
   void colorBar_tellsEditedRanges() {

@@ -45,6 +45,30 @@ class NumberSpinTest : public QObject {
     QCOMPARE(spin.value(), value);
   }
 
+  void numberBeyondTheRange_becomesTheLimit_data() {
+    QTest::addColumn<QString>("typed");
+    QTest::addColumn<double>("value");
+    QTest::newRow("far above") << "250" << 5.0;
+    QTest::newRow("far below") << "-99.5" << -5.0;
+    QTest::newRow("within") << "4.75" << 4.75;
+  }
+
+  void numberBeyondTheRange_becomesTheLimit() {
+    QFETCH(QString, typed);
+    QFETCH(double, value);
+    NumberSpin spin;
+    spin.setRange(-5, 5);
+    spin.setSuffix(" px");
+    spin.show();
+    auto* edit = spin.findChild<QLineEdit*>();
+    edit->selectAll();
+
+    QTest::keyClicks(edit, typed);
+    QTest::keyClick(edit, Qt::Key_Return);
+
+    QCOMPARE(spin.value(), value);
+  }
+
   void stepsDown_throughZero() {
     NumberSpin spin;
     spin.setRange(-5, 5);

@@ -62,6 +62,7 @@ class FocusTest : public QObject {
   void withoutFocus_nothingCanBeApplied();
   void appliedFocus_movesTruthAndResults();
   void appliedFocus_keepsThePlace();
+  void appliedFocus_keepsNames();
   void undo_bringsTheFileBack();
   void whileAMethodRuns_itIsRefused();
   void whatIsPainted_isNotLost();
@@ -107,6 +108,16 @@ void FocusTest::appliedFocus_keepsThePlace() {
   QCOMPARE(f.session().focus_px(), 0.0);
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.overlayBar()->focus(), 0.0, kPatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.action("view.focus_apply")->isEnabled(), kPatience);
+}
+
+void FocusTest::appliedFocus_keepsNames() {
+  Focused f;
+  f.session().rename_estimate(f.session().estimates().front().id, "the first");
+
+  f.clickApply();
+  f.waitFor(kFocus);
+
+  QCOMPARE(f.session().estimates().front().name, std::string("the first"));
 }
 
 void FocusTest::undo_bringsTheFileBack() {

@@ -40,6 +40,7 @@ class SegmentTest : public QObject {
   void live_labelsTheViewAndShowsIt();
   void stroke_andUndo_giveNewLabels();
   void view_thatIsGoneTo_isLabeledToo();
+  void overlay_thatIsOn_staysOnInOtherViews();
   void withoutLive_aStrokeOutdatesTheLabels();
   void oneLabel_isAHintAndNoError();
   void overlays_areDrawn();
@@ -94,6 +95,21 @@ void SegmentTest::view_thatIsGoneTo_isLabeledToo() {
   QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
 
   QVERIFY2(f.accuracy() > 0.75, qPrintable(QString::number(f.accuracy())));
+}
+
+void SegmentTest::overlay_thatIsOn_staysOnInOtherViews() {
+  Segmenting f;
+  f.key(Qt::Key_L);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Segmentation);
+
+  f.key(Qt::Key_Left);
+  QCoreApplication::processEvents();
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Segmentation);
+  QTRY_VERIFY_WITH_TIMEOUT(f.isSegmented(), kPatience);
+
+  QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Segmentation);
+  QTRY_VERIFY(!f.window.bench().overlay.picture().isNull());
 }
 
 void SegmentTest::withoutLive_aStrokeOutdatesTheLabels() {

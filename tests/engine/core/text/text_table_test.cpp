@@ -28,6 +28,14 @@ class TextTableTest : public QObject {
     QVERIFY(text.contains("a\\_b\\&c\\%d\\#e\\$f\\{g\\}h\\~{}i\\^{}j\\textbackslash{}k & 1 \\\\"));
   }
 
+  void latex_stressesCellsInBold() {
+    const TextTable table{
+        {"file", "mse"}, {{"a_b", "1"}, {"c", "2"}}, {{false, true}, {true, false}}};
+    const QString text = QString::fromStdString(table_to_latex(table));
+    QVERIFY(text.contains("a\\_b & \\textbf{1} \\\\"));
+    QVERIFY(text.contains("\\textbf{c} & 2 \\\\"));
+  }
+
   void latex_writesTimesAndMinus() {
     QVERIFY(QString::fromStdString(table_to_latex({{"MSE×100"}, {}})).contains("MSE$\\times$100"));
     QVERIFY(QString::fromStdString(table_to_latex({{"−1.5"}, {}})).contains("$-$1.5"));

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What was computed is not lost by mistake.
+#include "app/gui/estimate/result_guard.h"
+
+#include "app/gui/estimate/estimate_controller.h"
+#include "engine/io/maps/result_file.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/compare/metric_table.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QFileDialog>
+#include <QLineEdit>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QTreeWidget>
+
+namespace episcope::in_kept_results_test {
+
+namespace {
+
+class Working : public WindowFixture {
+ public:
+  Working() {
+    openSmall();
+    window.findChild<ResultGuard*>()->setWorthKeeping(0);
+  }
+  Session& session() { return window.bench().session; }
+  QMessageBox* question() {
+    auto* box = window.findChild<QMessageBox*>("unsaved_results");
+    return box && box->isVisible() ? box : nullptr;
+  }
+  void answer(QMessageBox::StandardButton button) {
+    QTRY_VERIFY(question());
+    QTest::mouseClick(question()->button(button), Qt::LeftButton);
+  }
+  void startEndless() {
+    window.bench().jobs.start<int>(
+        Lane::Estimate, "endless",
+        [](const Progress& progress) -> int {
+          while (true) progress.check();
+        },
+        [](int) {});
+  }
+  QTreeWidget* tree() { return window.findChild<QTreeWidget*>("results.tree"); }
+};
+
+}  // namespace
+
+class KeptResultsTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void removedResult_canBeBroughtBack();
+  void severalRemovedResults_comeBackInTheirPlaces();
+  void renamedResult_keepsItsName();
+  void copiedTable_saysWhereNumbersComeFrom();
+  void anotherScene_asksForUnsavedResults();
+  void quit_asksForUnsavedResults();
+  void saveAll_writesThemAndGoesOn();
+  void exportedResult_isNotAskedFor();
+  void runningMethod_isAskedFor();
+};
+
+void KeptResultsTest::removedResult_canBeBroughtBack() {
+  Working f;
+  f.runAndWait();
+  const EstimatePtr estimate = f.session().estimates().front().estimate;
+
+  f.trigger("estimate.remove");
+  QCOMPARE(f.session().estimates().size(), 0U);
+  auto* bar = f.window.findChild<MessageBar*>("messageBar");
+  QTest::mouseClick(bar->findChild<QPushButton*>("message.action"), Qt::LeftButton);
+
+  QCOMPARE(f.session().estimates().size(), 1U);
+  QCOMPARE(f.session().shown()->estimate, estimate);
+  QCOMPARE(f.session().shown()->name, std::string("EPI_L"));
+}
+
+void KeptResultsTest::severalRemovedResults_comeBackInTheirPlaces() {
+  Working f;
+  for (int i = 0; i < 3; ++i) f.runAndWait();
+  const auto names = [&f] {
+    QStringList all;
+    for (const auto& each : f.session().estimates()) all << QString::fromStdString(each.name);
+    return all;
+  };
+  const QStringList before = names();
+  f.session().show_estimate(f.session().estimates().front().id);
+  QCoreApplication::processEvents();
+
+  f.trigger("estimate.remove");
+  QCoreApplication::processEvents();
+  f.trigger("estimate.remove");
+  QCoreApplication::processEvents();
+  f.trigger("estimate.restore");
+  f.trigger("estimate.restore");
+
+  QCOMPARE(names(), before);
+  QCoreApplication::processEvents();
+  QVERIFY(!f.window.bench().commands.find("estimate.restore")->isEnabled());
+}
+
+void KeptResultsTest::renamedResult_keepsItsName() {
+  Working f;
+  f.runAndWait();
+  QTreeWidgetItem* item = f.tree()->topLevelItem(0);
+  const QPoint name = f.tree()->visualItemRect(item).center();
+  const QPoint at(f.tree()->columnViewportPosition(1) + 8, name.y());
+
+  QTest::mouseClick(f.tree()->viewport(), Qt::LeftButton, {}, at);
+  QTest::mouseDClick(f.tree()->viewport(), Qt::LeftButton, {}, at);
+  auto* editor = f.tree()->viewport()->findChild<QLineEdit*>();
+  QVERIFY(editor);
+  editor->selectAll();
+  QTest::keyClicks(editor, "with my defaults");
+  QTest::keyClick(editor, Qt::Key_Return);
+  QTRY_COMPARE(f.session().estimates().front().name, std::string("with my defaults"));
+  f.runAndWait();
+
+  QCOMPARE(f.session().estimates().front().name, std::string("with my defaults"));
+  QCOMPARE(f.session().estimates().back().name, std::string("EPI_L"));
+  QTRY_COMPARE(QApplication::focusWidget() != editor, true);
+}
+
+void KeptResultsTest::copiedTable_saysWhereNumbersComeFrom() {
+  Working f;
+  find<EstimateController>(f.window).run({"epi_l", {{"inner_scale", 1.0}}, {}});
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().estimates().size(), 1U, kScenePatience);
+  f.session().rename_estimate(f.session().estimates().front().id, "wide");
+  const MetricTable& table = find<MetricTable>(f.window);
+
+  QTRY_VERIFY2_WITH_TIMEOUT(table.toCsv().contains("edge,epi_l,inner_scale=1,no"),
+                            qPrintable(table.toCsv()), kPatience);
+  QVERIFY(table.toCsv().contains("\nwide,"));
+}
+
+void KeptResultsTest::anotherScene_asksForUnsavedResults() {
+  Working f;
+  f.runAndWait();
+  const auto scene = f.session().scene();
+
+  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
+  f.answer(QMessageBox::Cancel);
+  QTest::qWait(50);
+  QCOMPARE(f.session().scene(), scene);
+  QCOMPARE(f.session().estimates().size(), 1U);
+
+  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
+  f.answer(QMessageBox::Discard);
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().scene() != scene, kScenePatience);
+}
+
+void KeptResultsTest::quit_asksForUnsavedResults() {
+  Working f;
+  f.runAndWait();
+
+  f.trigger("file.quit");
+  QTRY_VERIFY(f.question());
+  QVERIFY2(f.question()->text().contains("EPI_L"), qPrintable(f.question()->text()));
+  f.answer(QMessageBox::Cancel);
+  QVERIFY(f.window.isVisible());
+
+  f.trigger("file.quit");
+  f.answer(QMessageBox::Discard);
+  QTRY_VERIFY(!f.window.isVisible());
+}
+
+void KeptResultsTest::saveAll_writesThemAndGoesOn() {
+  Working f;
+  f.runAndWait();
+  const EstimatePtr estimate = f.session().estimates().front().estimate;
+
+  f.trigger("file.quit");
+  f.answer(QMessageBox::SaveAll);
+  auto* dialog = f.window.findChild<QFileDialog*>("save_results");
+  QVERIFY(dialog);
+  emit dialog->fileSelected(f.path({}));
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isVisible(), kScenePatience);
+
+  const LightField& light_field = *f.session().light_field();
+  const Estimate read = io::read_result((f.path("edge_EPI_L.h5")).toStdString(), light_field.grid(),
+                                        light_field.info().name);
+  QCOMPARE(read.method, estimate->method);
+}
+
+void KeptResultsTest::exportedResult_isNotAskedFor() {
+  Working f;
+  f.runAndWait();
+
+  f.trigger("file.export");
+  auto* dialog = f.window.findChild<QFileDialog*>("export_result");
+  QVERIFY(dialog);
+  emit dialog->fileSelected(f.path("kept.h5"));
+  dialog->close();
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().estimates().front().is_saved, kScenePatience);
+
+  f.trigger("file.quit");
+  QTRY_VERIFY(!f.window.isVisible());
+}
+
+void KeptResultsTest::runningMethod_isAskedFor() {
+  Working f;
+  f.startEndless();
+
+  f.trigger("file.quit");
+  f.answer(QMessageBox::Cancel);
+  QVERIFY(f.window.isVisible());
+  QCOMPARE(f.window.bench().jobs.count(Lane::Estimate), 1);
+
+  f.trigger("file.quit");
+  f.answer(QMessageBox::Discard);
+  QTRY_VERIFY(!f.window.isVisible());
+}
+
+}  // namespace episcope::in_kept_results_test
+
+EPISCOPE_WINDOW_TEST(kept_results_test, KeptResultsTest)
+#include "kept_results_test.moc"

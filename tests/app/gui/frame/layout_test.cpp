@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Nothing moves under the mouse, and everything fits the screen.
+#include "app/gui/frame/messages.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/browse/value_bar.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/controls/job_panel.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QDialog>
+#include <QPointer>
+#include <QScreen>
+#include <QSettings>
+#include <QTabWidget>
+
+namespace episcope::in_layout_test {
+
+namespace {
+
+quint64 start_endless(Jobs& jobs) {
+  return jobs.start<int>(
+      Lane::Export, "endless",
+      [](const Progress& progress) -> int {
+        while (true) progress.check();
+      },
+      [](int) {});
+}
+
+QRect place_of(const QWidget& widget, const QWidget& window) {
+  return {widget.mapTo(&window, QPoint()), widget.size()};
+}
+
+}  // namespace
+
+class LayoutTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void message_movesNothing();
+  void jobs_moveNothing();
+  void longMessage_isSeenWhole();
+  void firstWindow_fitsTheScreen();
+  void dialogs_closeWithTheWindow();
+};
+
+void LayoutTest::message_movesNothing() {
+  WindowFixture f;
+  f.openSmall();
+  const QRect before = place_of(*f.canvas(), f.window);
+
+  f.window.bench().messages.warn("Something to read, of some length.");
+  QCoreApplication::processEvents();
+
+  QVERIFY(f.window.findChild<MessageBar*>("messageBar")->isVisible());
+  QCOMPARE(place_of(*f.canvas(), f.window), before);
+}
+
+void LayoutTest::jobs_moveNothing() {
+  WindowFixture f;
+  f.openSmall();
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+  const auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  const QRect before = place_of(*tabs, f.window);
+
+  for (int i = 0; i < 4; ++i) start_endless(f.window.bench().jobs);
+  QTest::qWait(50);
+
+  QCOMPARE(f.window.findChild<JobPanel*>()->jobCount(), 4);
+  QCOMPARE(place_of(*tabs, f.window), before);
+  f.window.bench().jobs.cancelLane(Lane::Export);
+}
+
+void LayoutTest::longMessage_isSeenWhole() {
+  WindowFixture f;
+  f.openSmall();
+  auto* bar = f.window.findChild<MessageBar*>("messageBar");
+
+  f.window.bench().messages.warn(QString("words and words ").repeated(40));
+  QCoreApplication::processEvents();
+
+  QVERIFY(bar->height() >= bar->heightForWidth(bar->width()));
+  QVERIFY(bar->parentWidget()->rect().contains(bar->geometry()));
+}
+
+void LayoutTest::firstWindow_fitsTheScreen() {
+  WindowFixture f;  // its settings know of no window
+  MainWindow window;
+  window.show();
+  const QSize room = window.screen()->availableSize();
+
+  QVERIFY2(window.frameSize().width() <= room.width(), qPrintable(QString::number(window.width())));
+  QVERIFY(window.frameSize().height() <= room.height());
+  const auto* values = window.findChild<ValueBar*>();
+  QVERIFY(window.rect().contains(place_of(*values, window)));
+}
+
+void LayoutTest::dialogs_closeWithTheWindow() {
+  WindowFixture f;
+  f.trigger("help.keys");
+  const QPointer<QDialog> keys = f.window.findChild<QDialog*>("shortcut_window");
+  QVERIFY(keys && keys->isVisible());
+
+  f.window.close();
+
+  QVERIFY(!keys || !keys->isVisible());
+}
+
+}  // namespace episcope::in_layout_test
+
+EPISCOPE_WINDOW_TEST(layout_test, LayoutTest)
+#include "layout_test.moc"
