@@ -2,6 +2,7 @@
 #include "app/gui/annotate/annotation_files.h"
 
 #include "annotation/document/exchange.h"
+#include "app/gui/frame/changed_file.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/jobs.h"
@@ -45,6 +46,8 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
   session_.on_changed([this](Parts parts) {
     if (!parts.has(Part::Scene)) return;
     place_.clear();
+    known_ = place();
+    known_stamp_ = stamp_of(path_of(known_));
     showState();
   });
   showState();
@@ -149,22 +152,62 @@ std::function<Scribbles()> AnnotationFiles::snapshot() {
   };
 }
 
+bool AnnotationFiles::hasChangedOnDisk(const QString& path) const {
+  return path == known_ && saving_ == 0 && stamp_of(path_of(path)) != known_stamp_;
+}
+
 void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
+  if (!document_.document()) return;
+  if (!hasChangedOnDisk(path)) {
+    write(path, std::move(then));
+    return;
+  }
+  ask_about_changed_file(&bench_.window, path,
+                         {.overwrite = [this, path, then] { write(path, then); },
+                          .elsewhere = [this, then] { askForPlace(then); },
+                          .reload = [this, path] { reload(path); }});
+}
+
+void AnnotationFiles::reload(const QString& path) {
+  using Read = std::pair<std::shared_ptr<Scribbles>, FileStamp>;
+  bench_.jobs.start<Read>(
+      Lane::Load, tr("Reading %1").arg(QFileInfo(path).fileName()),
+      [scene = session_.scene(), path](const Progress& progress) {
+        const FileStamp stamp = stamp_of(path_of(path));
+        return Read(
+            std::make_shared<Scribbles>(io::read_scribbles(path_of(path), *scene, progress)),
+            stamp);
+      },
+      [this, path, generation = session_.generation()](const Read& read) {
+        if (generation != session_.generation()) return;
+        const LightFieldPtr light_field = session_.light_field();
+        document_.replace(document_from(*read.first, light_field->grid(), light_field->height(),
+                                        light_field->width()),
+                          true);
+        known_ = path;
+        known_stamp_ = read.second;
+        bench_.messages.success(tr("Reloaded: %1").arg(path));
+      });
+}
+
+void AnnotationFiles::write(const QString& path, std::function<void()> then) {
   if (!document_.document()) return;
   const auto scribbles = snapshot();
   const std::uint64_t generation = session_.generation();
   ++saving_;
   showState();
-  bench_.jobs.start<bool>(
+  bench_.jobs.start<FileStamp>(
       Lane::Export, tr("Saving %1").arg(QFileInfo(path).fileName()),
       [scribbles, path, scene = session_.scene()](const Progress& progress) {
         io::write_scribbles(path_of(path), scribbles(), *scene, progress);
-        return true;
+        return stamp_of(path_of(path));
       },
       [this, path, generation, state = document_.document()->state(),
-       then = std::move(then)](bool) {
+       then = std::move(then)](const FileStamp& stamp) {
         if (generation == session_.generation()) {
           place_ = path_of(path);
+          known_ = path;
+          known_stamp_ = stamp;
           document_.noteSaved(state);
         }
         bench_.messages.written(path);

@@ -3,6 +3,7 @@
 
 #include "app/gui/bench/workbench.h"
 #include "app/gui/document/document_controller.h"
+#include "app/session/save/file_stamp.h"
 #include "app/session/session.h"
 
 #include <QKeySequence>
@@ -53,7 +54,11 @@ class AnnotationFiles : public QObject {
   void addCommand(const QString& id, const QString& text, const QString& tip, const QString& icon,
                   const QList<QKeySequence>& keys, void (AnnotationFiles::*run)());
   void showState();
+  /// Asks first if another program wrote the file meanwhile.
   void saveTo(const QString& path, std::function<void()> then);
+  void write(const QString& path, std::function<void()> then);
+  void reload(const QString& path);
+  [[nodiscard]] bool hasChangedOnDisk(const QString& path) const;
   /// As `save`, then calls `then` on success.
   void saveAndThen(std::function<void()> then);
   void askForPlace(std::function<void()> then);
@@ -65,6 +70,8 @@ class AnnotationFiles : public QObject {
   DocumentController& document_;
   AnnotationBar* bar_;
   std::filesystem::path place_;  // where it was saved last
+  QString known_;  // the file that is expected to be as it was when read or written here
+  FileStamp known_stamp_;
   int saving_ = 0;
   QPointer<QMessageBox> question_;
 };

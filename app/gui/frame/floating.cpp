@@ -18,13 +18,19 @@ int height_of(const QWidget& widget, int width) {
 
 }  // namespace
 
-Floating::Floating(QWidget& over) : QObject(&over), over_(over) {
-  over.installEventFilter(this);
+Floating::Floating(QWidget& parent) : QObject(&parent), parent_(parent) {
+  setArea(&parent);
+}
+
+void Floating::setArea(QWidget* area) {
+  area_ = area;
+  area->installEventFilter(this);
+  place();
 }
 
 void Floating::add(QWidget* widget) {
   const bool was_hidden = widget->isHidden();
-  widget->setParent(&over_);
+  widget->setParent(&parent_);
   widget->setVisible(!was_hidden);
   widget->installEventFilter(this);
   widgets_.emplace_back(widget);
@@ -34,12 +40,13 @@ void Floating::add(QWidget* widget) {
 bool Floating::eventFilter(QObject* watched, QEvent* event) {
   switch (event->type()) {
     case QEvent::Resize:
-      if (watched == &over_) place();
+    case QEvent::Move:
+      if (watched == area_) place();
       break;
     case QEvent::Show:
     case QEvent::Hide:
     case QEvent::LayoutRequest:
-      if (watched != &over_) place();
+      if (watched != area_) place();
       break;
     default:
       break;
@@ -48,15 +55,15 @@ bool Floating::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void Floating::place() {
-  const int width = std::min(kWidest, over_.width() - 2 * theme::kMargin);
-  const int left = (over_.width() - width) / 2;
-  int top = theme::kMargin;
+  if (!area_) return;
+  const int width = std::min(kWidest, area_->width() - 2 * theme::kMargin);
+  QPoint corner = area_->mapTo(&parent_, QPoint((area_->width() - width) / 2, theme::kMargin));
   for (QWidget* widget : widgets_) {
     if (!widget || widget->isHidden()) continue;
     const int height = height_of(*widget, width);
-    widget->setGeometry(left, top, width, height);
+    widget->setGeometry(QRect(corner, QSize(width, height)));
     widget->raise();
-    top += height + theme::kSpacing;
+    corner.ry() += height + theme::kSpacing;
   }
 }
 

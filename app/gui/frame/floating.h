@@ -9,16 +9,18 @@
 
 namespace episcope {
 
-/// Widgets that float at the top of another one, below each other, each as high as it needs to be:
+/// Widgets that float at the top of an area, below each other, each as high as it needs to be:
 /// nothing moves when they come and go.
 class Floating : public QObject {
   Q_OBJECT
 
  public:
-  /// `over` is the widget that they float over; it outlives this.
-  explicit Floating(QWidget& over);
+  /// `parent` is that of the widgets; it outlives this.
+  explicit Floating(QWidget& parent);
 
-  /// Adds one below those that are there. It becomes a child of the widget that it floats over.
+  /// They float over this descendant of the parent; over the parent until it is set.
+  void setArea(QWidget* area);
+  /// Adds one below those that are there, and makes it a child of the parent.
   void add(QWidget* widget);
 
  protected:
@@ -27,7 +29,8 @@ class Floating : public QObject {
  private:
   void place();
 
-  QWidget& over_;
+  QWidget& parent_;
+  QPointer<QWidget> area_;
   std::vector<QPointer<QWidget>> widgets_;
 };
 

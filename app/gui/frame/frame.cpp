@@ -64,6 +64,7 @@ void Frame::addToColumn(QWidget* widget, bool stretches) {
 
 void Frame::setStage(QWidget* stage) {
   browser_->addWidget(stage);
+  floating_->setArea(stage);
   browser_->setStretchFactor(1, 1);  // what a larger window gives belongs to the view
   browser_->setSizes({kColumnWidth, kStageWidth});
 }

@@ -69,7 +69,7 @@ class Frame : public QWidget {
   QSplitter* column_;
   int fixed_count_ = 0;  // of widgets in the column that do not stretch; they stand first
   QSplitter* browser_;
-  Floating* floating_;  // over the browser
+  Floating* floating_;  // over the stage
   QTabWidget* book_;
   QVBoxLayout* right_;
   QVBoxLayout* rows_;

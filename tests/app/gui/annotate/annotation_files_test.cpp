@@ -2,8 +2,11 @@
 // What is painted goes to files, and is not lost by leaving it.
 #include "app/gui/annotate/annotation_files.h"
 
+#include "annotation/document/exchange.h"
+#include "annotation/paint/stroke.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
+#include "engine/io/labels/scribble_file.h"
 #include "tests/app/gui/annotating.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/message_bar.h"
@@ -26,6 +29,9 @@ class AnnotationFilesTest : public QObject {
   void close_asksAboutUnsavedChanges_data();
   void close_asksAboutUnsavedChanges();
   void openAnother_asksAboutUnsavedChanges();
+  void fileChangedOnDisk_isNotOverwrittenSilently_data();
+  void fileChangedOnDisk_isNotOverwrittenSilently();
+  void ownSave_isNoChangeOnDisk();
 };
 
 void AnnotationFilesTest::failedSave_keepsTheDocument() {
@@ -87,6 +93,55 @@ void AnnotationFilesTest::close_asksAboutUnsavedChanges() {
   QCOMPARE(f.labelAt({40, 40}), 1);
   QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
   if (!closes) f.window.bench().document.discardChanges();
+}
+
+void AnnotationFilesTest::fileChangedOnDisk_isNotOverwrittenSilently_data() {
+  QTest::addColumn<QString>("button");
+  QTest::addColumn<int>("mine");    // label of the stroke painted here, as the file has it then
+  QTest::addColumn<int>("theirs");  // of the stroke painted in the other window
+  QTest::addColumn<int>("open");    // of that stroke, as it is open here then
+  QTest::newRow("overwrite") << "changed_file.overwrite" << 1 << 0 << 0;
+  QTest::newRow("reload") << "changed_file.reload" << 0 << 1 << 1;
+}
+
+void AnnotationFilesTest::fileChangedOnDisk_isNotOverwrittenSilently() {
+  QFETCH(QString, button);
+  QFETCH(int, mine);
+  QFETCH(int, theirs);
+  QFETCH(int, open);
+  Annotating f;
+  const QString file = f.path("edge/labels.h5");
+  const Scene& scene = *f.window.bench().session.scene();
+  f.drag({20, 20}, {20, 60});  // makes the label, which both windows have
+  f.trigger("file.save_scribbles");
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
+  AnnotationDocument other(f.document().labels(), f.document().scribbles(), 0);
+  Stroke stroke(other, Annotating::kCenter, {.label = 1});
+  stroke.extend({70, 50});
+  QVERIFY(stroke.commit());
+  f.drag({40, 20}, {40, 60});
+  io::write_scribbles(file.toStdString(), scribbles_of(other), scene, Progress());
+
+  f.trigger("file.save_scribbles");
+  QTRY_VERIFY(f.window.findChild<QMessageBox*>("changed_file"));
+  f.click(button);
+  QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
+
+  const Scribbles read = io::read_scribbles(file.toStdString(), scene, Progress());
+  const AnnotationDocument written = document_from(read, scene.light_field->grid(), 96, 96);
+  QCOMPARE(written.scribbles().label_at(Annotating::kCenter, {40, 40}), mine);
+  QCOMPARE(written.scribbles().label_at(Annotating::kCenter, {70, 50}), theirs);
+  QCOMPARE(f.labelAt({70, 50}), open);
+}
+
+void AnnotationFilesTest::ownSave_isNoChangeOnDisk() {
+  Annotating f;
+  for (int y : {40, 60}) {
+    f.drag({y, 20}, {y, 60});
+    f.trigger("file.save_scribbles");
+    QTRY_VERIFY_WITH_TIMEOUT(!f.window.isWindowModified(), kPatience);
+  }
+  QVERIFY(!f.window.findChild<QMessageBox*>("changed_file"));
 }
 
 void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/frame/changed_file.h"
+
+#include <QCoreApplication>
+#include <QMessageBox>
+#include <QPushButton>
+
+namespace episcope {
+namespace {
+
+struct Text {
+  Q_DECLARE_TR_FUNCTIONS(episcope::ChangedFile)
+};
+
+}  // namespace
+
+void ask_about_changed_file(QWidget* window, const QString& path,
+                            const ChangedFileAnswers& answers) {
+  auto* box = new QMessageBox(
+      QMessageBox::Warning, Text::tr("The file has changed"),
+      Text::tr("Another program has written %1 since it was read here. Saving replaces what that "
+               "program wrote; reloading replaces the labels and strokes that are open here.")
+          .arg(path),
+      QMessageBox::Cancel, window);
+  box->setObjectName("changed_file");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  const auto add = [box](const char* name, const QString& text, QMessageBox::ButtonRole role,
+                         const std::function<void()>& run) {
+    QPushButton* button = box->addButton(text, role);
+    button->setObjectName(name);
+    QObject::connect(button, &QPushButton::clicked, box, run);
+  };
+  add("changed_file.elsewhere", Text::tr("Save to another file…"), QMessageBox::AcceptRole,
+      answers.elsewhere);
+  add("changed_file.overwrite", Text::tr("Overwrite"), QMessageBox::DestructiveRole,
+      answers.overwrite);
+  add("changed_file.reload", Text::tr("Reload"), QMessageBox::DestructiveRole, answers.reload);
+  box->setDefaultButton(QMessageBox::Cancel);
+  box->open();
+}
+
+}  // namespace episcope
