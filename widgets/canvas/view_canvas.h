@@ -121,7 +121,7 @@ class ViewCanvas : public QWidget {
   void wipeMoved(double position);
   /// Space pressed and released without a drag. Held, it pans: no shortcut hears it in the canvas.
   void spaceTapped();
-  /// Alt+wheel: steps of the focus plane, positive = nearer.
+  /// Alt+wheel or Ctrl+wheel: steps of the focus plane, positive = nearer.
   void focusStepped(double steps);
 
  protected:

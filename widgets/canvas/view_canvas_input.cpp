@@ -41,7 +41,7 @@ void ViewCanvas::wheelEvent(QWheelEvent* event) {
   }
   if (is_for_tool) {
     tool_->step(turned / kWheelNotch);
-  } else if (modifiers & Qt::AltModifier) {
+  } else if (modifiers & (Qt::AltModifier | Qt::ControlModifier)) {  // Alt may be the desktop's
     emit focusStepped(turned / kWheelNotch);
   } else {
     zoomAt(event->position(), wheel_zoom(turned));

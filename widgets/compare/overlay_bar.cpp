@@ -55,6 +55,7 @@ OverlayBar::OverlayBar(QWidget* parent)
   focus_slider_->setMaximumWidth(220);
   focus_slider_->setToolTip(
       tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "
+         "Ctrl+wheel, "
          "Shift+click)"));
   focus_spin_->setObjectName("overlay.focusSpin");
   focus_spin_->setDecimals(2);

@@ -104,7 +104,7 @@ void LabelController::addEditCommands() {
                            return is_first ? hasDocument() : labels_.current() != 0;
                          }});
   };
-  add_one("add_label", tr("Add label"), tr("Adds a label and paints with it"), "add",
+  add_one("add_label", tr("Add label"), tr("Adds a label, to be named and painted with"), "add",
           {tr("Ctrl+Shift+N")}, [this] { add(); });
   add_one("rename_label", tr("Rename label"), tr("Renames the current label"), "rename",
           {Qt::Key_F2}, [this] { rename(); });
@@ -150,7 +150,9 @@ void LabelController::choose(int id) {
 void LabelController::add() {
   int id = 0;
   document_.edit([&](AnnotationDocument& document) { id = document.add_label(); });
-  if (id != 0) labels_.choose(id);
+  if (id == 0) return;
+  labels_.choose(id);
+  rename();
 }
 
 void LabelController::rename() {

@@ -8,6 +8,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
 #include "engine/core/light_field/epi.h"
 #include "engine/render/shade.h"
@@ -51,6 +52,7 @@ BrowseController::BrowseController(const Workbench& bench)
   connect(stage_.overlayBar(), &OverlayBar::focusChanged, this,
           [this](double focus_px) { session_.set_focus(focus_px); });
   connect(&stage_, &Stage::previewChanged, this, &BrowseController::setPreviewing);
+  connect(&bench.overlay, &Overlay::drawn, this, &BrowseController::showSlopes);  // of A or B
   connect(&bench.document, &DocumentController::replaced, this, &BrowseController::markPainted);
   connect(&bench.document, &DocumentController::changed, this, &BrowseController::markPainted);
   session_.on_changed([this](Parts parts) { update(parts); });
@@ -198,6 +200,7 @@ void BrowseController::showEpis() {
   const PixelIndex pixel = session_.cross_hair();
   const double focus_px = session_.focus_px();
   stage_.canvas()->setCrossHair(pixel);
+  clearLinesOfOtherRows();
   stage_.horizontalEpi()->setFocus(focus_px);
   stage_.verticalEpi()->setFocus(focus_px);
   stage_.horizontalEpi()->setEpi(
@@ -209,12 +212,25 @@ void BrowseController::showEpis() {
   showSlopes();
 }
 
+// A line drawn in an EPI belongs to what was seen there.
+void BrowseController::clearLinesOfOtherRows() {
+  const ViewIndex view = session_.view();
+  const PixelIndex pixel = session_.cross_hair();
+  const std::pair horizontal(view.v, pixel.y);
+  const std::pair vertical(view.u, pixel.x);
+  if (std::exchange(horizontal_row_, horizontal) != horizontal) {
+    stage_.horizontalEpi()->clearMeasurement();
+  }
+  if (std::exchange(vertical_row_, vertical) != vertical) stage_.verticalEpi()->clearMeasurement();
+}
+
 void BrowseController::showSlopes() {
   DisparityPair estimate;
   DisparityPair truth;
   if (session_.scene()) {
     truth = disparities_at(*session_.scene()->truth, session_.view(), session_.cross_hair());
-    if (const EstimateEntry* shown = session_.shown()) {
+    const bool is_flipped = bench_.overlay.isFlipped();
+    if (const auto* shown = is_flipped ? session_.compared() : session_.shown()) {
       estimate = disparities_at(*shown->estimate, session_.view(), session_.cross_hair());
     }
   }

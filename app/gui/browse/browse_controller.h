@@ -11,6 +11,7 @@
 #include <QObject>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -55,6 +56,7 @@ class BrowseController : public QObject {
   void showView();
   void showPicture(const QImage& picture);
   void showEpis();
+  void clearLinesOfOtherRows();
   void showSlopes();
   void startThumbnails();
   void markPainted();
@@ -66,6 +68,8 @@ class BrowseController : public QObject {
   ViewGrid* grid_;
   bool refocuses_ = true;
   ViewIndex parallax_start_;
+  std::pair<int, int> horizontal_row_{-1, -1};  // v and y of the EPI that is shown
+  std::pair<int, int> vertical_row_{-1, -1};    // u and x
   LatestJob refocus_job_;
   LatestJob thumbnail_job_;
 };

@@ -7,11 +7,14 @@
 #include <QCoreApplication>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QSettings>
 
 #include <utility>
 
 namespace episcope {
 namespace {
+
+constexpr const char* kLastFolder = "last_folder";  // key of the settings
 
 struct Text {
   Q_DECLARE_TR_FUNCTIONS(episcope::Dialogs)
@@ -21,6 +24,10 @@ QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, Answer a
   auto* dialog = new QFileDialog(window, question.title, QString(), question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setDirectory(QSettings().value(kLastFolder).toString());
+  QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {
+    QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
+  });
   QObject::connect(dialog, &QFileDialog::fileSelected, window, std::move(answer));
   return dialog;
 }

@@ -14,8 +14,8 @@ class Jobs;
 class Messages;
 class Progress;
 
-/// What a file dialog asks. Dialogs block nothing: `answer` is called with the path that was
-/// chosen, or never.
+/// What a file dialog asks. It begins in the folder chosen last. Dialogs block nothing: `answer` is
+/// called with the path that was chosen, or never.
 struct FileQuestion {
   QString name;  ///< Of the dialog, as an object.
   QString title;

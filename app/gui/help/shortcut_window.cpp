@@ -19,6 +19,7 @@ namespace episcope {
 namespace {
 
 constexpr int kIdRole = Qt::UserRole;
+constexpr int kWordsRole = Qt::UserRole + 1;  // that it is found by, besides those seen
 
 QString key_text(const QList<QKeySequence>& keys) {
   QStringList texts;
@@ -117,7 +118,7 @@ void ShortcutWindow::fillGestures() {
           {tr("Drag"), tr("Moves between the views (parallax); in tiles: pans")},
           {tr("Middle drag, Space+drag"), tr("Pans")},
           {tr("Wheel"), tr("Zooms at the cursor")},
-          {tr("Alt+wheel"), tr("Moves the focus plane")},
+          {tr("Alt+wheel, Ctrl+wheel"), tr("Moves the focus plane")},
           {tr("Drag in an EPI"), tr("Draws a line and measures its disparity")},
       });
   addGestures(tr("In the view, while annotating"),
@@ -145,6 +146,7 @@ void ShortcutWindow::fillCommands() {
       if (command.menu != menu.menu || command.submenu) continue;
       if (!group) group = add_group(tree_, menu_path(menu.menu));
       auto* item = new QTreeWidgetItem(group, {QString(), command.tip});
+      item->setData(0, kWordsRole, menu_path(menu.menu) + ' ' + command.text);
       item->setData(0, kIdRole, command.id);
     }
   }
@@ -172,8 +174,10 @@ void ShortcutWindow::filter(const QString& text) {
     bool is_empty = true;
     for (int row = 0; row < group->childCount(); ++row) {
       QTreeWidgetItem* item = group->child(row);
-      const bool is_found = item->text(0).contains(text, Qt::CaseInsensitive) ||
-                            item->text(1).contains(text, Qt::CaseInsensitive);
+      const bool is_found =
+          item->text(0).contains(text, Qt::CaseInsensitive) ||
+          item->text(1).contains(text, Qt::CaseInsensitive) ||
+          item->data(0, kWordsRole).toString().contains(text, Qt::CaseInsensitive);
       item->setHidden(!is_found);
       is_empty &= !is_found;
     }

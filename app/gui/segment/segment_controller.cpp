@@ -90,6 +90,12 @@ bool SegmentController::awaits_map(render::Quantity quantity) const {
   return live_.has_input() && (quantity != render::Quantity::WrongLabels || session_.true_labels());
 }
 
+QString SegmentController::title(render::Quantity quantity) const {
+  const LabelInfo* label = bench_.labels.info();
+  if (quantity != render::Quantity::Probability || !label) return {};
+  return tr("probability of “%1”").arg(QString::fromStdString(label->name));
+}
+
 std::optional<MapSource> SegmentController::map_source(render::Quantity quantity,
                                                        ViewIndex view) const {
   const AnnotationDocument* document = std::as_const(document_).document();

@@ -46,6 +46,7 @@ class SegmentController : public QObject, public MapProvider {
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;
   [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
+  [[nodiscard]] QString title(render::Quantity quantity) const override;
   [[nodiscard]] std::optional<MapSource> map_source(render::Quantity quantity,
                                                     ViewIndex view) const override;
 

@@ -7,6 +7,8 @@
 #include "widgets/compare/overlay_bar.h"
 #include "widgets/style/quantity_text.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -222,6 +224,11 @@ QString Overlay::describe(const MapChoice& choice) const {
   const auto name = [](const EstimateEntry* each) { return QString::fromStdString(each->name); };
   if (entry && other) return tr("%1 − %2").arg(name(entry), name(other));
   if (choice.quantity == Quantity::View) return tr("view");
+  const auto provider = providers_.find(render::info_of(choice.quantity).subject);
+  if (provider != providers_.end()) {
+    const QString title = provider->second->title(choice.quantity);
+    if (!title.isEmpty()) return title;
+  }
   if (!entry) return quantity_label(choice.quantity);
   return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
 }
@@ -248,9 +255,12 @@ void Overlay::showCaption(const MapChoice& choice) const {
 }
 
 void Overlay::setRange(std::optional<Interval> range) {
-  const Quantity key = range_key(choice().quantity);
+  const Quantity quantity = choice().quantity;
+  const Quantity key = range_key(quantity);
   if (range) {
-    edited_ranges_[key] = *range;
+    const double reach = std::max(std::abs(range->min), std::abs(range->max));
+    // The middle of a signed map is zero.
+    edited_ranges_[key] = render::info_of(quantity).is_signed() ? Interval{-reach, reach} : *range;
   } else {
     edited_ranges_.erase(key);
   }

@@ -14,6 +14,7 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QColorDialog>
 #include <QDir>
 #include <QFile>
@@ -41,10 +42,11 @@ class User : public WindowFixture {
     key(Qt::Key_B);
   }
   int addLabel(const QString& name, const QColor& color) {
+    window.activateWindow();
+    QTEST_ASSERT(QTest::qWaitForWindowActive(&window));
     click("labels.add");
     auto* tree = window.findChild<LabelPalette*>()->findChild<QTreeWidget*>("labels.tree");
-    key(Qt::Key_F2);
-    type(tree->viewport()->findChild<QLineEdit*>(), name);
+    type(qobject_cast<QLineEdit*>(QApplication::focusWidget()), name);
     // Renaming filled the rows again; the first column is the colour.
     const int row = tree->visualItemRect(tree->currentItem()).center().y();
     QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, {8, row});

@@ -13,8 +13,10 @@
 #include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
+#include <QApplication>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSpinBox>
@@ -34,6 +36,7 @@ class AnnotateTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void addedLabel_isNamedAtOnce();
   void drag_paintsAStrokeThatUndoTakesBack();
   void rightDrag_erases();
   void shift_protectsOtherLabels();
@@ -53,6 +56,20 @@ class AnnotateTest : public QObject {
   void preview_cannotBePainted();
   void whileTheFirstIsRead_theHintSaysSo();
 };
+
+void AnnotateTest::addedLabel_isNamedAtOnce() {
+  Annotating f;
+  f.window.activateWindow();
+  QVERIFY(QTest::qWaitForWindowActive(&f.window));
+
+  f.click("labels.add");
+  QVERIFY(qobject_cast<QLineEdit*>(QApplication::focusWidget()));
+  QTest::keyClicks(QApplication::focusWidget(), "brush");
+  QTest::keyClick(QApplication::focusWidget(), Qt::Key_Return);
+
+  QTRY_COMPARE(f.document().labels().labels().back().name, std::string("brush"));
+  QTRY_COMPARE(QApplication::focusWidget(), f.canvas());
+}
 
 void AnnotateTest::drag_paintsAStrokeThatUndoTakesBack() {
   Annotating f;

@@ -5,6 +5,8 @@
 #include "widgets/browse/value_bar.h"
 #include "widgets/canvas/view_canvas.h"
 
+#include <QWheelEvent>
+
 namespace episcope::in_browse_test {
 
 namespace {
@@ -23,7 +25,47 @@ class BrowseTest : public QObject {
   void click_movesTheCrossHairAndTheEpis();
   void shiftClick_focusesAtThePixel();
   void valuesAtTheCursor_areRead();
+  void measuredLine_belongsToItsRow();
+  void wheelWithAltOrCtrl_movesTheFocusPlane_data();
+  void wheelWithAltOrCtrl_movesTheFocusPlane();
 };
+
+void BrowseTest::measuredLine_belongsToItsRow() {
+  WindowFixture f;
+  f.openSmall();
+  auto* epi = f.window.bench().stage.horizontalEpi();
+  const QPoint middle = epi->rect().center();
+  QTest::mousePress(epi, Qt::LeftButton, {}, middle - QPoint(10, 20));
+  QTest::mouseMove(epi, middle + QPoint(10, 20));
+  QTest::mouseRelease(epi, Qt::LeftButton, {}, middle + QPoint(10, 20));
+  QVERIFY(epi->measuredDisparity());
+
+  click_pixel(f.canvas(), {f.window.bench().session.cross_hair().y, 20});
+  QCoreApplication::processEvents();
+  QVERIFY(epi->measuredDisparity());
+  click_pixel(f.canvas(), {20, 20});
+
+  QTRY_VERIFY(!epi->measuredDisparity());
+}
+
+void BrowseTest::wheelWithAltOrCtrl_movesTheFocusPlane_data() {
+  QTest::addColumn<Qt::KeyboardModifier>("held");
+  QTest::newRow("Alt") << Qt::AltModifier;
+  QTest::newRow("Ctrl") << Qt::ControlModifier;
+}
+
+void BrowseTest::wheelWithAltOrCtrl_movesTheFocusPlane() {
+  QFETCH(Qt::KeyboardModifier, held);
+  WindowFixture f;
+  f.openSmall();
+  const QPointF at = f.canvas()->rect().center();
+  QWheelEvent wheel(at, f.canvas()->mapToGlobal(at), {}, {0, 120}, Qt::NoButton, held,
+                    Qt::NoScrollPhase, false);
+
+  QCoreApplication::sendEvent(f.canvas(), &wheel);
+
+  QVERIFY(f.window.bench().session.focus_px() > 0);
+}
 
 void BrowseTest::arrows_changeTheView() {
   WindowFixture f;

@@ -3,6 +3,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/color_bar.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QAction>
@@ -34,6 +35,7 @@ class OverlayTest : public QObject {
 
  private slots:
   void errorOverlay_isOneClickAway();
+  void rangeOfASignedMap_hasZeroInTheMiddle();
   void heldTab_flips();
   void hugeTruth_leavesTheLayoutAlone();
   void savedPicture_isTheShownOne();
@@ -55,6 +57,21 @@ void OverlayTest::errorOverlay_isOneClickAway() {
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().overlay.picture() != before, kPatience);
   QVERIFY(f.window.bench().stage.canvas()->grab().toImage() != canvas_before);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isChecked());
+}
+
+void OverlayTest::rangeOfASignedMap_hasZeroInTheMiddle() {
+  WindowFixture f;
+  f.openSmall();
+  f.runAndWait();
+  click_action(f.window, "overlay.error");
+  auto* most = f.window.bench().stage.colorBar()->findChild<QDoubleSpinBox*>("colorBar.max");
+  QVERIFY(most);
+
+  most->setValue(0.75);
+
+  const Interval range = f.window.bench().overlay.shadingOf(render::Quantity::SignedError).range;
+  QCOMPARE(range.max, 0.75);
+  QCOMPARE(range.min, -0.75);
 }
 
 void OverlayTest::heldTab_flips() {
