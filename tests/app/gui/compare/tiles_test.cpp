@@ -6,7 +6,6 @@
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
 
-
 #include <cmath>
 
 namespace episcope::in_tiles_test {
