@@ -34,13 +34,6 @@ Laid lay_out(const std::string& id, const RenderOptions& options) {
   return {stage, recipe.lay_out(stage), recipe.has_scribbles};
 }
 
-// "random?seed=7&kind=thin"; other scenes are their ids.
-std::string text_of(const std::string& id, const RenderOptions& options) {
-  if (id != kRandomScene) return id;
-  const std::string text = fmt::format("{}?seed={}", id, options.seed);
-  return options.kind == RandomKind::Any ? text : text + "&kind=" + random_kind_name(options.kind);
-}
-
 void require_range(const char* name, double value, double min, double max) {
   if (value >= min && value <= max) return;
   const auto text = [](double number) {
@@ -111,6 +104,12 @@ std::string builtin_name(const std::string& id, const RenderOptions& options) {
   return fmt::format("{}_{}_{}", id, random_kind_name(options.kind), options.seed);
 }
 
+std::string builtin_text(const std::string& id, const RenderOptions& options) {
+  if (id != kRandomScene) return id;
+  const std::string text = fmt::format("{}?seed={}", id, options.seed);
+  return options.kind == RandomKind::Any ? text : text + "&kind=" + random_kind_name(options.kind);
+}
+
 Scene render_builtin(const std::string& id, const RenderOptions& options,
                      const Progress& progress) {
   require_builtin(id);
@@ -121,7 +120,7 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
 
   LightFieldInfo info;
   info.name = builtin_name(id, options);
-  info.source = id == "demo" ? "demo" : "demo:" + text_of(id, options);
+  info.source = id == "demo" ? "demo" : "demo:" + builtin_text(id, options);
   info.reading.reader = kBuiltinReader;
   info.positions = options.positions;
   info.camera = camera_grid_of(laid.stage, options.disparity_scale);

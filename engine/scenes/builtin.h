@@ -48,6 +48,10 @@ void require_builtin(const std::string& id);
 /// Name for lists and files: the id; of a random scene with kind and seed ("random_thin_7").
 [[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
 
+/// How users write the scene (request.h): the id; of a random scene with seed and kind
+/// ("random?seed=7&kind=thin").
+[[nodiscard]] std::string builtin_text(const std::string& id, const RenderOptions& options);
+
 /// Ray-casts a built-in scene analytically, each view by itself: exact disparity and labels at
 /// pixel centres for every view, colour averaged over 4×4 samples, band-limited textures, seeded
 /// noise. Deterministic: the same options give the same bytes on every machine and thread count.

@@ -2,6 +2,7 @@
 #include "app/gui/files/file_controller.h"
 
 #include "app/gui/document/document_controller.h"
+#include "app/gui/files/builtin_dialog.h"
 #include "app/gui/files/recent_inputs.h"
 #include "app/gui/files/save_forms.h"
 #include "app/gui/frame/commands.h"
@@ -87,6 +88,9 @@ void FileController::addOpenCommands() {
                        .tip = tr("Opens the built-in demo scene"),
                        .run = [this] { bench_.opener.open("demo"); },
                        .section = section::kOpen});
+  bench_.commands.add(add("file.builtin", tr("Built-in scenes…"),
+                          tr("Opens one of the built-in scenes, or a random one of a seed"), {},
+                          &FileController::askForBuiltin));
 }
 
 void FileController::addSaveCommand() {
@@ -141,6 +145,14 @@ void FileController::askForResult() {
                [this](const QString& path) {
                  bench_.session.scene() ? bench_.results.open(path) : bench_.opener.open(path);
                });
+}
+
+void FileController::askForBuiltin() {
+  auto* dialog = new BuiltinDialog(&bench_.window);
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this,
+          [this, dialog] { bench_.opener.open(dialog->input()); });
+  dialog->open();
 }
 
 void FileController::openAny(const QString& path) {

@@ -27,6 +27,7 @@ class FileController : public QObject {
   void askForFile();
   void askForFolder();
   void askForResult();
+  void askForBuiltin();
   /// A result is added to the open light field; anything else is opened.
   void openAny(const QString& path);
   void fillRecentMenu();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/picture/picture.h"
 
+#include "engine/core/array/transposed.h"
 #include "engine/core/error.h"
 #include "engine/core/light_field/epi.h"
 
@@ -25,16 +26,6 @@ RgbaImage stretched(const RgbaImage& picture) {
     std::copy_n(picture.row(y / kEpiRowHeight), row_size, tall.row(y));
   }
   return tall;
-}
-
-RgbaImage transposed(const RgbaImage& picture) {
-  RgbaImage result(picture.width(), picture.height(), picture.channels());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      std::copy_n(&picture.at(y, x), picture.channels(), &result.at(x, y));
-    }
-  }
-  return result;
 }
 
 // Calls `change` with every pixel of the picture that is not judged.

@@ -28,10 +28,11 @@ inline constexpr const char* kRangeHelp =
                                     const Progress& progress);
 
 /// Estimates the range by a coarse, robust pass: the structure tensor on some rows and columns of
-/// the centre view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image, and the
-/// span between the first and the last 0.2 px that hold a small fraction of the coherent pixels and
-/// that the pixels of some rows confirm by matching (label_support.h). Under noise fewer pixels are
-/// coherent, and the threshold is lowered. A light field without texture gives [−1, 1].
+/// the centre view's EPIs, sheared in whole pixels over ±16 px or a sixth of the image
+/// (orientation_histogram.h), and the span between the first and the last disparities that hold a
+/// small fraction of the coherent pixels and that some pixels confirm by matching distinctly
+/// (label_support.h). The same at half and a quarter of the size (smaller_views.h), which shows
+/// what noise or blur hide, may widen the range. A light field without texture gives [−1, 1].
 /// Throws Cancelled.
 [[nodiscard]] Interval find_disparity_range(const LightField& light_field,
                                             const Progress& progress);

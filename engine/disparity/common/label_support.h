@@ -8,11 +8,12 @@
 
 namespace episcope {
 
-/// The share in [0, 1] of the pixels of the centre view that match the views of its row and column
-/// best at each label (disparity, px per view step), each pixel by itself, on some rows of the
-/// image. Pixels that match all labels alike or are not valid do not count. A repeated pattern that
-/// suits a few neighbouring views at a wrong disparity hardly suits all of them, so that wrong
-/// labels get less than 0.1 % each. Throws Cancelled, InvalidInput for a single view.
+/// Where pixels of the centre view distinctly match: of those on some rows that match the views of
+/// its row and column, 3×3 px at a time, at one label (disparity, px per view step) much better
+/// than at any label 0.75 px or more away, the share that does so at each label, in [0, 1]. They
+/// add up to 1, or to 0 if no pixel matches so. A repeated pattern suits several labels, and what
+/// noise alone suits is not much better than the next: neither counts. Throws Cancelled,
+/// InvalidInput for a single view.
 [[nodiscard]] std::vector<double> label_support(const LightField& light_field,
                                                 const std::vector<float>& labels,
                                                 const Progress& progress);

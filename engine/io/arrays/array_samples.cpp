@@ -4,9 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/arrays/block_plan.h"
 #include "engine/io/arrays/move_block.h"
-
-#include <fmt/format.h>
-#include <unistd.h>
+#include "engine/io/open/view_memory.h"
 
 #include <algorithm>
 #include <array>
@@ -74,23 +72,11 @@ void for_each_block(const ArrayInput& array, const ArrayLayout& layout, const Pr
   }
 }
 
-void require_memory(const ArrayInput& array, std::size_t bytes) {
-  const auto pages = static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES));
-  const std::size_t memory = pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  if (bytes < memory) return;
-  constexpr double kGigabyte = 1e9;
-  throw IoError(
-      array.path(),
-      fmt::format("the views need {:.1f} GB of memory, but this machine has {:.1f} GB; "
-                  "store fewer views or smaller ones",
-                  static_cast<double>(bytes) / kGigabyte, static_cast<double>(memory) / kGigabyte));
-}
-
 template <class T>
 ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const Progress& progress) {
   const std::size_t stored = layout.length('c');
   const std::size_t channels = std::min<std::size_t>(stored, 3);
-  require_memory(array, element_count(array.shape()) * sizeof(T));
+  require_view_memory(array.path(), static_cast<double>(element_count(array.shape())) * sizeof(T));
   ViewStack<T> stack(layout.grid(), layout.height(), layout.width(), static_cast<int>(channels));
   ViewStack<std::uint8_t> valid;
   if (stored == 4) {
@@ -151,7 +137,7 @@ ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
 template <class T>
 ViewStack<T> read_map_stack(const ArrayInput& array, const ArrayLayout& layout,
                             const Progress& progress) {
-  require_memory(array, element_count(array.shape()) * sizeof(T));
+  require_view_memory(array.path(), static_cast<double>(element_count(array.shape())) * sizeof(T));
   ViewStack<T> stack(layout.grid(), layout.height(), layout.width());
   for_each_block<T>(array, layout, progress, [&](const T* samples, const BlockAxes& axes) {
     move_block<T, T>({samples, axes.stride}, place_of(stack, axes), axes.count,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/npy_file.h"
 
+#include "engine/core/array/transposed.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/system_error.h"
@@ -50,12 +51,7 @@ Image<T> read_image(const ArrayInput& array, bool is_transposed) {
   const ArrayShape size = map_size(array);
   Image<T> image(static_cast<int>(size[0]), static_cast<int>(size[1]));
   array.read(ArrayShape(array.shape().size(), 0), array.shape(), image.data());
-  if (!is_transposed) return image;
-  Image<T> turned(image.width(), image.height());
-  for (int y = 0; y < turned.height(); ++y) {
-    for (int x = 0; x < turned.width(); ++x) turned.at(y, x) = image.at(x, y);
-  }
-  return turned;
+  return is_transposed ? transposed(image) : image;
 }
 
 }  // namespace

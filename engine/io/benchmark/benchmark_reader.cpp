@@ -169,8 +169,8 @@ DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const C
     return field;
   }
   DisparityField field;
-  const fs::path disparity = folder / "gt_disp_lowres.pfm";
-  const fs::path depth = folder / "gt_depth_lowres.pfm";
+  const fs::path disparity = folder / kCenterDisparity;
+  const fs::path depth = folder / kCenterDepth;
   if (is_there(disparity)) {
     report.units = "disparity as stored in gt_disp_lowres.pfm";
     field = make({1, 1}, grid.center());
@@ -193,7 +193,7 @@ void read_regions(SceneFolder& scene, Size size, GroundTruth& truth) {
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(scene.path)) files.insert(entry.path());
   for (const fs::path& path : files) {
-    const std::string region = region_of(path, "_lowres.png");
+    const std::string region = region_of(path, kMaskSuffix);
     if (region.empty()) continue;
     const Image<std::int32_t> numbers = decode_numbers(path);
     require_size(path, numbers, size);
@@ -216,7 +216,7 @@ void find_high_res(SceneFolder& scene, Size size, GroundTruth& truth) {
 }
 
 void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth& truth) {
-  const fs::path path = scene.path / "objectids_lowres.png";
+  const fs::path path = scene.path / kObjectIds;
   if (!is_there(path)) return;
   scene.account.use(path, "label map of the centre view");
   const Image<std::int32_t> ids = decode_numbers(path);
@@ -229,8 +229,7 @@ bool is_benchmark_folder(const fs::path& folder) {
   if (is_there(folder / kBenchmarkConfig)) return true;
   // Without it only truth tells a scene of the benchmark from any list of views.
   const bool has_truth = is_there(folder / disparity_file_name(0)) ||
-                         is_there(folder / "gt_disp_lowres.pfm") ||
-                         is_there(folder / "gt_depth_lowres.pfm");
+                         is_there(folder / kCenterDisparity) || is_there(folder / kCenterDepth);
   return has_truth && count_benchmark_views(folder) > 0;
 }
 

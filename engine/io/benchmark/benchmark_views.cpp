@@ -29,8 +29,8 @@ std::string truth_of(const fs::path& folder, GridShape grid) {
   const bool has_all = is_there(folder / disparity_file_name(0)) &&
                        is_there(folder / disparity_file_name(grid.count() - 1));
   if (has_all) return "disparity of all views";
-  if (is_there(folder / "gt_disp_lowres.pfm")) return "disparity of the centre view";
-  return is_there(folder / "gt_depth_lowres.pfm") ? "depth of the centre view" : "";
+  if (is_there(folder / kCenterDisparity)) return "disparity of the centre view";
+  return is_there(folder / kCenterDepth) ? "depth of the centre view" : "";
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ SceneProbe probe_benchmark(const fs::path& folder, const OpenOptions& options) {
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   SceneProbe probe = probe_views(benchmark_views(folder, config, given_grid(options)));
   probe.truth = truth_of(folder, probe.grid);
-  if (is_there(folder / "objectids_lowres.png")) probe.labels = "labels of the centre view";
+  if (is_there(folder / kObjectIds)) probe.labels = "labels of the centre view";
   return probe;
 }
 

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kDisparity = "gt_disp_highres.pfm";
-constexpr const char* kMaskSuffix = "_highres.png";
+constexpr const char* kHighResMaskSuffix = "_highres.png";
 /// What the map of one scene may take: those of the benchmark take 100 MiB.
 constexpr std::uintmax_t kGrantedMiB = 512;
 
@@ -38,7 +38,8 @@ class TruthInFiles : public HighResTruth {
       : disparity_(files.disparity),
         height_(height * kHighResScale),
         width_(width * kHighResScale) {
-    for (const fs::path& path : files.masks) masks_.emplace(region_of(path, kMaskSuffix), path);
+    for (const fs::path& path : files.masks)
+      masks_.emplace(region_of(path, kHighResMaskSuffix), path);
   }
 
   [[nodiscard]] Image<float> read_disparity() const override {
@@ -115,7 +116,7 @@ HighResFiles find_high_res_files(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
     if (path.filename() == kDisparity) files.disparity = path;
-    if (!region_of(path, kMaskSuffix).empty()) files.masks.push_back(path);
+    if (!region_of(path, kHighResMaskSuffix).empty()) files.masks.push_back(path);
   }
   std::sort(files.masks.begin(), files.masks.end());
   return files;

@@ -85,7 +85,7 @@ void write_truth(const fs::path& folder, const Scene& scene) {
   const LightField& field = *scene.light_field;
   const ViewIndex center = field.center();
   if (truth.field.contains(center)) {
-    write_disparity_map(folder / "gt_disp_lowres.pfm", truth.field.view(center));
+    write_disparity_map(folder / kCenterDisparity, truth.field.view(center));
   }
   const bool has_all = truth.has_disparity() && truth.field.disparity.grid() == field.grid();
   for (int i = 0; has_all && i < field.grid().count(); ++i) {
@@ -97,14 +97,14 @@ void write_truth(const fs::path& folder, const Scene& scene) {
     std::transform(labels.data, labels.data + labels.size(), ids.begin(), [](std::int32_t label) {
       return static_cast<std::uint16_t>(std::clamp(label, 0, 65535));
     });
-    write_png(folder / "objectids_lowres.png", ids.view());
+    write_png(folder / kObjectIds, ids.view());
   }
   for (const auto& [name, region] : truth.regions) {
     Image<std::uint8_t> mask(region.height(), region.width());
     const bool is_numbered = is_numbered_region(name);
     std::transform(region.begin(), region.end(), mask.begin(),
                    [=](std::uint8_t inside) { return inside == 0 || is_numbered ? inside : 255; });
-    write_png(folder / ("mask_" + name + "_lowres.png"), mask.view());
+    write_png(folder / ("mask_" + name + kMaskSuffix), mask.view());
   }
 }
 

@@ -5,10 +5,8 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/open/center_preview.h"
+#include "engine/io/open/view_memory.h"
 
-#include <fmt/format.h>
-
-#include <unistd.h>
 #include <algorithm>
 
 namespace episcope::io {
@@ -27,18 +25,6 @@ void store(const std::filesystem::path& path, const AnyImage& decoded, const Any
   std::copy_n(image->data(), image->size(), view.data);
 }
 
-/// More than there is would not be refused at once: the system would end the program later.
-void require_memory(const std::filesystem::path& path, GridShape grid, std::size_t view_bytes) {
-  const double needed = static_cast<double>(view_bytes) * grid.count();
-  const double there =
-      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (needed <= there) return;
-  throw IoError(path.parent_path(),
-                fmt::format("its {} views need {:.0f} GB of memory, but this computer has {:.0f} "
-                            "GB; keep fewer of them in the folder, or make them smaller",
-                            grid.count(), needed / 1e9, there / 1e9));
-}
-
 }  // namespace
 
 LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_center,
@@ -49,7 +35,8 @@ LightField::Samples load_views(const ViewFiles& views, const OnCenterView& on_ce
   const AnyImage first = decode_image(views.files[static_cast<std::size_t>(center_index)]);
   return std::visit(
       [&]<class T>(const Image<T>& image) -> LightField::Samples {
-        require_memory(views.files.front(), views.grid, image.size() * sizeof(T));
+        require_view_memory(views.files.front().parent_path(),
+                            static_cast<double>(image.size() * sizeof(T)) * views.grid.count());
         if (on_center) on_center(preview_rgb(image.view()));
         ViewStack<T> stack(views.grid, image.height(), image.width(), image.channels());
         std::copy_n(image.data(), image.size(), stack.view(center).data);

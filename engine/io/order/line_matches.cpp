@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/line_matches.h"
 
+#include "engine/core/array/transposed.h"
 #include "engine/io/order/grey_picture.h"
 #include "engine/io/order/warp_check.h"
 
@@ -16,14 +17,6 @@ constexpr int kRadius = 2;
 constexpr double kStep = 0.5;
 constexpr double kLargestShift = 24;
 constexpr double kLeastBrightness = 0.6;  ///< Of a view, as a share of the middle one's.
-
-Image<float> transposed(const Image<float>& picture) {
-  Image<float> turned(picture.width(), picture.height());
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) turned.at(x, y) = picture.at(y, x);
-  }
-  return turned;
-}
 
 double mean_of(const Image<float>& picture) {
   double sum = 0;

@@ -4,12 +4,18 @@
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/message_bar.h"
+#include "widgets/controls/number_spin.h"
+#include "widgets/estimate/parameter_form.h"
 
 #include <QAction>
+#include <QComboBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
 #include <QFileDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
 #include <QMimeData>
 #include <QTreeWidget>
 #include <QUrl>
@@ -22,6 +28,8 @@ class OpeningTest : public QObject {
  private slots:
   void openedFile_isShown();
   void builtinScene_isEstimatedAtOnce();
+  void builtinScenes_areChosenFromAList();
+  void randomScene_hasTheSeedAndKindThatWereTyped();
   void brokenFile_isToldAndKeepsTheScene();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
@@ -47,6 +55,48 @@ void OpeningTest::builtinScene_isEstimatedAtOnce() {
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.estimates().size(), 1U, kScenePatience);
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
   QVERIFY(f.window.bench().commands.find("overlay.error")->isEnabled());
+}
+
+void OpeningTest::builtinScenes_areChosenFromAList() {
+  WindowFixture f;
+  f.trigger("file.builtin");
+  auto* dialog = f.window.findChild<QDialog*>("builtin");
+  QVERIFY(dialog && QTest::qWaitForWindowExposed(dialog));
+  auto* scenes = dialog->findChild<QListWidget*>("builtin.scenes");
+  QCOMPARE(scenes->count(), static_cast<int>(scenes::builtin_scenes().size()));
+  QVERIFY(!find<ParameterForm>(*dialog).isEnabled());
+  const QRect row = scenes->visualItemRect(scenes->item(1));
+
+  QTest::mouseClick(scenes->viewport(), Qt::LeftButton, {}, row.center());
+  f.click("builtin.open");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(), std::string("demo:fronto"),
+                            kScenePatience);
+}
+
+void OpeningTest::randomScene_hasTheSeedAndKindThatWereTyped() {
+  WindowFixture f;
+  f.trigger("file.builtin");
+  auto* dialog = f.window.findChild<QDialog*>("builtin");
+  QVERIFY(dialog && QTest::qWaitForWindowExposed(dialog));
+  auto* scenes = dialog->findChild<QListWidget*>("builtin.scenes");
+  QTest::keyClick(scenes, Qt::Key_End);
+  auto& form = find<ParameterForm>(*dialog);
+  QVERIFY(form.isEnabled());
+
+  auto* seed = form.findChild<NumberSpin*>();
+  QTest::mouseDClick(seed->findChild<QLineEdit*>(), Qt::LeftButton);  // selects the number
+  QVERIFY(seed->hasFocus());
+  QTest::keyClicks(seed, "27");
+  QTest::keyClick(seed, Qt::Key_Tab);
+  QTest::keyClicks(form.findChild<QComboBox*>(), "thin");
+  const auto* written = dialog->findChild<QLabel*>("builtin.written");
+  QVERIFY2(written->text().endsWith("demo:random?seed=27&kind=thin"), qPrintable(written->text()));
+  f.click("builtin.open");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(),
+                            std::string("demo:random?seed=27&kind=thin"), kScenePatience);
+  QVERIFY2(f.window.windowTitle().contains("random_thin_27"), qPrintable(f.window.windowTitle()));
 }
 
 void OpeningTest::brokenFile_isToldAndKeepsTheScene() {

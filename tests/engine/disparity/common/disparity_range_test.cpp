@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/disparity/tensor/structure_tensor.h"
+#include "engine/scenes/request.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
@@ -31,6 +32,19 @@ Interval true_range(const Scene& scene) {
   return range;
 }
 
+// Of the pixels of the centre view.
+double share_within(const Scene& scene, Interval range) {
+  const DisparityView truth = scene.truth->field.view(scene.light_field->center());
+  int count = 0;
+  for (int y = 0; y < truth.disparity.height; ++y) {
+    for (int x = 0; x < truth.disparity.width; ++x) {
+      const float d = truth.disparity.at(y, x);
+      if (d >= range.min && d <= range.max) ++count;
+    }
+  }
+  return static_cast<double>(count) / static_cast<double>(truth.disparity.size());
+}
+
 QString text(const Interval& range) {
   return QString("[%1, %2]").arg(range.min).arg(range.max);
 }
@@ -52,6 +66,9 @@ class DisparityRangeTest : public QObject {
   void foundRange_ofWideBaselines_data();
   void foundRange_ofWideBaselines();
   void foundRange_leavesOutAliases();
+  void foundRange_ofRandomScenes_data();
+  void foundRange_ofRandomScenes();
+  void foundRange_ofNothingButAPattern();
   void foundRange_ofOneRowOfCameras();
   void foundRange_holdsWhatIsSeenBadly();
   void foundRange_withoutTextureIsDefault();
@@ -150,6 +167,46 @@ void DisparityRangeTest::foundRange_leavesOutAliases() {
 
   QVERIFY2(found.min > 0 && found.min < 1 && found.max > 1 && found.max < 2,
            qPrintable(text(found)));
+}
+
+// Aliases of faint textures and of noise, and what only smaller views show: a dark or defocused
+// background under noise.
+void DisparityRangeTest::foundRange_ofRandomScenes_data() {
+  QTest::addColumn<QString>("request");
+  for (const char* request :
+       {"random?seed=5&kind=dark&size=128&grid=3x3", "random?seed=19&size=160&grid=3x3",
+        "random?seed=69&kind=uneven&size=192&grid=9x9&noise=5",
+        "random?seed=77&kind=dark&size=256&grid=1x9&noise=10",
+        "random?seed=7&kind=thin&size=192&grid=5x5"}) {
+    QTest::newRow(request) << request;
+  }
+}
+
+void DisparityRangeTest::foundRange_ofRandomScenes() {
+  QFETCH(QString, request);
+  const scenes::BuiltinRequest read = scenes::read_request(request.toStdString());
+  const Scene scene = scenes::render_builtin(read.scene, read.options, Progress());
+  const Interval truth = true_range(scene);
+
+  const Interval found = find_disparity_range(*scene.light_field, Progress());
+
+  const QString both = text(found) + " for " + text(truth);
+  const double wide = 1;
+  QVERIFY2(share_within(scene, {found.min - 0.3, found.max + 0.3}) > 0.995, qPrintable(both));
+  QVERIFY2(found.min >= truth.min - wide && found.max <= truth.max + wide, qPrintable(both));
+}
+
+// Nothing but a fabric of 7.5 px per thread, at d = 1: no pixel matches one label alone.
+void DisparityRangeTest::foundRange_ofNothingButAPattern() {
+  const LightField lf = make_light_field({5, 5}, 96, 96, 1, [](ViewIndex view, int y, int x, int) {
+    const double px = x + view.u - 2, py = y + view.v - 2;
+    return static_cast<float>(0.5 +
+                              0.2 * std::sin(2 * M_PI * px / 7.5) * std::sin(2 * M_PI * py / 7.5));
+  });
+
+  const Interval found = find_disparity_range(lf, Progress());
+
+  QVERIFY2(found.min < 1 && found.max > 1, qPrintable(text(found)));
 }
 
 // The first and last columns, which hold the ends of the slant, are left by the lines that would

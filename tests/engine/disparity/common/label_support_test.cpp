@@ -26,6 +26,22 @@ class LabelSupportTest : public QObject {
     QVERIFY(std::abs(std::accumulate(support.begin(), support.end(), 0.0) - 1) < 1e-9);
   }
 
+  // Stripes 4 px apart suit −3 as well as 1: three views cannot tell which.
+  void pixelsThatMatchSeveralLabels_doNotCount() {
+    const LightField lf =
+        make_light_field({3, 3}, 48, 48, 1, [](ViewIndex view, int y, int x, int) {
+          const int px = x + view.u - 1, py = y + view.v - 1;
+          const bool is_striped = y < 24;
+          return is_striped ? static_cast<float>(px % 4) / 4.0F
+                            : static_cast<float>((px * 37 + py * 71 + px * py * 13) % 101) / 101.0F;
+        });
+
+    const std::vector<double> support = label_support(lf, {-3, -1, 1, 3}, Progress());
+
+    QVERIFY2(support[0] < 0.05, qPrintable(QString::number(support[0])));
+    QVERIFY2(support[2] > 0.9, qPrintable(QString::number(support[2])));
+  }
+
   void pixelsWithoutTexture_doNotCount() {
     const LightField lf =
         make_light_field({3, 3}, 16, 16, 1, [](ViewIndex, int, int, int) { return 0.5F; });

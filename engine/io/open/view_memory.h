@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <filesystem>
+
+namespace episcope::io {
+
+/// Refuses views that need more memory than the machine has. The system would not refuse them at
+/// once: it would end the program later. Throws IoError for `path`.
+void require_view_memory(const std::filesystem::path& path, double bytes);
+
+}  // namespace episcope::io
