@@ -132,7 +132,7 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     const ResultRow& result = results[i];
     auto* item = is_same ? tree_->topLevelItem(static_cast<int>(i)) : new QTreeWidgetItem(tree_);
     item->setData(kMark, Qt::UserRole, result.id);
-    item->setFlags(item->flags() | Qt::ItemIsEditable);
+    if (!is_same) item->setFlags(item->flags() | Qt::ItemIsEditable);  // ends what is typed
     // As tall as the row with the icon.
     item->setSizeHint(kMark, {0, fontMetrics().height() + kRowPadding});
     item->setText(kMethod, result.method);

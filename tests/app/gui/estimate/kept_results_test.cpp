@@ -117,10 +117,11 @@ void KeptResultsTest::renamedResult_keepsItsName() {
   editor->selectAll();
   QTest::keyClicks(editor, "with my defaults");
   QTest::keyClick(editor, Qt::Key_Return);
-  QTRY_COMPARE(f.session().estimates().front().name, std::string("with my defaults"));
+  const auto first = [&f] { return QString::fromStdString(f.session().estimates().front().name); };
+  QTRY_COMPARE(first(), QString("with my defaults"));
   f.runAndWait();
 
-  QCOMPARE(f.session().estimates().front().name, std::string("with my defaults"));
+  QCOMPARE(first(), QString("with my defaults"));
   QCOMPARE(f.session().estimates().back().name, std::string("EPI_L"));
   QTRY_COMPARE(QApplication::focusWidget() != editor, true);
 }

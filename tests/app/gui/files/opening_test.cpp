@@ -96,7 +96,8 @@ void OpeningTest::randomScene_hasTheSeedAndKindThatWereTyped() {
 
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(),
                             std::string("demo:random?seed=27&kind=thin"), kScenePatience);
-  QVERIFY2(f.window.windowTitle().contains("random_thin_27"), qPrintable(f.window.windowTitle()));
+  QTRY_VERIFY2(f.window.windowTitle().contains("random_thin_27"),
+               qPrintable(f.window.windowTitle()));
 }
 
 void OpeningTest::brokenFile_isToldAndKeepsTheScene() {
