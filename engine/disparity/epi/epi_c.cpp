@@ -283,7 +283,10 @@ Schema<EpiCParameters> epi_c_schema() {
       .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile, plain_denoising())
       .preset(kProfileKey, kPaperProfile,
-              {{"lambda", 0.1}, {"check_lines", false}, {"replace_occluded", false}})
+              {{"lambda", 0.1},
+               {"choose_sides", false},
+               {"check_lines", false},
+               {"replace_occluded", false}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
       .search("lambda", {0.03, 0.06, 0.12, 0.24})
       .search("fall", {0.03, 0.1, 0.3});
@@ -293,9 +296,8 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
                         const Progress& progress) {
   Estimate estimate =
       estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
-  if (parameters.line_check.is_on && !progress.finish_requested()) {
-    progress.step("checking lines");
-    reduce_confidence(lf, estimate, progress.part(0.08, 0.13));
+  if (!progress.finish_requested()) {
+    check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
   denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight);
