@@ -214,7 +214,8 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
   if (sweeps > 0 && parameters.replace_occluded)
-    replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
+    replace_occluded(pack_views(lf, progress.part(0, 0.005)), work.u, work.confidence,
+                     progress.part(0.005, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
@@ -284,6 +285,8 @@ Schema<EpiCParameters> epi_c_schema() {
       .preset(kProfileKey, kPaperProfile, plain_denoising())
       .preset(kProfileKey, kPaperProfile,
               {{"lambda", 0.1},
+               {"rise", 0.01},
+               {"sweeps", 4},
                {"choose_sides", false},
                {"check_lines", false},
                {"replace_occluded", false}})
@@ -324,7 +327,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_c_schema(), estimate_epi_c);
 }
 

@@ -26,8 +26,8 @@ struct EpiGParameters {
 
 /// EPI_G: a globally optimal labeling of the centre view from its horizontal and vertical EPIs
 /// (EPI_L before merging): ρ(x, l) = r_h^p min(|l − d_h|, κ) + r_v^p min(|l − d_v|, κ), labels
-/// equidistant over the range (label_globally). Unless `check_lines` is off, r is lowered where the
-/// views contradict the direction's estimate (reduce_confidence). λ is in units of the mean of r^p
+/// equidistant over the range (label_globally). Each direction's estimate is checked as in EPI_S
+/// (check_lines). λ is in units of the mean of r^p
 /// over both directions, so that weak texture and noise are not smoothed away. Between labels, a
 /// pixel moves to the mean, weighted by r^p, of those of d_h and d_v that lie within one label of
 /// the solution. Confidence is the larger coherence.
