@@ -13,10 +13,10 @@ enum class DirectionCosts { Sum, Least };
 
 /// Parameters of EPI_G: of the labeling, and those of EPI_L.
 struct EpiGParameters {
-  GlobalLabelingParameters labeling{.smoothness = 1.5, .edge_strength = 15, .settling = 3};
+  GlobalLabelingParameters labeling{.smoothness = 2.5, .edge_strength = 15, .settling = 3};
   int labels = 64;
   DirectionCosts direction_costs = DirectionCosts::Sum;
-  double truncation = 0.3;
+  double truncation = 0.5;
   double weight_power = 2;
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
