@@ -57,7 +57,7 @@ static void add_random() {
     double mse, bad;
   };
   constexpr Limits all[] = {
-      {"epi_l", 25, 50.7},    {"epi_s", 12.6, 41.9},  {"epi_g", 14.7, 38.6},
+      {"epi_l", 25, 50.7},    {"epi_s", 6.1, 39.7},   {"epi_g", 6.2, 34.7},
       {"st_av_l", 3.9, 32},   {"st_av_s", 3.4, 34.6}, {"st_av_g", 3.8, 30.1},
       {"st_ch_l", 3.8, 30.7}, {"st_ch_s", 3.4, 31.1}, {"st_ch_g", 3.6, 27.1},
   };
@@ -74,11 +74,11 @@ static void add_others() {
     double bars_mse, bars_bad, noisy_mse, noisy_bad;
   };
   constexpr Limits others[] = {
-      {"epi_c", 1.45, 4.9, 1.54, 13.7},         {"epi_g", 0.34, 3.1, 1.78, 14.1},
-      {"epi_two_layer", 4.3, 18.7, 1.98, 15.7}, {"st_av_l", 0.015, 0.05, 1.33, 20.6},
-      {"st_av_s", 0.07, 2.2, 0.76, 15.9},       {"st_av_g", 0.02, 0.05, 0.76, 20.6},
-      {"st_ch_l", 0.008, 0.05, 2.02, 26.9},     {"st_ch_s", 0.008, 0.05, 0.96, 17.9},
-      {"st_ch_g", 0.008, 0.05, 1.31, 25.5},     {"kz02", 0.05, 4.1, 1.87, 26.5},
+      {"epi_c", 0.05, 0.65, 1.41, 10.7},      {"epi_g", 0.01, 0.1, 1.33, 14.1},
+      {"epi_two_layer", 0.09, 3, 1.74, 15.5}, {"st_av_l", 0.015, 0.05, 1.33, 20.6},
+      {"st_av_s", 0.07, 2.2, 0.76, 15.9},     {"st_av_g", 0.02, 0.05, 0.76, 20.6},
+      {"st_ch_l", 0.008, 0.05, 2.02, 26.9},   {"st_ch_s", 0.008, 0.05, 0.96, 17.9},
+      {"st_ch_g", 0.008, 0.05, 1.31, 25.5},   {"kz02", 0.05, 4.1, 1.87, 26.5},
   };
   for (const Limits& each : others) {
     QTest::addRow("%s bars", each.method)
@@ -103,13 +103,13 @@ void LimitsTest::errors_stayWithinLimits_data() {
   add("fronto", 0, 0.01, 0, 0.01, 0);
   add("slant", 0, 0.01, 0, 0.02, 0);
   // Occlusion: the window that straddles an edge decides.
-  add("edge", 0, 0.065, 2, 0.02, 1.9);
-  add("bars", 0, 0.2, 21, 0.034, 22);
-  add("objects", 0, 3.0, 11.8, 0.75, 11.5);
-  add("demo", 0, 4.5, 22, 1.3, 22.2);
+  add("edge", 0, 0.065, 2, 0.01, 0.1);
+  add("bars", 0, 0.2, 21, 0.034, 0.5);
+  add("objects", 0, 3.0, 11.8, 0.65, 11.3);
+  add("demo", 0, 4.5, 22, 1.15, 16.3);
   // Noise of a camera, in 1/255: what averaging and denoising can do.
-  add("slant", 5, 0.22, 7.3, 0.047, 0.85);
-  add("objects", 5, 4.3, 24.1, 3.8, 16.8);
+  add("slant", 5, 0.22, 7.3, 0.03, 0.1);
+  add("objects", 5, 4.3, 24.1, 1.85, 16.8);
   add_others();
   add_random();
 }

@@ -206,9 +206,11 @@ EPISCOPE_BENCH_KERNEL(line_residual);
 // for EPI_C, a hundredth of its time.
 void visibility(benchmark::State& state) {
   ViewStack<float> disparity = local_estimate().field.disparity.clone();
+  const PackedViews views = pack_views(scene(), Progress());
   const Work work{rays() * (8 + 4 + 16 * 8), rays() * 16 * 6};
   measure(state, work, [&] {
-    benchmark::DoNotOptimize(replace_occluded(disparity, local_estimate().confidence, Progress()));
+    benchmark::DoNotOptimize(
+        replace_occluded(views, disparity, local_estimate().confidence, Progress()));
   });
 }
 EPISCOPE_BENCH_KERNEL(visibility);

@@ -214,7 +214,8 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
   if (sweeps > 0 && parameters.replace_occluded)
-    replace_occluded(work.u, work.confidence, progress.part(0, 0.02));
+    replace_occluded(pack_views(lf, progress.part(0, 0.005)), work.u, work.confidence,
+                     progress.part(0.005, 0.02));
   const Progress fitting = progress.part(0.02, 1);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     if (i % 2 == 0) {
@@ -283,7 +284,12 @@ Schema<EpiCParameters> epi_c_schema() {
       .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile, plain_denoising())
       .preset(kProfileKey, kPaperProfile,
-              {{"lambda", 0.1}, {"check_lines", false}, {"replace_occluded", false}})
+              {{"lambda", 0.1},
+               {"rise", 0.01},
+               {"sweeps", 4},
+               {"choose_sides", false},
+               {"check_lines", false},
+               {"replace_occluded", false}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.05, 0.1, 0.2, 0.4})
       .search("lambda", {0.03, 0.06, 0.12, 0.24})
       .search("fall", {0.03, 0.1, 0.3});
@@ -293,9 +299,8 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
                         const Progress& progress) {
   Estimate estimate =
       estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
-  if (parameters.line_check.is_on && !progress.finish_requested()) {
-    progress.step("checking lines");
-    reduce_confidence(lf, estimate, progress.part(0.08, 0.13));
+  if (!progress.finish_requested()) {
+    check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
   denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight);
@@ -322,7 +327,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_c_schema(), estimate_epi_c);
 }
 

@@ -10,9 +10,9 @@ namespace episcope {
 /// Parameters of EPI_C: of the ordering along lines, and those of EPI_S.
 struct EpiCParameters {
   double fall = 0.1;
-  double rise = 0.01;
+  double rise = 0;
   double softness = 0.05;
-  int sweeps = 4;
+  int sweeps = 2;
   bool replace_occluded = true;
   LineCheck line_check = {};
   /// All views together need less smoothing than each by itself.
@@ -29,9 +29,9 @@ struct EpiCParameters {
 /// a view in the camera grid, D u ≥ 0. The energy over all views is
 ///   Σ λ g |∇u| + ½ w (u − f)² + Σ ψ(D u),   ψ(a) = μ₊ max(a, 0) + μ₋ max(−a, 0),
 /// smoothed within ε (OrderingPenalty): a violation of the ordering costs μ₋ per pixel, a permitted
-/// jump a tenth of that. f, g and w are as in EPI_S, but unless `check_lines` is off, w comes from
-/// a confidence that is lowered where the views contradict the estimate (reduce_confidence). Before
-/// the first sweep, rays that other views see through are replaced (replace_occluded).
+/// jump nothing. f, g and w are those of EPI_S (check_lines) but for λ and the least w. Before
+/// the first sweep, rays that other views see through are replaced (replace_occluded) unless the
+/// samples contradict that.
 ///
 /// Solved by block descent: views are coloured like a chequerboard, so that all neighbours of a
 /// view have the other colour. In turn, one colour is fixed and each view of the other minimises
@@ -40,12 +40,13 @@ struct EpiCParameters {
 /// Lines are traced anew through the current u at each step; of lines that move with u the energy
 /// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
 ///
-/// Defaults: λ = 0.06, p = 4, β = 15 (tests/accuracy/tuning.md).
+/// Defaults: λ = 0.06, p = 4, β = 15, μ₊ = 0, two sweeps (tests/accuracy/tuning.md).
 ///
 /// The profile `paper` neither weighs data or variation nor checks lines nor replaces rays, and
 /// begins with EPI_L as published. Published is that EPI_L is denoised on EPIs by a total variation
 /// along the lines, with a constraint that an edge moves with the nearer of its sides, all of it
-/// convex; not the form of the constraint. Chosen: the energy above with its μ, λ = 0.1.
+/// convex; not the form of the constraint. Chosen: the energy above with μ₊ = 0.01, four sweeps,
+/// λ = 0.1.
 ///
 /// The centre view alone needs all other views as well: they are computed and dropped. The form of
 /// the constraint in the original paper was not recovered.

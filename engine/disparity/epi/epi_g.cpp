@@ -114,6 +114,7 @@ Schema<EpiGParameters> epi_g_schema() {
                {"direction_costs", std::string("least")},
                {"truncation", 5.0},
                {"weight_power", 1.0},
+               {"choose_sides", false},
                {"check_lines", false}})
       .preset_search(kProfileKey, kPaperProfile, "smoothness", {0.05, 0.1, 0.2, 0.4, 0.75, 1.5})
       .search("smoothness", {0.75, 1.5, 3, 6, 12})
@@ -125,11 +126,10 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
                         const Progress& progress) {
   DirectionalOrientations directions =
       estimate_directions(lf, parameters.tensor, progress.part(0, 0.06));
-  if (parameters.line_check.is_on) {
-    progress.step("checking lines");
+  if (parameters.line_check.does_anything()) {
     const PackedViews views = pack_views(lf, progress.part(0.06, 0.07));
-    reduce_confidence(views, directions.horizontal, progress.part(0.07, 0.085));
-    reduce_confidence(views, directions.vertical, progress.part(0.085, 0.1));
+    check_lines(views, parameters.line_check, directions.horizontal, progress.part(0.07, 0.085));
+    check_lines(views, parameters.line_check, directions.vertical, progress.part(0.085, 0.1));
   }
   const ViewIndex view = lf.center();
   Estimate estimate;
@@ -156,7 +156,7 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 4},
+       .revision = 5},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

@@ -13,10 +13,10 @@ enum class DirectionCosts { Sum, Least };
 
 /// Parameters of EPI_G: of the labeling, and those of EPI_L.
 struct EpiGParameters {
-  GlobalLabelingParameters labeling{.smoothness = 1.5, .edge_strength = 15, .settling = 3};
+  GlobalLabelingParameters labeling{.smoothness = 2.5, .edge_strength = 15, .settling = 3};
   int labels = 64;
   DirectionCosts direction_costs = DirectionCosts::Sum;
-  double truncation = 0.3;
+  double truncation = 0.5;
   double weight_power = 2;
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
@@ -26,8 +26,8 @@ struct EpiGParameters {
 
 /// EPI_G: a globally optimal labeling of the centre view from its horizontal and vertical EPIs
 /// (EPI_L before merging): ρ(x, l) = r_h^p min(|l − d_h|, κ) + r_v^p min(|l − d_v|, κ), labels
-/// equidistant over the range (label_globally). Unless `check_lines` is off, r is lowered where the
-/// views contradict the direction's estimate (reduce_confidence). λ is in units of the mean of r^p
+/// equidistant over the range (label_globally). Each direction's estimate is checked as in EPI_S
+/// (check_lines). λ is in units of the mean of r^p
 /// over both directions, so that weak texture and noise are not smoothed away. Between labels, a
 /// pixel moves to the mean, weighted by r^p, of those of d_h and d_v that lie within one label of
 /// the solution. Confidence is the larger coherence.

@@ -16,7 +16,8 @@ Schema<EpiSParameters> epi_s_schema() {
       .part(&EpiSParameters::tensor, epi_l_schema())
       .begin_with(kProfileKey)
       .preset(kProfileKey, kPaperProfile, plain_denoising())
-      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"check_lines", false}})
+      .preset(kProfileKey, kPaperProfile,
+              {{"lambda", 0.2}, {"choose_sides", false}, {"check_lines", false}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8})
       .search("lambda", {0.05, 0.1, 0.2, 0.4, 0.8})
       .search("weight_power", {0, 2, 4, 8})
@@ -26,10 +27,7 @@ Schema<EpiSParameters> epi_s_schema() {
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress) {
   Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
-  if (parameters.line_check.is_on) {
-    progress.step("checking lines");
-    reduce_confidence(lf, estimate, progress.part(0.4, 0.5));
-  }
+  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
   denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
           parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum);
   clamp_to_range(estimate, progress.part(0.98, 1));
@@ -44,7 +42,7 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_s_schema(), estimate_epi_s);
 }
 

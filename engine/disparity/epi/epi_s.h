@@ -17,14 +17,16 @@ struct EpiSParameters {
 [[nodiscard]] Schema<EpiSParameters> epi_s_schema();
 
 /// EPI_S: EPI_L, denoised view by view (engine/disparity/common/denoise.h) with its coherence as
-/// confidence, lowered, unless `check_lines` is off, where the views contradict the estimate
-/// (reduce_confidence). The largest relative duality gap is reported in the notes.
+/// confidence. Before, unless `choose_sides` is off, pixels near a jump take the side whose lines
+/// they fit (choose_sides), and unless `check_lines` is off, confidence is lowered where the views
+/// contradict the estimate (reduce_confidence). The largest relative duality gap is reported in the
+/// notes.
 ///
 /// Defaults: λ = 0.1, p = 4, β = 15. A larger λ and more trust in coherence lower the MSE under
 /// noise but flatten slopes and lose thin bars (tests/accuracy/tuning.md).
 ///
-/// The profile `paper` denoises EPI_L as published without weights, w = g = 1, and without a check
-/// of lines. The publications do not give λ: 0.2.
+/// The profile `paper` denoises EPI_L as published without weights, w = g = 1, and without either
+/// check. The publications do not give λ: 0.2.
 /// Reference: Wanner and Goldluecke 2013 [WG13]; Rudin, Osher, Fatemi 1992 [ROF92].
 [[nodiscard]] Estimate estimate_epi_s(const LightField& light_field,
                                       const EpiSParameters& parameters, ViewSelection views,

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/line_check.h"
 
-#include "engine/core/array/quantile.h"
-#include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/box_mean.h"
 #include "engine/disparity/common/packed_views.h"
-#include "engine/disparity/epi/line_residual_kernel.h"
+#include "engine/disparity/epi/line_residuals.h"
+#include "engine/disparity/epi/side_choice.h"
 
 #include <algorithm>
 #include <array>
@@ -20,85 +19,6 @@ namespace {
 constexpr float kMinDifference = 1.0F / 255;
 constexpr int kTextureRadius = 2;
 constexpr float kTextureGain = 4;
-
-LineArm arm_of(const PackedViews& views, ViewIndex from, ViewIndex way) {
-  LineArm arm;
-  arm.vertical = way.v != 0;
-  arm.step = -(way.u + way.v);  // a point moves by −d per step of u or v
-  for (int k = 1; k <= kMaxArmViews; ++k) {
-    const ViewIndex view{from.v + k * way.v, from.u + k * way.u};
-    if (!views.pixels.contains(view)) break;
-    arm.views[arm.count++] = views.pixels.view(view).data;
-  }
-  return arm;
-}
-
-ResidualRow around(const PackedViews& views, ViewIndex view) {
-  ResidualRow row;
-  for (const ViewIndex way :
-       {ViewIndex{0, 1}, ViewIndex{0, -1}, ViewIndex{1, 0}, ViewIndex{-1, 0}}) {
-    const LineArm arm = arm_of(views, view, way);
-    if (arm.count > 0) row.arms[row.arm_count++] = arm;
-  }
-  // One view that agrees may do so by chance; small grids have no more.
-  const int longest = std::max(views.pixels.grid().u, views.pixels.grid().v);
-  row.min_views = std::clamp(longest / 2, 1, 2);
-  row.height = views.pixels.height();
-  row.width = views.pixels.width();
-  row.has_invalid = views.has_invalid;
-  return row;
-}
-
-// Computes rows of residuals of one view after the other; one per thread.
-class Residuals {
- public:
-  Residuals(const PackedViews& views, const ViewStack<float>& disparity)
-      : views_(views),
-        disparity_(disparity),
-        kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kResidualKernel)),
-        own_(views.pixels.width() + kResidualSlack),
-        slopes_(own_.size()),
-        residual_(own_.size()) {}
-
-  void begin(ViewIndex view) {
-    view_ = view;
-    row_ = around(views_, view);
-    row_.own = own_.data();
-    row_.disparity = slopes_.data();
-    row_.residual = residual_.data();
-  }
-
-  // `width` residuals, valid until the next call.
-  const float* row(int y) {
-    std::copy_n(views_.pixels.view(view_).row(y), row_.width, own_.data());
-    std::copy_n(disparity_.view(view_).row(y), row_.width, slopes_.data());
-    row_.y = y;
-    kernel_.row(row_);
-    return residual_.data();
-  }
-
- private:
-  const PackedViews& views_;
-  const ViewStack<float>& disparity_;
-  const ResidualKernel& kernel_;
-  std::vector<std::uint32_t> own_;
-  std::vector<float> slopes_, residual_;
-  ViewIndex view_;
-  ResidualRow row_;
-};
-
-// Median residual of the centre view.
-float noise_variance(const PackedViews& views, const ViewStack<float>& disparity) {
-  Residuals residuals(views, disparity);
-  residuals.begin(views.pixels.grid().center());
-  std::vector<float> all;
-  for (int y = 0; y < views.pixels.height(); ++y) {
-    const float* const row = residuals.row(y);
-    std::copy_if(row, row + views.pixels.width(), std::back_inserter(all),
-                 [](float value) { return std::isfinite(value); });
-  }
-  return all.empty() ? 0 : quantile(all, 0.5);
-}
 
 float squared_difference(std::uint32_t a, std::uint32_t b) {
   int sum = 0;
@@ -178,11 +98,29 @@ void line_trust_row(const float* residual, int width, float variance, float nois
 }  // namespace
 
 Schema<LineCheck> line_check_schema() {
-  return Schema<LineCheck>().flag(
-      "check_lines", &LineCheck::is_on,
-      {"Check lines",
-       "Reduce the confidence of estimates where other views show a different colour along the "
-       "line, or where the texture belongs to a neighbouring pixel"});
+  return Schema<LineCheck>()
+      .flag("choose_sides", &LineCheck::chooses_sides,
+            {"Choose sides",
+             "Near a jump of disparity, give each pixel the disparity of the side whose lines it "
+             "fits, in half of the views at least"})
+      .flag("check_lines", &LineCheck::is_on,
+            {"Check lines",
+             "Reduce the confidence of estimates where other views show a different colour along "
+             "the line, or where the texture belongs to a neighbouring pixel"});
+}
+
+void check_lines(const LightField& lf, const LineCheck& check, Estimate& estimate,
+                 const Progress& progress) {
+  if (!check.does_anything()) return;
+  check_lines(pack_views(lf, progress.part(0, 0.1)), check, estimate, progress.part(0.1, 1));
+}
+
+void check_lines(const PackedViews& views, const LineCheck& check, Estimate& estimate,
+                 const Progress& progress) {
+  if (!check.does_anything()) return;
+  progress.step("checking lines");
+  if (check.chooses_sides) choose_sides(views, estimate, progress.part(0, 0.7));
+  if (check.is_on) reduce_confidence(views, estimate, progress.part(0.7, 1));
 }
 
 void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
@@ -192,11 +130,11 @@ void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress&
 void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
   const int height = views.pixels.height(), width = views.pixels.width();
   const ViewStack<float>& disparity = estimate.field.disparity;
-  const float variance = noise_variance(views, disparity);
+  const float variance = residual_noise(views, disparity);
   const float noise = kMinDifference * kMinDifference + variance;
   const GridShape grid = disparity.grid();
   parallel_for_workers(grid.count(), progress, [&] {
-    return [&, residuals = Residuals(views, disparity), texture = TextureTrust(height, width),
+    return [&, residuals = LineResiduals(views), texture = TextureTrust(height, width),
             trust = std::vector<float>(width)](int i) mutable {
       const ViewIndex view = grid.view_at(i, disparity.first());
       residuals.begin(view);
@@ -204,7 +142,8 @@ void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progr
       const ImageView<float> confidence = estimate.confidence.view(view);
       for (int y = 0; y < height; ++y) {
         if (y % 16 == 0) progress.check();
-        line_trust_row(residuals.row(y), width, variance, noise, trust.data());
+        line_trust_row(residuals.row(y, disparity.view(view).row(y)), width, variance, noise,
+                       trust.data());
         texture.multiply_row(y, noise, trust.data());
         float* const row = confidence.row(y);
         for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt(trust[x]));

@@ -37,10 +37,20 @@ void reduce_confidence(const LightField& light_field, Estimate& estimate, const 
 void reduce_confidence(const PackedViews& packed_views, Estimate& estimate,
                        const Progress& progress);
 
-/// Whether a method lowers confidence in this way.
+/// What a method does where the views contradict a local estimate.
 struct LineCheck {
-  bool is_on = true;
+  bool chooses_sides = true;  ///< choose_sides
+  bool is_on = true;          ///< reduce_confidence
+  [[nodiscard]] bool does_anything() const { return chooses_sides || is_on; }
 };
 [[nodiscard]] Schema<LineCheck> line_check_schema();
+
+/// Does it: sides are chosen first. Throws Cancelled.
+void check_lines(const PackedViews& packed_views, const LineCheck& check, Estimate& estimate,
+                 const Progress& progress);
+
+/// The same, packing the views if need be.
+void check_lines(const LightField& light_field, const LineCheck& check, Estimate& estimate,
+                 const Progress& progress);
 
 }  // namespace episcope

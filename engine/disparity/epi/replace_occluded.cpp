@@ -2,6 +2,7 @@
 #include "engine/disparity/epi/replace_occluded.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/epi/line_residuals.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,10 @@ namespace {
 
 constexpr int kReach = 4;  // views to each side
 constexpr int kMinViews = 2;
+constexpr int kMinShare = 4;  // one of so many
 constexpr float kFarther = 0.1F;
+constexpr float kTolerance = 0.3F;            // of residuals, in variances of the noise
+constexpr float kMinDifference = 1.0F / 255;  // beyond rounding and resampling
 
 // One view that lines of another reach, by `steps` in its row or column of the grid.
 struct Reached {
@@ -62,36 +66,84 @@ void look_along(const Reached& view, PixelIndex p, float disparity, float confid
   }
 }
 
-long replace_occluded_row(const std::vector<Reached>& reached, const float* disparity,
-                          const float* confidence, int y, ImageView<float> out) {
-  long changed = 0;
-  for (int x = 0; x < out.width; ++x) {
-    Farther farther;
-    for (const Reached& view : reached) {
-      look_along(view, {y, x}, disparity[x], confidence[x], farther);
-    }
-    if (farther.count < kMinViews) continue;
-    out.at(y, x) = farther.median();
-    ++changed;
+// Decides rows of one view after the other; one per thread.
+class Replacer {
+ public:
+  Replacer(const PackedViews& views, const ViewStack<float>& disparity,
+           const ViewStack<float>& confidence, float noise)
+      : disparity_(disparity),
+        confidence_(confidence),
+        tolerance_(kTolerance * noise),
+        residuals_(views),
+        farther_(disparity.width()),
+        residual_(disparity.width()) {}
+
+  void begin(ViewIndex view) {
+    view_ = view;
+    reached_ = views_reached(disparity_, confidence_, view);
+    least_views_ = std::max(kMinViews, static_cast<int>(reached_.size()) / kMinShare);
+    residuals_.begin(view);
   }
-  return changed;
-}
+
+  // Returns the number of rays changed.
+  long replace(int y, float* out) {
+    const float* const own = disparity_.view(view_).row(y);
+    if (!find_farther(y)) return 0;
+    std::copy_n(residuals_.row(y, farther_.data()), residual_.size(), residual_.data());
+    const float* const own_residual = residuals_.row(y, own);
+    long changed = 0;
+    for (std::size_t x = 0; x < farther_.size(); ++x) {
+      if (farther_[x] == own[x] || !(residual_[x] <= own_residual[x] + tolerance_)) continue;
+      out[x] = farther_[x];
+      ++changed;
+    }
+    return changed;
+  }
+
+ private:
+  // What each ray of a row could be instead; its own disparity where nothing. Whether there is any.
+  bool find_farther(int y) {
+    const float* const own = disparity_.view(view_).row(y);
+    const float* const confidence = confidence_.view(view_).row(y);
+    bool has_any = false;
+    for (int x = 0; x < disparity_.width(); ++x) {
+      Farther farther;
+      for (const Reached& view : reached_) {
+        look_along(view, {y, x}, own[x], confidence[x], farther);
+      }
+      const bool is_seen_through = farther.count >= least_views_;
+      farther_[x] = is_seen_through ? farther.median() : own[x];
+      has_any = has_any || is_seen_through;
+    }
+    return has_any;
+  }
+
+  const ViewStack<float>&disparity_, &confidence_;
+  float tolerance_;
+  LineResiduals residuals_;
+  std::vector<float> farther_, residual_;
+  std::vector<Reached> reached_;
+  int least_views_ = kMinViews;
+  ViewIndex view_;
+};
 
 }  // namespace
 
-long replace_occluded(ViewStack<float>& disparity, const ViewStack<float>& confidence,
-                      const Progress& progress) {
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
   const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
   const GridShape grid = before.grid();
   std::vector<long> changed(grid.count());
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i);
-    const std::vector<Reached> reached = views_reached(before, confidence, view);
-    for (int y = 0; y < before.height(); ++y) {
-      if (y % 16 == 0) progress.check();
-      changed[i] += replace_occluded_row(reached, before.view(view).row(y),
-                                         confidence.view(view).row(y), y, disparity.view(view));
-    }
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
+      const ViewIndex view = grid.view_at(i);
+      replacer.begin(view);
+      for (int y = 0; y < before.height(); ++y) {
+        if (y % 16 == 0) progress.check();
+        changed[i] += replacer.replace(y, disparity.view(view).row(y));
+      }
+    };
   });
   return std::accumulate(changed.begin(), changed.end(), 0L);
 }

@@ -34,7 +34,7 @@ struct DoubleBlock {
   long lanes = 0;  ///< Of one plane, without its slack.
   long pitch = 0;  ///< Lanes from plane to plane.
 
-  float* samples = nullptr;   ///< [c][row] planes; NaN = invalid, if `has_invalid`.
+  float* samples = nullptr;  ///< [c][row] planes; NaN = invalid, if `has_invalid`.
   /// Whether samples may be NaN: derivatives that one of them enters then count nothing.
   bool has_invalid = false;
   float* derivative[3] = {};  ///< [c][row] planes by order along the image axis.

@@ -7,6 +7,7 @@
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
 #include "engine/disparity/layers/layer_range.h"
+#include "engine/disparity/layers/line_fit.h"
 #include "engine/solvers/simplex/binary_segmentation.h"
 
 #include <fmt/format.h>
@@ -23,9 +24,18 @@ constexpr float kBorderWeight = 0.02F;
 // nothing else is seen.
 constexpr float kNoiseFit = 0.3F;
 constexpr float kOneLayer = 0.02F;
+// Of data, as in EPI_S.
+constexpr float kMinWeight = 0.003F;
 // The region must be right to a pixel, not to a thousandth.
 constexpr int kRegionIterations = 10;
 constexpr double kRegionGap = 1e-3;
+
+// Of the fit of lines (raise_by_line_fit): 3 where these reach four views. Nearer, the misfit of
+// another disparity is less, by the square of the distance.
+float strictness(GridShape grid) {
+  const int reach = std::clamp(std::max(grid.u, grid.v) / 2, 1, kMaxArmViews);
+  return 3.0F * kMaxArmViews * kMaxArmViews / static_cast<float>(reach * reach);
+}
 
 // What one thread needs to solve a view.
 struct Workspace {
@@ -42,6 +52,7 @@ struct Workspace {
 
 // One view: raw maps, replaced by the results.
 struct LayeredView {
+  ImageView<const float> fit;  // coherence before lines were checked
   ImageView<float> single, coherence;
   ImageView<float> near, far;
   ImageView<std::uint8_t> layers;  // raw: confidence in 1/255
@@ -49,15 +60,20 @@ struct LayeredView {
 
 class ViewSolver {
  public:
-  ViewSolver(const LightField& lf, const EpiTwoLayerParameters& parameters,
-             const Progress& progress)
-      : lf_(lf), parameters_(parameters), progress_(progress), space_(lf.height(), lf.width()) {}
+  ViewSolver(const LightField& lf, const PackedViews& packed,
+             const EpiTwoLayerParameters& parameters, const Progress& progress)
+      : lf_(lf),
+        packed_(packed),
+        parameters_(parameters),
+        progress_(progress),
+        residuals_(packed),
+        space_(lf.height(), lf.width()) {}
 
   // Returns the largest relative gap of its solutions.
   double solve(ViewIndex index, const LayeredView& view);
 
  private:
-  void find_region(const LayeredView& view);
+  void find_region(ViewIndex index, const LayeredView& view);
   void find_weights(const LayeredView& view);
   double solve_background(const Image<float>& edges, const LayeredView& view);
   double solve_foreground(const Image<float>& edges, const LayeredView& view);
@@ -68,14 +84,19 @@ class ViewSolver {
   }
 
   const LightField& lf_;
+  const PackedViews& packed_;
   const EpiTwoLayerParameters& parameters_;
   const Progress& progress_;
+  LineResiduals residuals_;
   Workspace space_;
   Image<std::uint8_t> region_;
 };
 
-void ViewSolver::find_region(const LayeredView& view) {
-  spread_coherence(view.coherence, space_.data, space_.coherence);
+void ViewSolver::find_region(ViewIndex index, const LayeredView& view) {
+  spread_coherence(view.fit, space_.data, space_.coherence);
+  residuals_.begin(index);
+  raise_by_line_fit(packed_.pixels.view(index), view.single, strictness(lf_.grid()), residuals_,
+                    space_.coherence);
   const auto decision = static_cast<float>(parameters_.decision);
   for (std::size_t i = 0; i < space_.data.size(); ++i) {
     const float r = space_.coherence.data()[i];
@@ -97,7 +118,7 @@ void ViewSolver::find_weights(const LayeredView& view) {
   for (std::size_t i = 0; i < region_.size(); ++i) {
     trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
   }
-  fill_data_weights(trust, {.power = parameters_.weight_power}, space_.weight);
+  fill_data_weights(trust, {parameters_.weight_power, kMinWeight}, space_.weight);
 }
 
 double ViewSolver::solve_layer(double lambda, ImageView<float> result) {
@@ -152,7 +173,7 @@ void ViewSolver::finish(const LayeredView& view) {
 
 double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
   if (region_.empty()) region_ = Image<std::uint8_t>(lf_.height(), lf_.width());
-  find_region(view);
+  find_region(index, view);
   find_weights(view);
   const Image<float> edges = smoothness_weights(lf_, index, parameters_.edge_strength);
   double gap = 0;
@@ -174,20 +195,21 @@ std::vector<std::string> notes_of(const std::vector<double>& gaps,
 }
 
 // Replaces the raw maps in `estimate` by the results.
-void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters, Estimate& estimate,
-                 const Progress& progress) {
+void solve_views(const LightField& lf, const PackedViews& packed,
+                 const EpiTwoLayerParameters& parameters, const ViewStack<float>& fit,
+                 Estimate& estimate, const Progress& progress) {
   LayeredDisparity& layered = estimate.layered;
   const GridShape grid = layered.layers.grid();
   const ViewIndex first = layered.layers.first();
   std::vector<double> gaps(grid.count());
   progress.step("layers");
   parallel_for_workers(grid.count(), progress, [&] {
-    return [&, solver = ViewSolver(lf, parameters, progress)](int i) mutable {
+    return [&, solver = ViewSolver(lf, packed, parameters, progress)](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
-      gaps[i] =
-          solver.solve(view, {estimate.field.disparity.view(view), estimate.confidence.view(view),
-                              layered.foreground.disparity.view(view),
-                              layered.background.disparity.view(view), layered.layers.view(view)});
+      gaps[i] = solver.solve(
+          view, {fit.view(view), estimate.field.disparity.view(view),
+                 estimate.confidence.view(view), layered.foreground.disparity.view(view),
+                 layered.background.disparity.view(view), layered.layers.view(view)});
     };
   });
   estimate.notes = notes_of(gaps, layered.layers);
@@ -270,6 +292,7 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
             {"Contrast limit, two layers", "Second derivatives above this are attenuated", "1/255"},
             {0.1, 255, true})
       .part(&P::stop, stop_schema())
+      .part(&P::line_check, line_check_schema())
       .part(&P::tensor, orientation_schema())
       .search("lambda", {0.05, 0.1, 0.2, 0.4})
       .search("weight_power", {2, 6})
@@ -298,7 +321,10 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
-  solve_views(lf, parameters, estimate, progress.part(0.4, 0.98));
+  const ViewStack<float> fit = estimate.confidence.clone();
+  const PackedViews packed = pack_views(lf, progress.part(0.4, 0.42));
+  check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
+  solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98));
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;
 }
@@ -312,7 +338,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/epi/epi_l.h"
+#include "engine/disparity/epi/line_check.h"
 
 namespace episcope {
 
@@ -12,14 +13,15 @@ struct EpiTwoLayerParameters {
   double decision = 0.15;
   double region_smoothness = 4;
   double least_distance = 0.2;
-  double lambda = 0.2;
+  double lambda = 0.1;
   double layer_smoothness = 3;
-  double weight_power = 6;
-  double edge_strength = 20;
+  double weight_power = 4;
+  double edge_strength = 15;
   double double_inner_scale = 0.8;
   double double_outer_scale = 2;
   double double_contrast = 10;
   StopParameters stop{.max_iterations = 30};
+  LineCheck line_check = {};
   EpiLParameters tensor = {};
 };
 
@@ -30,16 +32,18 @@ struct EpiTwoLayerParameters {
 /// 1. The single orientation d of every ray and its coherence r (EPI_L), and the double orientation
 ///    near ≥ far with its confidence c (DoubleOrientation), on horizontal and vertical EPIs; where
 ///    both directions agree their mean with weights c^8, else the more confident one.
-/// 2. Single or double: the misfit of one orientation as share of both misfits,
-///    e = `single_misfit_share(r, c)`, with r the best within 2 px, so that a silhouette, beside
-///    which a window fits one orientation, is not taken for two layers. e above `decision` speaks
-///    for two.
+/// 2. Lines of d are checked as in EPI_S (check_lines), for what is not in the region.
+///    Single or double: the misfit of one orientation as share of both misfits,
+///    e = `single_misfit_share(r, c)`, with r the best within 2 px before that check and at least
+///    the fit of lines of one disparity (raise_by_line_fit), so that silhouettes are not taken for
+///    two layers. e above `decision` speaks for two.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
 ///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
 ///    (`segment_binary`): a blank wall in the noise of a camera is not two walls.
 /// 4. Foreground and background of each view by TvL2Solver: in the region near and far with weights
-///    c^p, outside the single estimate with weights r^p in both. The surface is an area, not a
-///    texture: it is smoothed `layer_smoothness` times as much, ignores image edges and may jump
+///    c^p, outside the single estimate with weights r^p in both, r as lowered by the check. The
+///    surface is an area, not a texture: it is smoothed `layer_smoothness` times as much, ignores
+///    image edges and may jump
 ///    at the border of the region.
 /// Foreground ≥ background holds everywhere (the mean of both where it would not); both are equal
 /// where `layers` is 1. `field` is the foreground; confidence is c in the region, r outside.

@@ -37,7 +37,7 @@ EpiGParameters parameters_of_single_pixels() {
   EpiGParameters p = parameters();
   p.labeling.smoothness = 0;
   p.labeling.settling = 0;
-  p.line_check.is_on = false;
+  p.line_check = {.chooses_sides = false, .is_on = false};
   return p;
 }
 

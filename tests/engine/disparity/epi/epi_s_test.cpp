@@ -151,6 +151,7 @@ void EpiSTest::least_lambda_leavesLocalResult() {
   p.denoising.lambda = 0.001;
   p.denoising.weight_power = 0;
   p.denoising.edge_strength = 0;
+  p.line_check.chooses_sides = false;
   const Estimate local = epi_l(*scene.light_field);
   const Estimate smooth = epi_s(*scene.light_field, p);
   QVERIFY(largest_difference(local.field.disparity.view({2, 2}),
@@ -160,7 +161,7 @@ void EpiSTest::least_lambda_leavesLocalResult() {
 void EpiSTest::confidence_isThatOfLocalResult() {
   const Scene scene = render("edge", 40, 50, {3, 3});
   EpiSParameters p = parameters();
-  p.line_check.is_on = false;
+  p.line_check = {.chooses_sides = false, .is_on = false};
   QVERIFY(
       same_bytes(epi_l(*scene.light_field).confidence, epi_s(*scene.light_field, p).confidence));
 }

@@ -22,6 +22,11 @@ ViewStack<float> filled(float value) {
   return stack;
 }
 
+// Views that contradict nothing.
+PackedViews blank() {
+  return {ViewStack<std::uint32_t>(kGrid, kHeight, kWidth)};
+}
+
 // A near half plane (d = 1) left of a far one (d = 0), whose edge moves by −`slope` px per view.
 ViewStack<float> half_planes(int slope) {
   ViewStack<float> stack(kGrid, kHeight, kWidth);
@@ -57,7 +62,7 @@ class ReplaceOccludedTest : public QObject {
 void ReplaceOccludedTest::truth_stays() {
   ViewStack<float> stack = half_planes(1);
 
-  const long changed = replace_occluded(stack, filled(1), Progress());
+  const long changed = replace_occluded(blank(), stack, filled(1), Progress());
 
   QCOMPARE(changed, 0L);
   QVERIFY(same_bytes(stack, half_planes(1)));
@@ -68,7 +73,7 @@ void ReplaceOccludedTest::truth_stays() {
 void ReplaceOccludedTest::raysSeenThrough_areReplaced() {
   ViewStack<float> stack = half_planes(0);
 
-  const long changed = replace_occluded(stack, filled(1), Progress());
+  const long changed = replace_occluded(blank(), stack, filled(1), Progress());
 
   const int near[] = {20, 20, 19, 18, 17, 17, 17, 17, 17};
   long expected = 0;
@@ -86,14 +91,14 @@ void ReplaceOccludedTest::surerRays_stay() {
     if (i % kWidth >= 20) confidence.data()[i] = 0.9F;
   }
 
-  QCOMPARE(replace_occluded(stack, confidence, Progress()), 0L);
+  QCOMPARE(replace_occluded(blank(), stack, confidence, Progress()), 0L);
 }
 
 void ReplaceOccludedTest::oneView_isNotEnough() {
   ViewStack<float> stack = filled(1);
   stack.view({0, 4}).at(1, 20) = 0;
 
-  QCOMPARE(replace_occluded(stack, filled(1), Progress()), 0L);
+  QCOMPARE(replace_occluded(blank(), stack, filled(1), Progress()), 0L);
 }
 
 // Three views show something farther where the line of the ray ends.
@@ -103,7 +108,7 @@ void ReplaceOccludedTest::replacedRays_takeTheMedian() {
   stack.view({0, 1}).at(1, 23) = 0.5F;
   stack.view({0, 6}).at(1, 18) = 0.2F;
 
-  replace_occluded(stack, filled(1), Progress());
+  replace_occluded(blank(), stack, filled(1), Progress());
 
   QCOMPARE(stack.view({0, 4}).at(1, 20), 0.2F);
 }
@@ -111,8 +116,8 @@ void ReplaceOccludedTest::replacedRays_takeTheMedian() {
 void ReplaceOccludedTest::anyThreadCount_givesTheSame() {
   ViewStack<float> one = half_planes(0), three = half_planes(0);
 
-  replace_occluded(one, filled(1), Progress(1));
-  replace_occluded(three, filled(1), Progress(3));
+  replace_occluded(blank(), one, filled(1), Progress(1));
+  replace_occluded(blank(), three, filled(1), Progress(3));
 
   QVERIFY(same_bytes(one, three));
 }

@@ -228,7 +228,7 @@ void EpiTwoLayerTest::opaqueScene_comesOutAsByEpiS() {
                           .weight_power = layered.weight_power,
                           .edge_strength = layered.edge_strength,
                           .stop = layered.stop};
-  parameters.line_check.is_on = false;
+  parameters.line_check = layered.line_check;
   parameters.tensor = layered.tensor;
   parameters.tensor.range = layered.tensor.range = Interval{-2, 2};
   const Estimate smooth =
