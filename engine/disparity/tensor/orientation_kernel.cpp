@@ -7,7 +7,7 @@ namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
 template <int kCount>
-inline Vec integrate_at(const float* in, int stride, const float* taps) {
+inline Vec integrate_at(const float* in, int stride, const Vec* taps) {
   Vec sum = taps[0] * load(in);
   for (int i = 1; i < kCount; ++i) sum += taps[i] * load(in + i * stride);
   return sum;
@@ -35,8 +35,10 @@ Bounds bounds_of(const Shear& shear) {
 // Keeps the tensor of the most coherent shear; coherence is compared squared:
 // r² = ((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²)² (Bigün and Granlund 1987).
 template <int kCount>
-void select_row(const float* const* tensor, int stride, const float* taps, float noise_energy,
+void select_row(const float* const* tensor, int stride, const float* values, float noise_energy,
                 const Shear& shear, int length, float* __restrict const* best) {
+  Vec taps[kCount];
+  for (int i = 0; i < kCount; ++i) taps[i] = splat(values[i]);
   const Vec upright = splat(0.5F * static_cast<float>(shear.half_steps));
   const Bounds bounds = bounds_of(shear);
   for (int n = 0; n < length; n += kLanes) {
