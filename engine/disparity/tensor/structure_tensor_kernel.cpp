@@ -67,6 +67,7 @@ void half_pixel_row(const float* __restrict in, int begin, int end, int stride,
 }
 
 void differentiate(const TensorBlock& block, const TensorFilters& filters, bool with_half) {
+  const int center = block.rows / 2;
   const int stride = block.stride;
   // What each stage needs of the stage before it.
   const int smooth_begin = filters.smooth.radius * stride;
@@ -78,7 +79,9 @@ void differentiate(const TensorBlock& block, const TensorFilters& filters, bool 
     filter(block.samples + offset, smooth_begin, smooth_end, stride, filters.smooth, smooth);
     gradient_row(smooth, smooth_begin + stride, smooth_end - stride, stride,
                  block.along[0] + offset, block.across[0] + offset);
-    if (!with_half) continue;
+    // A shear moves a row by half a pixel only at an odd distance from the row about which it
+    // turns.
+    if (!with_half || ((plane % block.rows - center) & 1) == 0) continue;
     half_pixel_row(smooth, smooth_begin + stride, smooth_end - 2 * stride, stride, half);
     gradient_row(half, smooth_begin + 2 * stride, smooth_end - 3 * stride, stride,
                  block.along[1] + offset, block.across[1] + offset);
@@ -108,7 +111,7 @@ struct RowSources {
 
 // Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
 // as the registers hold.
-constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 2 : 2;
 constexpr int kGroupLanes = kGroup * kLanes;
 
 struct Group {
