@@ -6,10 +6,16 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
+// Taps are symmetric: both samples of a pair are added first, on adders that multiplications leave
+// idle.
 template <int kCount>
 inline Vec integrate_at(const float* in, int stride, const Vec* taps) {
-  Vec sum = taps[0] * load(in);
-  for (int i = 1; i < kCount; ++i) sum += taps[i] * load(in + i * stride);
+  Vec sum = taps[0] * (load(in) + load(in + (kCount - 1) * stride));
+  if constexpr (kCount == 1) return taps[0] * load(in);
+  for (int i = 1; i < kCount / 2; ++i) {
+    sum += taps[i] * (load(in + i * stride) + load(in + (kCount - 1 - i) * stride));
+  }
+  if constexpr (kCount % 2 == 1) sum += taps[kCount / 2] * load(in + kCount / 2 * stride);
   return sum;
 }
 

@@ -146,28 +146,67 @@ struct RowWork {
   Window window;
 };
 
+// Both derivatives at a group of lanes.
+struct GradientGroup {
+  Group along{}, across{};
+};
+
+// kAlong and kAcross are the numbers of taps, 0 = any.
+template <int kAlong, int kAcross>
+inline GradientGroup gradient_group(const RowWork& work, long at) {
+  const int along = kAlong > 0 ? kAlong : work.along.count;
+  const int across = kAcross > 0 ? kAcross : work.across.count;
+  GradientGroup g;
+  for (int i = 0; i < along; ++i) {
+    multiply_add(g.along, work.along.taps[i], work.along.rows[i] + at);
+  }
+  for (int i = 0; i < across; ++i) {
+    multiply_add(g.across, work.across.taps[i], work.across.rows[i] + at);
+  }
+  return g;
+}
+
+// The number of taps that rows have with neighbours enough on both sides, at the usual scale: those
+// along are symmetric, those across antisymmetric. Samples of a pair are added first, on adders
+// that multiplications leave idle.
+constexpr int kInner = -5;
+
+template <>
+inline GradientGroup gradient_group<kInner, kInner>(const RowWork& work, long at) {
+  const float* const* const a = work.along.rows;
+  const float* const* const b = work.across.rows;
+  GradientGroup g;
+  for (int k = 0; k < kGroup; ++k) {
+    const long n = at + k * kLanes;
+    g.along.at[k] = work.along.taps[2] * load(a[2] + n) +
+                    work.along.taps[1] * (load(a[1] + n) + load(a[3] + n)) +
+                    work.along.taps[0] * (load(a[0] + n) + load(a[4] + n));
+    g.across.at[k] = work.across.taps[1] * (load(b[1] + n) - load(b[2] + n)) +
+                     work.across.taps[0] * (load(b[0] + n) - load(b[3] + n));
+  }
+  return g;
+}
+
+bool is_inner(const RowWork& work) {
+  const float* const a = work.along.taps;
+  const float* const b = work.across.taps;
+  return work.along.count == 5 && work.across.count == 4 && a[0] == a[4] && a[1] == a[3] &&
+         b[0] == -b[3] && b[1] == -b[2];
+}
+
 // Products of the gradient in a window, lane 0 being lane `from` of the sources, all channels
-// summed, toned down and stored. kAlong and kAcross are the numbers of taps, 0 = any.
+// summed, toned down and stored.
 template <int kChannels, bool kHasInvalid, int kAlong, int kAcross>
 void fill_products(const RowWork& work, float contrast, Window window, long from,
                    float* __restrict out) {
-  const int along = kAlong > 0 ? kAlong : work.along.count;
-  const int across = kAcross > 0 ? kAcross : work.across.count;
   for (int n = window.begin; n < window.end; n += kGroupLanes) {
     Group xx{}, xs{}, ss{};
     for (int c = 0; c < kChannels; ++c) {
-      const long at = from + n + c * work.channel;
-      Group gx{}, gs{};
-      for (int i = 0; i < along; ++i) {
-        multiply_add(gx, work.along.taps[i], work.along.rows[i] + at);
-      }
-      for (int i = 0; i < across; ++i) {
-        multiply_add(gs, work.across.taps[i], work.across.rows[i] + at);
-      }
+      const GradientGroup g = gradient_group<kAlong, kAcross>(work, from + n + c * work.channel);
       for (int k = 0; k < kGroup; ++k) {
-        xx.at[k] += gx.at[k] * gx.at[k];
-        xs.at[k] += gx.at[k] * gs.at[k];
-        ss.at[k] += gs.at[k] * gs.at[k];
+        xx.at[k] += g.along.at[k] * g.along.at[k];
+        xs.at[k] += g.along.at[k] * g.across.at[k];
+        ss.at[k] += g.across.at[k] * g.across.at[k];
       }
     }
     for (int k = 0; k < kGroup; ++k) {
@@ -187,7 +226,7 @@ using FillProducts = void (*)(const RowWork&, float contrast, Window, long from,
 template <int kChannels, bool kHasInvalid>
 FillProducts fill_products_by_taps(const RowWork& work) {
   const int along = work.along.count, across = work.across.count;
-  if (along == 5 && across == 4) return fill_products<kChannels, kHasInvalid, 5, 4>;
+  if (is_inner(work)) return fill_products<kChannels, kHasInvalid, kInner, kInner>;
   if (along == 4 && across == 4) return fill_products<kChannels, kHasInvalid, 4, 4>;
   if (along == 3 && across == 3) return fill_products<kChannels, kHasInvalid, 3, 3>;
   if (along == 7 && across == 6) return fill_products<kChannels, kHasInvalid, 7, 6>;
