@@ -109,17 +109,21 @@ struct RowSources {
   const float* rows[kMaxTaps];
 };
 
-// Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
-// as the registers hold.
-constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 2 : 2;
-constexpr int kGroupLanes = kGroup * kLanes;
-
-struct Group {
-  Vec at[kGroup];
+// Vectors worked on together, so that a pointer and a tap are fetched once for all of them.
+template <int kCount>
+struct GroupOf {
+  Vec at[kCount];
 };
+constexpr int kGroup = 2;
+constexpr int kGroupLanes = kGroup * kLanes;
+using Group = GroupOf<kGroup>;
+// Integration has nothing else in registers, and needs as many sums as additions take to end.
+constexpr int kWideGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+constexpr int kWideGroupLanes = kWideGroup * kLanes;
 
-inline void multiply_add(Group& sum, float tap, const float* from) {
-  for (int k = 0; k < kGroup; ++k) sum.at[k] += tap * load(from + k * kLanes);
+template <int kCount>
+inline void multiply_add(GroupOf<kCount>& sum, float tap, const float* from) {
+  for (int k = 0; k < kCount; ++k) sum.at[k] += tap * load(from + k * kLanes);
 }
 
 // A product that an invalid sample entered, NaN, counts nothing.
@@ -137,7 +141,7 @@ struct Window {
 
 // Lanes of one row from one product to the next. Groups may begin anywhere and reach beyond the
 // chunk.
-constexpr int kProductPitch = kChunk + kGroupLanes;
+constexpr int kProductPitch = kChunk + kWideGroupLanes;
 
 // What one row contributes under a shear, and where that is needed.
 struct RowWork {
@@ -288,15 +292,15 @@ struct ChunkProducts {
 // Integrates the products along the views, lane `from` of `tensor` being lane 0 of the chunk.
 void integrate_rows(const ChunkProducts& products, const RowTaps& taps, Window window,
                     float* const* tensor, long from) {
-  for (int n = window.begin; n < window.end; n += kGroupLanes) {
-    Group xx{}, xs{}, ss{};
+  for (int n = window.begin; n < window.end; n += kWideGroupLanes) {
+    GroupOf<kWideGroup> xx{}, xs{}, ss{};
     for (int i = 0; i < taps.count; ++i) {
       const float* const row = products.values[taps.first + i][0] + n;
       multiply_add(xx, taps.values[i], row);
       multiply_add(xs, taps.values[i], row + kProductPitch);
       multiply_add(ss, taps.values[i], row + 2 * kProductPitch);
     }
-    for (int k = 0; k < kGroup; ++k) {
+    for (int k = 0; k < kWideGroup; ++k) {
       const long to = from + n + k * kLanes;
       store(tensor[0] + to, xx.at[k]);
       store(tensor[1] + to, xs.at[k]);
