@@ -190,8 +190,8 @@ double rays() {
 }
 
 // Packs the samples; then every ray reads its own, its disparity, and those of up to 16 views where
-// its line meets them; its confidence is renewed. Waits for gathers: two for each of those views,
-// of 8 or 16 addresses, which the caches serve one or two at a time.
+// its line meets them; its confidence is renewed. Bound by arithmetic: for each of those views the
+// meeting of the line, two samples picked from three or four runs, unpacked and interpolated.
 void line_residual(benchmark::State& state) {
   Estimate estimate;
   estimate.field.disparity = local_estimate().field.disparity.clone();

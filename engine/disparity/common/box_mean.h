@@ -22,13 +22,23 @@ inline int sum_rows(const Image<float>& image, int y, int radius, float* out) {
 
 /// out[x] = the mean of in[x − radius … x + radius], of those within [0, width).
 inline void box_mean_row(const float* in, int width, int radius, float* out) {
-  for (int x = 0; x < width; ++x) {
+  const auto mean_at = [=](int x) {
     const int begin = std::max(x - radius, 0);
     const int end = std::min(x + radius + 1, width);
     float sum = 0;
     for (int i = begin; i < end; ++i) sum += in[i];
-    out[x] = sum / static_cast<float>(end - begin);
+    return sum / static_cast<float>(end - begin);
+  };
+  const int inner = std::min(radius, width), outer = std::max(inner, width - radius);
+  for (int x = 0; x < inner; ++x) out[x] = mean_at(x);
+  // Shift by shift, which is vectorised.
+  std::fill(out + inner, out + outer, 0.0F);
+  for (int i = -radius; i <= radius; ++i) {
+    for (int x = inner; x < outer; ++x) out[x] += in[x + i];
   }
+  const auto count = static_cast<float>(2 * radius + 1);
+  for (int x = inner; x < outer; ++x) out[x] /= count;
+  for (int x = outer; x < width; ++x) out[x] = mean_at(x);
 }
 
 }  // namespace episcope

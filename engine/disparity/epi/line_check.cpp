@@ -5,6 +5,7 @@
 #include "engine/disparity/common/box_mean.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/epi/line_residuals.h"
+#include "engine/disparity/epi/line_trust_kernel.h"
 #include "engine/disparity/epi/side_choice.h"
 
 #include <algorithm>
@@ -20,80 +21,111 @@ constexpr float kMinDifference = 1.0F / 255;
 constexpr int kTextureRadius = 2;
 constexpr float kTextureGain = 4;
 
-float squared_difference(std::uint32_t a, std::uint32_t b) {
-  int sum = 0;
-  for (int c = 0; c < 3; ++c) {
-    const int off = packed_channel(a, c) - packed_channel(b, c);
-    sum += off * off;
-  }
-  return static_cast<float>(sum) / (1023.0F * 1023.0F);
-}
-
-// Squared gradients of one view: both differences along each axis, and the smaller of the two.
-struct Gradients {
-  Image<float> mean, own;
-};
-
-void add_axis(float before, float after, bool has_before, bool has_after, float& mean, float& own) {
-  if (!has_before) before = after;
-  if (!has_after) after = before;
-  mean += 0.5F * (before + after);
-  own += std::min(before, after);
-}
-
-void measure_gradients(const ImageView<const std::uint32_t>& view, Gradients& gradients) {
-  for (int y = 0; y < view.height; ++y) {
-    const std::uint32_t* const row = view.row(y);
-    const std::uint32_t* const above = view.row(std::max(y - 1, 0));
-    const std::uint32_t* const below = view.row(std::min(y + 1, view.height - 1));
-    for (int x = 0; x < view.width; ++x) {
-      const bool left = x > 0, right = x + 1 < view.width;
-      float mean = 0, own = 0;
-      add_axis(left ? squared_difference(row[x - 1], row[x]) : 0,
-               right ? squared_difference(row[x], row[x + 1]) : 0, left, right, mean, own);
-      add_axis(squared_difference(above[x], row[x]), squared_difference(row[x], below[x]), y > 0,
-               y + 1 < view.height, mean, own);
-      gradients.mean.at(y, x) = mean;
-      gradients.own.at(y, x) = own;
-    }
-  }
-}
-
-class TextureTrust {
+// Rows of packed samples, each with the nearest neighbours before and after it in place of those
+// beyond the border: see GradientRow.
+class MirroredRows {
  public:
-  TextureTrust(int height, int width)
-      : gradients_{Image<float>(height, width), Image<float>(height, width)},
-        column_(width),
-        window_(width) {}
+  explicit MirroredRows(int width) : width_(width) {
+    for (auto& row : rows_) row.resize(width + 2 * kTrustSlack);
+  }
 
-  void begin(const ImageView<const std::uint32_t>& view) { measure_gradients(view, gradients_); }
-
-  void multiply_row(int y, float noise, float* trust) {
-    const int width = gradients_.own.width();
-    const int rows_summed = sum_rows(gradients_.mean, y, kTextureRadius, column_.data());
-    box_mean_row(column_.data(), width, kTextureRadius, window_.data());
-    const float* const own = gradients_.own.row(y);
-    const float rows = 1.0F / static_cast<float>(rows_summed);
-    for (int x = 0; x < width; ++x) {
-      const float share = kTextureGain * (own[x] + noise) / (rows * window_[x] + noise);
-      trust[x] *= std::min(share, 1.0F);
-    }
+  // Reads row y of a view in place of row y − 3.
+  void read(const ImageView<const std::uint32_t>& view, int y) {
+    std::uint32_t* const row = rows_[(y + 3) % 3].data() + kTrustSlack;
+    const int mirrored = y < 0 ? -y : y >= view.height ? 2 * (view.height - 1) - y : y;
+    std::copy_n(view.row(std::clamp(mirrored, 0, view.height - 1)), width_, row);
+    row[-1] = row[std::min(1, width_ - 1)];
+    row[width_] = row[std::max(width_ - 2, 0)];
+  }
+  [[nodiscard]] const std::uint32_t* row(int y) const {
+    return rows_[(y + 3) % 3].data() + kTrustSlack;
   }
 
  private:
-  Gradients gradients_;
+  int width_;
+  std::array<std::vector<std::uint32_t>, 3> rows_;
+};
+
+// Squared gradients of one view after the other, and their means over windows; one per thread.
+class Texture {
+ public:
+  Texture(int height, int width)
+      : kernel_(EPISCOPE_CHOOSE_KERNEL(best_isa(), kTrustKernel)),
+        mean_(height, width),
+        own_(height, width),
+        rows_(width),
+        scratch_(2, width + kTrustSlack),
+        column_(width),
+        window_(width + kTrustSlack) {}
+
+  void begin(const ImageView<const std::uint32_t>& view) {
+    rows_.read(view, -1);
+    rows_.read(view, 0);
+    for (int y = 0; y < view.height; ++y) {
+      rows_.read(view, y + 1);
+      kernel_.gradients({rows_.row(y - 1), rows_.row(y), rows_.row(y + 1), view.width,
+                         scratch_.row(0), scratch_.row(1)});
+      std::copy_n(scratch_.row(0), view.width, mean_.row(y));
+      std::copy_n(scratch_.row(1), view.width, own_.row(y));
+    }
+  }
+
+  // Squared gradients of a row, and their means; valid until the next call, slack behind.
+  const float* own(int y) {
+    std::copy_n(own_.row(y), own_.width(), scratch_.row(1));
+    return scratch_.row(1);
+  }
+  const float* window(int y) {
+    const int width = mean_.width();
+    const auto rows = static_cast<float>(sum_rows(mean_, y, kTextureRadius, column_.data()));
+    box_mean_row(column_.data(), width, kTextureRadius, window_.data());
+    for (int x = 0; x < width; ++x) window_[x] /= rows;
+    return window_.data();
+  }
+
+ private:
+  const TrustKernel& kernel_;
+  Image<float> mean_, own_;
+  MirroredRows rows_;
+  Image<float> scratch_;
   std::vector<float> column_, window_;
 };
 
-void line_trust_row(const float* residual, int width, float variance, float noise, float* trust) {
-  for (int x = 0; x < width; ++x) {
-    if (!std::isfinite(residual[x])) {  // no side can tell
-      trust[x] = 1;
-      continue;
-    }
-    trust[x] = noise / (noise + std::max(0.0F, residual[x] - variance));
+// What multiplies the confidence of one view after the other; one per thread.
+class Trust {
+ public:
+  Trust(const PackedViews& views, const ViewStack<float>& disparity, float variance)
+      : views_(views),
+        variance_(variance),
+        disparity_(disparity),
+        residuals_(views),
+        texture_(views.pixels.height(), views.pixels.width()),
+        trust_(views.pixels.width() + kTrustSlack) {}
+
+  void begin(ViewIndex view) {
+    view_ = view;
+    residuals_.begin(view);
+    texture_.begin(views_.pixels.view(view));
   }
-}
+
+  // Valid until the next call.
+  const float* row(int y) {
+    EPISCOPE_CHOOSE_KERNEL(best_isa(), kTrustKernel)
+        .trust({residuals_.row(y, disparity_.view(view_).row(y)), texture_.own(y),
+                texture_.window(y), views_.pixels.width(), variance_,
+                kMinDifference * kMinDifference + variance_, kTextureGain, trust_.data()});
+    return trust_.data();
+  }
+
+ private:
+  const PackedViews& views_;
+  float variance_;
+  const ViewStack<float>& disparity_;
+  LineResiduals residuals_;
+  Texture texture_;
+  ViewIndex view_;
+  std::vector<float> trust_;
+};
 
 }  // namespace
 
@@ -128,25 +160,19 @@ void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress&
 }
 
 void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
-  const int height = views.pixels.height(), width = views.pixels.width();
   const ViewStack<float>& disparity = estimate.field.disparity;
   const float variance = residual_noise(views, disparity);
-  const float noise = kMinDifference * kMinDifference + variance;
   const GridShape grid = disparity.grid();
   parallel_for_workers(grid.count(), progress, [&] {
-    return [&, residuals = LineResiduals(views), texture = TextureTrust(height, width),
-            trust = std::vector<float>(width)](int i) mutable {
+    return [&, trust = Trust(views, disparity, variance)](int i) mutable {
       const ViewIndex view = grid.view_at(i, disparity.first());
-      residuals.begin(view);
-      texture.begin(views.pixels.view(view));
+      trust.begin(view);
       const ImageView<float> confidence = estimate.confidence.view(view);
-      for (int y = 0; y < height; ++y) {
+      for (int y = 0; y < confidence.height; ++y) {
         if (y % 16 == 0) progress.check();
-        line_trust_row(residuals.row(y, disparity.view(view).row(y)), width, variance, noise,
-                       trust.data());
-        texture.multiply_row(y, noise, trust.data());
+        const float* const factors = trust.row(y);
         float* const row = confidence.row(y);
-        for (int x = 0; x < width; ++x) row[x] *= std::sqrt(std::sqrt(trust[x]));
+        for (int x = 0; x < confidence.width; ++x) row[x] *= factors[x];
       }
     };
   });

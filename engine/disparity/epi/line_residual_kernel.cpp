@@ -33,73 +33,166 @@ inline IntVec is_valid(IntVec packed) {
   return (packed >> (3 * kBits) & 1) == 0;
 }
 
-// Where the lines of some pixels meet a view.
-struct Meeting {
-  IntVec first, second;  // taps, as offsets from the start of the view
-  Vec weight;            // of the second
-  IntVec inside;
-};
-
-inline Meeting meet(const ResidualRow& row, const LineArm& arm, Vec shift, IntVec column) {
-  const int last = (arm.vertical ? row.height : row.width) - 1;
-  const Vec start = arm.vertical ? splat(static_cast<float>(row.y)) : convert<float>(column);
-  const Vec at = start + shift;
-  const Vec end = splat(static_cast<float>(last));
-  const Vec clamped = least(greatest(at, splat(0)), end);
-  const IntVec tap = least(convert<int>(clamped), IntVec{} + (last > 0 ? last - 1 : 0));
-  const int stride = arm.vertical ? row.width : 1;
-  const IntVec begin = arm.vertical ? column : IntVec{} + row.y * row.width;
-  const IntVec first = begin + tap * stride;
-  return {first, first + (last > 0 ? stride : 0), clamped - convert<float>(tap),
-          (at >= 0.0F) & (at <= end)};
+// The least number of all lanes in each of them.
+inline Vec lowest(Vec value) {
+  for (int step = kLanes / 2; step > 0; step /= 2) {
+    IntVec turned;
+    for (int i = 0; i < kLanes; ++i) turned[i] = (i + step) % kLanes;
+    value = least(value, __builtin_shuffle(value, turned));
+  }
+  return value;
 }
 
-inline Vec squared_difference(const Colour& own, const std::uint32_t* view, const Meeting& where) {
-  const Colour first = unpack(gather(view, where.first));
-  const Colour second = unpack(gather(view, where.second));
+// The pixels of a vector: lanes from column x, what they hold, and the range of their disparities.
+struct Pixels {
+  int x = 0;
+  IntVec column;
+  Colour own;
+  Vec disparity;
+  float low = 0, high = 0;
+};
+
+// Where the lines of some pixels meet a view.
+struct Meeting {
+  IntVec tap;     // of the first of two samples, along the arm
+  Vec weight;     // of the second
+  IntVec inside;  // elsewhere tap and weight are 0
+};
+
+inline Meeting meet(const ResidualRow& row, const LineArm& arm, float step, const Pixels& pixels) {
+  const Vec last = splat(static_cast<float>((arm.vertical ? row.height : row.width) - 1));
+  const Vec start = arm.vertical ? splat(static_cast<float>(row.y)) : convert<float>(pixels.column);
+  const Vec at = start + pixels.disparity * step;
+  const IntVec inside = (at >= 0.0F) & (at <= last);
+  const Vec known = choose(inside, at, splat(0));
+  const IntVec tap = convert<int>(known);
+  return {tap, known - convert<float>(tap), inside};
+}
+
+// The samples on either side of where lines meet a view.
+struct SamplePair {
+  IntVec first, second;
+};
+
+inline SamplePair gather_pair(const ResidualRow& row, const LineArm& arm, const std::uint32_t* view,
+                              const Pixels& pixels, IntVec tap) {
+  const int last = (arm.vertical ? row.height : row.width) - 1;
+  const IntVec next = least(tap + 1, IntVec{} + last);
+  if (arm.vertical) {
+    return {gather(view, pixels.column + tap * row.width),
+            gather(view, pixels.column + next * row.width)};
+  }
+  const std::uint32_t* const line = view + static_cast<long>(row.y) * row.width;
+  return {gather(line, tap), gather(line, next)};
+}
+
+inline IntVec load_packed(const std::uint32_t* from) {
+  IntVec packed;
+  __builtin_memcpy(&packed, from, sizeof packed);
+  return packed;
+}
+
+// The same where disparities differ little: few runs of samples hold all that is looked for, and
+// reading them whole is faster than lane by lane. `reach` are their offsets from the pixels.
+struct Reach {
+  int begin = 0, end = 0;
+};
+
+inline SamplePair sweep_pair(const std::uint32_t* from, long stride, IntVec offset, Reach reach) {
+  SamplePair pair{};
+  IntVec before = IntVec{} == IntVec{} + 1;
+  for (int i = reach.begin; i < reach.end; ++i) {
+    const IntVec packed = load_packed(from + i * stride);
+    const IntVec here = offset == i;
+    pair.first = here ? packed : pair.first;
+    pair.second = before ? packed : pair.second;
+    before = here;
+  }
+  return pair;
+}
+
+// More runs than this cost as much as gathering.
+constexpr int kMaxRuns = 10;
+
+inline SamplePair sample_pair(const ResidualRow& row, const LineArm& arm, int k, float step,
+                              const Pixels& pixels, IntVec tap) {
+  const std::uint32_t* const view = arm.views[k];
+  const float low = step > 0 ? pixels.low : pixels.high;
+  const float high = step > 0 ? pixels.high : pixels.low;
+  const int position = arm.vertical ? row.y : pixels.x;
+  const int last = (arm.vertical ? row.height : row.width) - 1;
+  // Sums of positions and shifts are rounded.
+  const float rounding = 1e-6F * static_cast<float>(last + 1);
+  const auto floor_of = [](float value) { return static_cast<int>(__builtin_floorf(value)); };
+  if (!((high - low) * (step > 0 ? step : -step) < kMaxRuns)) {
+    return gather_pair(row, arm, view, pixels, tap);
+  }
+  Reach reach{floor_of(low * step - rounding), floor_of(high * step + rounding) + 2};
+  long stride = 1;
+  if (arm.vertical) {
+    stride = row.width;
+    if (reach.begin < -position) reach.begin = -position;
+    if (reach.end > last - position + 1) reach.end = last - position + 1;
+  }
+  const long from = static_cast<long>(row.y) * row.width + pixels.x;
+  const bool within =
+      from + reach.begin * stride >= 0 &&
+      from + (reach.end - 1) * stride + kLanes <= static_cast<long>(row.height) * row.width;
+  if (!within) return gather_pair(row, arm, view, pixels, tap);
+  const IntVec offset = arm.vertical ? tap - row.y : tap - pixels.column;
+  return sweep_pair(view + from, stride, offset, reach);
+}
+
+inline Vec squared_difference(const Colour& own, const SamplePair& pair, Vec weight) {
+  const Colour first = unpack(pair.first);
+  const Colour second = unpack(pair.second);
   Vec sum{};
   for (int c = 0; c < 3; ++c) {
     const Vec off =
-        first.channel[c] - own.channel[c] + where.weight * (second.channel[c] - first.channel[c]);
+        first.channel[c] - own.channel[c] + weight * (second.channel[c] - first.channel[c]);
     sum += off * off;
   }
   return sum;
 }
 
-inline IntVec both_valid(const std::uint32_t* view, const Meeting& where) {
-  return is_valid(gather(view, where.first)) & is_valid(gather(view, where.second));
+// Mean squared difference along an arm; infinite where it does not count.
+template <bool kHasInvalid>
+inline Vec arm_residual(const ResidualRow& row, const LineArm& arm, const Pixels& pixels) {
+  Vec sum{}, count{};
+  IntVec seen = ~IntVec{};
+  for (int k = 0; k < arm.count; ++k) {
+    const auto step = static_cast<float>(arm.step * (k + 1));
+    const Meeting where = meet(row, arm, step, pixels);
+    seen &= where.inside;
+    const SamplePair pair = sample_pair(row, arm, k, step, pixels, where.tap);
+    IntVec known = seen;
+    if constexpr (kHasInvalid) known &= is_valid(pair.first) & is_valid(pair.second);
+    sum += choose(known, squared_difference(pixels.own, pair, where.weight), splat(0));
+    count += choose(known, splat(1), splat(0));
+  }
+  return choose(count >= static_cast<float>(row.min_views), sum / greatest(count, splat(1)),
+                splat(__builtin_inff()));
 }
 
 template <bool kHasInvalid>
 void fill_row(const ResidualRow& row) {
-  const float infinity = __builtin_inff();
+  const Vec infinity = splat(__builtin_inff());
   IntVec lane;
   for (int i = 0; i < kLanes; ++i) lane[i] = i;
   for (int x = 0; x < row.width; x += kLanes) {
-    const IntVec column = least(lane + x, IntVec{} + (row.width - 1));
+    const IntVec packed = load_packed(row.own + x);
     const Vec disparity = load(row.disparity + x);
-    const IntVec packed = gather(row.own + x, lane);
-    const Colour own = unpack(packed);
-    Vec best = splat(infinity);
+    const Pixels pixels{x,
+                        least(lane + x, IntVec{} + (row.width - 1)),
+                        unpack(packed),
+                        disparity,
+                        lowest(disparity)[0],
+                        -lowest(-disparity)[0]};
+    Vec best = infinity;
     for (int a = 0; a < row.arm_count; ++a) {
-      const LineArm& arm = row.arms[a];
-      Vec sum{}, count{};
-      IntVec seen = ~IntVec{};
-      for (int k = 0; k < arm.count; ++k) {
-        const Vec shift = disparity * static_cast<float>(arm.step * (k + 1));
-        const Meeting where = meet(row, arm, shift, column);
-        seen &= where.inside;
-        const Vec square = squared_difference(own, arm.views[k], where);
-        IntVec known = seen;
-        if constexpr (kHasInvalid) known &= both_valid(arm.views[k], where);
-        sum += choose(known, square, splat(0));
-        count += choose(known, splat(1), splat(0));
-      }
-      const Vec mean = sum / greatest(count, splat(1));
-      const IntVec counts = count >= static_cast<float>(row.min_views);
-      best = choose(counts, least(best, mean), best);
+      best = least(best, arm_residual<kHasInvalid>(row, row.arms[a], pixels));
     }
-    if constexpr (kHasInvalid) best = choose(is_valid(packed), best, splat(infinity));
+    if constexpr (kHasInvalid) best = choose(is_valid(packed), best, infinity);
     store(row.residual + x, best * (kUnit * kUnit));
   }
 }

@@ -6,10 +6,16 @@
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
+// Taps are symmetric: both samples of a pair are added first, on adders that multiplications leave
+// idle.
 template <int kCount>
-inline Vec integrate_at(const float* in, int stride, const float* taps) {
-  Vec sum = taps[0] * load(in);
-  for (int i = 1; i < kCount; ++i) sum += taps[i] * load(in + i * stride);
+inline Vec integrate_at(const float* in, int stride, const Vec* taps) {
+  Vec sum = taps[0] * (load(in) + load(in + (kCount - 1) * stride));
+  if constexpr (kCount == 1) return taps[0] * load(in);
+  for (int i = 1; i < kCount / 2; ++i) {
+    sum += taps[i] * (load(in + i * stride) + load(in + (kCount - 1 - i) * stride));
+  }
+  if constexpr (kCount % 2 == 1) sum += taps[kCount / 2] * load(in + kCount / 2 * stride);
   return sum;
 }
 
@@ -35,22 +41,26 @@ Bounds bounds_of(const Shear& shear) {
 // Keeps the tensor of the most coherent shear; coherence is compared squared:
 // r² = ((Jxx − Jss)² + 4Jxs²)/(Jxx + Jss + n²)² (Bigün and Granlund 1987).
 template <int kCount>
-void select_row(const float* const* tensor, int stride, const float* taps, float noise_energy,
+void select_row(const float* const* tensor, int stride, const float* values, float noise_energy,
                 const Shear& shear, int length, float* __restrict const* best) {
+  Vec taps[kCount];
+  for (int i = 0; i < kCount; ++i) taps[i] = splat(values[i]);
   const Vec upright = splat(0.5F * static_cast<float>(shear.half_steps));
   const Bounds bounds = bounds_of(shear);
   for (int n = 0; n < length; n += kLanes) {
     const Vec xx = integrate_at<kCount>(tensor[0] + n, stride, taps);
-    const Vec xs = integrate_at<kCount>(tensor[1] + n, stride, taps);
     const Vec ss = integrate_at<kCount>(tensor[2] + n, stride, taps);
+    const Vec xs = integrate_at<kCount>(tensor[1] + n, stride, taps);
     const Vec difference = xx - ss;
     const Vec twice = -2.0F * xs;
+    const IntVec within = (difference > 0.0F) & (twice >= bounds.below * difference) &
+                          (twice <= bounds.above * difference);
+    // A shear far from the disparities here: mostly no lane is within its bounds.
+    if (!any(within)) continue;
     const Vec whole = xx + ss + (noise_energy + 1e-20F);
     const Vec coherence = (difference * difference + twice * twice) * reciprocal(whole * whole);
     const Vec so_far = load(best[3] + n);
-    const IntVec better = (difference > 0.0F) & (twice >= bounds.below * difference) &
-                          (twice <= bounds.above * difference) & (coherence > so_far);
-    // A shear far from the disparities here: mostly no lane is better.
+    const IntVec better = within & (coherence > so_far);
     if (!any(better)) continue;
     // Back to unsheared coordinates: ∂s = ∂s' − k ∂x.
     const Vec unsheared_xs = xs - upright * xx;
@@ -99,21 +109,33 @@ inline Vec slope_of(const float* const* tensor, int n) {
 // Neighbours whose disparity differs by so much, squared, count half: they see another surface.
 constexpr float kDisagreement = 0.09F;
 
+// K/(K + (slope − own)²), K as above, with slope = Jxs/Jxx: one division for both.
+inline Vec agreement(Vec xx, Vec xs, Vec own) {
+  const Vec off = xs - own * xx;
+  const Vec agreeing = kDisagreement * (xx * xx) + 1e-30F;
+  return agreeing * reciprocal(agreeing + off * off);
+}
+
 // Least squares of ∂s + d ∂x = 0 over the averaged tensor; coherence in the frame sheared by d.
 void resolve(const TensorAverage& average) {
+  const int middle = average.count / 2;
   for (int n = 0; n < average.length; n += kLanes) {
-    const Vec own = slope_of(average.tensor[average.count / 2], n);
-    Vec sum[3] = {};
+    Vec sum[3];
+    for (int j = 0; j < 3; ++j)
+      sum[j] = average.weights[middle] * load(average.tensor[middle][j] + n);
+    const Vec own = slope_of(average.tensor[middle], n);
     for (int i = 0; i < average.count; ++i) {
-      const Vec off = slope_of(average.tensor[i], n) - own;
-      const Vec weight = average.weights[i] * kDisagreement * reciprocal(kDisagreement + off * off);
-      for (int j = 0; j < 3; ++j) sum[j] += weight * load(average.tensor[i][j] + n);
+      if (i == middle) continue;
+      const Vec tensor[3] = {load(average.tensor[i][0] + n), load(average.tensor[i][1] + n),
+                             load(average.tensor[i][2] + n)};
+      const Vec weight = average.weights[i] * agreement(tensor[0], tensor[1], own);
+      for (int j = 0; j < 3; ++j) sum[j] += weight * tensor[j];
     }
     const Vec xx = sum[0] + 1e-20F;
-    const Vec disparity = -sum[1] / xx;
+    const Vec disparity = -sum[1] * reciprocal(xx);
     Vec residual = sum[2] + disparity * sum[1];
     residual = choose(residual > 0.0F, residual, splat(0));
-    Vec coherence = (xx - residual) / (xx + residual + average.noise_energy);
+    Vec coherence = (xx - residual) * reciprocal(xx + residual + average.noise_energy);
     const IntVec inside = (disparity >= average.min) & (disparity <= average.max);
     coherence = choose(inside & (coherence > 0.0F), coherence, splat(0));
     const Vec above = choose(disparity < average.min, splat(average.min), disparity);

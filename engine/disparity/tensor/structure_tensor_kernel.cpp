@@ -67,6 +67,7 @@ void half_pixel_row(const float* __restrict in, int begin, int end, int stride,
 }
 
 void differentiate(const TensorBlock& block, const TensorFilters& filters, bool with_half) {
+  const int center = block.rows / 2;
   const int stride = block.stride;
   // What each stage needs of the stage before it.
   const int smooth_begin = filters.smooth.radius * stride;
@@ -78,7 +79,9 @@ void differentiate(const TensorBlock& block, const TensorFilters& filters, bool 
     filter(block.samples + offset, smooth_begin, smooth_end, stride, filters.smooth, smooth);
     gradient_row(smooth, smooth_begin + stride, smooth_end - stride, stride,
                  block.along[0] + offset, block.across[0] + offset);
-    if (!with_half) continue;
+    // A shear moves a row by half a pixel only at an odd distance from the row about which it
+    // turns.
+    if (!with_half || ((plane % block.rows - center) & 1) == 0) continue;
     half_pixel_row(smooth, smooth_begin + stride, smooth_end - 2 * stride, stride, half);
     gradient_row(half, smooth_begin + 2 * stride, smooth_end - 3 * stride, stride,
                  block.along[1] + offset, block.across[1] + offset);
@@ -98,26 +101,29 @@ RowSource source_of(const TensorBlock& block, const Shear& shear, int row) {
                               static_cast<long>(floor_half(half_steps)) * block.stride};
 }
 
-constexpr int kMaxChannels = 3;
-
-// The rows that a filter along the views takes in, with their taps; zero taps are left out.
+// The rows of the first channel that a filter along the views takes in, with their taps; zero taps
+// are left out.
 struct RowSources {
   int count = 0;
   float taps[kMaxTaps];
-  const float* rows[kMaxChannels][kMaxTaps];
+  const float* rows[kMaxTaps];
 };
 
-// Vectors worked on together, so that a pointer and a tap are fetched once for all of them; as many
-// as the registers hold.
-constexpr int kGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+// Vectors worked on together, so that a pointer and a tap are fetched once for all of them.
+template <int kCount>
+struct GroupOf {
+  Vec at[kCount];
+};
+constexpr int kGroup = 2;
 constexpr int kGroupLanes = kGroup * kLanes;
+using Group = GroupOf<kGroup>;
+// Integration has nothing else in registers, and needs as many sums as additions take to end.
+constexpr int kWideGroup = EPISCOPE_VECTOR_BYTES == 64 ? 4 : 2;
+constexpr int kWideGroupLanes = kWideGroup * kLanes;
 
-struct Group {
-  Vec at[kGroup];
-};
-
-inline void multiply_add(Group& sum, float tap, const float* from) {
-  for (int k = 0; k < kGroup; ++k) sum.at[k] += tap * load(from + k * kLanes);
+template <int kCount>
+inline void multiply_add(GroupOf<kCount>& sum, float tap, const float* from) {
+  for (int k = 0; k < kCount; ++k) sum.at[k] += tap * load(from + k * kLanes);
 }
 
 // A product that an invalid sample entered, NaN, counts nothing.
@@ -127,53 +133,130 @@ inline Vec known_or_zero(Vec product) {
   return product;
 }
 
-// Products of the gradient at a group of lanes, all channels summed, toned down and stored.
-template <int kChannels, bool kHasInvalid>
-inline void products_group(const RowSources& along, const RowSources& across, float contrast,
-                           long n, float* __restrict const* out) {
-  Group xx{}, xs{}, ss{};
-  for (int c = 0; c < kChannels; ++c) {
-    Group gx{}, gs{};
-    for (int i = 0; i < along.count; ++i) multiply_add(gx, along.taps[i], along.rows[c][i] + n);
-    for (int i = 0; i < across.count; ++i) multiply_add(gs, across.taps[i], across.rows[c][i] + n);
-    for (int k = 0; k < kGroup; ++k) {
-      xx.at[k] += gx.at[k] * gx.at[k];
-      xs.at[k] += gx.at[k] * gs.at[k];
-      ss.at[k] += gs.at[k] * gs.at[k];
-    }
-  }
-  for (int k = 0; k < kGroup; ++k) {
-    // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
-    const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
-    store(out[0] + k * kLanes, known_or_zero<kHasInvalid>(weight * xx.at[k]));
-    store(out[1] + k * kLanes, known_or_zero<kHasInvalid>(weight * xs.at[k]));
-    store(out[2] + k * kLanes, known_or_zero<kHasInvalid>(weight * ss.at[k]));
-  }
-}
-
-// The widest grid axis whose products of a chunk are kept on the stack.
-
-// Pointers to lane 0 of the sheared coordinates.
-void find_sources(const TensorBlock& block, const Shear& shear, float* const* planes,
-                  const RowTaps& taps, RowSources& sources) {
-  const long plane = static_cast<long>(block.rows) * block.pitch;
-  sources.count = 0;
-  for (int i = 0; i < taps.count; ++i) {
-    if (taps.values[i] == 0) continue;
-    const RowSource source = source_of(block, shear, taps.first + i);
-    sources.taps[sources.count] = taps.values[i];
-    for (int c = 0; c < block.channels; ++c) {
-      sources.rows[c][sources.count] = planes[source.half] + c * plane + source.offset;
-    }
-    ++sources.count;
-  }
-}
-
 // Lanes of the sheared coordinates, [begin, end).
 struct Window {
   int begin = 0;
   int end = 0;
 };
+
+// Lanes of one row from one product to the next. Groups may begin anywhere and reach beyond the
+// chunk.
+constexpr int kProductPitch = kChunk + kWideGroupLanes;
+
+// What one row contributes under a shear, and where that is needed.
+struct RowWork {
+  RowSources along, across;
+  long channel = 0;  // From one channel of the sources to the next.
+  Window window;
+};
+
+// Both derivatives at a group of lanes.
+struct GradientGroup {
+  Group along{}, across{};
+};
+
+// kAlong and kAcross are the numbers of taps, 0 = any.
+template <int kAlong, int kAcross>
+inline GradientGroup gradient_group(const RowWork& work, long at) {
+  const int along = kAlong > 0 ? kAlong : work.along.count;
+  const int across = kAcross > 0 ? kAcross : work.across.count;
+  GradientGroup g;
+  for (int i = 0; i < along; ++i) {
+    multiply_add(g.along, work.along.taps[i], work.along.rows[i] + at);
+  }
+  for (int i = 0; i < across; ++i) {
+    multiply_add(g.across, work.across.taps[i], work.across.rows[i] + at);
+  }
+  return g;
+}
+
+// The number of taps that rows have with neighbours enough on both sides, at the usual scale: those
+// along are symmetric, those across antisymmetric. Samples of a pair are added first, on adders
+// that multiplications leave idle.
+constexpr int kInner = -5;
+
+template <>
+inline GradientGroup gradient_group<kInner, kInner>(const RowWork& work, long at) {
+  const float* const* const a = work.along.rows;
+  const float* const* const b = work.across.rows;
+  GradientGroup g;
+  for (int k = 0; k < kGroup; ++k) {
+    const long n = at + k * kLanes;
+    g.along.at[k] = work.along.taps[2] * load(a[2] + n) +
+                    work.along.taps[1] * (load(a[1] + n) + load(a[3] + n)) +
+                    work.along.taps[0] * (load(a[0] + n) + load(a[4] + n));
+    g.across.at[k] = work.across.taps[1] * (load(b[1] + n) - load(b[2] + n)) +
+                     work.across.taps[0] * (load(b[0] + n) - load(b[3] + n));
+  }
+  return g;
+}
+
+bool is_inner(const RowWork& work) {
+  const float* const a = work.along.taps;
+  const float* const b = work.across.taps;
+  return work.along.count == 5 && work.across.count == 4 && a[0] == a[4] && a[1] == a[3] &&
+         b[0] == -b[3] && b[1] == -b[2];
+}
+
+// Products of the gradient in a window, lane 0 being lane `from` of the sources, all channels
+// summed, toned down and stored.
+template <int kChannels, bool kHasInvalid, int kAlong, int kAcross>
+void fill_products(const RowWork& work, float contrast, Window window, long from,
+                   float* __restrict out) {
+  for (int n = window.begin; n < window.end; n += kGroupLanes) {
+    Group xx{}, xs{}, ss{};
+    for (int c = 0; c < kChannels; ++c) {
+      const GradientGroup g = gradient_group<kAlong, kAcross>(work, from + n + c * work.channel);
+      for (int k = 0; k < kGroup; ++k) {
+        xx.at[k] += g.along.at[k] * g.along.at[k];
+        xs.at[k] += g.along.at[k] * g.across.at[k];
+        ss.at[k] += g.across.at[k] * g.across.at[k];
+      }
+    }
+    for (int k = 0; k < kGroup; ++k) {
+      // A silhouette must not drown the weaker texture beside it: strong gradients are toned down.
+      const Vec weight = contrast * reciprocal(xx.at[k] + ss.at[k] + contrast);
+      float* const to = out + n + k * kLanes;
+      store(to, known_or_zero<kHasInvalid>(weight * xx.at[k]));
+      store(to + kProductPitch, known_or_zero<kHasInvalid>(weight * xs.at[k]));
+      store(to + 2 * kProductPitch, known_or_zero<kHasInvalid>(weight * ss.at[k]));
+    }
+  }
+}
+
+using FillProducts = void (*)(const RowWork&, float contrast, Window, long from, float* out);
+
+// For the numbers of taps that the usual scales have.
+template <int kChannels, bool kHasInvalid>
+FillProducts fill_products_by_taps(const RowWork& work) {
+  const int along = work.along.count, across = work.across.count;
+  if (is_inner(work)) return fill_products<kChannels, kHasInvalid, kInner, kInner>;
+  if (along == 4 && across == 4) return fill_products<kChannels, kHasInvalid, 4, 4>;
+  if (along == 3 && across == 3) return fill_products<kChannels, kHasInvalid, 3, 3>;
+  if (along == 7 && across == 6) return fill_products<kChannels, kHasInvalid, 7, 6>;
+  return fill_products<kChannels, kHasInvalid, 0, 0>;
+}
+
+FillProducts fill_products_of(const TensorBlock& block, const RowWork& work) {
+  if (block.has_invalid) {
+    return block.channels == 1 ? fill_products_by_taps<1, true>(work)
+                               : fill_products_by_taps<3, true>(work);
+  }
+  return block.channels == 1 ? fill_products_by_taps<1, false>(work)
+                             : fill_products_by_taps<3, false>(work);
+}
+
+// Pointers to lane 0 of the sheared coordinates.
+void find_sources(const TensorBlock& block, const Shear& shear, float* const* planes,
+                  const RowTaps& taps, RowSources& sources) {
+  sources.count = 0;
+  for (int i = 0; i < taps.count; ++i) {
+    if (taps.values[i] == 0) continue;
+    const RowSource source = source_of(block, shear, taps.first + i);
+    sources.taps[sources.count] = taps.values[i];
+    sources.rows[sources.count++] = planes[source.half] + source.offset;
+  }
+}
 
 // Where the tensor of a row is needed for its payload.
 Window target_window(const TensorBlock& block, const TensorFilters& filters, const Shear& shear,
@@ -201,14 +284,28 @@ Window source_window(const TensorBlock& block, const TensorFilters& filters, con
   return window;
 }
 
-void integrate_rows(const float (*products)[kChunk + kGroupLanes], const RowTaps& taps,
-                    Window window, float* __restrict out) {
-  for (int n = window.begin; n < window.end; n += kGroupLanes) {
-    Group sum{};
+// Products of all rows in a chunk.
+struct ChunkProducts {
+  alignas(64) float values[kMaxTensorViews][3][kProductPitch];
+};
+
+// Integrates the products along the views, lane `from` of `tensor` being lane 0 of the chunk.
+void integrate_rows(const ChunkProducts& products, const RowTaps& taps, Window window,
+                    float* const* tensor, long from) {
+  for (int n = window.begin; n < window.end; n += kWideGroupLanes) {
+    GroupOf<kWideGroup> xx{}, xs{}, ss{};
     for (int i = 0; i < taps.count; ++i) {
-      multiply_add(sum, taps.values[i], products[taps.first + i] + n);
+      const float* const row = products.values[taps.first + i][0] + n;
+      multiply_add(xx, taps.values[i], row);
+      multiply_add(xs, taps.values[i], row + kProductPitch);
+      multiply_add(ss, taps.values[i], row + 2 * kProductPitch);
     }
-    for (int k = 0; k < kGroup; ++k) store(out + n + k * kLanes, sum.at[k]);
+    for (int k = 0; k < kWideGroup; ++k) {
+      const long to = from + n + k * kLanes;
+      store(tensor[0] + to, xx.at[k]);
+      store(tensor[1] + to, xs.at[k]);
+      store(tensor[2] + to, ss.at[k]);
+    }
   }
 }
 
@@ -219,57 +316,31 @@ Window clip(Window window, int chunk) {
   return {begin < 0 ? 0 : begin & ~(kLanes - 1), end > kChunk ? kChunk : end};
 }
 
-struct ChunkProducts {
-  // Groups may begin anywhere and reach beyond the chunk.
-  alignas(64) float values[3][kMaxTensorViews][kChunk + kGroupLanes];
-};
-
-// What one row contributes under a shear, and where that is needed.
-struct RowWork {
-  RowSources along, across;
-  Window window;
-};
-
-template <int kChannels, bool kHasInvalid>
-void fill_products(const RowWork& work, float contrast, int row, int chunk,
-                   ChunkProducts& products) {
-  const Window window = clip(work.window, chunk);
-  for (int n = window.begin; n < window.end; n += kGroupLanes) {
-    float* const out[3] = {products.values[0][row] + n, products.values[1][row] + n,
-                           products.values[2][row] + n};
-    products_group<kChannels, kHasInvalid>(work.along, work.across, contrast, chunk + n, out);
-  }
-}
-
-auto fill_products_of(const TensorBlock& block) {
-  if (block.has_invalid) return block.channels == 1 ? fill_products<1, true> : fill_products<3, true>;
-  return block.channels == 1 ? fill_products<1, false> : fill_products<3, false>;
-}
-
 void accumulate(const TensorBlock& block, const TensorFilters& filters, const Shear& shear) {
   ChunkProducts products;
   RowWork work[kMaxTensorViews];
+  FillProducts fill[kMaxTensorViews];
   Window whole{0, 0};
   for (int r = 0; r < block.rows; ++r) {
     find_sources(block, shear, block.along, filters.row_smooth[r], work[r].along);
     find_sources(block, shear, block.across, filters.row_derivative[r], work[r].across);
+    work[r].channel = static_cast<long>(block.rows) * block.pitch;
     work[r].window = source_window(block, filters, shear, r);
+    fill[r] = fill_products_of(block, work[r]);
     if (work[r].window.begin < whole.begin) whole.begin = work[r].window.begin;
     if (work[r].window.end > whole.end) whole.end = work[r].window.end;
   }
-  const auto fill = fill_products_of(block);
   // Chunks begin at whole vectors of the planes.
   const int first = whole.begin / kLanes * kLanes - kLanes;
   for (int chunk = first; chunk < whole.end; chunk += kChunk) {
     for (int r = 0; r < block.rows; ++r) {
-      fill(work[r], filters.contrast_energy, r, chunk, products);
+      fill[r](work[r], filters.contrast_energy, clip(work[r].window, chunk), chunk,
+              products.values[r][0]);
     }
     for (int r = block.first_row; r < block.last_row; ++r) {
       const Window window = clip(target_window(block, filters, shear, r), chunk);
-      const long row = static_cast<long>(r) * block.tensor_pitch + block.tensor_margin + chunk;
-      for (int j = 0; j < 3; ++j) {
-        integrate_rows(products.values[j], filters.row_integrate[r], window, block.tensor[j] + row);
-      }
+      integrate_rows(products, filters.row_integrate[r], window, block.tensor,
+                     static_cast<long>(r) * block.tensor_pitch + block.tensor_margin + chunk);
     }
   }
 }

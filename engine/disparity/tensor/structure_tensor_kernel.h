@@ -94,7 +94,8 @@ struct SampleKernel {
 };
 
 struct TensorKernel {
-  /// Pre-smooths `samples` and fills `along` and `across`.
+  /// Pre-smooths `samples` and fills `along` and `across`; those half a pixel to the right only for
+  /// rows at an odd distance from row `rows`/2, which must be the centre of all shears.
   void (*differentiate)(const TensorBlock&, const TensorFilters&, bool with_half);
   /// Fills `tensor` for one shear, all channels summed.
   void (*accumulate)(const TensorBlock&, const TensorFilters&, const Shear&);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -44,6 +45,34 @@ void check_shape(const ImageView<T>& image, int height, int width, const char* w
   }
 }
 
+// Σ c, Σ c·f and Σ c·f² over pixels, in several sums at a time that processors can add together.
+class Moments {
+ public:
+  void add(const float* c, const float* cf, int count) {
+    for (int i = 0; i < count; ++i) {
+      double* const sums = sums_[i % kSums].data();
+      const double weight = c[i], value = cf[i];
+      sums[0] += weight;
+      sums[1] += value;
+      sums[2] += value * value / weight;
+    }
+  }
+  [[nodiscard]] double weight() const { return total(0); }
+  [[nodiscard]] double sum() const { return total(1); }
+  [[nodiscard]] double squares() const { return total(2); }
+
+ private:
+  static constexpr int kSums = 4;
+
+  [[nodiscard]] double total(int which) const {
+    double sum = 0;
+    for (const auto& sums : sums_) sum += sums[which];
+    return sum;
+  }
+
+  std::array<std::array<double, 3>, kSums> sums_{};
+};
+
 }  // namespace
 
 struct TvL2Solver::State {
@@ -57,7 +86,7 @@ struct TvL2Solver::State {
 
   State(int height, int width, Isa isa);
   void load(const TvL2Problem& problem);
-  void centre();
+  void centre(const Moments& moments);
   void renew_penalty(std::size_t stage, bool first);
   void correct(std::size_t stage);
   void iterate(std::size_t stage, int iteration, bool pauses, const Progress& progress);
@@ -81,45 +110,42 @@ TvL2Solver::State::State(int height, int width, Isa isa)
 void TvL2Solver::State::load(const TvL2Problem& problem) {
   const TvL2Level& level = grids[0].level;
   const float inverse_lambda = static_cast<float>(1 / problem.lambda);
+  Moments moments;
   for (int y = 0; y < level.height; ++y) {
     const float* const f = problem.f.row(y);
     const float* const w = problem.w.empty() ? nullptr : problem.w.row(y);
     const float* const g = problem.g.empty() ? nullptr : problem.g.row(y);
-    for (int x = 0; x < level.width; ++x) {
-      const long i = level.at(y, x);
-      const bool known = std::isfinite(f[x]);
-      const float weight = !known ? kMinWeight : w != nullptr ? w[x] : 1.0F;
-      level.c[i] = std::max(weight, kMinWeight) * inverse_lambda;
-      level.cf[i] = known ? level.c[i] * f[x] : 0.0F;
-      level.g[i] = g != nullptr ? std::max(g[x], kMinWeight) : 1.0F;
+    for (int odd = 0; odd < 2; ++odd) {
+      const int count = (level.width + 1 - odd) / 2;
+      const long at = y * level.pitch + odd * level.odd;
+      for (int i = 0; i < count; ++i) {
+        const float value = f[2 * i + odd];
+        const bool known = std::abs(value) <= std::numeric_limits<float>::max();
+        const float weight = known ? (w != nullptr ? w[2 * i + odd] : 1.0F) : 0.0F;
+        level.c[at + i] = std::max(weight, kMinWeight) * inverse_lambda;
+        level.cf[at + i] = known ? level.c[at + i] * value : 0.0F;
+        level.g[at + i] = g != nullptr ? std::max(g[2 * i + odd], kMinWeight) : 1.0F;
+      }
+      moments.add(level.c + at, level.cf + at, count);
     }
   }
-  centre();
+  centre(moments);
   for (std::size_t k = 1; k < grids.size(); ++k)
     coarsen_problem(grids[k - 1].level, grids[k].level);
 }
 
-void TvL2Solver::State::centre() {
+void TvL2Solver::State::centre(const Moments& moments) {
   const TvL2Level& level = grids[0].level;
-  double weight = 0, sum = 0, squares = 0;
-  for (int y = 0; y < level.height; ++y) {
-    double row_weight = 0, row_sum = 0, row_squares = 0;
-    for (int x = 0; x < level.width; ++x) {
-      const double c = level.c[level.at(y, x)], cf = level.cf[level.at(y, x)];
-      row_weight += c;
-      row_sum += cf;
-      row_squares += cf * cf / c;
-    }
-    weight += row_weight;
-    sum += row_sum;
-    squares += row_squares;
-  }
-  offset = static_cast<float>(sum / weight);
-  const double variance = squares / weight - (sum / weight) * (sum / weight);
+  const double weight = moments.weight(), mean = moments.sum() / weight;
+  offset = static_cast<float>(mean);
+  const double variance = moments.squares() / weight - mean * mean;
   const float spread = variance > 1e-12 ? static_cast<float>(std::sqrt(variance)) : 1.0F;
   for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) {
-      level.cf[level.at(y, x)] -= offset * level.c[level.at(y, x)];
+    for (int odd = 0; odd < 2; ++odd) {
+      const long at = y * level.pitch + odd * level.odd;
+      for (int i = 0; i < (level.width + 1 - odd) / 2; ++i) {
+        level.cf[at + i] -= offset * level.c[at + i];
+      }
     }
   }
   penalty = {kPenaltyScale / spread, kPenaltyKnee * spread, kPenaltySpread, false};
@@ -202,7 +228,11 @@ TvL2Result TvL2Solver::State::finish(const TvL2Options& options, const Progress&
 void TvL2Solver::State::copy_to(ImageView<float> u) const {
   const TvL2Level& level = grids[0].level;
   for (int y = 0; y < level.height; ++y) {
-    for (int x = 0; x < level.width; ++x) u.row(y)[x] = level.u[level.at(y, x)] + offset;
+    for (int odd = 0; odd < 2; ++odd) {
+      const float* const from = level.u + y * level.pitch + odd * level.odd;
+      float* const to = u.row(y) + odd;
+      for (int i = 0; i < (level.width + 1 - odd) / 2; ++i) to[2 * i] = from[i] + offset;
+    }
   }
 }
 

@@ -101,7 +101,7 @@ void invert_diagonal(const TvL2Level& level) {
         const Vec diagonal = level.data_scale * c + load(level.rx + i) + beside +
                              load(level.ry + i) + load(level.ry + i - level.pitch);
         store(level.inverse + i,
-              choose(c > 0.0F, 1.0F / choose(c > 0.0F, diagonal, splat(1)), splat(0)));
+              choose(c > 0.0F, reciprocal(choose(c > 0.0F, diagonal, splat(1))), splat(0)));
       };
       invert(at, left.even);
       invert(at + level.odd, left.odd);
@@ -126,18 +126,20 @@ inline double total(Vec lanes) {
   return sum;
 }
 
-inline Vec energy_at(const TvL2Level& level, long i, Vec here, Vec right) {
-  const Gradient gradient = gradient_at(level, i, here, right);
-  const Vec variation = square_root(gradient.x * gradient.x + gradient.y * gradient.y);
-  const Vec c = load(level.c + i);
-  const Vec off = here - load(level.cf + i) / choose(c > 0.0F, c, splat(1));
-  return load(level.g + i) * variation + 0.5F * c * off * off;
-}
+// What a pixel adds to P(u) and to −D(p), given the divergence there: with the observation f,
+// g|∇u| + ½c(u − f)² and f·div p + ½(div p)²/c.
+struct PixelSums {
+  Vec energy, dual;
+};
 
-// What a pixel adds to −D(p), given the divergence there: f·div p + ½ (div p)²/c.
-inline Vec dual_at(const TvL2Level& level, long i, Vec divergence) {
-  const Vec c = load(level.c + i);
-  return divergence * (load(level.cf + i) + 0.5F * divergence) / choose(c > 0.0F, c, splat(1));
+inline PixelSums sums_at(const TvL2Level& level, long i, Vec here, Vec right, Vec divergence) {
+  const Gradient gradient = gradient_at(level, i, here, right);
+  const Vec variation = root_of_positive(gradient.x * gradient.x + gradient.y * gradient.y);
+  const Vec c = load(level.c + i), cf = load(level.cf + i);
+  const Vec inverse = reciprocal(choose(c > 0.0F, c, splat(1)));
+  const Vec off = here - cf * inverse;
+  return {load(level.g + i) * variation + 0.5F * c * off * off,
+          divergence * (cf + 0.5F * divergence) * inverse};
 }
 
 struct RowSums {
@@ -152,8 +154,6 @@ RowSums measure_row(const TvL2Level& level, int y, float* row) {
   for (int x = 0; x < end; x += kLanes) {
     const long even = y * level.pitch + x, odd = even + level.odd;
     const Halves here = load_halves(level, level.u, even);
-    sums.energy += energy_at(level, even, here.even, here.odd) +
-                   energy_at(level, odd, here.odd, load(level.u + even + 1));
     Halves zx = load_halves(level, level.zx, even), zy = load_halves(level, level.zy, even);
     const Halves g = load_halves(level, level.g, even);
     const Halves keep = {shrinkage(zx.even, zy.even, g.even), shrinkage(zx.odd, zy.odd, g.odd)};
@@ -161,8 +161,12 @@ RowSums measure_row(const TvL2Level& level, int y, float* row) {
     const Halves py = {zy.even * keep.even, zy.odd * keep.odd};
     const Halves above = load_halves(level, row, x);
     store_halves(level, row, x, py);
-    sums.dual -= dual_at(level, even, px.even - shifted(left, px.odd) + py.even - above.even) +
-                 dual_at(level, odd, px.odd - px.even + py.odd - above.odd);
+    const PixelSums of_even = sums_at(level, even, here.even, here.odd,
+                                      px.even - shifted(left, px.odd) + py.even - above.even);
+    const PixelSums of_odd = sums_at(level, odd, here.odd, load(level.u + even + 1),
+                                     px.odd - px.even + py.odd - above.odd);
+    sums.energy += of_even.energy + of_odd.energy;
+    sums.dual -= of_even.dual + of_odd.dual;
     left = px.odd;
   }
   return sums;

@@ -18,16 +18,16 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Disparities about the truth of a plane, and confidences, both uneven.
-Estimate uneven_estimate(const LightField& lf) {
+// Disparities about a mean, and confidences, both uneven.
+Estimate uneven_estimate(const LightField& lf, double mean = 0.37, double spread = 0.4) {
   Estimate estimate;
   estimate.field.disparity = ViewStack<float>(lf.grid(), lf.height(), lf.width());
   estimate.confidence = ViewStack<float>(lf.grid(), lf.height(), lf.width());
   std::mt19937 random(4);
-  std::normal_distribution<float> noise(0.37F, 0.4F);
+  std::normal_distribution<double> noise;
   std::uniform_real_distribution<float> uniform(0.1F, 1);
   for (std::size_t i = 0; i < estimate.confidence.size(); ++i) {
-    estimate.field.disparity.data()[i] = noise(random);
+    estimate.field.disparity.data()[i] = static_cast<float>(mean + spread * noise(random));
     estimate.confidence.data()[i] = uniform(random);
   }
   return estimate;
@@ -155,17 +155,24 @@ class LineCheckTest : public QObject {
 void LineCheckTest::confidence_isReducedAsDefined_data() {
   QTest::addColumn<int>("rows");
   QTest::addColumn<int>("columns");
-  QTest::newRow("5x7") << 5 << 7;
-  QTest::newRow("1x9, no way up or down") << 1 << 9;
-  QTest::newRow("3x1, arms of one view") << 3 << 1;
+  QTest::addColumn<double>("mean");
+  QTest::addColumn<double>("spread");
+  QTest::newRow("5x7") << 5 << 7 << 0.37 << 0.4;
+  QTest::newRow("5x7, lines almost parallel") << 5 << 7 << -0.6 << 0.05;
+  QTest::newRow("5x7, whole pixels") << 5 << 7 << -2.0 << 0.0;
+  QTest::newRow("5x7, lines in all directions") << 5 << 7 << 0.0 << 5.0;
+  QTest::newRow("1x9, no way up or down") << 1 << 9 << 0.37 << 0.4;
+  QTest::newRow("3x1, arms of one view") << 3 << 1 << 0.37 << 0.4;
 }
 
 void LineCheckTest::confidence_isReducedAsDefined() {
   QFETCH(int, rows);
   QFETCH(int, columns);
+  QFETCH(double, mean);
+  QFETCH(double, spread);
   const Scene scene = render("objects", 23, 37, {rows, columns}, 1, 4);
   const LightField& lf = *scene.light_field;
-  Estimate estimate = uneven_estimate(lf);
+  Estimate estimate = uneven_estimate(lf, mean, spread);
   const ViewStack<float> before = estimate.confidence.clone();
   const Definition definition(lf, estimate.field.disparity);
 
