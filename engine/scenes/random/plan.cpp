@@ -76,6 +76,17 @@ void make_uneven(Plan& plan, Draw& draw) {
   plan.is_defocused = true;
 }
 
+void make_room(Plan& plan, Draw& draw) {
+  const double span = draw.between(1.6, 3.2);
+  const double middle = draw.between(-0.6, 0.6);
+  plan.range = {middle - span / 2, middle + span / 2};
+  plan.is_furnished = plan.has_ground = plan.is_lit = true;
+  plan.is_defocused = plan.has_moving_highlights = false;
+  plan.sensor.exposure = 1;
+  plan.sensor.gain_spread = 0;
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 3));
+}
+
 }  // namespace
 
 Plan draw_plan(Draw draw, RandomKind kind) {
@@ -112,6 +123,9 @@ Plan draw_plan(Draw draw, RandomKind kind) {
     case RandomKind::Noisy:
       plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(5, 10));
       plan.sensor.exposure = 1;
+      break;
+    case RandomKind::Room:
+      make_room(plan, draw);
       break;
   }
   return plan;
