@@ -84,7 +84,7 @@ Row judge(const Painted& painted, const LabelerParameters& parameters,
       labeler.label(painted.strokes, parameters, center_only ? center : all, Progress());
   Row row;
   row.seconds = watch.seconds();
-  row.quality = judge_label_quality(labeling.labels, painted.truth);
+  row.quality = judge_label_quality(labeling.labels, painted.truth, Progress());
   if (!center_only) {
     row.consistency =
         label_consistency(labeling.labels, painted.scene.truth->field, Progress()).share();

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/evaluation/metrics/label_quality.h"
 
+#include "engine/core/parallel/parallel.h"
+
 #include <algorithm>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -86,13 +89,15 @@ LabelQuality judge_label_quality(ImageView<const std::int32_t> labels,
 }
 
 LabelQuality judge_label_quality(const ViewStack<std::int32_t>& labels,
-                                 const ViewStack<std::int32_t>& truth) {
-  LabelQuality quality;
-  for (int i = 0; i < labels.grid().count(); ++i) {
+                                 const ViewStack<std::int32_t>& truth, const Progress& progress) {
+  std::vector<LabelQuality> parts(static_cast<std::size_t>(labels.grid().count()));
+  parallel_for(labels.grid().count(), progress, [&](int i) {
     const ViewIndex view = labels.view_at(i);
-    if (truth.empty() || !truth.contains(view)) continue;
-    quality += judge_label_quality(labels.view(view), truth.view(view));
-  }
+    if (truth.empty() || !truth.contains(view)) return;
+    parts[static_cast<std::size_t>(i)] = judge_label_quality(labels.view(view), truth.view(view));
+  });
+  LabelQuality quality;
+  for (const LabelQuality& part : parts) quality += part;
   return quality;
 }
 

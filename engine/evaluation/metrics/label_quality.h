@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/array/image.h"
+#include "engine/core/parallel/progress.h"
 #include "engine/evaluation/metrics/label_accuracy.h"
 
 #include <cstdint>
@@ -37,10 +38,11 @@ struct LabelQuality {
 
 /// Judges one view, or every view that both stacks cover. Pixels without a true label (0 or less)
 /// are not judged, but count as another label beside a boundary. Throws InvalidInput if the sizes
-/// differ.
+/// differ, Cancelled.
 [[nodiscard]] LabelQuality judge_label_quality(ImageView<const std::int32_t> labels,
                                                ImageView<const std::int32_t> truth);
 [[nodiscard]] LabelQuality judge_label_quality(const ViewStack<std::int32_t>& labels,
-                                               const ViewStack<std::int32_t>& truth);
+                                               const ViewStack<std::int32_t>& truth,
+                                               const Progress& progress);
 
 }  // namespace episcope

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/features/label_surfaces.h"
 
+#include <opencv2/imgproc.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,13 +16,37 @@ constexpr double kOutlier = 3;             // Of the Cauchy weights, in robust s
 constexpr double kLeastScale = 1e-3;       // So that exact planes have one.
 constexpr float kLeverage = 0.3F;          // What leverage adds to the variance.
 constexpr float kWeight = 1.5F;
+constexpr int kJumpRadius_px = 2;
+constexpr float kNoJump_px = 0.1F;
+constexpr float kJumpDoubt = 0.3F;
 constexpr float kLeastProbability = 0.02F;
+
+// Beside a jump an estimate may be anything between its ends: variance that grows with the spread
+// of disparities in the neighbourhood.
+Image<float> doubt_of(ImageView<const float> disparity) {
+  const cv::Size window(2 * kJumpRadius_px + 1, 2 * kJumpRadius_px + 1);
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, window);
+  // OpenCV has no constant matrices; this one is only read.
+  const cv::Mat map(disparity.height, disparity.width, CV_32F, const_cast<float*>(disparity.data));
+  cv::Mat most, least;
+  cv::dilate(map, most, kernel);
+  cv::erode(map, least, kernel);
+  Image<float> doubt(disparity.height, disparity.width);
+  for (int y = 0; y < disparity.height; ++y) {
+    const auto *high = most.ptr<float>(y), *low = least.ptr<float>(y);
+    std::transform(high, high + disparity.width, low, doubt.row(y), [](float a, float b) {
+      const float deviation = kJumpDoubt * std::max(a - b - kNoJump_px, 0.F);
+      return deviation * deviation;
+    });
+  }
+  return doubt;
+}
 
 }  // namespace
 
 LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
                              ImageView<const float> disparity)
-    : disparity_(disparity) {
+    : disparity_(disparity), doubt_(doubt_of(disparity)) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(label_count));
   for (int y = 0; y < strokes.height; ++y) {
     for (int x = 0; x < strokes.width; ++x) {
@@ -100,6 +126,7 @@ void LabelSurfaces::solve(const std::vector<Sample>& samples, const std::vector<
 void LabelSurfaces::misfits(int y, int pitch, float* out) const {
   constexpr float kBase = kNoise_px * kNoise_px;
   const float* const disparity = disparity_.row(y);
+  const float* const doubt = doubt_.row(y);
   for (const Surface& surface : surfaces_) {
     float* misfit = out++;
     if (!surface.is_known) {
@@ -117,7 +144,7 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
     const float noise = kBase + static_cast<float>(surface.variance);
     for (int x = 0; x < disparity_.width; ++x, misfit += pitch) {
       const float dx = static_cast<float>(x) - static_cast<float>(surface.x);
-      const float variance = noise * (1 + kLeverage * (flat + (slope + bend * dx) * dx));
+      const float variance = noise * (1 + kLeverage * (flat + (slope + bend * dx) * dx)) + doubt[x];
       const float miss = disparity[x] - at - across * dx;
       const float spread = variance + miss * miss;
       *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);

@@ -18,7 +18,8 @@ namespace episcope {
 /// three robust standard deviations, its slopes drawn to 0 where the strokes are short. The
 /// variance of the disparity at a pixel is that of the strokes about their plane, with
 /// kNoise_px² added, and grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ of the pixel, M the
-/// mean of (1, x, y)ᵀ(1, x, y) over the strokes. An own addition to [WSG13]; what it gains is in
+/// mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2 px,
+/// because estimates are vague beside jumps. An own addition to [WSG13]; what it gains is in
 /// tests/accuracy/labels.md.
 class LabelSurfaces {
  public:
@@ -57,6 +58,7 @@ class LabelSurfaces {
                     double ridge_px2, Surface& surface);
 
   ImageView<const float> disparity_;
+  Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
 };
 
