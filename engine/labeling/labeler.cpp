@@ -60,18 +60,15 @@ void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y)
   }
 }
 
-Image<float> plane(VolumeView<const float> features, int layer) {
-  Image<float> image(features.height, features.width);
-  for (int y = 0; y < features.height; ++y) {
-    std::copy_n(features.row(y, layer), features.width, image.row(y));
-  }
-  return image;
-}
-
 /// Edges of colour that a path along a surface should not cross.
 std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   std::vector<Image<float>> planes;
-  for (int c = 0; c < 3; ++c) planes.push_back(plane(features, kWiderSurfaceLayer + c));
+  for (int c = 0; c < 3; ++c) {
+    Image<float>& plane = planes.emplace_back(features.height, features.width);
+    for (int y = 0; y < features.height; ++y) {
+      std::copy_n(features.row(y, kWiderSurfaceLayer + c), features.width, plane.row(y));
+    }
+  }
   return planes;
 }
 

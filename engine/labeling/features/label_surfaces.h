@@ -20,7 +20,7 @@ namespace episcope {
 /// kNoise_px² added, and grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ of the pixel, M the
 /// mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2 px,
 /// because estimates are vague beside jumps. An own addition to [WSG13]; what it gains is in
-/// tests/accuracy/labels.md.
+/// tests/accuracy/tuning.md.
 class LabelSurfaces {
  public:
   /// `strokes` as from `carried_strokes` (stroke_distance.h), `disparity` of the view, without
