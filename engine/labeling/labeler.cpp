@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/core/parallel/stopwatch.h"
+#include "engine/labeling/features/label_surfaces.h"
 #include "engine/labeling/features/pixel_features.h"
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <utility>
 
 namespace episcope {
@@ -28,9 +30,6 @@ constexpr std::size_t kKeptViews = 9;
 
 // For a single view: half the iterations give the same accuracy.
 constexpr double kLiveGap = 5e-3;
-
-// A jump of one px in disparity beside one of Lab/100.
-constexpr float kDisparityWeight = 5;
 
 ForestOptions forest_options(const LabelerParameters& parameters) {
   ForestOptions options;
@@ -61,36 +60,54 @@ void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y)
   }
 }
 
-Image<float> plane(VolumeView<const float> features, int layer, float unit) {
-  Image<float> image(features.height, features.width);
-  for (int y = 0; y < features.height; ++y) {
-    const float* in = features.row(y, layer);
-    std::transform(in, in + features.width, image.row(y), [unit](float f) { return f * unit; });
-  }
-  return image;
-}
-
-/// What a path along a surface must not cross: edges of colour, and of disparity if that is known.
-std::vector<Image<float>> guide_planes(VolumeView<const float> features, PixelFeatureSet set) {
+/// Edges of colour that a path along a surface should not cross.
+std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   std::vector<Image<float>> planes;
-  for (int c = 0; c < 3; ++c) planes.push_back(plane(features, kWiderSurfaceLayer + c, 1));
-  if (set.with_disparity) planes.push_back(plane(features, kDisparityLayer, kDisparityWeight));
+  for (int c = 0; c < 3; ++c) {
+    Image<float>& plane = planes.emplace_back(features.height, features.width);
+    for (int y = 0; y < features.height; ++y) {
+      std::copy_n(features.row(y, kWiderSurfaceLayer + c), features.width, plane.row(y));
+    }
+  }
   return planes;
 }
 
+/// What is known about the pixels of a view besides their features.
+struct StrokeEvidence {
+  const StrokeDistances& distances;
+  double nearness = 0;
+  const LabelSurfaces* surfaces = nullptr;  ///< Null = no disparity to compare.
+  /// Painted on this view itself: labels there are certain. Empty = none.
+  ImageView<const std::int32_t> painted{};
+};
+
+/// Certainty on the painted pixels of a row.
+void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row) {
+  for (int x = 0; x < width; ++x) {
+    if (strokes[x] == 0) continue;
+    float* p = row + static_cast<std::ptrdiff_t>(x) * pitch;
+    std::fill_n(p, pitch, 0.F);
+    p[strokes[x] - 1] = 1;
+  }
+}
+
 ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
-                            const StrokeDistances& distances, double nearness,
-                            const Progress& progress) {
+                            const StrokeEvidence& evidence, const Progress& progress) {
   ProbabilityMap map(features.height, forest.label_count(), features.width);
+  const int pitch = forest.pitch();
   constexpr int kRows = 8;
   parallel_for_workers((features.height + kRows - 1) / kRows, progress, [&] {
-    const std::size_t size = static_cast<std::size_t>(features.width) * forest.pitch();
+    const std::size_t size = static_cast<std::size_t>(features.width) * pitch;
     return [&, row = std::vector<float>(size)](int item) mutable {
       const int end = std::min(features.height, (item + 1) * kRows);
       for (int y = item * kRows; y < end; ++y) {
         forest.predict_row(features, y, row.data());
-        distances.weigh_row(y, nearness, forest.pitch(), row.data());
-        store_row(row.data(), forest.pitch(), map.view(), y);
+        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, pitch, row.data());
+        evidence.distances.weigh_row(y, evidence.nearness, pitch, row.data());
+        if (!evidence.painted.empty()) {
+          keep_strokes(evidence.painted.row(y), features.width, pitch, row.data());
+        }
+        store_row(row.data(), pitch, map.view(), y);
       }
     };
   });
@@ -109,6 +126,10 @@ LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, Vie
 bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   const int last = views.grid.count() - 1;
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
+}
+
+bool is_painted(const Scribbles& scribbles, ViewIndex view) {
+  return std::ranges::find(scribbles.views, view, &ViewScribbles::view) != scribbles.views.end();
 }
 
 /// A forest and what it was trained on.
@@ -197,12 +218,22 @@ struct Labeler::State {
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
                                            VolumeView<const float> features,
                                            const Progress& progress) const {
-    const std::vector<Image<float>> guides = guide_planes(features, set);
+    const int labels = learned.forest.label_count();
     const Image<std::int32_t> strokes = carried_strokes(
         learned.scribbles, learned.ids, disparity.get(), view, features.height, features.width);
-    const StrokeDistances distances(strokes, learned.forest.label_count(),
-                                    {guides.begin(), guides.end()}, progress);
-    return predict_view(learned.forest, features, distances, learned.parameters.nearness, progress);
+    const std::vector<Image<float>> colors = color_guides(features);
+    StrokeGuides guides{{colors.begin(), colors.end()}};
+    Image<float> filled;
+    std::optional<LabelSurfaces> surfaces;
+    if (set.with_disparity) {
+      filled = filled_disparity(disparity->view(view));
+      guides.disparity = filled.view();
+      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view());
+    }
+    const StrokeDistances distances(strokes, labels, guides, progress);
+    StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};
+    if (is_painted(learned.scribbles, view)) evidence.painted = strokes.view();
+    return predict_view(learned.forest, features, evidence, progress);
   }
 
   /// Probabilities of the views of `into` that have none yet.

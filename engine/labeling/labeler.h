@@ -18,7 +18,7 @@
 namespace episcope {
 
 /// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
-/// to the caller; here all but Image use it as a feature.
+/// to the caller; here all but Image judge labels by it.
 enum class FeatureSet { Image, ImageEstimate, ImageTruth };
 [[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
 
@@ -54,14 +54,17 @@ struct Labeling {
 ///
 /// A random forest (engine/labeling/forest/forest.h) is trained on the painted pixels of all
 /// painted views, equally many per label, and votes on the pixels of the requested views by their
-/// features (engine/labeling/features/pixel_features.h). Since a forest knows nothing about what
-/// lies between a pixel and a stroke, its votes are weighted by how near the strokes of each label
-/// are along surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h). Labels
-/// are then made consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single view
-/// uses its rays in neighbouring views only, for a quick answer; all views use those of all.
+/// features (engine/labeling/features/pixel_features.h). Its votes are weighted by how well the
+/// disparity of a pixel fits the surface on which the strokes of each label lie, if the parameters
+/// ask for it (engine/labeling/features/label_surfaces.h), and, since a forest knows nothing about
+/// what lies between a pixel and a stroke, by how near the strokes of each label are along
+/// surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h). Pixels that are
+/// painted on a view keep their labels there before smoothing. Labels are then made consistent
+/// (engine/labeling/rays/regularizer.h). With `rayspace`, a single view uses its rays in
+/// neighbouring views only, for a quick answer; all views use those of all.
 ///
-/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weighting by distance is an addition;
-/// what it gains is in tests/accuracy/tuning.md.
+/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. Both weightings are additions; what they
+/// gain is in tests/accuracy/tuning.md.
 ///
 /// Not thread-safe: a call must wait for the one in progress, or cancel it.
 class Labeler {
@@ -73,8 +76,8 @@ class Labeler {
   static constexpr const char* kLabelingStep = "labeling pixels";
 
   /// `disparity` may be null, or cover some views only. It carries places along the rays, couples
-  /// views, and is a feature where the parameters say so. `edges`: EDGE_WEIGHTS of all views; null
-  /// = computed, from disparity as well where that is a feature.
+  /// views, and speaks for labels where the parameters say so. `edges`: EDGE_WEIGHTS of all views;
+  /// null = computed, from disparity as well where that is a feature.
   Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
           std::shared_ptr<const ViewStack<float>> edges = nullptr);
   ~Labeler();

@@ -16,6 +16,7 @@
 
 #include <iomanip>
 #include <iostream>
+#include <optional>
 
 namespace episcope::cli {
 namespace {
@@ -86,8 +87,15 @@ void print_json_answer(const Request& request, const Labeling& labeling,
   Json json;
   json["labels"] = labeling.probabilities.ids.size();
   json["seconds"] = seconds;
-  if (const auto share = scores.all_views.share()) json["accuracy_all_views"] = *share;
-  if (const auto share = scores.view.share()) json["accuracy_center"] = *share;
+  const auto add = [&json](const char* key, const std::optional<double>& share) {
+    if (share) json[key] = *share;
+  };
+  add("accuracy_all_views", scores.all_views.all.share());
+  add("accuracy_center", scores.view.all.share());
+  add("miou", scores.all_views.all.mean_overlap());
+  add("macc", scores.all_views.all.mean_share());
+  add("boundary_accuracy", scores.all_views.boundaries.share());
+  add("thin_iou", scores.all_views.thin_overlap());
   if (scores.consistency) json["consistency"] = *scores.consistency;
   if (request.parameters.regularizer != Regularizer::None) json["gap"] = labeling.gap;
   json["peak_mib"] = peak_memory_mib();
@@ -105,14 +113,17 @@ void print_text_answer(const Request& request, const Labeling& labeling,
   if (scores.consistency) {
     std::cout << "consistency along rays    " << 100 * *scores.consistency << " %\n";
   }
-  if (const auto share = scores.all_views.share()) {
-    std::cout << "accuracy of all views     " << 100 * *share << " %\n";
-  }
-  const auto share = scores.view.share();
-  if (!share) return;
-  std::cout << "accuracy of the centre    " << 100 * *share << " %\n";
+  const auto print = [](const char* name, const std::optional<double>& share) {
+    if (share) std::cout << name << 100 * *share << " %\n";
+  };
+  print("accuracy of all views     ", scores.all_views.all.share());
+  print("  mean over labels        ", scores.all_views.all.mean_share());
+  print("  mean IoU of labels      ", scores.all_views.all.mean_overlap());
+  print("  near boundaries         ", scores.all_views.boundaries.share());
+  print("  IoU of thin labels      ", scores.all_views.thin_overlap());
+  print("accuracy of the centre    ", scores.view.all.share());
   for (const std::int32_t id : labeling.probabilities.ids) {
-    if (const auto of_label = scores.view.share(id)) {
+    if (const auto of_label = scores.view.all.share(id)) {
       std::cout << "  of label " << std::setw(3) << id << "            " << 100 * *of_label
                 << " %\n";
     }

@@ -311,9 +311,13 @@ void SegmentController::score() {
 
 void SegmentController::showScores(const LabelingScores& scores) {
   QStringList parts;
-  const auto of_view = scores.view.share();
-  const auto of_all = scores.all_views.share();
+  const auto of_view = scores.view.all.share();
+  const auto of_all = scores.all_views.all.share();
+  const auto overlap = scores.view.all.mean_overlap();
+  const auto near = scores.view.boundaries.share();
   if (of_view) parts << tr("correct: %1 of this view").arg(percent(*of_view));
+  if (near) parts << tr("%1 near boundaries").arg(percent(*near));
+  if (overlap) parts << tr("mean IoU %1").arg(percent(*overlap));
   if (of_all) parts << tr("%1 of all").arg(percent(*of_all));
   if (scores.consistency) parts << tr("consistent: %1").arg(percent(*scores.consistency));
   scores_ = parts.join(", ");

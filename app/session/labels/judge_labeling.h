@@ -3,7 +3,7 @@
 
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
-#include "engine/evaluation/metrics/label_accuracy.h"
+#include "engine/evaluation/metrics/label_quality.h"
 
 #include <optional>
 
@@ -11,8 +11,8 @@ namespace episcope {
 
 /// How good labels are, as far as that can be told.
 struct LabelingScores {
-  LabelAccuracy view;       ///< Of one view; judges nothing without true labels of it.
-  LabelAccuracy all_views;  ///< Of all, likewise.
+  LabelQuality view;       ///< Of one view; judges nothing without true labels of it.
+  LabelQuality all_views;  ///< Of all, likewise.
   /// Share of rays that agree with the rays of the same scene point, in [0, 1]; none if one view
   /// alone is labeled or the rays are not known.
   std::optional<double> consistency;

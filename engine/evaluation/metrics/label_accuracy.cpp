@@ -15,6 +15,14 @@ std::optional<double> share_of(std::int64_t right, std::int64_t all) {
   return static_cast<double>(right) / static_cast<double>(all);
 }
 
+template <class Value>
+std::optional<double> mean_over(const std::vector<std::int32_t>& labels, const Value& value) {
+  if (labels.empty()) return std::nullopt;
+  double sum = 0;
+  for (const std::int32_t label : labels) sum += value(label);
+  return sum / static_cast<double>(labels.size());
+}
+
 }  // namespace
 
 std::int64_t LabelAccuracy::judged() const {
@@ -40,6 +48,36 @@ std::optional<double> LabelAccuracy::share(std::int32_t label) const {
     if (pair.second == label) right += count;
   }
   return share_of(right, all);
+}
+
+std::vector<std::int32_t> LabelAccuracy::labels() const {
+  std::vector<std::int32_t> found;
+  for (const auto& entry : confusion) {
+    const std::int32_t label = entry.first.first;
+    if (found.empty() || found.back() != label) found.push_back(label);
+  }
+  return found;
+}
+
+std::optional<double> LabelAccuracy::mean_share() const {
+  return mean_over(labels(), [this](std::int32_t label) { return share(label).value_or(0); });
+}
+
+std::optional<double> LabelAccuracy::overlap(std::int32_t label) const {
+  std::int64_t both = 0;
+  std::int64_t either = 0;
+  bool is_true = false;
+  for (const auto& [pair, count] : confusion) {
+    is_true |= pair.first == label;
+    if (pair.first == label || pair.second == label) either += count;
+    if (pair.first == label && pair.second == label) both += count;
+  }
+  if (!is_true) return std::nullopt;
+  return share_of(both, either);
+}
+
+std::optional<double> LabelAccuracy::mean_overlap() const {
+  return mean_over(labels(), [this](std::int32_t label) { return overlap(label).value_or(0); });
 }
 
 LabelAccuracy& LabelAccuracy::operator+=(const LabelAccuracy& other) {

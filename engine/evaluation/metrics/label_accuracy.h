@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace episcope {
 
@@ -20,6 +21,16 @@ struct LabelAccuracy {
   [[nodiscard]] std::optional<double> share() const;
   /// The same among pixels of one true label.
   [[nodiscard]] std::optional<double> share(std::int32_t label) const;
+
+  /// Mean over the true labels of `share(label)` ("mAcc"); empty if nothing was judged.
+  [[nodiscard]] std::optional<double> mean_share() const;
+  /// Intersection over union of the pixels that have the label and of those given it, among judged
+  /// pixels; empty for no true label.
+  [[nodiscard]] std::optional<double> overlap(std::int32_t label) const;
+  /// Mean of it over the true labels ("mIoU"); empty if nothing was judged.
+  [[nodiscard]] std::optional<double> mean_overlap() const;
+  /// The true labels, ascending.
+  [[nodiscard]] std::vector<std::int32_t> labels() const;
 
   LabelAccuracy& operator+=(const LabelAccuracy& other);
 };

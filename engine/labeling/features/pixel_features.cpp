@@ -150,8 +150,6 @@ void add_place(LayerWriter& layers, const cv::Mat& disparity, ViewIndex step) {
 
 void add_disparity(LayerWriter& layers, const cv::Mat& disparity) {
   const cv::Mat smooth = smoothed(disparity, kDisparityScale);
-  layers.add(disparity);
-  layers.add(smooth);
   layers.add(magnitude(derivative(smooth, 1, 0), derivative(smooth, 0, 1)));
 }
 
@@ -171,9 +169,7 @@ std::vector<std::string> pixel_feature_names(PixelFeatureSet set) {
   names.insert(names.end(),
                {"gradient", "Laplacian", "Hessian, larger", "Hessian, smaller", "structure, larger",
                 "structure, smaller", "column in the centre view", "row in the centre view"});
-  if (set.with_disparity) {
-    names.insert(names.end(), {"disparity", "disparity, smoothed", "disparity, gradient"});
-  }
+  if (set.with_disparity) names.emplace_back("disparity, gradient");
   return names;
 }
 

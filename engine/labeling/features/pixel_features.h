@@ -21,8 +21,6 @@ struct PixelFeatureSet {
 
 /// First of the three layers of Lab averaged within wider surfaces.
 inline constexpr int kWiderSurfaceLayer = 12;
-/// Layer of the disparity, where it is among the features.
-inline constexpr int kDisparityLayer = 23;
 
 /// What each layer of PixelFeatures holds, in their order: "red", "lightness, smoothed", …
 [[nodiscard]] std::vector<std::string> pixel_feature_names(PixelFeatureSet set);
@@ -32,7 +30,9 @@ inline constexpr int kDisparityLayer = 23;
 /// scale of 1 px the gradient magnitude, the Laplacian, and the eigenvalues of Hessian and
 /// structure tensor. The place of the pixel, carried along its ray to the centre view, x + d·(u −
 /// u_c) and y + d·(v − v_c) in units of the larger side, so that it means the same in every view.
-/// With `set.with_disparity`: disparity, smoothed disparity and its gradient magnitude.
+/// With `set.with_disparity`: the gradient magnitude of smoothed disparity. Disparity itself would
+/// tie labels to the depths at which they were painted: ground at the depth of an object became the
+/// object. label_surfaces.h compares it with the strokes instead.
 ///
 /// `disparity` is that of the view, used to carry places in either set; without (empty), places are
 /// those in the view itself. Invalid pixels take the disparity of their neighbours in the row.

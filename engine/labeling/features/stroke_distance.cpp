@@ -2,6 +2,7 @@
 #include "engine/labeling/features/stroke_distance.h"
 
 #include "engine/core/array/round_up.h"
+#include "engine/core/parallel/parallel.h"
 #include "engine/labeling/features/stroke_distance_kernel.h"
 #include "engine/labeling/rays/ray_targets.h"
 
@@ -16,6 +17,14 @@ constexpr int kVectorLanes = 16;
 constexpr int kSweeps = 3;
 // Far beyond any way through an image, and finite, so that sums stay so.
 constexpr float kFar = 1e9F;
+constexpr float kColorsBesideDisparity = 0.5F;
+constexpr float kJumpWeight = 5;
+constexpr float kBehind = 1;
+
+struct Way {
+  int dx, dy;
+};
+constexpr Way kWays[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
 
 std::int32_t index_of(const std::vector<std::int32_t>& ids, std::int32_t label) {
   if (label <= 0) return 0;
@@ -55,8 +64,7 @@ Image<std::int32_t> carried_strokes(const Scribbles& scribbles,
 }
 
 StrokeDistances::StrokeDistances(ImageView<const std::int32_t> strokes, int label_count,
-                                 const std::vector<ImageView<const float>>& guides,
-                                 const Progress& progress, Isa isa)
+                                 const StrokeGuides& guides, const Progress& progress, Isa isa)
     : height_(strokes.height),
       width_(strokes.width),
       label_count_(label_count),
@@ -77,32 +85,61 @@ StrokeDistances::StrokeDistances(ImageView<const std::int32_t> strokes, int labe
   }
   if (stroked_.size() < 2) return;  // Nothing to compare.
   find_ways(guides);
+  if (!guides.disparity.empty()) add_jumps(guides.disparity);
+  if (guides.surfaces != nullptr) begin_on(*guides.surfaces, progress);
   sweep(progress, isa);
 }
 
-void StrokeDistances::find_ways(const std::vector<ImageView<const float>>& guides) {
-  constexpr int kColumns[] = {1, 0, 1, -1};
-  constexpr int kRows[] = {0, 1, 1, 1};
+void StrokeDistances::find_ways(const StrokeGuides& guides) {
   for (int way = 0; way < 4; ++way) {
     ways_[way].assign(static_cast<std::size_t>(height_) * width_, kFar);
-    const int dx = kColumns[way];
-    const int dy = kRows[way];
+    const auto [dx, dy] = kWays[way];
     const float step = kStep * std::sqrt(static_cast<float>(dx * dx + dy * dy));
+    const float weight = guides.disparity.empty() ? 1 : kColorsBesideDisparity;
     for (int y = 0; y + dy < height_; ++y) {
       float* lengths = ways_[way].data() + static_cast<std::size_t>(y) * width_;
       const int begin = std::max(0, -dx);
       const int end = width_ - std::max(0, dx);
       std::fill(lengths + begin, lengths + end, 0.F);
-      for (const ImageView<const float>& guide : guides) {
+      for (const ImageView<const float>& guide : guides.colors) {
         const float* here = guide.row(y);
         const float* there = guide.row(y + dy) + dx;
         for (int x = begin; x < end; ++x) {
           lengths[x] += (there[x] - here[x]) * (there[x] - here[x]);
         }
       }
-      for (int x = begin; x < end; ++x) lengths[x] = step + std::sqrt(lengths[x]);
+      for (int x = begin; x < end; ++x) lengths[x] = step + weight * std::sqrt(lengths[x]);
     }
   }
+}
+
+void StrokeDistances::add_jumps(ImageView<const float> disparity) {
+  for (int way = 0; way < 4; ++way) {
+    const auto [dx, dy] = kWays[way];
+    for (int y = 0; y + dy < height_; ++y) {
+      float* lengths = ways_[way].data() + static_cast<std::size_t>(y) * width_;
+      const float* here = disparity.row(y);
+      const float* there = disparity.row(y + dy) + dx;
+      for (int x = std::max(0, -dx); x < width_ - std::max(0, dx); ++x) {
+        lengths[x] += kJumpWeight * std::max(std::abs(there[x] - here[x]) - kSlope_px, 0.F);
+      }
+    }
+  }
+}
+
+void StrokeDistances::begin_on(const LabelSurfaces& surfaces, const Progress& progress) {
+  parallel_for_workers(height_, progress, [&] {
+    return [&, row = std::vector<float>(static_cast<std::size_t>(width_) * pitch_)](int y) mutable {
+      surfaces.misfits(y, pitch_, row.data());
+      float* distances = distances_.get() + static_cast<std::size_t>(y) * row.size();
+      for (int x = 0; x < width_; ++x) {
+        for (const int l : stroked_) {
+          float& distance = distances[static_cast<std::size_t>(x) * pitch_ + l];
+          distance = std::min(distance, kBehind + row[static_cast<std::size_t>(x) * pitch_ + l]);
+        }
+      }
+    };
+  });
 }
 
 void StrokeDistances::sweep(const Progress& progress, Isa isa) {

@@ -6,6 +6,7 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/isa.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/labeling/features/label_surfaces.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,18 +22,31 @@ namespace episcope {
                                                   const DisparityField* disparity, ViewIndex view,
                                                   int height, int width);
 
+/// What ways to the strokes must not cross, and where they may pass unseen; all borrowed.
+struct StrokeGuides {
+  std::vector<ImageView<const float>> colors;  ///< Planes `[y][x]` in which edges count.
+  /// `[y][x]`, without holes. Where it is known, its jumps count as well and colours half.
+  ImageView<const float> disparity{};
+  /// Where labels go on behind what hides them; null = nowhere.
+  const LabelSurfaces* surfaces = nullptr;
+};
+
 /// How far each pixel of a view is from the strokes of each label.
 class StrokeDistances {
  public:
-  /// Shortest paths over the 8 neighbours of pixels: a step costs the Euclidean difference of the
-  /// pixels' `guides` (planes `[y][x]`) plus kStep per pixel. Found by three raster sweeps in both
-  /// directions: exact where the path turns seldom (Toivanen 1996; Criminisi et al. 2008, GeoS).
-  /// Memory: 4 bytes per pixel and label. `strokes` as from `carried_strokes`. Throws Cancelled.
+  /// Shortest paths over the 8 neighbours of pixels: a step costs kStep per pixel, the Euclidean
+  /// difference of the pixels' colours (half of it beside disparity), and 5 for each px of
+  /// disparity by which they differ more than kSlope_px: slanted surfaces are no edges. A path may
+  /// also begin at any pixel for 1 + the misfit of the label's surface there (label_surfaces.h), as
+  /// if it came along the surface behind everything else.
+  /// Found by three raster sweeps in both directions: exact where the path turns seldom (Toivanen
+  /// 1996; Criminisi et al. 2008, GeoS). Memory: 4 bytes per pixel and label. `strokes` as from
+  /// `carried_strokes`. Throws Cancelled.
   StrokeDistances(ImageView<const std::int32_t> strokes, int label_count,
-                  const std::vector<ImageView<const float>>& guides, const Progress& progress,
-                  Isa isa = best_isa());
+                  const StrokeGuides& guides, const Progress& progress, Isa isa = best_isa());
 
   static constexpr float kStep = 0.0015F;
+  static constexpr float kSlope_px = 0.02F;
 
   /// By how much the pixel is farther from the strokes of a label than from the nearest ones of
   /// all, at most kMaxExcess; 0 for labels without a stroke in the view.
@@ -44,7 +58,9 @@ class StrokeDistances {
   void weigh_row(int y, double strength, int pitch, float* probabilities) const;
 
  private:
-  void find_ways(const std::vector<ImageView<const float>>& guides);
+  void find_ways(const StrokeGuides& guides);
+  void add_jumps(ImageView<const float> disparity);
+  void begin_on(const LabelSurfaces& surfaces, const Progress& progress);
   void sweep(const Progress& progress, Isa isa);
 
   int height_;

@@ -12,6 +12,11 @@
 namespace episcope {
 namespace {
 
+// Jumps of disparity that are none, and how soon larger ones count in full.
+constexpr float kNoJump_px = 0.02F;
+constexpr float kJumpSharpness = 10;
+constexpr int kNearJump_px = 3;
+
 // Length of the disparity's forward differences, 0 where one of the pixels is invalid.
 float disparity_jump(const DisparityView& map, int y, int x) {
   const int right = std::min(x + 1, map.disparity.width - 1);
@@ -21,18 +26,67 @@ float disparity_jump(const DisparityView& map, int y, int x) {
   return std::hypot(map.disparity.at(y, right) - d, map.disparity.at(below, x) - d);
 }
 
+// The largest value within kNearJump_px in every direction.
+Image<float> widened(const Image<float>& map) {
+  const int height = map.height(), width = map.width();
+  Image<float> across(height, width);
+  Image<float> out(height, width);
+  for (int y = 0; y < height; ++y) {
+    const float* in = map.row(y);
+    for (int x = 0; x < width; ++x) {
+      const int end = std::min(x + kNearJump_px + 1, width);
+      across.at(y, x) = *std::max_element(in + std::max(x - kNearJump_px, 0), in + end);
+    }
+  }
+  for (int y = 0; y < height; ++y) {
+    float* to = out.row(y);
+    for (int i = std::max(y - kNearJump_px, 0); i < std::min(y + kNearJump_px + 1, height); ++i) {
+      const float* from = across.row(i);
+      std::transform(from, from + width, to, to, [](float a, float b) { return std::max(a, b); });
+    }
+  }
+  return out;
+}
+
+// What image edges count at each pixel.
+Image<float> edge_trust(const Image<float>& jumps, float texture) {
+  Image<float> gaps(jumps.height(), jumps.width());
+  std::transform(jumps.begin(), jumps.end(), gaps.begin(), [](float jump) {
+    return 1 - std::exp(-kJumpSharpness * std::max(jump - kNoJump_px, 0.F));
+  });
+  Image<float> trust = widened(gaps);
+  for (float& t : trust) t = texture + (1 - texture) * t;
+  return trust;
+}
+
+Image<float> disparity_jumps(const DisparityView& map) {
+  Image<float> jumps(map.disparity.height, map.disparity.width);
+  for (int y = 0; y < jumps.height(); ++y) {
+    for (int x = 0; x < jumps.width(); ++x) jumps.at(y, x) = disparity_jump(map, y, x);
+  }
+  return jumps;
+}
+
 void fill_view(const LightField& lf, ViewIndex view, const DisparityField& disparity,
                const EdgeParameters& parameters, ImageView<float> out) {
   gradient_magnitude(lf, view, out);
   const auto beta = static_cast<float>(parameters.image);
   const auto gamma = static_cast<float>(parameters.disparity);
-  const bool has_disparity = gamma > 0 && disparity.contains(view);
-  const DisparityView map = has_disparity ? disparity.view(view) : DisparityView{};
+  if (!disparity.contains(view)) {
+    for (int y = 0; y < out.height; ++y) {
+      float* const row = out.row(y);
+      std::transform(row, row + out.width, row,
+                     [=](float edge) { return 1 - std::exp(-beta * edge); });
+    }
+    return;
+  }
+  const Image<float> jumps = disparity_jumps(disparity.view(view));
+  const Image<float> trust = edge_trust(jumps, static_cast<float>(parameters.texture));
   for (int y = 0; y < out.height; ++y) {
     float* const row = out.row(y);
+    const float *const jump = jumps.row(y), *const m = trust.row(y);
     for (int x = 0; x < out.width; ++x) {
-      const float jump = has_disparity ? gamma * disparity_jump(map, y, x) : 0;
-      row[x] = 1 - std::exp(-beta * row[x] - jump);
+      row[x] = 1 - std::exp(-beta * m[x] * row[x] - gamma * jump[x]);
     }
   }
 }

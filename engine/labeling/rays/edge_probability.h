@@ -10,14 +10,19 @@ namespace episcope {
 
 /// How edges of image and disparity are distinguished from noise.
 struct EdgeParameters {
-  double image = 10;     ///< β: larger values respond to weaker image edges; ≥ 0.
+  double image = 25;     ///< β: larger values respond to weaker image edges; ≥ 0.
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
+  /// What an image edge counts where no jump of disparity is near and disparity is known: most of
+  /// them are texture. In [0, 1].
+  double texture = 0.3;
 };
 
 /// The probability of an edge at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
-/// archive: 1 − exp(−β·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
-/// channels. Views that `disparity` (which may be empty) does not cover, and pixels where it is
-/// invalid, use the image alone. Throws InvalidInput on a wrong size, Cancelled.
+/// archive: 1 − exp(−β·m·|∇I| − γ·|∇d|), forward differences, samples in [0, 1], |∇I| over all
+/// channels; m grows from `texture` to 1 with the largest jump within 3 px, because estimated jumps
+/// lie beside the edges that they belong to. Views that `disparity` (which may be empty) does not
+/// cover, and pixels where it is invalid, use the image alone. Throws InvalidInput on a wrong size,
+/// Cancelled.
 ///
 /// The archive does not say how its own weights were computed; this is the usual exponential of the
 /// gradient, with disparity added.

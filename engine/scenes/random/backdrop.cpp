@@ -79,15 +79,19 @@ int Backdrop::build(Model& model, const Plan& plan, Draw draw) const {
   Texture texture =
       plan.is_defocused
           ? draw_defocused_texture(draw.part(0), far_pixel, plan.contrast)
-          : draw_texture(draw.part(0), draw_finish(plan, draw), far_pixel, plan.contrast);
+          : draw_texture(draw.part(0),
+                         plan.is_furnished ? Finish::Periodic : draw_finish(plan, draw), far_pixel,
+                         plan.contrast);
   texture.is_solid = false;
   wall.texture = model.add(texture);
   model.primitives.push_back(wall);
   if (!ground_) return 2;
   Primitive ground = surface(stage_, *ground_, 2);
   const double middle = on(*ground_, stage_.width / 2.0, (horizon_ + stage_.height) / 2);
-  texture = draw_texture(draw.part(1), draw_finish(plan, draw), pixel_units(stage_, middle),
-                         plan.contrast);
+  const double near_pixel = pixel_units(stage_, middle);
+  texture = plan.is_furnished
+                ? draw_chequered_texture(draw.part(1), near_pixel, plan.contrast)
+                : draw_texture(draw.part(1), draw_finish(plan, draw), near_pixel, plan.contrast);
   texture.is_solid = false;
   // It is seen at a slant.
   const double slant = std::max(1.0, std::abs(ground.axes[2][1] / ground.axes[2][2]));

@@ -4,8 +4,8 @@
 namespace episcope::scenes {
 
 const std::vector<std::string>& random_kind_names() {
-  static const std::vector<std::string> names = {"any",      "occlusion", "dark",   "thin", "plain",
-                                                 "periodic", "shiny",     "uneven", "noisy"};
+  static const std::vector<std::string> names = {
+      "any", "occlusion", "dark", "thin", "plain", "periodic", "shiny", "uneven", "noisy", "room"};
   return names;
 }
 

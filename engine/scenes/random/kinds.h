@@ -16,7 +16,8 @@ enum class RandomKind {
   Periodic,   ///< Stripes, checks and rings.
   Shiny,      ///< Highlights that move with the view.
   Uneven,     ///< Views of different gain, vignetting, a defocused background.
-  Noisy       ///< Noise of 5 to 10/255.
+  Noisy,      ///< Noise of 5 to 10/255.
+  Room        ///< Furniture, a lattice of thin bars, a patterned wall, a chequered floor.
 };
 
 /// All kinds as they are written, in the order of the enumeration.

@@ -93,4 +93,14 @@ Texture draw_defocused_texture(Draw draw, double pixel_units, double contrast) {
   return noise_texture(blur * pixel_units, seed, color, static_cast<float>(0.6 * contrast));
 }
 
+Texture draw_chequered_texture(Draw draw, double pixel_units, double contrast) {
+  const double own = contrast * draw.between(0.1, 0.3);
+  Texture texture = draw_noise(draw, pixel_units, own);
+  const double period_px = draw.between(45, 75);
+  set_pattern(texture, Pattern::Checker, pixel_units, period_px * pixel_units,
+              {Vector3{1, 0, 0}, Vector3{0, 1, 0}});
+  set_second_color(texture, draw, contrast);
+  return texture;
+}
+
 }  // namespace episcope::scenes

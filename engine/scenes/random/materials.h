@@ -13,4 +13,7 @@ namespace episcope::scenes {
 /// What is seen of a far background out of focus: large soft blobs.
 [[nodiscard]] Texture draw_defocused_texture(Draw draw, double pixel_units, double contrast);
 
+/// A chequered floor: tiles in the plane of what is flat, about 30 px wide.
+[[nodiscard]] Texture draw_chequered_texture(Draw draw, double pixel_units, double contrast);
+
 }  // namespace episcope::scenes

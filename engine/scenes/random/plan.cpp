@@ -76,6 +76,28 @@ void make_uneven(Plan& plan, Draw& draw) {
   plan.is_defocused = true;
 }
 
+void make_shiny(Plan& plan) {
+  plan.finishes = {0.2, 0, 0, 0.8};
+  plan.forms = {2, 1, 2, 1, 2, 0.5, 0.5, 0.2, 0.1, 0.1, 0.1};
+  plan.is_lit = plan.has_moving_highlights = true;
+}
+
+void make_noisy(Plan& plan, Draw& draw) {
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(5, 10));
+  plan.sensor.exposure = 1;
+}
+
+void make_room(Plan& plan, Draw& draw) {
+  const double span = draw.between(1.6, 3.2);
+  const double middle = draw.between(-0.6, 0.6);
+  plan.range = {middle - span / 2, middle + span / 2};
+  plan.is_furnished = plan.has_ground = plan.is_lit = true;
+  plan.is_defocused = plan.has_moving_highlights = false;
+  plan.sensor.exposure = 1;
+  plan.sensor.gain_spread = 0;
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 3));
+}
+
 }  // namespace
 
 Plan draw_plan(Draw draw, RandomKind kind) {
@@ -102,16 +124,16 @@ Plan draw_plan(Draw draw, RandomKind kind) {
       plan.finishes = {0.15, 0, 0.85, 0};
       break;
     case RandomKind::Shiny:
-      plan.finishes = {0.2, 0, 0, 0.8};
-      plan.forms = {2, 1, 2, 1, 2, 0.5, 0.5, 0.2, 0.1, 0.1, 0.1};
-      plan.is_lit = plan.has_moving_highlights = true;
+      make_shiny(plan);
       break;
     case RandomKind::Uneven:
       make_uneven(plan, draw);
       break;
     case RandomKind::Noisy:
-      plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(5, 10));
-      plan.sensor.exposure = 1;
+      make_noisy(plan, draw);
+      break;
+    case RandomKind::Room:
+      make_room(plan, draw);
       break;
   }
   return plan;

@@ -27,6 +27,7 @@ struct Plan {
   std::array<double, kForms> forms{};        ///< Weights.
   bool has_ground = true;
   bool has_layers = false;    ///< Bars before flat layers instead of objects in a room.
+  bool is_furnished = false;  ///< The things of furniture.h instead of drawn ones.
   bool is_defocused = false;  ///< The background.
   double contrast = 1;        ///< Factor of the contrast of all textures.
   bool is_lit = true;

@@ -2,6 +2,7 @@
 #include "engine/scenes/random/random_scene.h"
 
 #include "engine/scenes/random/backdrop.h"
+#include "engine/scenes/random/furniture.h"
 #include "engine/scenes/random/materials.h"
 #include "engine/scenes/random/things.h"
 
@@ -25,25 +26,58 @@ class Composer {
 
   Model compose() {
     if (plan_.has_layers) add_fences(draw_.part(3));
-    for (int i = 0; i < plan_.objects; ++i) add_thing(draw_.part(100 + i));
+    if (plan_.is_furnished) {
+      furnish();
+    } else {
+      for (int i = 0; i < plan_.objects; ++i) add_thing(draw_.part(100 + i));
+    }
     set_light(draw_.part(4));
     model_.sensor = plan_.sensor;
     return std::move(model_);
   }
 
  private:
+  void furnish() {
+    const double side = std::min(stage_.width, stage_.height);
+    int number = 100;
+    for (const Furniture& piece : room_furniture()) {
+      Draw draw = draw_.part(number++);
+      const double half_px = side * piece.half_share * draw.between(0.85, 1.15);
+      const Spot spot = piece.stands ? draw_standing(draw, half_px) : draw_floating(draw, half_px);
+      put({piece.form, piece.finish, piece.stands}, spot, draw);
+    }
+  }
+
   void add_thing(Draw draw) {
     const auto form = static_cast<Form>(draw.weighted(plan_.forms));
     const auto finish = static_cast<Finish>(draw.weighted(plan_.finishes));
     const bool stands = plan_.has_ground && can_stand(form) && draw.chance(0.75);
-    const Spot spot = stands ? draw_standing(draw) : draw_floating(draw);
+    const double half_px = draw_half_px(draw);
+    const Spot spot = stands ? draw_standing(draw, half_px) : draw_floating(draw, half_px);
+    put({form, finish, stands}, spot, draw);
+  }
+
+  struct Thing {
+    Form form;
+    Finish finish;
+    bool stands;
+  };
+  void put(const Thing& thing, const Spot& spot, const Draw& draw) {
     std::vector<Primitive> parts =
-        make_thing(stage_, form, spot, plan_.range.max, stands, draw.part(1));
+        make_thing(stage_, thing.form, spot, plan_.range.max, thing.stands, draw.part(1));
     if (model_.primitives.size() + parts.size() > kMaxCandidates) return;
+    if (plan_.is_furnished && thing.form == Form::Lattice) make_thin(parts.front(), draw.part(3));
     taken_.push_back({spot.x, spot.y});
-    dress(parts, finish, draw.part(2));
-    if (can_stand(form)) add_occluder(parts.front(), spot);
+    dress(parts, thing.finish, draw.part(2));
+    if (can_stand(thing.form)) add_occluder(parts.front(), spot);
     ++next_label_;
+  }
+
+  // Bars both ways, of the width of a room's lattice.
+  void make_thin(Primitive& lattice, const Draw& draw) const {
+    const double half_width = draw_bar_px(draw) * stage_.pixel(lattice.center[2]);
+    lattice.profile[0] = lattice.profile[1] = 12 * half_width;
+    lattice.profile[2] = lattice.extent[2] = half_width;
   }
 
   // Gives a thing its textures and its label.
@@ -97,9 +131,9 @@ class Composer {
     return best;
   }
 
-  Spot draw_standing(Draw& draw) const {
+  Spot draw_standing(Draw& draw, double half_px) const {
     Spot spot;
-    spot.half_px = draw_half_px(draw);
+    spot.half_px = half_px;
     const double top = backdrop_.horizon() + 0.05 * stage_.height;
     const auto [x, foot] = draw_place(draw, top, 1.02 * stage_.height);
     spot.x = x;
@@ -108,9 +142,9 @@ class Composer {
     return spot;
   }
 
-  Spot draw_floating(Draw& draw) const {
+  Spot draw_floating(Draw& draw, double half_px) const {
     Spot spot;
-    spot.half_px = draw_half_px(draw);
+    spot.half_px = half_px;
     const auto [x, y] = draw_place(draw, 0.04 * stage_.height, 0.96 * stage_.height);
     spot.x = x;
     spot.y = y;

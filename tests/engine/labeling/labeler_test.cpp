@@ -65,6 +65,7 @@ class LabelerTest : public QObject {
   void objects_areSegmentedInAllViews();
   void oneView_comesAsADraftFirst();
   void strokesOnAnotherView_count();
+  void paintedPixels_keepTheirLabels();
   void result_dependsNeitherOnThreads_norOnEarlierCalls();
   void forest_isGrownAgainOnlyForOtherStrokesOrOptions();
   void badInput_isToldInASentence();
@@ -128,6 +129,22 @@ void LabelerTest::strokesOnAnotherView_count() {
       moved, parameters(FeatureSet::ImageTruth, Regularizer::None), kAll, Progress());
 
   QVERIFY(accuracy(labeling) > 0.95);
+}
+
+void LabelerTest::paintedPixels_keepTheirLabels() {
+  // A short stroke of the box in the midst of the ground: nobody but the user can know why.
+  Scribbles scribbles = scene().scribbles;
+  auto& painted = scribbles.views[0].labels;
+  for (int x = 40; x < 60; ++x) painted.at(88, x) = painted.at(89, x) = 3;
+  const ViewIndex view = scribbles.views[0].view;
+
+  const Labeling labeling = new_labeler().label(
+      scribbles, parameters(FeatureSet::ImageTruth, Regularizer::None), {view, {1, 1}}, Progress());
+
+  const auto labels = labeling.labels.view(view);
+  for (std::size_t i = 0; i < painted.size(); ++i) {
+    if (painted.data()[i] > 0) QCOMPARE(labels.data[i], painted.data()[i]);
+  }
 }
 
 void LabelerTest::result_dependsNeitherOnThreads_norOnEarlierCalls() {

@@ -18,6 +18,7 @@ void add_random_scenes() {
   add("random?seed=6&kind=shiny", 0xe91a8395ecd61199ULL);
   add("random?seed=7&kind=uneven", 0x3929207e676ea559ULL);
   add("random?seed=8&kind=noisy", 0x45cf11075b55b3d1ULL);
+  add("random?seed=9&kind=room", 0xdbc2c158b877918bULL);
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class PixelFeaturesTest : public QObject {
   void everyFeature_hasAName();
   void constantImage_hasNoGradients();
   void place_isCarriedAlongTheRay();
-  void constantDisparity_isItself_withoutGradient();
+  void constantDisparity_hasNoGradient();
   void disparityAsFeature_mustBeThere();
   void holesInDisparity_takeTheirNeighbours();
 };
@@ -71,7 +71,6 @@ void PixelFeaturesTest::everyFeature_hasAName() {
     QVERIFY(std::isfinite(features.view().data[i]));
   }
   QCOMPARE(kWiderSurfaceLayer, layer_of(set, "lightness, of the wider surface"));
-  if (with_disparity) QCOMPARE(kDisparityLayer, layer_of(set, "disparity"));
 }
 
 void PixelFeaturesTest::constantImage_hasNoGradients() {
@@ -102,16 +101,13 @@ void PixelFeaturesTest::place_isCarriedAlongTheRay() {
   QVERIFY(std::abs(features.view().at(5, column + 1, 10) - (5 - kDisparity) / kWidth) < 1e-5F);
 }
 
-void PixelFeaturesTest::constantDisparity_isItself_withoutGradient() {
+void PixelFeaturesTest::constantDisparity_hasNoGradient() {
   const Image<float> map = constant_map(kDisparity);
   const PixelFeatureSet set{true};
 
   const PixelFeatures features =
       compute_pixel_features(light_field(3, 9), {1, 1}, {map.view(), {}}, set, Progress());
 
-  QVERIFY(std::abs(features.view().at(0, layer_of(set, "disparity"), 0) - kDisparity) < 1e-5F);
-  QVERIFY(std::abs(features.view().at(0, layer_of(set, "disparity, smoothed"), 0) - kDisparity) <
-          1e-4F);
   QVERIFY(std::abs(features.view().at(4, layer_of(set, "disparity, gradient"), 6)) < 1e-4F);
 }
 

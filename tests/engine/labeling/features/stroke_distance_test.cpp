@@ -57,6 +57,8 @@ class StrokeDistanceTest : public QObject {
  private slots:
   void distances_areThoseOfShortestWays();
   void wall_parts();
+  void jumpsOfDisparity_part_slopesDoNot();
+  void surface_goesOnBehindAFence();
   void labelWithoutStroke_isLeftToTheForest();
   void weighing_keepsTheSum();
   void instructionSets_agree();
@@ -73,7 +75,7 @@ void StrokeDistanceTest::distances_areThoseOfShortestWays() {
   }
   const Image<std::int32_t> strokes = two_dots();
 
-  const StrokeDistances distances(strokes, 2, {guide.view()}, Progress());
+  const StrokeDistances distances(strokes, 2, {{guide.view()}}, Progress());
 
   const auto first = reference(strokes, 0, guide);
   const auto second = reference(strokes, 1, guide);
@@ -92,7 +94,7 @@ void StrokeDistanceTest::wall_parts() {
     for (int x = 8; x < kWidth; ++x) guide.at(y, x) = 1;
   }
 
-  const StrokeDistances distances(two_dots(), 2, {guide.view()}, Progress());
+  const StrokeDistances distances(two_dots(), 2, {{guide.view()}}, Progress());
 
   // Column 7 is nearer to the second dot, but beyond the wall.
   QCOMPARE(distances.excess(4, 7, 0), 0.F);
@@ -100,10 +102,57 @@ void StrokeDistanceTest::wall_parts() {
   QCOMPARE(distances.excess(4, 8, 1), 0.F);
 }
 
+void StrokeDistanceTest::jumpsOfDisparity_part_slopesDoNot() {
+  Image<float> guide(kHeight, kWidth);
+  Image<float> slope(kHeight, kWidth);
+  Image<float> jump(kHeight, kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      slope.at(y, x) = 0.9F * StrokeDistances::kSlope_px * static_cast<float>(x);
+      jump.at(y, x) = x < 8 ? 0 : 1;
+    }
+  }
+
+  const StrokeDistances flat(two_dots(), 2, {{guide.view()}}, Progress());
+  const StrokeDistances slanted(two_dots(), 2, {{guide.view()}, slope.view()}, Progress());
+  const StrokeDistances parted(two_dots(), 2, {{guide.view()}, jump.view()}, Progress());
+
+  QCOMPARE(slanted.excess(4, 7, 0), flat.excess(4, 7, 0));
+  QCOMPARE(parted.excess(4, 7, 0), 0.F);
+  QVERIFY(parted.excess(4, 7, 1) > 4);
+}
+
+void StrokeDistanceTest::surface_goesOnBehindAFence() {
+  // A fence of label 2 in every third column before a wall of label 1, which is painted on the
+  // left.
+  constexpr int kLong = 30;
+  Image<float> disparity(kHeight, kLong);
+  Image<std::int32_t> strokes(kHeight, kLong);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kLong; ++x) {
+      const bool is_fence = x > 4 && x % 3 == 0;
+      disparity.at(y, x) = is_fence ? 1.5F : 0.01F * static_cast<float>(x);
+      if (x < 4) strokes.at(y, x) = 1;
+      if (is_fence && x < 13) strokes.at(y, x) = 2;
+    }
+  }
+  const Image<float> guide(kHeight, kLong);
+  const LabelSurfaces surfaces(strokes.view(), 2, disparity.view());
+
+  const StrokeDistances along(strokes, 2, {{guide.view()}, disparity.view()}, Progress());
+  const StrokeDistances behind(strokes, 2, {{guide.view()}, disparity.view(), &surfaces},
+                               Progress());
+
+  // Between the last bars, many gaps away from the strokes of the wall.
+  QVERIFY(along.excess(4, 28, 0) > 1);
+  QCOMPARE(behind.excess(4, 28, 0), 0.F);
+  QVERIFY(behind.excess(4, 28, 1) > 1);
+}
+
 void StrokeDistanceTest::labelWithoutStroke_isLeftToTheForest() {
   const Image<float> guide(kHeight, kWidth);
 
-  const StrokeDistances distances(two_dots(), 3, {guide.view()}, Progress());
+  const StrokeDistances distances(two_dots(), 3, {{guide.view()}}, Progress());
 
   QCOMPARE(distances.excess(0, 0, 2), 0.F);
 }
@@ -111,7 +160,7 @@ void StrokeDistanceTest::labelWithoutStroke_isLeftToTheForest() {
 void StrokeDistanceTest::weighing_keepsTheSum() {
   Image<float> guide(kHeight, kWidth);
   for (int y = 0; y < kHeight; ++y) guide.at(y, 10) = 1;
-  const StrokeDistances distances(two_dots(), 2, {guide.view()}, Progress());
+  const StrokeDistances distances(two_dots(), 2, {{guide.view()}}, Progress());
   std::vector<float> row(static_cast<std::size_t>(kWidth) * 16);
   for (int x = 0; x < kWidth; ++x) row[x * 16] = row[x * 16 + 1] = 0.5F;
 
@@ -127,8 +176,8 @@ void StrokeDistanceTest::instructionSets_agree() {
   Image<float> guide(kHeight, kWidth);
   for (float& value : guide) value = static_cast<float>(random() % 100) * 0.01F;
 
-  const StrokeDistances best(two_dots(), 2, {guide.view()}, Progress());
-  const StrokeDistances plain(two_dots(), 2, {guide.view()}, Progress(), Isa::Baseline);
+  const StrokeDistances best(two_dots(), 2, {{guide.view()}}, Progress());
+  const StrokeDistances plain(two_dots(), 2, {{guide.view()}}, Progress(), Isa::Baseline);
 
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) QCOMPARE(best.excess(y, x, 0), plain.excess(y, x, 0));

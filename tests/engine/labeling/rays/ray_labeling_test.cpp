@@ -20,6 +20,8 @@ using namespace episcope::test;
 namespace {
 
 constexpr GridShape kGrid{5, 5};
+// Weak ones: regularisers are tested, not edges.
+constexpr EdgeParameters kEdges{.image = 10, .texture = 1};
 
 Scene render(const std::string& id, int size = 96) {
   scenes::RenderOptions options;
@@ -33,7 +35,7 @@ struct Case {
   explicit Case(const std::string& id, double share = 0.4, int size = 96)
       : scene(render(id, size)),
         probabilities(mistaken(scene.truth->labels, share)),
-        edges(edge_probabilities(*scene.light_field, scene.truth->field, {}, Progress())) {}
+        edges(edge_probabilities(*scene.light_field, scene.truth->field, kEdges, Progress())) {}
 
   [[nodiscard]] RayLabelingInput input() const {
     return {&probabilities, &scene.truth->field, &edges, scene.light_field.get()};

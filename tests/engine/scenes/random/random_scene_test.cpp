@@ -156,6 +156,20 @@ class RandomSceneTest : public QObject {
     QVERIFY(share(RandomKind::Thin) > 2 * share(RandomKind::Shiny));
   }
 
+  void room_holdsThinBarsAmongElevenObjects() {
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const auto scene = scenes::random_scene(512, 512, seed, RandomKind::Room);
+      std::set<int> labels;
+      for (const scenes::Primitive& primitive : scene.model.primitives) {
+        labels.insert(primitive.label);
+        if (primitive.shape != scenes::Shape::Lattice) continue;
+        const double width_px = 2 * primitive.profile[2] / scene.stage.pixel(primitive.center[2]);
+        QVERIFY(width_px > 1.5 && width_px <= 4);
+      }
+      QCOMPARE(labels.size(), std::size_t{11});
+    }
+  }
+
   void shiny_hasHighlightsThatMove() {
     const auto model = scenes::random_scene(96, 96, 3, RandomKind::Shiny).model;
 

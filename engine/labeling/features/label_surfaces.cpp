@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/labeling/features/label_surfaces.h"
+
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+constexpr std::size_t kFewestSamples = 8;
+constexpr int kRounds = 12;
+constexpr double kShortStroke = 1.0 / 80;  // Of the larger side: half of its slope is believed.
+constexpr double kOutlier = 3;             // Of the Cauchy weights, in robust standard deviations.
+constexpr double kLeastScale = 1e-3;       // So that exact planes have one.
+constexpr float kLeverage = 0.3F;          // What leverage adds to the variance.
+constexpr float kWeight = 1.5F;
+constexpr int kJumpRadius_px = 2;
+constexpr float kNoJump_px = 0.1F;
+constexpr float kJumpDoubt = 0.3F;
+constexpr float kLeastProbability = 0.02F;
+
+// Beside a jump an estimate may be anything between its ends: variance that grows with the spread
+// of disparities in the neighbourhood.
+Image<float> doubt_of(ImageView<const float> disparity) {
+  const cv::Size window(2 * kJumpRadius_px + 1, 2 * kJumpRadius_px + 1);
+  const cv::Mat kernel = cv::getStructuringElement(cv::MORPH_RECT, window);
+  // OpenCV has no constant matrices; this one is only read.
+  const cv::Mat map(disparity.height, disparity.width, CV_32F, const_cast<float*>(disparity.data));
+  cv::Mat most, least;
+  cv::dilate(map, most, kernel);
+  cv::erode(map, least, kernel);
+  Image<float> doubt(disparity.height, disparity.width);
+  for (int y = 0; y < disparity.height; ++y) {
+    const auto *high = most.ptr<float>(y), *low = least.ptr<float>(y);
+    std::transform(high, high + disparity.width, low, doubt.row(y), [](float a, float b) {
+      const float deviation = kJumpDoubt * std::max(a - b - kNoJump_px, 0.F);
+      return deviation * deviation;
+    });
+  }
+  return doubt;
+}
+
+}  // namespace
+
+LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
+                             ImageView<const float> disparity)
+    : disparity_(disparity), doubt_(doubt_of(disparity)) {
+  std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(label_count));
+  for (int y = 0; y < strokes.height; ++y) {
+    for (int x = 0; x < strokes.width; ++x) {
+      const std::int32_t label = strokes.at(y, x) - 1;
+      if (label < 0) continue;
+      samples[static_cast<std::size_t>(label)].push_back({static_cast<double>(x),
+                                                          static_cast<double>(y),
+                                                          static_cast<double>(disparity.at(y, x))});
+    }
+  }
+  const double ridge = kShortStroke * std::max(strokes.height, strokes.width);
+  for (const auto& of_label : samples) surfaces_.push_back(fit(of_label, ridge * ridge));
+}
+
+LabelSurfaces::Surface LabelSurfaces::fit(const std::vector<Sample>& samples, double ridge_px2) {
+  Surface surface;
+  if (samples.size() < kFewestSamples) return surface;
+  surface.is_known = true;
+  for (const Sample& sample : samples) {
+    surface.x += sample.x / static_cast<double>(samples.size());
+    surface.y += sample.y / static_cast<double>(samples.size());
+  }
+  std::vector<double> weights(samples.size(), 1.0);
+  std::vector<double> misses(samples.size());
+  for (int round = 0; round < kRounds; ++round) {
+    solve(samples, weights, ridge_px2, surface);
+    const auto& [at, across, down] = surface.plane;
+    std::ranges::transform(samples, misses.begin(), [&](const Sample& s) {
+      return std::abs(s.d - at - across * (s.x - surface.x) - down * (s.y - surface.y));
+    });
+    std::vector<double> sorted = misses;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    // 1.4826: from the median to the standard deviation of a Gaussian.
+    const double scale = kOutlier * (1.4826 * *middle + kLeastScale);
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      weights[i] = 1 / (1 + misses[i] * misses[i] / (scale * scale));
+      sum += weights[i] * misses[i] * misses[i];
+      all += weights[i];
+    }
+    surface.variance = sum / all;
+  }
+  return surface;
+}
+
+// Normal equations of (1, x, y), divided by the sum of the weights.
+void LabelSurfaces::solve(const std::vector<Sample>& samples, const std::vector<double>& weights,
+                          double ridge_px2, Surface& surface) {
+  double one = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, d = 0, dx = 0, dy = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double w = weights[i];
+    const double at_x = samples[i].x - surface.x, at_y = samples[i].y - surface.y;
+    one += w;
+    x += w * at_x;
+    y += w * at_y;
+    xx += w * at_x * at_x;
+    xy += w * at_x * at_y;
+    yy += w * at_y * at_y;
+    d += w * samples[i].d;
+    dx += w * at_x * samples[i].d;
+    dy += w * at_y * samples[i].d;
+  }
+  for (double* sum : {&x, &y, &xx, &xy, &yy, &d, &dx, &dy}) *sum /= one;
+  xx += ridge_px2;
+  yy += ridge_px2;
+  // Cofactors of the first row.
+  const double c0 = xx * yy - xy * xy, c1 = y * xy - x * yy, c2 = x * xy - xx * y;
+  const double determinant = c0 + x * c1 + y * c2;
+  auto& m = surface.inverse;
+  m = {c0, c1, c2, yy - y * y, x * y - xy, xx - x * x};
+  for (double& entry : m) entry /= determinant;
+  surface.plane = {m[0] * d + m[1] * dx + m[2] * dy, m[1] * d + m[3] * dx + m[4] * dy,
+                   m[2] * d + m[4] * dx + m[5] * dy};
+}
+
+void LabelSurfaces::misfits(int y, int pitch, float* out) const {
+  constexpr float kBase = kNoise_px * kNoise_px;
+  const float* const disparity = disparity_.row(y);
+  const float* const doubt = doubt_.row(y);
+  for (const Surface& surface : surfaces_) {
+    float* misfit = out++;
+    if (!surface.is_known) {
+      for (int x = 0; x < disparity_.width; ++x, misfit += pitch) *misfit = kMostMisfit / 2;
+      continue;
+    }
+    const auto& m = surface.inverse;
+    const double dy = y - surface.y;
+    // Of the row: d = at + across·dx, and h = flat + slope·dx + bend·dx².
+    const auto at = static_cast<float>(surface.plane[0] + surface.plane[2] * dy);
+    const auto across = static_cast<float>(surface.plane[1]);
+    const auto flat = static_cast<float>(m[0] + (2 * m[2] + m[5] * dy) * dy);
+    const auto slope = static_cast<float>(2 * (m[1] + m[4] * dy));
+    const auto bend = static_cast<float>(m[3]);
+    const float noise = kBase + static_cast<float>(surface.variance);
+    for (int x = 0; x < disparity_.width; ++x, misfit += pitch) {
+      const float dx = static_cast<float>(x) - static_cast<float>(surface.x);
+      const float variance = noise * (1 + kLeverage * (flat + (slope + bend * dx) * dx)) + doubt[x];
+      const float miss = disparity[x] - at - across * dx;
+      const float spread = variance + miss * miss;
+      *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);
+    }
+  }
+}
+
+void LabelSurfaces::weigh_row(int y, int pitch, float* probabilities) const {
+  const std::size_t count = surfaces_.size();
+  std::vector<float> all(static_cast<std::size_t>(disparity_.width) * pitch);
+  misfits(y, pitch, all.data());
+  for (int x = 0; x < disparity_.width; ++x) {
+    const float* misfit = all.data() + static_cast<std::ptrdiff_t>(x) * pitch;
+    float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
+    const float least = *std::min_element(misfit, misfit + count);
+    float sum = 0;
+    for (std::size_t l = 0; l < count; ++l) {
+      p[l] = (p[l] + kLeastProbability) * std::exp(-kWeight * (misfit[l] - least));
+      sum += p[l];
+    }
+    for (std::size_t l = 0; l < count; ++l) p[l] /= sum;
+  }
+}
+
+}  // namespace episcope

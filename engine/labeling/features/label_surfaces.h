@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/image.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// Where the surface of each label is expected in a view: a plane through the disparities of its
+/// strokes, and how far it can be trusted away from them. Says how well the disparity of a pixel
+/// fits each label wherever the pixel lies, so that ground keeps its label at depths that nobody
+/// painted and a wall goes on behind a fence.
+///
+/// A plane in space is one in (x, y, d). Each is fitted by least squares with Cauchy weights of
+/// three robust standard deviations, its slopes drawn to 0 where the strokes are short. The
+/// variance of the disparity at a pixel is that of the strokes about their plane, with
+/// kNoise_px² added, and grows with the leverage h = (1, x, y) M⁻¹ (1, x, y)ᵀ of the pixel, M the
+/// mean of (1, x, y)ᵀ(1, x, y) over the strokes, and with the spread of disparities within 2 px,
+/// because estimates are vague beside jumps. An own addition to [WSG13]; what it gains is in
+/// tests/accuracy/tuning.md.
+class LabelSurfaces {
+ public:
+  /// `strokes` as from `carried_strokes` (stroke_distance.h), `disparity` of the view, without
+  /// holes, borrowed.
+  LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
+                ImageView<const float> disparity);
+
+  /// Standard deviation below which disparities say nothing, px per view step.
+  static constexpr double kNoise_px = 0.04;
+  /// Most that a single pixel's disparity can speak against a label.
+  static constexpr float kMostMisfit = 4;
+
+  /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
+  /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.
+  /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch` apart.
+  void misfits(int y, int pitch, float* out) const;
+
+  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by exp(−1.5·misfit), and
+  /// makes them sum to 1 again. Before, 0.02 is added to each: a forest is never that sure.
+  void weigh_row(int y, int pitch, float* probabilities) const;
+
+ private:
+  struct Surface {
+    bool is_known = false;
+    double x = 0, y = 0;              // Middle of the strokes, from which x and y are measured.
+    std::array<double, 3> plane{};    // d = plane·(1, x, y)
+    std::array<double, 6> inverse{};  // M⁻¹: 00, 01, 02, 11, 12, 22.
+    double variance = 0;              // Of the strokes about the plane.
+  };
+  struct Sample {
+    double x, y, d;
+  };
+  static Surface fit(const std::vector<Sample>& samples, double ridge_px2);
+  static void solve(const std::vector<Sample>& samples, const std::vector<double>& weights,
+                    double ridge_px2, Surface& surface);
+
+  ImageView<const float> disparity_;
+  Image<float> doubt_;  // Variance of disparities beside jumps, px².
+  std::vector<Surface> surfaces_;
+};
+
+}  // namespace episcope
