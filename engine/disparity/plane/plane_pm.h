@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/disparity/common/estimator.h"
-#include "engine/disparity/common/global_labeling.h"
+#include "engine/disparity/plane/jump_labeling.h"
 #include "engine/disparity/plane/plane_refinement.h"
 #include "engine/disparity/plane/visible_costs.h"
 #include "engine/disparity/stereo/stereo_costs.h"
@@ -12,9 +12,10 @@ namespace episcope {
 struct PlaneParameters {
   VisibilityParameters visibility = {};
   PlaneRefinementParameters refinement = {};
-  GlobalLabelingParameters labeling{.smoothness = 1.5};
+  JumpLabelingParameters labeling = {};
   StereoCostParameters matching{
       .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
+  bool even = true;
 };
 [[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 
