@@ -122,7 +122,7 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
     if (done > 0) {
       const ImageView<const float> map = estimate.field.disparity.view(stereo.view);
       if (done == 1) data.improve(map, progress.part(begin, begin + 0.02 * length));
-      set_occluders(data.light_field(), map, visibility,
+      set_occluders(data.light_field(), map, estimate.confidence.view(stereo.view), visibility,
                     progress.part(begin + 0.02 * length, begin + 0.05 * length), stereo);
     }
     run_round(data.light_field(), parameters, stereo, done == rounds, estimate,

@@ -11,6 +11,7 @@ struct VisibilityParameters {
   int rounds = 1;            ///< Times that costs are computed anew with what occludes what.
   double tolerance = 0.1;    ///< Occluders::tolerance, px.
   double prior = 0.02;       ///< Occluders::prior.
+  double least_trust = 0.2;  ///< Of surfaces that occlude, mean over their surroundings.
   double cap_share = 0.7;    ///< Of StereoCosts' ε that is the least cap of a pixel.
   double cap_offset = 0.03;  ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.
 };
@@ -23,7 +24,7 @@ void set_local_caps(const LightField& light_field, const VisibilityParameters& p
 
 /// From here on views in which `disparity` occludes a point do not count for it. Throws Cancelled.
 void set_occluders(const LightField& light_field, ImageView<const float> disparity,
-                   const VisibilityParameters& parameters, const Progress& progress,
+                   ImageView<const float> confidence, const VisibilityParameters& parameters, const Progress& progress,
                    StereoCosts& costs);
 
 /// The costs of all rows (stereo_volume), divided by the cap of their pixel and times the mean cap:
