@@ -2,6 +2,7 @@
 #include "engine/disparity/plane/plane_pm.h"
 
 #include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/even_views.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -105,10 +107,8 @@ class Evened {
   std::string note_;
 };
 
-}  // namespace
-
-Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters, ViewSelection,
-                         const Progress& progress) {
+Estimate estimate_one(const LightField& lf, const PlaneParameters& parameters,
+                      const Progress& progress) {
   Evened data(lf, parameters);
   data.begin(progress.part(0, 0.06));
   const VisibilityParameters& visibility = parameters.visibility;
@@ -134,14 +134,55 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   return estimate;
 }
 
+// The views farthest from `from`, which see most of what it does not.
+std::vector<ViewIndex> outermost(GridShape grid, ViewIndex from) {
+  std::vector<ViewIndex> views;
+  for (const int v : {0, grid.v - 1}) {
+    for (const int u : {0, grid.u - 1}) {
+      const ViewIndex view{v, u};
+      if (view != from && std::ranges::find(views, view) == views.end()) views.push_back(view);
+    }
+  }
+  return views;
+}
+
+}  // namespace
+
+Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
+                         ViewSelection views, const Progress& progress) {
+  if (views == ViewSelection::Center || lf.grid().count() == 1) {
+    return estimate_one(lf, parameters, progress);
+  }
+  const ViewIndex from = parameters.matching.view.value_or(lf.center());
+  const std::vector<ViewIndex> corners = outermost(lf.grid(), from);
+  const double share = 0.97 / static_cast<double>(corners.size() + 1);
+  std::vector<Estimate> maps;
+  maps.push_back(estimate_one(lf, parameters, progress.part(0, share)));
+  PlaneParameters other = parameters;
+  other.matching.range = maps.front().range;
+  for (std::size_t i = 0; i < corners.size() && !progress.finish_requested(); ++i) {
+    other.matching.view = corners[i];
+    const auto done = static_cast<double>(i + 1);
+    maps.push_back(estimate_one(lf, other, progress.part(share * done, share * (done + 1))));
+  }
+  CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.97, 1));
+  Estimate estimate = std::move(maps.front());
+  estimate.field.disparity = std::move(carried.disparity);
+  estimate.confidence = std::move(carried.confidence);
+  estimate.notes.push_back(fmt::format("carried to all views from {} of them", maps.size()));
+  return estimate;
+}
+
 Estimator plane_pm_estimator() {
   return make_estimator<PlaneParameters>(
       {.id = "plane_pm",
        .name = "PLANE_PM",
-       .summary = "Multi-view stereo over visible views, refined by planes and TGV",
+       .summary = "Multi-view stereo over visible views, refined by TGV, carried to all views",
        .reference = "Own; builds on Pock et al. 2010 [PCBC10], Bleyer et al. 2011 [BRR11] and "
                     "Bredies et al. 2010 [BKP10]",
-       .iterative = true},
+       .all_views = true,
+       .iterative = true,
+       .revision = 2},
       plane_pm_schema(), estimate_planes);
 }
 
