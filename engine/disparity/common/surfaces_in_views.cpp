@@ -28,9 +28,12 @@ void cast_row(ImageView<const float> disparity, int y, ViewIndex step, ImageView
   for (int x = 0; x < disparity.width; ++x) {
     const float d = disparity.at(y, x);
     if (d <= kNothingNear) continue;
-    const CoveredPixels covered = covered_pixels(d, {y, x}, step, out.height, out.width);
-    for (int row = covered.first.y; row <= covered.last.y; ++row) {
-      for (int column = covered.first.x; column <= covered.last.x; ++column) {
+    const Covered rows =
+        covered(static_cast<float>(y) - d * static_cast<float>(step.v), out.height);
+    const Covered columns =
+        covered(static_cast<float>(x) - d * static_cast<float>(step.u), out.width);
+    for (int row = rows.first; row <= rows.last; ++row) {
+      for (int column = columns.first; column <= columns.last; ++column) {
         out.at(row, column) = std::max(out.at(row, column), d);
       }
     }
@@ -38,15 +41,6 @@ void cast_row(ImageView<const float> disparity, int y, ViewIndex step, ImageView
 }
 
 }  // namespace
-
-CoveredPixels covered_pixels(float disparity, PixelIndex pixel, ViewIndex step, int height,
-                             int width) {
-  const Covered rows =
-      covered(static_cast<float>(pixel.y) - disparity * static_cast<float>(step.v), height);
-  const Covered columns =
-      covered(static_cast<float>(pixel.x) - disparity * static_cast<float>(step.u), width);
-  return {{rows.first, columns.first}, {rows.last, columns.last}};
-}
 
 ViewStack<float> surfaces_in_views(ImageView<const float> disparity, ViewIndex reference,
                                    GridShape grid, const Progress& progress) {

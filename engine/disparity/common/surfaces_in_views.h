@@ -10,14 +10,6 @@ namespace episcope {
 /// Disparity where no surface is known.
 inline constexpr float kNothingNear = -1e9F;
 
-/// A block of pixels, ends included; empty where `last` is before `first`.
-struct CoveredPixels {
-  PixelIndex first, last;
-};
-/// The pixels that the point of a pixel covers `step` views away, within the image.
-[[nodiscard]] CoveredPixels covered_pixels(float disparity, PixelIndex pixel, ViewIndex step,
-                                           int height, int width);
-
 /// What the surface that is seen from one view covers in every view of the grid: the disparity of
 /// the nearest of its points at each pixel, `[v][u][y][x]`; `kNothingNear` where none falls. The
 /// point of pixel (x, y) falls to x − d·(u − u_ref), y − d·(v − v_ref), and covers what pixels its

@@ -6,11 +6,17 @@
 #include "engine/disparity/common/surfaces_in_views.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 namespace episcope {
 namespace {
 
+// Values of one surface differ by less, px.
+constexpr float kOneSurface = 0.15F;
+constexpr float kLeastVote = 0.02F;
+constexpr float kClearly = 1.001F;
 constexpr float kNone = std::numeric_limits<float>::infinity();
 
 // A view while it is filled; kNothingNear where nothing is known.
@@ -22,6 +28,26 @@ void take(ImageView<const float> from, ImageView<float> to) {
   for (int y = 0; y < to.height; ++y) std::copy_n(from.row(y), to.width, to.row(y));
 }
 
+// A pixel without a value between two that belong to one surface, along either axis.
+void close_cracks(const Target& out) {
+  const ImageView<float> map = out.disparity;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (map.at(y, x) > kNothingNear) continue;
+      const auto close = [&](PixelIndex a, PixelIndex b) {
+        if (a.y < 0 || a.x < 0 || b.y >= map.height || b.x >= map.width) return;
+        const float one = map.at(a.y, a.x), two = map.at(b.y, b.x);
+        if (one <= kNothingNear || two <= kNothingNear || std::abs(one - two) > kOneSurface) return;
+        map.at(y, x) = 0.5F * (one + two);
+        out.confidence.at(y, x) = 0.5F * (out.confidence.at(a.y, a.x) + out.confidence.at(b.y, b.x));
+      };
+      close({y, x - 1}, {y, x + 1});
+      if (map.at(y, x) <= kNothingNear) close({y - 1, x}, {y + 1, x});
+    }
+  }
+}
+
+// What a map shows in another view.
 void cast(const Estimate& map, ViewIndex to, const Target& out) {
   const ViewIndex from = map.field.disparity.first();
   const ImageView<const float> disparity = map.field.disparity.view(from);
@@ -31,33 +57,41 @@ void cast(const Estimate& map, ViewIndex to, const Target& out) {
     return take(confidence, out.confidence);
   }
   std::fill_n(out.disparity.data, out.disparity.size(), kNothingNear);
-  const ViewIndex step{to.v - from.v, to.u - from.u};
+  const auto v = static_cast<float>(to.v - from.v), u = static_cast<float>(to.u - from.u);
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
       const float d = disparity.at(y, x);
-      const CoveredPixels covered = covered_pixels(d, {y, x}, step, disparity.height, disparity.width);
-      for (int row = covered.first.y; row <= covered.last.y; ++row) {
-        for (int column = covered.first.x; column <= covered.last.x; ++column) {
-          if (out.disparity.at(row, column) >= d) continue;
-          out.disparity.at(row, column) = d;
-          out.confidence.at(row, column) = confidence.at(y, x);
-        }
-      }
+      const auto row = static_cast<int>(std::lround(static_cast<float>(y) - d * v));
+      const auto column = static_cast<int>(std::lround(static_cast<float>(x) - d * u));
+      if (row < 0 || column < 0 || row >= disparity.height || column >= disparity.width) continue;
+      if (out.disparity.at(row, column) >= d) continue;
+      out.disparity.at(row, column) = d;
+      out.confidence.at(row, column) = confidence.at(y, x);
     }
   }
+  close_cracks(out);
 }
 
-// What `other` shows where nothing is known, if it is farther than what was found there before.
-void complete(const Target& other, ImageView<const float> first, const Target& out) {
-  for (int y = 0; y < first.height; ++y) {
-    for (int x = 0; x < first.width; ++x) {
-      const float d = other.disparity.at(y, x);
-      if (first.at(y, x) > kNothingNear || d <= kNothingNear) continue;
-      float& found = out.disparity.at(y, x);
-      if (found > kNothingNear && found <= d) continue;
-      found = d;
-      out.confidence.at(y, x) = other.confidence.at(y, x);
+// The value that most of the maps agree about, by their confidence: the mean of those within
+// kOneSurface of it. The first of equals.
+void vote(const std::vector<Target>& shown, int y, int x, const Target& out) {
+  float best = 0;
+  for (const Target& one : shown) {
+    const float d = one.disparity.at(y, x);
+    if (d <= kNothingNear) continue;
+    float sum = 0, weight = 0, support = 0;
+    for (const Target& other : shown) {
+      const float there = other.disparity.at(y, x);
+      if (std::abs(there - d) > kOneSurface) continue;
+      const float w = other.confidence.at(y, x) + kLeastVote;
+      weight += w;
+      sum += w * there;
+      support += w * other.confidence.at(y, x);
     }
+    if (weight <= best * kClearly) continue;
+    best = weight;
+    out.disparity.at(y, x) = sum / weight;
+    out.confidence.at(y, x) = support / weight;
   }
 }
 
@@ -110,14 +144,17 @@ CarriedMaps carry_to_views(const std::vector<Estimate>& maps, GridShape grid,
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view = grid.view_at(i);
     const Target out{all.disparity.view(view), all.confidence.view(view)};
-    cast(maps.front(), view, out);
-    Image<float> first(height, width), disparity(height, width), confidence(height, width);
-    take(out.disparity, first.view());
-    for (std::size_t k = 1; k < maps.size(); ++k) {
-      const Target other{disparity.view(), confidence.view()};
-      cast(maps[k], view, other);
-      complete(other, first, out);
+    std::fill_n(out.disparity.data, out.disparity.size(), kNothingNear);
+    std::vector<Image<float>> images(2 * maps.size(), Image<float>(height, width));
+    std::vector<Target> shown;
+    for (std::size_t k = 0; k < maps.size(); ++k) {
+      shown.push_back({images[2 * k].view(), images[2 * k + 1].view()});
+      cast(maps[k], view, shown.back());
     }
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) vote(shown, y, x, out);
+    }
+    if (view == maps.front().field.disparity.first()) cast(maps.front(), view, out);
     fill(out);
   });
   return all;

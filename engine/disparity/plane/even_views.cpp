@@ -3,6 +3,7 @@
 
 #include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/surfaces_in_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,13 @@ constexpr double kUnlikelyMeans = 0.015;
 constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
 // Pixels between those that are looked at.
 constexpr int kStride = 3;
-constexpr int kRounds = 4;
+constexpr int kRounds = 6;
+// Of log ratios, in medians of their size.
+constexpr float kTolerance = 3, kLeastTolerance = 0.05F;
 constexpr double kMostFallOff = 0.9;
 
 double spread(const Brightness& brightness) {
+  if (brightness.gains.empty()) return 0;
   double sum = 0;
   for (const auto& gain : brightness.gains) {
     for (const double g : gain) sum += std::log(g) * std::log(g);
@@ -71,6 +75,7 @@ class Points {
       for (int x = 1; x < lf_.width(); x += kStride) {
         if (!lf_.is_valid(reference_, y, x)) continue;
         const float d = disparity_.at(y, x);
+        if (d <= kNothingNear) continue;
         const float to_y = static_cast<float>(y) - d * static_cast<float>(view.v - reference_.v);
         const float to_x = static_cast<float>(x) - d * static_cast<float>(view.u - reference_.u);
         const int row = static_cast<int>(std::floor(to_y)), column = static_cast<int>(std::floor(to_x));
@@ -111,21 +116,47 @@ std::vector<double> medians(const Ratios& ratios, double k, const Progress& prog
   return logs;
 }
 
-// A Gauss-Newton step of k on points whose ratio fits about, the others being occluded or wrong.
-double better_fall_off(const Ratios& ratios, const std::vector<double>& logs, double k) {
-  constexpr double most = 0.05;
+// How far ratios that fit may be off: noise sets it.
+float tolerance(const std::vector<Ratio>& ratios, double log, double k) {
+  std::vector<float> off(ratios.size());
+  std::ranges::transform(ratios, off.begin(), [&](const Ratio& ratio) {
+    return std::abs(without_fall_off(ratio, k) - static_cast<float>(log));
+  });
+  return std::max(kLeastTolerance, kTolerance * static_cast<float>(quantile(off, 0.5)));
+}
+
+// Sums of a Gauss-Newton step.
+struct Step {
   double product = 0, square = 1e-9;
-  for (std::size_t i = 0; i < ratios.size(); ++i) {
-    for (const Ratio& ratio : ratios[i]) {
-      const double off = without_fall_off(ratio, k) - logs[i];
-      if (std::abs(off) > most) continue;
-      const double slope = ratio.here / (1 - k * ratio.here) - ratio.there / (1 - k * ratio.there);
-      const double trust = 1 - off * off / (most * most);
-      product += trust * slope * off;
-      square += trust * slope * slope;
-    }
+};
+
+Step step_of(const std::vector<Ratio>& ratios, double log, double k) {
+  Step step;
+  if (ratios.empty()) return step;
+  const double most = tolerance(ratios, log, k);
+  for (const Ratio& ratio : ratios) {
+    const double off = without_fall_off(ratio, k) - log;
+    if (std::abs(off) > most) continue;
+    const double slope = ratio.here / (1 - k * ratio.here) - ratio.there / (1 - k * ratio.there);
+    const double trust = 1 - off * off / (most * most);
+    step.product += trust * slope * off;
+    step.square += trust * slope * slope;
   }
-  return std::clamp(k + product / square, -kMostFallOff, kMostFallOff);
+  return step;
+}
+
+// A step of k on points whose ratio fits about, the others being occluded or wrong.
+double better_fall_off(const Ratios& ratios, const std::vector<double>& logs, double k,
+                       const Progress& progress) {
+  std::vector<Step> steps(ratios.size());
+  parallel_for(static_cast<int>(ratios.size()), progress,
+               [&](int i) { steps[i] = step_of(ratios[i], logs[i], k); });
+  Step sum;
+  for (const Step& step : steps) {
+    sum.product += step.product;
+    sum.square += step.square;
+  }
+  return std::clamp(k + sum.product / sum.square, -kMostFallOff, kMostFallOff);
 }
 
 }  // namespace
@@ -170,7 +201,7 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
   Brightness brightness;
   std::vector<double> logs = medians(ratios, 0, progress);
   for (int i = 0; i < kRounds; ++i) {
-    brightness.fall_off = better_fall_off(ratios, logs, brightness.fall_off);
+    brightness.fall_off = better_fall_off(ratios, logs, brightness.fall_off, progress);
     logs = medians(ratios, brightness.fall_off, progress);
   }
   brightness.gains.assign(grid.count(), {1, 1, 1});

@@ -11,7 +11,7 @@ namespace episcope {
 
 /// How the brightness of views differs from that of one of them.
 struct Brightness {
-  /// Of every view and channel, 1 for the reference.
+  /// Of every view and channel, 1 for the reference; empty = all 1.
   std::vector<std::array<double, 3>> gains;
   /// k of the fall-off 1 − k·r² that all views have, r² = 1 in the corners.
   double fall_off = 0;
@@ -26,7 +26,7 @@ struct Brightness {
                                              const Progress& progress);
 
 /// Gains and fall-off by the ratios of the samples of corresponding points: medians over some
-/// pixels of the reference, whose `disparity` is given, and a fall-off that makes them least
+/// pixels of the reference, whose `disparity` is given (kNothingNear = not known), and a fall-off that makes them least
 /// different. Samples in [0, 1], of which the darkest and the brightest do not count.
 /// Throws Cancelled.
 [[nodiscard]] Brightness brightness_of_points(const LightField& light_field, ViewIndex reference,

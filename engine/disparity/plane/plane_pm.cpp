@@ -61,6 +61,9 @@ Schema<PlaneParameters> plane_pm_schema() {
 
 namespace {
 
+// Brightness is taken from a map of which so many pixels are sure.
+constexpr double kLeastSure = 0.1;
+
 // The light field as it is compared, and its data term.
 class Evened {
  public:
@@ -77,22 +80,29 @@ class Evened {
     prepare(parameters_.matching, progress.part(0.4, 1));
   }
 
-  // With what a map of disparities tells of the brightness of the views.
-  void improve(ImageView<const float> disparity, const Progress& progress) {
+  // With what the sure part of a map of disparities tells of the brightness of the views.
+  void improve(ImageView<const float> disparity, ImageView<const float> confidence,
+               const Progress& progress) {
+    const Image<float> sure =
+        sure_surfaces(disparity, confidence, parameters_.visibility.least_trust);
+    const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
     if (!parameters_.even) return;
-    const Brightness brightness =
-        brightness_of_points(lf_, stereo_.view, disparity, progress.part(0, 0.4));
+    Brightness brightness;
+    if (known >= kLeastSure * static_cast<double>(sure.size())) {
+      brightness = brightness_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
+    }
     if (!even_ && !brightness.is_uneven()) return;
     use(brightness, progress.part(0.4, 0.6));
     StereoCostParameters matching = parameters_.matching;
     matching.range = stereo_.range;
     prepare(matching, progress.part(0.6, 1));
-    note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
+    if (even_) note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
   }
   [[nodiscard]] const std::string& note() const { return note_; }
 
  private:
   void use(const Brightness& brightness, const Progress& progress) {
+    even_.reset();
     if (brightness.is_uneven()) even_.emplace(even_views(lf_, brightness, progress));
   }
   void prepare(const StereoCostParameters& matching, const Progress& progress) {
@@ -121,8 +131,9 @@ Estimate estimate_one(const LightField& lf, const PlaneParameters& parameters,
     StereoCosts& stereo = data.stereo();
     if (done > 0) {
       const ImageView<const float> map = estimate.field.disparity.view(stereo.view);
-      if (done == 1) data.improve(map, progress.part(begin, begin + 0.02 * length));
-      set_occluders(data.light_field(), map, estimate.confidence.view(stereo.view), visibility,
+      const ImageView<const float> trust = estimate.confidence.view(stereo.view);
+      if (done == 1) data.improve(map, trust, progress.part(begin, begin + 0.02 * length));
+      set_occluders(data.light_field(), map, trust, visibility,
                     progress.part(begin + 0.02 * length, begin + 0.05 * length), stereo);
     }
     run_round(data.light_field(), parameters, stereo, done == rounds, estimate,

@@ -9,12 +9,12 @@ namespace episcope {
 
 /// How a labeling is placed between its labels.
 struct PlaneRefinementParameters {
-  int sweeps = 2;
+  int sweeps = 0;
   double plane_smoothness = 1.5;
   double truncation = 0.5;
   double reach = 0.1;
   double tgv = 0.1;
-  double doubt = 0.2;
+  double doubt = 0.15;
   double bend = 2;
   int tgv_iterations = 100;
 };

@@ -58,17 +58,23 @@ void set_local_caps(const LightField& lf, const VisibilityParameters& parameters
   costs.matching.caps = std::move(caps);
 }
 
-void set_occluders(const LightField& lf, ImageView<const float> disparity,
-                   ImageView<const float> confidence, const VisibilityParameters& parameters, const Progress& progress,
-                   StereoCosts& costs) {
-  auto occluders = std::make_shared<Occluders>();
+Image<float> sure_surfaces(ImageView<const float> disparity, ImageView<const float> confidence,
+                           double least_trust) {
   const Image<float> trust = regional_trust(confidence);
   Image<float> known(disparity.height, disparity.width, 1, kNothingNear);
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
-      if (trust.at(y, x) >= parameters.least_trust) known.at(y, x) = disparity.at(y, x);
+      if (trust.at(y, x) >= least_trust) known.at(y, x) = disparity.at(y, x);
     }
   }
+  return known;
+}
+
+void set_occluders(const LightField& lf, ImageView<const float> disparity,
+                   ImageView<const float> confidence, const VisibilityParameters& parameters, const Progress& progress,
+                   StereoCosts& costs) {
+  auto occluders = std::make_shared<Occluders>();
+  const Image<float> known = sure_surfaces(disparity, confidence, parameters.least_trust);
   occluders->nearest = surfaces_in_views(known, costs.view, lf.grid(), progress);
   occluders->tolerance = static_cast<float>(parameters.tolerance);
   occluders->softness = kSoftness;
