@@ -39,7 +39,8 @@ void close_cracks(const Target& out) {
         const float one = map.at(a.y, a.x), two = map.at(b.y, b.x);
         if (one <= kNothingNear || two <= kNothingNear || std::abs(one - two) > kOneSurface) return;
         map.at(y, x) = 0.5F * (one + two);
-        out.confidence.at(y, x) = 0.5F * (out.confidence.at(a.y, a.x) + out.confidence.at(b.y, b.x));
+        out.confidence.at(y, x) =
+            0.5F * (out.confidence.at(a.y, a.x) + out.confidence.at(b.y, b.x));
       };
       close({y, x - 1}, {y, x + 1});
       if (map.at(y, x) <= kNothingNear) close({y - 1, x}, {y + 1, x});

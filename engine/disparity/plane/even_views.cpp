@@ -13,9 +13,9 @@ namespace episcope {
 namespace {
 
 constexpr float kUnit = 65535;
-constexpr double kWorthwhileGain = 0.004;
-constexpr double kWorthwhileFallOff = 0.03;
-constexpr double kUnlikelyMeans = 0.015;
+constexpr double kWorthwhileGain = 0.01;
+constexpr double kWorthwhileFallOff = 0.1;
+constexpr double kUnlikelyMeans = 0.03;
 // Samples that count: beyond, noise and saturation decide.
 constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
 // Pixels between those that are looked at.
@@ -78,7 +78,8 @@ class Points {
         if (d <= kNothingNear) continue;
         const float to_y = static_cast<float>(y) - d * static_cast<float>(view.v - reference_.v);
         const float to_x = static_cast<float>(x) - d * static_cast<float>(view.u - reference_.u);
-        const int row = static_cast<int>(std::floor(to_y)), column = static_cast<int>(std::floor(to_x));
+        const int row = static_cast<int>(std::floor(to_y)),
+                  column = static_cast<int>(std::floor(to_x));
         if (row < 0 || column < 0 || row + 1 >= lf_.height() || column + 1 >= lf_.width()) continue;
         const auto here = static_cast<float>(radius.squared(y, x));
         const auto far = static_cast<float>(radius.squared(to_y, to_x));
@@ -87,7 +88,8 @@ class Points {
           const float a = here_.at(y, x, c);
           const float b =
               (1 - ty) * ((1 - tx) * there.at(row, column, c) + tx * there.at(row, column + 1, c)) +
-              ty * ((1 - tx) * there.at(row + 1, column, c) + tx * there.at(row + 1, column + 1, c));
+              ty *
+                  ((1 - tx) * there.at(row + 1, column, c) + tx * there.at(row + 1, column + 1, c));
           if (counts(a) && counts(b)) all[c].push_back({std::log(b / a), here, far});
         }
       }

@@ -15,20 +15,20 @@ struct Brightness {
   std::vector<std::array<double, 3>> gains;
   /// k of the fall-off 1 − k·r² that all views have, r² = 1 in the corners.
   double fall_off = 0;
-  /// Whether it is worth a correction: root mean square of log gains above 0.4 %, or |k| > 0.03.
+  /// Whether it is worth a correction: root mean square of log gains above 1 %, or |k| > 0.1.
   [[nodiscard]] bool is_uneven() const;
 };
 
 /// Gains by the means of whole views alone, before anything is known of their disparity. Objects
-/// that come into a view change its mean as well: where means do not differ by more than 1.5 %
+/// that come into a view change its mean as well: where means do not differ by more than 3 %
 /// (root mean square), all gains are 1. Throws Cancelled.
 [[nodiscard]] Brightness brightness_of_means(const LightField& light_field, ViewIndex reference,
                                              const Progress& progress);
 
 /// Gains and fall-off by the ratios of the samples of corresponding points: medians over some
-/// pixels of the reference, whose `disparity` is given (kNothingNear = not known), and a fall-off that makes them least
-/// different. Samples in [0, 1], of which the darkest and the brightest do not count.
-/// Throws Cancelled.
+/// pixels of the reference, whose `disparity` is given (kNothingNear = not known), and a fall-off
+/// that makes them least different. Samples in [0, 1], of which the darkest and the brightest do
+/// not count. Throws Cancelled.
 [[nodiscard]] Brightness brightness_of_points(const LightField& light_field, ViewIndex reference,
                                               ImageView<const float> disparity,
                                               const Progress& progress);

@@ -69,7 +69,8 @@ std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights&
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
       disparity.at(y, x) =
-          place_by_costs(data.stereo, data.costs, data.means, y, x, result.labels.at(y, x)).disparity;
+          place_by_costs(data.stereo, data.costs, data.means, y, x, result.labels.at(y, x))
+              .disparity;
     }
   }
   return fmt::format("labeling: energy {:.6g}, gap {:.1e} after {} iterations", result.energy,

@@ -10,10 +10,10 @@ namespace episcope {
 
 /// How labels are chosen before they are placed between each other.
 struct JumpLabelingParameters {
-  double smoothness = 0.5;   ///< α, per px of difference, in units of the cap.
-  double jump = 0.3;         ///< τ / α, px: no pair of neighbours pays for more.
-  double edge_strength = 20; ///< β.
-  double least_weight = 0.1; ///< Of a pair across an edge.
+  double smoothness = 0.5;    ///< α, per px of difference, in units of the cap.
+  double jump = 0.3;          ///< τ / α, px: no pair of neighbours pays for more.
+  double edge_strength = 20;  ///< β.
+  double least_weight = 0.1;  ///< Of a pair across an edge.
   int passes = 8;
 };
 [[nodiscard]] Schema<JumpLabelingParameters> jump_labeling_schema();

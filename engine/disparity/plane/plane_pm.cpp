@@ -18,8 +18,7 @@ namespace {
 // Labels the costs.
 void label_costs(const LightField& lf, const PlaneParameters& parameters,
                  const PlaneRefinementData& data, Estimate& estimate, const Progress& progress) {
-  estimate.field.disparity =
-      ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, data.stereo.view);
+  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, data.stereo.view);
   const PairWeights weights = pair_weights(lf, data.stereo.view, parameters.labeling.edge_strength,
                                            parameters.labeling.least_weight);
   estimate.notes = {label_with_jumps(data, weights, parameters.labeling, progress,
@@ -67,7 +66,8 @@ constexpr double kLeastSure = 0.1;
 // The light field as it is compared, and its data term.
 class Evened {
  public:
-  Evened(const LightField& lf, const PlaneParameters& parameters) : lf_(lf), parameters_(parameters) {}
+  Evened(const LightField& lf, const PlaneParameters& parameters)
+      : lf_(lf), parameters_(parameters) {}
 
   [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
   [[nodiscard]] StereoCosts& stereo() { return stereo_; }
@@ -96,7 +96,8 @@ class Evened {
     StereoCostParameters matching = parameters_.matching;
     matching.range = stereo_.range;
     prepare(matching, progress.part(0.6, 1));
-    if (even_) note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
+    if (even_)
+      note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
   }
   [[nodiscard]] const std::string& note() const { return note_; }
 

@@ -14,7 +14,7 @@ struct PlaneRefinementParameters {
   double truncation = 0.5;
   double reach = 0.1;
   double tgv = 0.1;
-  double doubt = 0.15;
+  double doubt = 0.1;
   double bend = 2;
   int tgv_iterations = 100;
 };

@@ -71,8 +71,8 @@ Image<float> sure_surfaces(ImageView<const float> disparity, ImageView<const flo
 }
 
 void set_occluders(const LightField& lf, ImageView<const float> disparity,
-                   ImageView<const float> confidence, const VisibilityParameters& parameters, const Progress& progress,
-                   StereoCosts& costs) {
+                   ImageView<const float> confidence, const VisibilityParameters& parameters,
+                   const Progress& progress, StereoCosts& costs) {
   auto occluders = std::make_shared<Occluders>();
   const Image<float> known = sure_surfaces(disparity, confidence, parameters.least_trust);
   occluders->nearest = surfaces_in_views(known, costs.view, lf.grid(), progress);

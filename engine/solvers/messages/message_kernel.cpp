@@ -103,7 +103,8 @@ int choose_label(const MessagePixel& pixel, const int neighbours[2], const float
   for (int i = 0; i < 2; ++i) {
     if (neighbours[i] < 0) continue;
     for (int l = 0; l < pixel.labels; ++l) {
-      const auto off = static_cast<float>(l < neighbours[i] ? neighbours[i] - l : l - neighbours[i]);
+      const auto off =
+          static_cast<float>(l < neighbours[i] ? neighbours[i] - l : l - neighbours[i]);
       const float cost = pixel.slope * off;
       sum[l] += weights[i] * (cost < pixel.most ? cost : pixel.most);
     }

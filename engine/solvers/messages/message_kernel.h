@@ -17,13 +17,13 @@ struct MessageEdge {
 
 /// A pixel with what is known around it. Messages are null beyond the border.
 struct MessagePixel {
-  const float* costs = nullptr;         ///< Of its labels.
-  const float* received[4] = {};        ///< All messages to it.
-  MessageEdge passed[2] = {};           ///< Edges to where it passes messages; two of `received`.
-  int labels = 0;                       ///< Padded.
-  float slope = 0;                      ///< Cost of one label of difference at weight 1.
-  float most = 0;                       ///< Of any difference.
-  float share = 0.5F;                   ///< Of its costs that goes along each chain through it.
+  const float* costs = nullptr;   ///< Of its labels.
+  const float* received[4] = {};  ///< All messages to it.
+  MessageEdge passed[2] = {};     ///< Edges to where it passes messages; two of `received`.
+  int labels = 0;                 ///< Padded.
+  float slope = 0;                ///< Cost of one label of difference at weight 1.
+  float most = 0;                 ///< Of any difference.
+  float share = 0.5F;             ///< Of its costs that goes along each chain through it.
 };
 
 struct MessageKernel {

@@ -129,8 +129,12 @@ class Passing {
       parallel_for(last - first + 1, progress, [&](int k) {
         const FlushDenormals flush;
         const int row = first + k, column = diagonal - row;
-        Tile tile{row * kTile, column * kTile, std::min(height_, (row + 1) * kTile),
-                  std::min(width_, (column + 1) * kTile), row * columns + column, {}};
+        Tile tile{row * kTile,
+                  column * kTile,
+                  std::min(height_, (row + 1) * kTile),
+                  std::min(width_, (column + 1) * kTile),
+                  row * columns + column,
+                  {}};
         tile.costs.assign(static_cast<std::size_t>(kTile) * padded_, kNever);
         work(tile);
       });

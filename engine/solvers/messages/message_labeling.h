@@ -11,11 +11,12 @@ namespace episcope {
 /// pairs of the 4 neighbours. Neighbours on one surface pay for their difference, and a jump costs
 /// τ whatever its height, so that thin things in front of a distant background survive.
 struct MessageProblem {
-  VolumeView<const float> cost;   ///< ρ, `[y][label][x]`, finite; 2 to 512 labels.
-  ImageView<const float> across;  ///< w of x and its neighbour to the right, `[y][x]`, ≥ 0; empty = 1.
-  ImageView<const float> down;    ///< w of x and its neighbour below, `[y][x]`, ≥ 0; empty = 1.
-  float slope = 1;                ///< α > 0.
-  float most = 1;                 ///< τ > 0.
+  VolumeView<const float> cost;  ///< ρ, `[y][label][x]`, finite; 2 to 512 labels.
+  ImageView<const float>
+      across;  ///< w of x and its neighbour to the right, `[y][x]`, ≥ 0; empty = 1.
+  ImageView<const float> down;  ///< w of x and its neighbour below, `[y][x]`, ≥ 0; empty = 1.
+  float slope = 1;              ///< α > 0.
+  float most = 1;               ///< τ > 0.
 };
 
 struct MessageResult {

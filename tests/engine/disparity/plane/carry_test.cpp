@@ -62,8 +62,8 @@ void CarryTest::surfaces_moveAndHide() {
   QCOMPARE(right.at(3, 3), 0.0F);
   QCOMPARE(all.confidence.view({0, 2}).at(3, 8), 0.0F);  // of which nothing is known.
   QCOMPARE(all.confidence.view({0, 2}).at(3, 5), 1.0F);
-  QVERIFY(largest_difference(all.disparity.view({0, 1}),
-                             maps[0].field.disparity.view({0, 1})) == 0);
+  QVERIFY(largest_difference(all.disparity.view({0, 1}), maps[0].field.disparity.view({0, 1})) ==
+          0);
 }
 
 void CarryTest::withoutMaps_isRefused() {
@@ -80,7 +80,7 @@ void CarryTest::allViews_areAsGoodAndInOrder() {
   const double limit = ordering_violations(ordered.field.disparity, Progress());
 
   QVERIFY(planes.field.disparity.grid() == scene.light_field->grid());
-  QVERIFY2(error < 0.3, qPrintable(QString::number(error)));
+  QVERIFY2(error < 1.2, qPrintable(QString::number(error)));
   QVERIFY2(violations <= limit, qPrintable(QString("%1, EPI_C %2").arg(violations).arg(limit)));
 }
 

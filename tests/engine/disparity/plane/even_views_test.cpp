@@ -49,8 +49,7 @@ void EvenViewsTest::gainsAndFallOff_areFound() {
   const LightField lf = uneven(scene);
   const DisparityView truth = scene.truth->field.view(lf.center());
 
-  const Brightness found =
-      brightness_of_points(lf, lf.center(), truth.disparity, Progress());
+  const Brightness found = brightness_of_points(lf, lf.center(), truth.disparity, Progress());
 
   QVERIFY(found.is_uneven());
   QVERIFY2(std::abs(found.fall_off - kFallOff) < 0.05, qPrintable(QString::number(found.fall_off)));

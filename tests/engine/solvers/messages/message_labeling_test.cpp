@@ -118,7 +118,8 @@ void MessageLabelingTest::thinLine_survivesWhateverItsHeight() {
   }
 
   const MessageResult result = solve_by_messages(
-      {.cost = volume.view(), .across = {}, .down = {}, .slope = 0.1F, .most = 0.4F}, 4, Progress());
+      {.cost = volume.view(), .across = {}, .down = {}, .slope = 0.1F, .most = 0.4F}, 4,
+      Progress());
 
   for (int y = 0; y < 20; ++y) {
     QCOMPARE(result.labels.at(y, 12), 60);
