@@ -190,7 +190,7 @@ Estimator plane_pm_estimator() {
       {.id = "plane_pm",
        .name = "PLANE_PM",
        .summary = "Multi-view stereo over visible views, refined by TGV, carried to all views",
-       .reference = "Own; builds on Pock et al. 2010 [PCBC10], Bleyer et al. 2011 [BRR11] and "
+       .reference = "Own; builds on Kolmogorov 2006 [Kol06], Bleyer et al. 2011 [BRR11] and "
                     "Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
