@@ -13,7 +13,7 @@ namespace episcope {
 namespace {
 
 constexpr float kUnit = 65535;
-constexpr double kWorthwhileGain = 0.01;
+constexpr double kWorthwhileGain = 0.005;
 constexpr double kWorthwhileFallOff = 0.1;
 constexpr double kUnlikelyMeans = 0.03;
 // Samples that count: beyond, noise and saturation decide.

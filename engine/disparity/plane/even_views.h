@@ -15,7 +15,7 @@ struct Brightness {
   std::vector<std::array<double, 3>> gains;
   /// k of the fall-off 1 − k·r² that all views have, r² = 1 in the corners.
   double fall_off = 0;
-  /// Whether it is worth a correction: root mean square of log gains above 1 %, or |k| > 0.1.
+  /// Whether it is worth a correction: root mean square of log gains above 0.5 %, or |k| > 0.1.
   [[nodiscard]] bool is_uneven() const;
 };
 
