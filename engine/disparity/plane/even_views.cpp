@@ -15,7 +15,7 @@ namespace {
 constexpr float kUnit = 65535;
 constexpr double kWorthwhileGain = 0.005;
 constexpr double kWorthwhileFallOff = 0.1;
-constexpr double kUnlikelyMeans = 0.03;
+constexpr double kUnlikelyMeans = 0.005;
 // Samples that count: beyond, noise and saturation decide.
 constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
 // Pixels between those that are looked at.
@@ -32,6 +32,22 @@ double spread(const Brightness& brightness) {
     for (const double g : gain) sum += std::log(g) * std::log(g);
   }
   return std::sqrt(sum / (3.0 * static_cast<double>(brightness.gains.size())));
+}
+
+// Root mean square of log gains against the mean of the views on both sides, in that of gains
+// drawn one by one: what comes into views changes their means steadily.
+double unsteadiness(const Brightness& brightness, GridShape grid) {
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    if (i % grid.u == 0 || i % grid.u == grid.u - 1) continue;
+    for (int c = 0; c < 3; ++c, ++count) {
+      const auto log = [&](int view) { return std::log(brightness.gains[view][c]); };
+      const double off = log(i) - 0.5 * (log(i - 1) + log(i + 1));
+      sum += off * off / 1.5;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
 }
 
 // r², 1 in the corners.
@@ -185,7 +201,8 @@ Brightness brightness_of_means(const LightField& lf, ViewIndex reference,
       if (here[c] > 0 && means[i][c] > 0) brightness.gains[i][c] = means[i][c] / here[c];
     }
   }
-  if (spread(brightness) < kUnlikelyMeans) brightness.gains.assign(grid.count(), {1, 1, 1});
+  if (unsteadiness(brightness, grid) < kUnlikelyMeans)
+    brightness.gains.assign(grid.count(), {1, 1, 1});
   return brightness;
 }
 

@@ -20,8 +20,9 @@ struct Brightness {
 };
 
 /// Gains by the means of whole views alone, before anything is known of their disparity. Objects
-/// that come into a view change its mean as well: where means do not differ by more than 3 %
-/// (root mean square), all gains are 1. Throws Cancelled.
+/// that come into a view change its mean as well, but steadily from view to view: where means are
+/// off the mean of their neighbours' in a row by no more than 0.5 % gains would explain, all gains
+/// are 1. Throws Cancelled.
 [[nodiscard]] Brightness brightness_of_means(const LightField& light_field, ViewIndex reference,
                                              const Progress& progress);
 
