@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/parallel/progress.h"
+
+#include <vector>
+
+namespace episcope {
+
+/// Carries maps of single views to every view of the grid: `disparity` and `confidence`,
+/// `[v][u][y][x]`. The first of `maps` (one view each, with confidence) falls into every view, the
+/// nearest of its points first; its own view keeps it as it is. What it leaves bare is taken from
+/// the other maps, the farthest of what they show there, for what a surface has uncovered lies
+/// behind it. What no map shows continues the farthest of the next known pixels to the left and
+/// right, above and below, with confidence 0. Every view then shows the same surfaces in their
+/// order. Throws InvalidInput without maps, Cancelled.
+struct CarriedMaps {
+  ViewStack<float> disparity, confidence;
+};
+[[nodiscard]] CarriedMaps carry_to_views(const std::vector<Estimate>& maps, GridShape grid,
+                                         const Progress& progress);
+
+}  // namespace episcope
