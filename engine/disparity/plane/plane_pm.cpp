@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/plane_pm.h"
 
+#include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/epi/side_choice.h"
 #include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/even_views.h"
 #include "engine/disparity/stereo/volume_trust.h"
@@ -158,6 +160,13 @@ std::vector<ViewIndex> outermost(GridShape grid, ViewIndex from) {
   return views;
 }
 
+void put_view(const Estimate& map, ViewIndex view, Estimate& estimate) {
+  const ImageView<const float> disparity = map.field.disparity.view(view);
+  const ImageView<const float> confidence = map.confidence.view(view);
+  std::copy_n(disparity.data, disparity.size(), estimate.field.disparity.view(view).data);
+  std::copy_n(confidence.data, confidence.size(), estimate.confidence.view(view).data);
+}
+
 }  // namespace
 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
@@ -167,7 +176,7 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   }
   const ViewIndex from = parameters.matching.view.value_or(lf.center());
   const std::vector<ViewIndex> corners = outermost(lf.grid(), from);
-  const double share = 0.97 / static_cast<double>(corners.size() + 1);
+  const double share = 0.9 / static_cast<double>(corners.size() + 1);
   std::vector<Estimate> maps;
   maps.push_back(estimate_one(lf, parameters, progress.part(0, share)));
   PlaneParameters other = parameters;
@@ -177,10 +186,14 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
     const auto done = static_cast<double>(i + 1);
     maps.push_back(estimate_one(lf, other, progress.part(share * done, share * (done + 1))));
   }
-  CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.97, 1));
+  CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.9, 0.92));
+  const Estimate first = maps.front();
   Estimate estimate = std::move(maps.front());
   estimate.field.disparity = std::move(carried.disparity);
   estimate.confidence = std::move(carried.confidence);
+  // A carried silhouette is right to a pixel; each view has samples that decide.
+  choose_sides(pack_views(lf, progress.part(0.92, 0.94)), estimate, progress.part(0.94, 1));
+  put_view(first, from, estimate);
   estimate.notes.push_back(fmt::format("carried to all views from {} of them", maps.size()));
   return estimate;
 }
