@@ -22,7 +22,12 @@ constexpr float kNone = std::numeric_limits<float>::infinity();
 // A view while it is filled; kNothingNear where nothing is known.
 struct Target {
   ImageView<float> disparity, confidence;
+  float nearness = 1;  // of the map that is shown: the nearer, the better it knows silhouettes
 };
+
+float nearness_of(ViewIndex from, ViewIndex to) {
+  return 1 / static_cast<float>(1 + std::abs(to.v - from.v) + std::abs(to.u - from.u));
+}
 
 void take(ImageView<const float> from, ImageView<float> to) {
   for (int y = 0; y < to.height; ++y) std::copy_n(from.row(y), to.width, to.row(y));
@@ -73,7 +78,7 @@ void cast(const Estimate& map, ViewIndex to, const Target& out) {
   close_cracks(out);
 }
 
-// The value that most of the maps agree about, by their confidence: the mean of those within
+// The value that most of the maps agree about, by confidence and nearness: the mean of those within
 // kOneSurface of it. The first of equals.
 void vote(const std::vector<Target>& shown, int y, int x, const Target& out) {
   float best = 0;
@@ -84,7 +89,7 @@ void vote(const std::vector<Target>& shown, int y, int x, const Target& out) {
     for (const Target& other : shown) {
       const float there = other.disparity.at(y, x);
       if (std::abs(there - d) > kOneSurface) continue;
-      const float w = other.confidence.at(y, x) + kLeastVote;
+      const float w = other.nearness * (other.confidence.at(y, x) + kLeastVote);
       weight += w;
       sum += w * there;
       support += w * other.confidence.at(y, x);
@@ -149,7 +154,8 @@ CarriedMaps carry_to_views(const std::vector<Estimate>& maps, GridShape grid,
     std::vector<Image<float>> images(2 * maps.size(), Image<float>(height, width));
     std::vector<Target> shown;
     for (std::size_t k = 0; k < maps.size(); ++k) {
-      shown.push_back({images[2 * k].view(), images[2 * k + 1].view()});
+      shown.push_back({images[2 * k].view(), images[2 * k + 1].view(),
+                       nearness_of(maps[k].field.disparity.first(), view)});
       cast(maps[k], view, shown.back());
     }
     for (int y = 0; y < height; ++y) {

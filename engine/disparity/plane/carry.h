@@ -9,12 +9,11 @@
 namespace episcope {
 
 /// Carries maps of single views to every view of the grid: `disparity` and `confidence`,
-/// `[v][u][y][x]`. The first of `maps` (one view each, with confidence) falls into every view, the
-/// nearest of its points first; its own view keeps it as it is. What it leaves bare is taken from
-/// the other maps, the farthest of what they show there, for what a surface has uncovered lies
-/// behind it. What no map shows continues the farthest of the next known pixels to the left and
-/// right, above and below, with confidence 0. Every view then shows the same surfaces in their
-/// order. Throws InvalidInput without maps, Cancelled.
+/// `[v][u][y][x]`. Each of `maps` (one view each, with confidence) falls into every view, the
+/// nearest of its points first; where they differ, they vote by confidence and by the nearness of
+/// their views, and those that agree are averaged. The view of the first map keeps it as it is.
+/// What no map shows continues the farthest of the next known pixels to the left and right, above
+/// and below, with confidence 0. Throws InvalidInput without maps, Cancelled.
 struct CarriedMaps {
   ViewStack<float> disparity, confidence;
 };

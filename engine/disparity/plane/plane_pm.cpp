@@ -187,8 +187,9 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
     maps.push_back(estimate_one(lf, other, progress.part(share * done, share * (done + 1))));
   }
   CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.9, 0.92));
-  const Estimate first = maps.front();
-  Estimate estimate = std::move(maps.front());
+  const Estimate& first = maps.front();
+  Estimate estimate;
+  estimate.set_provenance(first.provenance());
   estimate.field.disparity = std::move(carried.disparity);
   estimate.confidence = std::move(carried.confidence);
   // A carried silhouette is right to a pixel; each view has samples that decide.

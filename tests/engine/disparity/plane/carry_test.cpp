@@ -45,7 +45,7 @@ class CarryTest : public QObject {
  private slots:
   void surfaces_moveAndHide();
   void withoutMaps_isRefused();
-  void allViews_areAsGoodAndInOrder();
+  void allViews_areCloseAndInOrder();
   void finish_givesAllViews();
 };
 
@@ -70,7 +70,7 @@ void CarryTest::withoutMaps_isRefused() {
   QVERIFY_THROWS_EXCEPTION(InvalidInput, carry_to_views({}, {1, 3}, Progress()));
 }
 
-void CarryTest::allViews_areAsGoodAndInOrder() {
+void CarryTest::allViews_areCloseAndInOrder() {
   const Scene scene = render("edge", 96, 112, {5, 5});
   const Estimate planes = estimate_planes(*scene.light_field, {}, ViewSelection::All, Progress());
   const Estimate ordered = estimate_epi_c(*scene.light_field, {}, ViewSelection::All, Progress());
@@ -80,7 +80,7 @@ void CarryTest::allViews_areAsGoodAndInOrder() {
   const double limit = ordering_violations(ordered.field.disparity, Progress());
 
   QVERIFY(planes.field.disparity.grid() == scene.light_field->grid());
-  QVERIFY2(error < 1.2, qPrintable(QString::number(error)));
+  QVERIFY2(error < 0.4, qPrintable(QString::number(error)));
   QVERIFY2(violations <= limit, qPrintable(QString("%1, EPI_C %2").arg(violations).arg(limit)));
 }
 
