@@ -29,13 +29,16 @@ void raise_row(const float* r, double power, int width, float* raised) {
   }
 }
 
-// More weight where the noise of the map is less than `noise`. A map is small: one thread will do.
+// More weight where the map is trusted and its noise is less than `noise`. A map is small: one
+// thread will do.
 void raise_steady(ImageView<const float> map, float noise, Image<float>& weights) {
   constexpr float most = 10;
+  constexpr float trusted = 0.06F;
   const Image<float> variance = local_noise_variance(map, Progress(1));
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const float own = std::sqrt(variance.data()[i]);
-    weights.data()[i] *= std::max(noise / std::max(own, noise / most), 1.0F);
+    const float more = std::max(noise / std::max(own, noise / most), 1.0F) - 1;
+    weights.data()[i] *= 1 + more * std::min(weights.data()[i] / trusted, 1.0F);
   }
 }
 

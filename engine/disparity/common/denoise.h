@@ -40,9 +40,9 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
 /// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
 ///
-/// With a `map_noise` of σ₀ > 0, in px, w grows to w·σ₀/σ where the noise σ of f around a pixel
-/// (local_noise_variance) is less, up to 10 w: what is steady already needs no smoothing, which
-/// would flatten its slopes.
+/// With a `map_noise` of σ₀ > 0, in px, w grows by the factor 1 + (σ₀/σ − 1)·min(w/0.06, 1), up to
+/// 10, where the noise σ of f around a pixel (local_noise_variance) is less than σ₀: what is steady
+/// and trusted needs no smoothing, which would flatten its slopes.
 ///
 /// The paper has w = g = 1 ("just performs a TV-L2 denoising"). The weights are an addition: they
 /// preserve jumps at image edges and let doubtful pixels follow their neighbours. p = 0 and β = 0
