@@ -52,7 +52,7 @@ void require_builtin(const std::string& id);
 /// its kind as well ("dots_3", "random_thin_7").
 [[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
 
-/// How users write the scene (request.h): the id; of a random scene with seed and kind
+/// How users write the scene (request.h): the id; of a drawn scene with seed, and kind if it has one
 /// ("random?seed=7&kind=thin").
 [[nodiscard]] std::string builtin_text(const std::string& id, const RenderOptions& options);
 
