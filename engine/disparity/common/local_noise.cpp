@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/local_noise.h"
 
+#include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/box_mean.h"
 #include "engine/disparity/tensor/sample_planes.h"
@@ -73,6 +74,11 @@ Image<float> local_noise_variance(const LightField& lf, ViewIndex view, const Pr
     for (int y = 0; y < lf.height(); ++y) lower_row(squares, y, columns, means, least.row(y));
   }
   return least;
+}
+
+double view_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {
+  Image<float> variance = local_noise_variance(lf, view, progress);
+  return quantile({variance.data(), variance.size()}, 0.5);
 }
 
 }  // namespace episcope

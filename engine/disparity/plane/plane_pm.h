@@ -12,7 +12,7 @@ namespace episcope {
 struct PlaneParameters {
   VisibilityParameters visibility = {};
   PlaneRefinementParameters refinement = {};
-  GlobalLabelingParameters labeling{.smoothness = 1.5};
+  GlobalLabelingParameters labeling{.smoothness = 1.5, .edge_strength = 20};
   StereoCostParameters matching{
       .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
 };
