@@ -80,10 +80,11 @@ ParameterSet plain_labeling() {
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress) {
-  const Image<float> g = smoothness_weights(light_field, data.view, parameters.edge_strength);
   const double step = data.labels[1] - data.labels[0];
   const double smoothness = parameters.smoothness * data.scale;
-  const LiftedProblem problem{data.cost, g, smoothness * step};
+  const Image<float> weights =
+      smoothness_weights(light_field, data.view, parameters.edge_strength, data.noise_variance);
+  const LiftedProblem problem{data.cost, weights, smoothness * step};
   progress.step("labeling");
   const LiftedResult result = solve_lifted_labeling(
       problem, {.max_iterations = parameters.max_iterations, .gap = parameters.gap},
@@ -94,7 +95,9 @@ void label_globally(const LightField& light_field, const GlobalLabelingData& dat
   const ImageView<float> disparity = estimate.field.disparity.view(data.view);
   if (parameters.settling > 0) {
     progress.step("settling between labels");
-    settle(data, result.labels, g, parameters.settling, disparity, progress.part(0.85, 1));
+    settle(data, result.labels,
+           smoothness_weights(light_field, data.view, parameters.edge_strength),
+           parameters.settling, disparity, progress.part(0.85, 1));
   } else {
     std::transform(result.labels.begin(), result.labels.end(), disparity.data,
                    [&](int label) { return data.labels[label]; });

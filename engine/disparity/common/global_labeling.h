@@ -15,7 +15,7 @@ namespace episcope {
 /// Parameters that the global methods ST_*_G and EPI_G share; defaults are each method's.
 struct GlobalLabelingParameters {
   double smoothness = 0.9;
-  double edge_strength = 20;
+  double edge_strength = 25;
   double settling = 1;
   int max_iterations = 500;
   double gap = 1e-3;
@@ -37,17 +37,19 @@ struct GlobalLabelingData {
   VolumeView<const float> cost;  ///< `[y][label][x]`
   double scale = 1;              ///< Of the costs: the smoothness is multiplied by it.
   std::function<Placement(int y, int x, int label)> place;
+  double noise_variance = 0;  ///< Of the view, to be taken off its gradient.
 };
 
 /// Disparity of one view by a globally optimal labeling (engine/solvers/lifted/lifted_labeling.h):
-/// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view.
+/// min Σ ρ(x, u) + λ·scale·Σ g |∇u|, u in px among the labels, g = exp(−β |∇I|) from the view,
+/// without its noise (smoothness_weights.h).
 /// λ·scale, energy, gap and iterations go to the notes of `estimate`, the map to `estimate.field`.
 ///
 /// Labels quantise (variance step²/12) and cause staircases; therefore the map is refined between
-/// labels: TV-L2 of the placements with their weights, g as before and λ = `settling` label steps,
-/// at most one step from the label. `settling` 0 keeps the labels.
-/// Throws InvalidInput, Cancelled; ends early at `progress.finish_requested()`.
-/// Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
+/// labels: TV-L2 of the placements with their weights, g from the view as it is and λ = `settling`
+/// label steps, which smooths slopes under noise less (tests/accuracy/tuning.md), at most one step
+/// from the label. `settling` 0 keeps the labels. Throws InvalidInput, Cancelled; ends early at
+/// `progress.finish_requested()`. Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/local_noise.h"
 
+#include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/box_mean.h"
 #include "engine/disparity/tensor/sample_planes.h"
@@ -85,6 +86,11 @@ Image<float> local_noise_variance(ImageView<const float> map, const Progress& pr
   Image<float>& plane = planes.emplace_back(map.height, map.width);
   for (int y = 0; y < map.height; ++y) std::copy_n(map.row(y), map.width, plane.row(y));
   return variance_of(planes, progress);
+}
+
+double view_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {
+  Image<float> variance = local_noise_variance(lf, view, progress);
+  return quantile({variance.data(), variance.size()}, 0.5);
 }
 
 }  // namespace episcope

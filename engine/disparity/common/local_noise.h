@@ -19,4 +19,9 @@ namespace episcope {
 [[nodiscard]] Image<float> local_noise_variance(ImageView<const float> map,
                                                 const Progress& progress);
 
+/// The noise variance of a whole view: the median of the local ones, in which edges, texture in
+/// places and shadows hardly count. Throws Cancelled.
+[[nodiscard]] double view_noise_variance(const LightField& light_field, ViewIndex view,
+                                         const Progress& progress);
+
 }  // namespace episcope

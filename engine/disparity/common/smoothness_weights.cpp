@@ -23,12 +23,16 @@ void ignore_invalid(ImageView<const std::uint8_t> valid, Image<float>& weights) 
 
 }  // namespace
 
-Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta) {
+Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double beta,
+                                double noise_variance) {
   Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
   if (beta == 0) return weights;
   gradient_magnitude(lf, view, weights.view());
   const auto strength = static_cast<float>(-beta);
-  for (float& weight : weights) weight = std::exp(strength * weight);
+  const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
+  for (float& weight : weights) {
+    weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));
+  }
   if (!lf.valid().empty()) ignore_invalid(lf.valid_of(view), weights);
   return weights;
 }

@@ -4,6 +4,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/invalid_pixels.h"
+#include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/matching_cost.h"
 #include "engine/disparity/common/packed_views.h"
 
@@ -144,8 +145,9 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   const float step = labels[1] - labels[0];
   const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
   const double scale = data.mean_weight(std::max<std::size_t>(1, count_valid(lf, view)));
-  label_globally(lf, {view, labels, costs.view(), scale, place}, parameters.labeling, estimate,
-                 progress.part(0.12, 1));
+  const double noise = view_noise_variance(lf, view, progress.part(0.12, 0.121));
+  label_globally(lf, {view, labels, costs.view(), scale, place, noise}, parameters.labeling,
+                 estimate, progress.part(0.121, 1));
   return estimate;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/disparity/stereo/stereo_global.h"
 
 #include "engine/disparity/common/cost_unit.h"
+#include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 namespace episcope {
@@ -13,7 +14,7 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
       .part(&P::matching, stereo_cost_schema(views))
       .begin_with(kProfileKey)
       .search("smoothness", {0.3, 0.6, 1.2, 2.4, 5, 10})
-      .search("edge_strength", {0, 20})
+      .search("edge_strength", {0, 25})
       .search("epsilon", {0, 0.02, 0.05, kUncapped})
       .preset(kProfileKey, kPaperProfile, plain_labeling())
       .preset(kProfileKey, kPaperProfile, {{"smoothness", kPaperSmoothness}})
@@ -37,8 +38,9 @@ Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
     return place_by_costs(stereo, costs, means, y, x, label);
   };
   const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
-  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place}, parameters.labeling,
-                 estimate, progress.part(0.32, 0.99));
+  const double noise = view_noise_variance(lf, stereo.view, progress.part(0.32, 0.321));
+  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise}, parameters.labeling,
+                 estimate, progress.part(0.321, 0.99));
   estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo, costs,
                                           means, progress.part(0.99, 1));
   return estimate;

@@ -27,7 +27,7 @@ struct StereoGlobalParameters {
 /// (label_globally). Each pixel then settles
 /// between labels, towards the parabola through the costs of its label and the two neighbouring
 /// labels, weighted by confidence². Confidence: 1 − cost of the label / mean cost over the labels.
-/// β = 20 as in ST_*_S: a smaller one joins the background between thin structures to them. ε,
+/// β = 25: a smaller one joins the background between thin structures to them. ε,
 /// energy, gap and iterations are reported in the notes. Memory: 6 floats per pixel and label.
 /// Throws InvalidInput as `prepare_stereo`, Cancelled. Reference: the paper, equation (5).
 [[nodiscard]] Estimate estimate_stereo_global(const LightField& light_field, MatchedViews views,

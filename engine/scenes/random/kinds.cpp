@@ -4,8 +4,9 @@
 namespace episcope::scenes {
 
 const std::vector<std::string>& random_kind_names() {
-  static const std::vector<std::string> names = {
-      "any", "occlusion", "dark", "thin", "plain", "periodic", "shiny", "uneven", "noisy", "room"};
+  static const std::vector<std::string> names = {"any",   "occlusion", "dark",  "thin",
+                                                 "plain", "periodic",  "shiny", "uneven",
+                                                 "noisy", "room",      "smooth"};
   return names;
 }
 

@@ -2,6 +2,7 @@
 #include "engine/scenes/random/plan.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope::scenes {
 namespace {
@@ -98,6 +99,23 @@ void make_room(Plan& plan, Draw& draw) {
   plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 3));
 }
 
+void make_smooth(Plan& plan, Draw& draw) {
+  const double span = draw.between(1, 3.2);
+  const double middle = draw.between(-0.8, 0.8);
+  plan.range = {middle - span / 2, middle + span / 2};
+  plan.objects = draw.integer(3, 7);
+  plan.finishes = {0.1, 0.9, 0, 0};
+  plan.forms = {};
+  const std::pair<Form, double> weights[] = {{Form::Drape, 3},      {Form::Vase, 1},
+                                             {Form::Ball, 0.7},     {Form::Panel, 1},
+                                             {Form::Cylinder, 0.5}, {Form::Leaf, 0.4}};
+  for (const auto& [form, weight] : weights) plan.forms[static_cast<std::size_t>(form)] = weight;
+  plan.is_defocused = plan.has_moving_highlights = false;
+  plan.is_lit = true;
+  plan.sensor = {};
+  plan.sensor.noise_top = plan.sensor.noise_bottom = static_cast<float>(draw.between(0, 2));
+}
+
 }  // namespace
 
 Plan draw_plan(Draw draw, RandomKind kind) {
@@ -134,6 +152,9 @@ Plan draw_plan(Draw draw, RandomKind kind) {
       break;
     case RandomKind::Room:
       make_room(plan, draw);
+      break;
+    case RandomKind::Smooth:
+      make_smooth(plan, draw);
       break;
   }
   return plan;

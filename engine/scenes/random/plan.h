@@ -16,8 +16,8 @@ enum class Finish { Textured, Plain, Periodic, Shiny };
 inline constexpr std::size_t kFinishes = 4;
 
 /// What an object is.
-enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant };
-inline constexpr std::size_t kForms = 11;
+enum class Form { Ball, Box, Cylinder, Cone, Vase, Disc, Panel, Bar, Lattice, Leaf, Plant, Drape };
+inline constexpr std::size_t kForms = 12;
 
 /// What a random scene is to be like, before anything is placed.
 struct Plan {

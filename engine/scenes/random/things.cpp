@@ -69,6 +69,12 @@ class Assembly {
             {radii.bottom * unit_, radii.middle * unit_, radii.top * unit_});
   }
 
+  // An upright cylinder about (x, z) of `foot`.
+  void pleat(const Vector3& foot, double height, double radius) {
+    const double r = radius * unit_;
+    revolve(add(Shape::Revolution, foot), height * unit_, {r, r, r});
+  }
+
   // A disc that closes a surface of revolution.
   void lid(double y, double radius) {
     flat(Shape::Disc, {0, y, 0}, radius, radius, rotation({1, 0, 0}));
@@ -158,6 +164,18 @@ void add_plant(Assembly& thing, Draw& draw) {
   }
 }
 
+// Cloth in folds: upright cylinders that run into each other, of one width and not of one depth.
+void add_drape(Assembly& thing, Draw& draw) {
+  const int folds = draw.integer(3, 8);
+  const double half_width = 1.1 / folds;
+  const double height = draw.between(1.6, 2.6);
+  for (int i = 0; i < folds; ++i) {
+    const double radius = half_width * draw.between(1.15, 2);
+    const double out = half_width * draw.between(-0.3, 0.3) - radius;
+    thing.pleat({(2 * i + 1) * half_width - 1.1, -height / 2, out}, height, radius);
+  }
+}
+
 void add_parts(Assembly& thing, Form form, Draw& draw, double half_px) {
   switch (form) {
     case Form::Ball:
@@ -186,6 +204,8 @@ void add_parts(Assembly& thing, Form form, Draw& draw, double half_px) {
     }
     case Form::Plant:
       return add_plant(thing, draw);
+    case Form::Drape:
+      return add_drape(thing, draw);
   }
 }
 

@@ -42,6 +42,7 @@ class LocalNoiseTest : public QObject {
   void gradientAndEdge_areNoNoise();
   void noise_isThatOfItsPlace();
   void map_isMeasuredAsAView();
+  void viewNoise_isThatOfMostPixels();
   void tinyView_hasNone();
 };
 
@@ -86,6 +87,16 @@ void LocalNoiseTest::noise_isThatOfItsPlace() {
   const Image<float> variance = variance_of(view_of(3, 0.5F, 40));
   QVERIFY(variance.at(30, 20) < 1e-9F);
   QVERIFY(variance.at(30, 60) > 0.2F * kSigma * kSigma);
+}
+
+// Noise in three quarters of the view, or in a quarter.
+void LocalNoiseTest::viewNoise_isThatOfMostPixels() {
+  const auto sigma = [](int noisy_from) {
+    return std::sqrt(view_noise_variance(view_of(3, 0.5F, noisy_from), {0, 0}, Progress()));
+  };
+  QVERIFY2(sigma(20) > 0.7 * kSigma && sigma(20) < 1.05 * kSigma,
+           qPrintable(QString::number(sigma(20))));
+  QVERIFY(sigma(60) < 1e-4);
 }
 
 void LocalNoiseTest::tinyView_hasNone() {

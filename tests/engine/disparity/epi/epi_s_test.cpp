@@ -68,6 +68,7 @@ class EpiSTest : public QObject {
   void edgeWeights_areLessAtEdges();
   void edgeWeights_withoutStrengthAreOne();
   void edgeWeights_sumChannels();
+  void edgeWeights_leaveNoiseOut();
 };
 
 void EpiSTest::noisyScene_isBetterThanLocal_data() {
@@ -212,6 +213,15 @@ void EpiSTest::edgeWeights_sumChannels() {
   QVERIFY(std::fabs(weights.at(1, 1) - std::exp(-2 * std::sqrt(0.06))) < 1e-5);
   QVERIFY(std::fabs(weights.at(0, 1) - std::exp(-2 * std::sqrt(0.03))) < 1e-5);
   QCOMPARE(weights.at(3, 3), 1.0F);
+}
+
+// What noise adds to |∇I|² of one channel is 4σ²: 1 − 4·0.2² of the step is left, and nothing less
+// than 0.
+void EpiSTest::edgeWeights_leaveNoiseOut() {
+  const Image<float> weights = smoothness_weights(step_light_field(), {0, 0}, 10, 0.2 * 0.2);
+  QVERIFY(std::fabs(weights.at(2, 3) - std::exp(-10 * std::sqrt(0.25 - 0.16))) < 1e-5);
+  QCOMPARE(weights.at(2, 5), 1.0F);
+  QCOMPARE(smoothness_weights(step_light_field(), {0, 0}, 10, 1).at(2, 3), 1.0F);
 }
 
 }  // namespace episcope::in_epi_s_test

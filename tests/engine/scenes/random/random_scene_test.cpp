@@ -5,6 +5,8 @@
 #include "tests/test_main.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 namespace episcope::in_random_scene_test {
@@ -56,6 +58,20 @@ double mean_sample(const Scene& scene) {
   double sum = 0;
   for (const float sample : view) sum += static_cast<double>(sample);
   return 255 * sum / static_cast<double>(view.size());
+}
+
+// The median difference of samples beside each other, in units of 1/255.
+double median_step(const Scene& scene) {
+  const Image<float> view = scene.light_field->view_as_float(scene.light_field->center());
+  std::vector<float> steps;
+  for (int y = 0; y < view.height(); ++y) {
+    for (int x = 0; x + 1 < view.width(); ++x) {
+      steps.push_back(255 * std::fabs(view.at(y, x + 1) - view.at(y, x)));
+    }
+  }
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  return static_cast<double>(*middle);
 }
 
 }  // namespace
@@ -168,6 +184,35 @@ class RandomSceneTest : public QObject {
       }
       QCOMPARE(labels.size(), std::size_t{11});
     }
+  }
+
+  // Few things, and a thing of three or more curved parts is a drape.
+  void smooth_isWeaklyTexturedCleanAndFolded() {
+    int folded = 0;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+      const auto model = scenes::random_scene(256, 256, seed, RandomKind::Smooth).model;
+
+      QVERIFY(model.sensor.noise_top <= 2 && model.sensor.noise_bottom <= 2);
+      QVERIFY(model.lighting.is_on && !model.lighting.has_moving_highlights);
+      std::map<int, int> curved;  // Parts of each thing.
+      for (const scenes::Primitive& primitive : model.primitives) {
+        curved[primitive.label] += primitive.shape == scenes::Shape::Revolution ? 1 : 0;
+      }
+      QVERIFY(curved.size() <= 9);
+      folded += std::ranges::any_of(curved, [](const auto& each) { return each.second >= 3; });
+    }
+    QVERIFY2(folded >= 6, qPrintable(QString::number(folded)));
+  }
+
+  void smooth_hasLessTextureThanOthers() {
+    const auto roughness = [](RandomKind kind) {
+      double sum = 0;
+      for (unsigned seed = 0; seed < 8; ++seed) sum += median_step(render(seed, kind, {1, 1}, 128));
+      return sum / 8;
+    };
+    const double smooth = roughness(RandomKind::Smooth);
+    QVERIFY2(smooth < 2.5, qPrintable(QString::number(smooth)));
+    QVERIFY(smooth < 0.6 * roughness(RandomKind::Any));
   }
 
   void shiny_hasHighlightsThatMove() {
