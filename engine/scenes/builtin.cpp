@@ -8,6 +8,7 @@
 #include "engine/scenes/random/random_scene.h"
 #include "engine/scenes/recipes/recipes.h"
 #include "engine/scenes/recipes/scribble.h"
+#include "engine/scenes/stratified/stratified_scene.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,7 @@ struct Laid {
   Stage stage;
   Model model;
   bool has_scribbles = false;
+  const StratifiedRecipe* stratified = nullptr;
 };
 
 Laid lay_out(const std::string& id, const RenderOptions& options) {
@@ -30,6 +32,9 @@ Laid lay_out(const std::string& id, const RenderOptions& options) {
     return {scene.stage, std::move(scene.model), true};
   }
   const Stage stage = make_stage(options.width, options.height);
+  if (const StratifiedRecipe* stratified = find_stratified(id)) {
+    return {stage, stratified_model(*stratified, stage, options.seed), false, stratified};
+  }
   const Recipe& recipe = *std::ranges::find(recipes(), id, &Recipe::id);
   return {stage, recipe.lay_out(stage), recipe.has_scribbles};
 }
@@ -86,8 +91,15 @@ std::span<const Recipe> recipes() {
 std::vector<BuiltinSceneInfo> builtin_scenes() {
   std::vector<BuiltinSceneInfo> scenes;
   for (const Recipe& recipe : recipes()) scenes.push_back({recipe.id, recipe.summary});
+  for (const StratifiedRecipe& recipe : stratified_recipes()) {
+    scenes.push_back({recipe.id, recipe.summary});
+  }
   scenes.push_back({kRandomScene, "3 to 40 objects drawn from a seed: random?seed=7&kind=thin"});
   return scenes;
+}
+
+bool is_drawn(const std::string& id) {
+  return id == kRandomScene || find_stratified(id) != nullptr;
 }
 
 void require_builtin(const std::string& id) {
@@ -99,13 +111,13 @@ void require_builtin(const std::string& id) {
 }
 
 std::string builtin_name(const std::string& id, const RenderOptions& options) {
-  if (id != kRandomScene) return id;
+  if (!is_drawn(id)) return id;
   if (options.kind == RandomKind::Any) return fmt::format("{}_{}", id, options.seed);
   return fmt::format("{}_{}_{}", id, random_kind_name(options.kind), options.seed);
 }
 
 std::string builtin_text(const std::string& id, const RenderOptions& options) {
-  if (id != kRandomScene) return id;
+  if (!is_drawn(id)) return id;
   const std::string text = fmt::format("{}?seed={}", id, options.seed);
   return options.kind == RandomKind::Any ? text : text + "&kind=" + random_kind_name(options.kind);
 }
@@ -129,6 +141,9 @@ Scene render_builtin(const std::string& id, const RenderOptions& options,
   if (laid.has_scribbles) {
     const ViewIndex center = options.grid.center();
     scene.scribbles.views.push_back({center, scribble(cast.truth.labels.view(center))});
+  }
+  if (laid.stratified) {
+    add_regions(*laid.stratified, laid.stage, options.grid.center(), cast.truth);
   }
   scene.truth = std::make_shared<const GroundTruth>(std::move(cast.truth));
   scene.convention.format = "built-in scene";

@@ -11,8 +11,7 @@
 namespace episcope::scenes {
 
 struct BuiltinSceneInfo {
-  std::string
-      id;  ///< "fronto", "slant", "edge", "bars", "objects", "transparent", "random", "demo", …
+  std::string id;       ///< "demo", "fronto", "edge", "backgammon", "random", …
   std::string summary;  ///< One line.
 };
 
@@ -21,7 +20,7 @@ struct RenderOptions {
   int height = 512;
   int width = 512;
   double noise_sigma = 0;  ///< Gaussian noise in units of 1/255.
-  unsigned seed = 1;       ///< Of a random scene, and of the noise.
+  unsigned seed = 1;       ///< Of a scene that is drawn, and of the noise.
   int channels = 3;
   /// Scales every disparity, to make scenes of wider or narrower range.
   double disparity_scale = 1;
@@ -39,16 +38,21 @@ inline constexpr const char* kRandomScene = "random";
 /// What LightFieldInfo::reading names as the reader of built-in scenes.
 inline constexpr const char* kBuiltinReader = "builtin";
 
-/// All built-in scenes: the demo, simple ones that each test one thing, and the random one.
+/// All built-in scenes: the demo, simple ones that each test one thing, stratified ones, and the
+/// random one.
 [[nodiscard]] std::vector<BuiltinSceneInfo> builtin_scenes();
+
+/// Whether the seed decides how the scene looks: the random one and the stratified ones.
+[[nodiscard]] bool is_drawn(const std::string& id);
 
 /// Throws Unavailable for an unknown scene, naming the nearest and all.
 void require_builtin(const std::string& id);
 
-/// Name for lists and files: the id; of a random scene with kind and seed ("random_thin_7").
+/// Name for lists and files: the id; of a scene that is drawn with its seed, of a random one with
+/// its kind as well ("dots_3", "random_thin_7").
 [[nodiscard]] std::string builtin_name(const std::string& id, const RenderOptions& options);
 
-/// How users write the scene (request.h): the id; of a random scene with seed and kind
+/// How users write the scene (request.h): the id; of a drawn scene with seed, and kind if it has one
 /// ("random?seed=7&kind=thin").
 [[nodiscard]] std::string builtin_text(const std::string& id, const RenderOptions& options);
 

@@ -79,6 +79,7 @@ static void add_others() {
       {"st_av_s", 0.07, 2.2, 0.76, 15.9},     {"st_av_g", 0.02, 0.05, 0.76, 20.6},
       {"st_ch_l", 0.008, 0.05, 2.02, 26.9},   {"st_ch_s", 0.008, 0.05, 0.96, 17.9},
       {"st_ch_g", 0.008, 0.05, 1.31, 25.5},   {"kz02", 0.05, 4.1, 1.87, 26.5},
+      {"plane_pm", 0.05, 1.0, 0.9, 17},
   };
   for (const Limits& each : others) {
     QTest::addRow("%s bars", each.method)

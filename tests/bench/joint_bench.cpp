@@ -83,7 +83,9 @@ BENCHMARK(epi_two_layer)->Unit(benchmark::kMillisecond)->Iterations(1)->UseRealT
 // Bound by latency: search trees jump through the memory of a graph. Counted are its nodes and
 // edges, written and read once for every label.
 void kz02(benchmark::State& state) {
-  const Kz02Parameters parameters{.cycles = 1, .range = kRange};
+  Kz02Parameters parameters;
+  parameters.cycles = 1;
+  parameters.range = kRange;
   constexpr double views = 5, edges = 3.5, bytes_a_node = 32, bytes_an_edge = 48;
   const double pixels = views * rays() / bench::demo_768().grid().count();
   measure(state, 2 * parameters.labels * pixels * (bytes_a_node + edges * bytes_an_edge),

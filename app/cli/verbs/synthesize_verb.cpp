@@ -54,7 +54,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--noise", request.noise, real_value("SIGMA", 0, kMostNoise),
                 "Standard deviation of Gaussian noise, in grey levels of 255 (default 0)");
   parser.option("--seed", request.seed, integer_value("N", 0, std::numeric_limits<int>::max()),
-                "Seed of a random scene, and of the noise (default 1)");
+                "Seed of a scene that is drawn from one, and of the noise (default 1)");
   parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
   declare_job_options(parser, request.job);
   return parser.parse(arguments);

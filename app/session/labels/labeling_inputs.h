@@ -13,8 +13,8 @@
 
 namespace episcope {
 
-/// The disparity of a segmentation: it carries positions along the rays, and is a feature if the
-/// parameters say so.
+/// The disparity of a segmentation: it carries positions along the rays, and labels are judged by it
+/// if the parameters say so.
 struct LabelingDisparity {
   std::shared_ptr<const DisparityField> field;
   std::string origin;    ///< "truth", "epi_c", or the file it was read from.

@@ -60,7 +60,9 @@ void show_center_view(const Scene& center, GridShape grid, const io::OpenOptions
 // What a kept built-in scene lacks: where it comes from and, in older archives, its region masks.
 void complete_kept_scene(Scene& kept, const Scene& center) {
   // Nobody else has seen the scene yet, and a copy of its truth would double the memory.
-  std::const_pointer_cast<GroundTruth>(kept.truth)->regions = center.truth->regions;
+  const auto truth = std::const_pointer_cast<GroundTruth>(kept.truth);
+  truth->regions = center.truth->regions;
+  truth->stratified = center.truth->stratified;
   kept.convention = center.convention;
 }
 

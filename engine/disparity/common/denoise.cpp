@@ -2,6 +2,7 @@
 #include "engine/disparity/common/denoise.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
@@ -28,9 +29,22 @@ void raise_row(const float* r, double power, int width, float* raised) {
   }
 }
 
+// More weight where the map is trusted and its noise is less than `noise`. A map is small: one
+// thread will do.
+void raise_steady(ImageView<const float> map, float noise, Image<float>& weights) {
+  constexpr float most = 10;
+  constexpr float trusted = 0.06F;
+  const Image<float> variance = local_noise_variance(map, Progress(1));
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const float own = std::sqrt(variance.data()[i]);
+    const float more = std::max(noise / std::max(own, noise / most), 1.0F) - 1;
+    weights.data()[i] *= 1 + more * std::min(weights.data()[i] / trusted, 1.0F);
+  }
+}
+
 // Denoises every view of `estimate` in place; returns the largest relative gap.
 double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float min_weight,
-                     Estimate& estimate, const Progress& progress) {
+                     float map_noise, Estimate& estimate, const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
   const ViewIndex first = disparity.first();
@@ -41,6 +55,7 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
       const ViewIndex view = grid.view_at(i, first);
       fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, min_weight},
                         weights);
+      if (map_noise > 0) raise_steady(disparity.view(view), map_noise, weights);
       const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
       const ImageView<float> map = disparity.view(view);
       gaps[i] = solver
@@ -101,9 +116,10 @@ std::string gap_note(double largest) {
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight) {
+             const Progress& progress, float min_weight, float map_noise) {
   progress.step("denoising");
-  estimate.notes.push_back(gap_note(denoise_views(lf, parameters, min_weight, estimate, progress)));
+  const double gap = denoise_views(lf, parameters, min_weight, map_noise, estimate, progress);
+  estimate.notes.push_back(gap_note(gap));
 }
 
 }  // namespace episcope

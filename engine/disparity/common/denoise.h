@@ -40,12 +40,17 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// f its disparity, w from its confidence r (DataWeight), and g = exp(−β |∇I|) from the view
 /// (TvL2Solver). Adds the largest relative duality gap to the notes. Throws Cancelled.
 ///
+/// With a `map_noise` of σ₀ > 0, in px, w grows by the factor 1 + (σ₀/σ − 1)·min(w/0.06, 1), up to
+/// 10, where the noise σ of f around a pixel (local_noise_variance) is less than σ₀: what is steady
+/// and trusted needs no smoothing, which would flatten its slopes.
+///
 /// The paper has w = g = 1 ("just performs a TV-L2 denoising"). The weights are an addition: they
 /// preserve jumps at image edges and let doubtful pixels follow their neighbours. p = 0 and β = 0
 /// give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight = DataWeight{}.minimum);
+             const Progress& progress, float min_weight = DataWeight{}.minimum,
+             float map_noise = 0);
 
 /// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);

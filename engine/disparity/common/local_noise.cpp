@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace episcope {
@@ -60,20 +61,31 @@ void lower_row(const Image<float>& squares, int y, std::vector<float>& columns,
   for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x] / rows);
 }
 
+Image<float> variance_of(const Planes& planes, const Progress& progress) {
+  const int height = planes.front().height(), width = planes.front().width();
+  if (height < 3 || width < 3) return Image<float>(height, width);
+  Image<float> least(height, width, 1, std::numeric_limits<float>::max());
+  Image<float> squares(height, width);
+  std::vector<float> columns(width), means(width);
+  for (const PixelIndex way : kWays) {
+    parallel_for(height, progress,
+                 [&](int y) { second_differences(planes, y, way, squares.row(y)); });
+    for (int y = 0; y < height; ++y) lower_row(squares, y, columns, means, least.row(y));
+  }
+  return least;
+}
+
 }  // namespace
 
 Image<float> local_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {
-  if (lf.height() < 3 || lf.width() < 3) return Image<float>(lf.height(), lf.width());
-  const Planes planes = read_view(lf, view);
-  Image<float> least(lf.height(), lf.width(), 1, 1.0F);
-  Image<float> squares(lf.height(), lf.width());
-  std::vector<float> columns(lf.width()), means(lf.width());
-  for (const PixelIndex way : kWays) {
-    parallel_for(lf.height(), progress,
-                 [&](int y) { second_differences(planes, y, way, squares.row(y)); });
-    for (int y = 0; y < lf.height(); ++y) lower_row(squares, y, columns, means, least.row(y));
-  }
-  return least;
+  return variance_of(read_view(lf, view), progress);
+}
+
+Image<float> local_noise_variance(ImageView<const float> map, const Progress& progress) {
+  Planes planes;
+  Image<float>& plane = planes.emplace_back(map.height, map.width);
+  for (int y = 0; y < map.height; ++y) std::copy_n(map.row(y), map.width, plane.row(y));
+  return variance_of(planes, progress);
 }
 
 double view_noise_variance(const LightField& lf, ViewIndex view, const Progress& progress) {

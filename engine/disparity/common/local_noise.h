@@ -20,4 +20,8 @@ namespace episcope {
 [[nodiscard]] double view_noise_variance(const LightField& light_field, ViewIndex view,
                                          const Progress& progress);
 
+/// The same of one map, in the square of its unit.
+[[nodiscard]] Image<float> local_noise_variance(ImageView<const float> map,
+                                                const Progress& progress);
+
 }  // namespace episcope

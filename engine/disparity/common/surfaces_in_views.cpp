@@ -27,6 +27,7 @@ Covered covered(float place, int extent) {
 void cast_row(ImageView<const float> disparity, int y, ViewIndex step, ImageView<float> out) {
   for (int x = 0; x < disparity.width; ++x) {
     const float d = disparity.at(y, x);
+    if (d <= kNothingNear) continue;
     const Covered rows =
         covered(static_cast<float>(y) - d * static_cast<float>(step.v), out.height);
     const Covered columns =

@@ -43,7 +43,7 @@ std::vector<Reached> views_reached(const ViewStack<float>& disparity,
 
 // What lies farther than a ray at the ends of its line.
 struct Farther {
-  std::array<float, 4 * kReach> disparity;
+  std::array<float, 4 * kReach> disparity{};
   int count = 0;
 
   float median() {

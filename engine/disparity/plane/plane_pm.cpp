@@ -1,25 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/plane_pm.h"
 
+#include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/epi/side_choice.h"
+#include "engine/disparity/plane/carry.h"
+#include "engine/disparity/plane/even_views.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 namespace episcope {
 namespace {
 
-// Labels the costs, with every pixel placed at the parabola through its label and the two beside.
+// Labels the costs.
 void label_costs(const LightField& lf, const PlaneParameters& parameters,
                  const PlaneRefinementData& data, Estimate& estimate, const Progress& progress) {
-  const auto place = [&](int y, int x, int label) {
-    return place_by_costs(data.stereo, data.costs, data.means, y, x, label);
-  };
-  estimate.notes.clear();
-  label_globally(lf, {data.stereo.view, data.stereo.labels, data.costs, data.scale, place},
-                 parameters.labeling, estimate, progress);
+  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, data.stereo.view);
+  const PairWeights weights = pair_weights(lf, data.stereo.view, parameters.labeling.edge_strength,
+                                           parameters.labeling.least_weight);
+  estimate.notes = {label_with_jumps(data, weights, parameters.labeling, progress,
+                                     estimate.field.disparity.view(data.stereo.view))};
 }
 
 // Costs with what is known of the visibility, labeled; the last time also refined.
@@ -30,7 +35,7 @@ void run_round(const LightField& lf, const PlaneParameters& parameters, const St
   const Image<float> means = mean_costs(volume.view(), progress.part(0.4, 0.42));
   const Image<float> edges = smoothness_weights(lf, stereo.view, parameters.labeling.edge_strength);
   const PlaneRefinementData data{stereo, volume.view(), means, edges,
-                                 mean_of_valid(means, lf, stereo.view)};
+                                 mean_of_valid(*stereo.matching.caps, lf, stereo.view)};
   label_costs(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
   if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.99), map);
@@ -45,33 +50,152 @@ Schema<PlaneParameters> plane_pm_schema() {
   return Schema<P>()
       .part(&P::visibility, visibility_schema())
       .part(&P::refinement, plane_refinement_schema())
-      .part(&P::labeling, global_labeling_schema())
+      .part(&P::labeling, jump_labeling_schema())
       .part(&P::matching, stereo_matching_schema())
+      .flag("even", &P::even,
+            {"Even brightness",
+             "Correct differences in brightness between the views, and their fall-off to the "
+             "corners, where there are any"})
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
 }
 
-Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters, ViewSelection,
-                         const Progress& progress) {
-  StereoCosts stereo =
-      prepare_stereo(lf, MatchedViews::All, parameters.matching, progress.part(0, 0.05));
+namespace {
+
+// Brightness is taken from a map of which so many pixels are sure.
+constexpr double kLeastSure = 0.1;
+
+// The light field as it is compared, and its data term.
+class Evened {
+ public:
+  Evened(const LightField& lf, const PlaneParameters& parameters)
+      : lf_(lf), parameters_(parameters) {}
+
+  [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
+  [[nodiscard]] StereoCosts& stereo() { return stereo_; }
+
+  void begin(const Progress& progress) {
+    const ViewIndex view = parameters_.matching.view.value_or(lf_.center());
+    if (parameters_.even && lf_.grid().contains(view)) {
+      use(brightness_of_means(lf_, view, progress.part(0, 0.2)), progress.part(0.2, 0.4));
+    }
+    prepare(parameters_.matching, progress.part(0.4, 1));
+  }
+
+  // With what the sure part of a map of disparities tells of the brightness of the views.
+  void improve(ImageView<const float> disparity, ImageView<const float> confidence,
+               const Progress& progress) {
+    const Image<float> sure =
+        sure_surfaces(disparity, confidence, parameters_.visibility.least_trust);
+    const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
+    if (!parameters_.even) return;
+    Brightness brightness;
+    if (known >= kLeastSure * static_cast<double>(sure.size())) {
+      brightness = brightness_of_points(lf_, stereo_.view, sure, progress.part(0, 0.4));
+    }
+    if (!even_ && !brightness.is_uneven()) return;
+    use(brightness, progress.part(0.4, 0.6));
+    StereoCostParameters matching = parameters_.matching;
+    matching.range = stereo_.range;
+    prepare(matching, progress.part(0.6, 1));
+    if (even_)
+      note_ = fmt::format("brightness of the views evened: fall-off {:.3f}", brightness.fall_off);
+  }
+  [[nodiscard]] const std::string& note() const { return note_; }
+
+ private:
+  void use(const Brightness& brightness, const Progress& progress) {
+    even_.reset();
+    if (brightness.is_uneven()) even_.emplace(even_views(lf_, brightness, progress));
+  }
+  void prepare(const StereoCostParameters& matching, const Progress& progress) {
+    stereo_ = prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9));
+    set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
+  }
+
+  const LightField& lf_;
+  const PlaneParameters& parameters_;
+  std::optional<LightField> even_;
+  StereoCosts stereo_;
+  std::string note_;
+};
+
+Estimate estimate_one(const LightField& lf, const PlaneParameters& parameters,
+                      const Progress& progress) {
+  Evened data(lf, parameters);
+  data.begin(progress.part(0, 0.06));
   const VisibilityParameters& visibility = parameters.visibility;
-  set_local_caps(lf, visibility, progress.part(0.05, 0.06), stereo);
   Estimate estimate;
-  estimate.range = stereo.range;
+  estimate.range = data.stereo().range;
   const int rounds = visibility.rounds;
   int done = 0;
   for (; done <= rounds && !(done > 0 && progress.finish_requested()); ++done) {
     const double begin = 0.06 + 0.94 * done / (rounds + 1), length = 0.94 / (rounds + 1);
+    StereoCosts& stereo = data.stereo();
     if (done > 0) {
-      set_occluders(lf, estimate.field.disparity.view(stereo.view), visibility,
-                    progress.part(begin, begin + 0.03 * length), stereo);
+      const ImageView<const float> map = estimate.field.disparity.view(stereo.view);
+      const ImageView<const float> trust = estimate.confidence.view(stereo.view);
+      if (done == 1) data.improve(map, trust, progress.part(begin, begin + 0.02 * length));
+      set_occluders(data.light_field(), map, trust, visibility,
+                    progress.part(begin + 0.02 * length, begin + 0.05 * length), stereo);
     }
-    run_round(lf, parameters, stereo, done == rounds, estimate,
-              progress.part(begin + 0.03 * length, begin + length));
+    run_round(data.light_field(), parameters, stereo, done == rounds, estimate,
+              progress.part(begin + 0.05 * length, begin + length));
   }
-  for (std::string& note : cost_notes(stereo)) estimate.notes.push_back(std::move(note));
+  for (std::string& note : cost_notes(data.stereo())) estimate.notes.push_back(std::move(note));
+  if (!data.note().empty()) estimate.notes.push_back(data.note());
   estimate.notes.push_back(fmt::format("visibility: {} of {} rounds", done - 1, rounds));
+  return estimate;
+}
+
+// The views farthest from `from`, which see most of what it does not.
+std::vector<ViewIndex> outermost(GridShape grid, ViewIndex from) {
+  std::vector<ViewIndex> views;
+  for (const int v : {0, grid.v - 1}) {
+    for (const int u : {0, grid.u - 1}) {
+      const ViewIndex view{v, u};
+      if (view != from && std::ranges::find(views, view) == views.end()) views.push_back(view);
+    }
+  }
+  return views;
+}
+
+void put_view(const Estimate& map, ViewIndex view, Estimate& estimate) {
+  const ImageView<const float> disparity = map.field.disparity.view(view);
+  const ImageView<const float> confidence = map.confidence.view(view);
+  std::copy_n(disparity.data, disparity.size(), estimate.field.disparity.view(view).data);
+  std::copy_n(confidence.data, confidence.size(), estimate.confidence.view(view).data);
+}
+
+}  // namespace
+
+Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
+                         ViewSelection views, const Progress& progress) {
+  if (views == ViewSelection::Center || lf.grid().count() == 1) {
+    return estimate_one(lf, parameters, progress);
+  }
+  const ViewIndex from = parameters.matching.view.value_or(lf.center());
+  const std::vector<ViewIndex> corners = outermost(lf.grid(), from);
+  const double share = 0.9 / static_cast<double>(corners.size() + 1);
+  std::vector<Estimate> maps;
+  maps.push_back(estimate_one(lf, parameters, progress.part(0, share)));
+  PlaneParameters other = parameters;
+  other.matching.range = maps.front().range;
+  for (std::size_t i = 0; i < corners.size() && !progress.finish_requested(); ++i) {
+    other.matching.view = corners[i];
+    const auto done = static_cast<double>(i + 1);
+    maps.push_back(estimate_one(lf, other, progress.part(share * done, share * (done + 1))));
+  }
+  CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.9, 0.92));
+  const Estimate& first = maps.front();
+  Estimate estimate;
+  estimate.set_provenance(first.provenance());
+  estimate.field.disparity = std::move(carried.disparity);
+  estimate.confidence = std::move(carried.confidence);
+  // A carried silhouette is right to a pixel; each view has samples that decide.
+  choose_sides(pack_views(lf, progress.part(0.92, 0.94)), estimate, progress.part(0.94, 1));
+  put_view(first, from, estimate);
+  estimate.notes.push_back(fmt::format("carried to all views from {} of them", maps.size()));
   return estimate;
 }
 
@@ -79,10 +203,12 @@ Estimator plane_pm_estimator() {
   return make_estimator<PlaneParameters>(
       {.id = "plane_pm",
        .name = "PLANE_PM",
-       .summary = "Multi-view stereo over visible views, refined by planes and TGV",
-       .reference = "Own; builds on Pock et al. 2010 [PCBC10], Bleyer et al. 2011 [BRR11] and "
+       .summary = "Multi-view stereo over visible views, refined by TGV, carried to all views",
+       .reference = "Own; builds on Kolmogorov 2006 [Kol06], Bleyer et al. 2011 [BRR11] and "
                     "Bredies et al. 2010 [BKP10]",
-       .iterative = true},
+       .all_views = true,
+       .iterative = true,
+       .revision = 2},
       plane_pm_schema(), estimate_planes);
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/disparity/common/estimator.h"
-#include "engine/disparity/common/global_labeling.h"
+#include "engine/disparity/plane/jump_labeling.h"
 #include "engine/disparity/plane/plane_refinement.h"
 #include "engine/disparity/plane/visible_costs.h"
 #include "engine/disparity/stereo/stereo_costs.h"
@@ -12,28 +12,34 @@ namespace episcope {
 struct PlaneParameters {
   VisibilityParameters visibility = {};
   PlaneRefinementParameters refinement = {};
-  GlobalLabelingParameters labeling{.smoothness = 1.5, .edge_strength = 20};
+  JumpLabelingParameters labeling = {};
   StereoCostParameters matching{
       .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
+  bool even = true;
 };
 [[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 
-/// Disparity of one view from all views in which a point is visible.
+/// Disparity from all views in which a point is visible.
 ///
 /// 1. Matching costs of all views as in ST_AV_G, but every pixel has a cap of its own and costs
-///    count in units of it (visible_costs.h), and their globally optimal labeling
-///    (global_labeling.h) with g = exp(−β |∇I|).
-/// 2. `rounds` times: the map is cast into every view (surfaces_in_views.h); views in which it
-///    shows something nearer do not count for a point; labeling again.
-/// 3. Placed between labels with planes and TGV² (plane_refinement.h).
+///    count in units of it (visible_costs.h); labels under a truncated smoothness
+///    (jump_labeling.h).
+/// 2. `rounds` times: views in which a sure surface of the map shows something nearer do not count
+///    for a point (surfaces_in_views.h); labeling again. Before the first, differences in
+///    brightness between the views are found and taken away, if there are any (even_views.h).
+/// 3. Placed between labels with TGV², and anew where costs leave the labels in doubt
+///    (plane_refinement.h).
+/// 4. For all views, the same from the outermost views; the maps are carried to every view, and
+///    their majority counts (carry.h). The first view keeps its own map.
 ///
-/// Confidence as in ST_AV_G. Results do not depend on the number of threads. At
-/// `progress.finish_requested()` the map of the last round that was finished is returned. Memory: 6
-/// floats per pixel and label, 1 per ray. Throws InvalidInput as `prepare_stereo`, Cancelled.
+/// Confidence as in ST_AV_G; of carried views, the mean of those that agree. Results do not depend
+/// on the number of threads. At `progress.finish_requested()` the map of the last round that was
+/// finished is returned, or carried from the views that were. Memory: 3 floats per pixel and label,
+/// 1 per ray, 3 × 16 bits more where brightness differs. Throws InvalidInput as `prepare_stereo`,
+/// Cancelled.
 ///
-/// Reference: planes by PatchMatch, Bleyer,
-/// Rhemann and Rother 2011 [BRR11], TGV Bredies, Kunisch and Pock 2010 [BKP10]. Evidence:
-/// tests/accuracy/tuning.md.
+/// Reference: own; message passing Kolmogorov 2006 [Kol06], TGV Bredies, Kunisch and Pock 2010
+/// [BKP10], planes Bleyer, Rhemann and Rother 2011 [BRR11]. Evidence: tests/accuracy/tuning.md.
 [[nodiscard]] Estimate estimate_planes(const LightField& light_field,
                                        const PlaneParameters& parameters, ViewSelection views,
                                        const Progress& progress);

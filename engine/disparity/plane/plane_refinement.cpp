@@ -2,15 +2,20 @@
 #include "engine/disparity/plane/plane_refinement.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/plane/regional_trust.h"
 #include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/planes/plane_labeling.h"
 #include "engine/solvers/tgv_l2/tgv_l2.h"
+#include "engine/solvers/tv_l2/tv_l2.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace episcope {
 namespace {
+
+// λ of the denoising of single pixels, as in ST_AV_S.
+constexpr double kWinnerSmoothing = 0.1;
 
 float label_step(const StereoCosts& stereo) {
   return stereo.labels[1] - stereo.labels[0];
@@ -62,6 +67,49 @@ Observations observe(const PlaneRefinementData& data, ImageView<const float> dis
   return all;
 }
 
+// The best label of every pixel by itself, placed between labels and denoised by its trust.
+Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& progress) {
+  const int height = data.costs.height, width = data.costs.width;
+  Observations all{Image<float>(height, width), Image<float>(height, width)};
+  parallel_for(height, progress.part(0, 0.3), [&](int y) {
+    std::vector<float> least(data.costs.row(y, 0), data.costs.row(y, 0) + width);
+    std::vector<int> best(width);
+    for (int l = 1; l < data.costs.layers; ++l) {
+      const float* const cost = data.costs.row(y, l);
+      for (int x = 0; x < width; ++x) {
+        best[x] = cost[x] < least[x] ? l : best[x];
+        least[x] = std::min(least[x], cost[x]);
+      }
+    }
+    for (int x = 0; x < width; ++x) {
+      const Placement placed = place_by_costs(data.stereo, data.costs, data.means, y, x, best[x]);
+      all.values.at(y, x) = placed.disparity;
+      all.weights.at(y, x) = placed.weight;
+    }
+  });
+  TvL2Solver(height, width)
+      .solve({all.values, all.weights, data.edges, kWinnerSmoothing}, {}, progress.part(0.3, 1),
+             all.values.view());
+  return std::move(all.values);
+}
+
+// Where costs hardly tell labels apart, a labeling settles for whole regions of one wrong label;
+// the mean of what the pixels say by themselves is then nearer to the truth.
+void settle_doubt(const PlaneRefinementData& data, double doubt, const Progress& progress,
+                  ImageView<float> disparity) {
+  const Image<float> trust = regional_trust(
+      volume_confidence(disparity, data.stereo, data.costs, data.means, progress.part(0, 0.1))
+          .view(data.stereo.view));
+  const Image<float> denoised = denoised_winners(data, progress.part(0.1, 1));
+  for (int y = 0; y < disparity.height; ++y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      const float t = std::clamp((trust.at(y, x) / static_cast<float>(doubt) - 1) * 2, 0.0F, 1.0F);
+      float& d = disparity.at(y, x);
+      d = denoised.at(y, x) + t * (d - denoised.at(y, x));
+    }
+  }
+}
+
 }  // namespace
 
 Schema<PlaneRefinementParameters> plane_refinement_schema() {
@@ -81,6 +129,11 @@ Schema<PlaneRefinementParameters> plane_refinement_schema() {
             {0.001, 20, true})
       .real("reach", &P::reach, {"Reach", "Planes move no pixel by more than this", "px"}, {0, 20})
       .real("tgv", &P::tgv, {"TGV²", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
+      .real("doubt", &P::doubt,
+            {"Doubt",
+             "Where the mean confidence of a region is below this, its pixels are placed by "
+             "denoising what each says by itself; 0 = nowhere"},
+            {0, 1})
       .real("bend", &P::bend,
             {"Bend", "Cost of a bend against that of a jump in the final denoising", "px"},
             {0.01, 100, true})
@@ -107,6 +160,7 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
       d = std::clamp(seen.values.at(y, x), d - step, d + step);
     }
   }
+  if (parameters.doubt > 0) settle_doubt(data, parameters.doubt, progress.part(0.9, 1), disparity);
 }
 
 }  // namespace episcope

@@ -3,6 +3,7 @@
 
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/plane/local_caps.h"
+#include "engine/disparity/plane/regional_trust.h"
 
 #include <algorithm>
 #include <numeric>
@@ -31,6 +32,11 @@ Schema<VisibilityParameters> visibility_schema() {
              "Share of the views that is taken to cost ε, so that what nearly all views call "
              "occluded is not believed for the sake of a few"},
             {0, 1})
+      .real("least_trust", &P::least_trust,
+            {"Least confidence",
+             "A surface whose confidence is below this, mean over its surroundings, occludes "
+             "nothing"},
+            {0, 1})
       .real("cap_share", &P::cap_share, {"Least cap", "The least cap of a pixel, as a share of ε"},
             {0, 10})
       .real("cap_offset", &P::cap_offset,
@@ -52,11 +58,24 @@ void set_local_caps(const LightField& lf, const VisibilityParameters& parameters
   costs.matching.caps = std::move(caps);
 }
 
+Image<float> sure_surfaces(ImageView<const float> disparity, ImageView<const float> confidence,
+                           double least_trust) {
+  const Image<float> trust = regional_trust(confidence);
+  Image<float> known(disparity.height, disparity.width, 1, kNothingNear);
+  for (int y = 0; y < disparity.height; ++y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      if (trust.at(y, x) >= least_trust) known.at(y, x) = disparity.at(y, x);
+    }
+  }
+  return known;
+}
+
 void set_occluders(const LightField& lf, ImageView<const float> disparity,
-                   const VisibilityParameters& parameters, const Progress& progress,
-                   StereoCosts& costs) {
+                   ImageView<const float> confidence, const VisibilityParameters& parameters,
+                   const Progress& progress, StereoCosts& costs) {
   auto occluders = std::make_shared<Occluders>();
-  occluders->nearest = surfaces_in_views(disparity, costs.view, lf.grid(), progress);
+  const Image<float> known = sure_surfaces(disparity, confidence, parameters.least_trust);
+  occluders->nearest = surfaces_in_views(known, costs.view, lf.grid(), progress);
   occluders->tolerance = static_cast<float>(parameters.tolerance);
   occluders->softness = kSoftness;
   occluders->prior = static_cast<float>(parameters.prior);

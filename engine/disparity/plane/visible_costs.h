@@ -8,9 +8,10 @@ namespace episcope {
 
 /// Which views count, and how much a difference does.
 struct VisibilityParameters {
-  int rounds = 1;            ///< Times that costs are computed anew with what occludes what.
+  int rounds = 2;            ///< Times that costs are computed anew with what occludes what.
   double tolerance = 0.1;    ///< Occluders::tolerance, px.
   double prior = 0.02;       ///< Occluders::prior.
+  double least_trust = 0.1;  ///< Of surfaces that occlude, mean over their surroundings.
   double cap_share = 0.7;    ///< Of StereoCosts' ε that is the least cap of a pixel.
   double cap_offset = 0.03;  ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.
 };
@@ -21,10 +22,16 @@ struct VisibilityParameters {
 void set_local_caps(const LightField& light_field, const VisibilityParameters& parameters,
                     const Progress& progress, StereoCosts& costs);
 
-/// From here on views in which `disparity` occludes a point do not count for it. Throws Cancelled.
+/// The disparities whose confidence, mean over its surroundings (regional_trust.h), is at least
+/// `least_trust`; elsewhere kNothingNear.
+[[nodiscard]] Image<float> sure_surfaces(ImageView<const float> disparity,
+                                         ImageView<const float> confidence, double least_trust);
+
+/// From here on views in which a sure surface occludes a point do not count for it. Throws
+/// Cancelled.
 void set_occluders(const LightField& light_field, ImageView<const float> disparity,
-                   const VisibilityParameters& parameters, const Progress& progress,
-                   StereoCosts& costs);
+                   ImageView<const float> confidence, const VisibilityParameters& parameters,
+                   const Progress& progress, StereoCosts& costs);
 
 /// The costs of all rows (stereo_volume), divided by the cap of their pixel and times the mean cap:
 /// a smooth region whose noise is low then says as much as one of strong contrast, and is not

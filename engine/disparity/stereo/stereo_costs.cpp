@@ -86,13 +86,8 @@ std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex vi
 }
 
 // Sets the places of the views to those that files state, if they match better there.
-void choose_places(const LightField& lf, StereoCosts& costs, Residuals& residuals,
-                   const Progress& progress) {
-  const ViewPlaces stated = view_places(lf.info(), lf.grid());
-  if (stated.kind == PlacesKind::Implausible) {
-    costs.notes.emplace_back("positions of cameras not used: they make no grid");
-  }
-  if (stated.kind != PlacesKind::Irregular) return;
+void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& costs,
+                   Residuals& residuals, const Progress& progress) {
   costs.matching.places = std::make_shared<const std::vector<ViewPlace>>(stated.places);
   const Residuals there = find_residuals(lf, costs, progress);
   const std::string off = fmt::format("up to {:.2f} steps off the regular grid{}",
@@ -185,13 +180,16 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   costs.matching.views = views;
   costs.matching.interpolation = parameters.interpolation;
   costs.matching.cap = parameters.epsilon;
-  if (parameters.compensate_noise || parameters.epsilon == 0 ||
-      parameters.positions == Positions::Use) {
+  ViewPlaces stated;
+  if (parameters.positions == Positions::Use) stated = view_places(compared.info(), lf.grid());
+  if (stated.kind == PlacesKind::Implausible) {
+    costs.notes.emplace_back("positions of cameras not used: they make no grid");
+  }
+  const bool is_irregular = stated.kind == PlacesKind::Irregular;
+  if (parameters.compensate_noise || parameters.epsilon == 0 || is_irregular) {
     progress.step("noise");
     Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
-    if (parameters.positions == Positions::Use) {
-      choose_places(compared, costs, residuals, progress.part(0.7, 0.8));
-    }
+    if (is_irregular) choose_places(compared, stated, costs, residuals, progress.part(0.7, 0.8));
     if (parameters.compensate_noise) {
       costs.matching.noise =
           noise_map(compared, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));

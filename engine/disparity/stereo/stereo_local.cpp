@@ -80,6 +80,12 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
   // Fewer caps than for the local methods: smoothing removes the noise that they leave.
   return Schema<P>()
       .part(&P::denoising, denoise_schema())
+      .real(
+          "map_noise", &P::map_noise,
+          {"Noise of the map σ₀",
+           "Where neighbouring disparities scatter less than this, in px, the data term gets more "
+           "weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper"},
+          {0, 1})
       .part(&P::local, stereo_local_schema(views))
       .begin_with(kProfileKey)
       .search("lambda", {0.02, 0.05, 0.1, 0.2, 0.4})
@@ -87,7 +93,7 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
       .search("epsilon", {0, 0.02, kUncapped})
       .search("aggregation", {0, 2})
       .preset(kProfileKey, kPaperProfile, plain_denoising())
-      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}})
+      .preset(kProfileKey, kPaperProfile, {{"lambda", 0.2}, {"map_noise", 0.0}})
       .preset_search(kProfileKey, kPaperProfile, "lambda", {0.02, 0.05, 0.1, 0.2, 0.4, 0.8});
 }
 
@@ -121,7 +127,8 @@ Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
                                 const StereoSmoothParameters& parameters,
                                 const Progress& progress) {
   Estimate estimate = estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85));
-  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
+          static_cast<float>(parameters.map_noise));
   return estimate;
 }
 

@@ -16,7 +16,8 @@ struct StereoLocalParameters {
 
 /// Parameters of the denoised ones, ST_AV_S and ST_CH_S.
 struct StereoSmoothParameters {
-  DenoiseParameters denoising{.lambda = 0.08, .weight_power = 2};
+  DenoiseParameters denoising{.lambda = 0.1, .weight_power = 2};
+  double map_noise = 0.1;  ///< σ₀ of `denoise`, px.
   StereoLocalParameters local = {};
 };
 

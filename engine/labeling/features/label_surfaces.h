@@ -31,7 +31,7 @@ class LabelSurfaces {
   /// Standard deviation below which disparities say nothing, px per view step.
   static constexpr double kNoise_px = 0.04;
   /// Most that a single pixel's disparity can speak against a label.
-  static constexpr float kMostMisfit = 4;
+  static constexpr float kMostMisfit = 3;
 
   /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
   /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.

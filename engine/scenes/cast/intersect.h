@@ -101,6 +101,10 @@ inline Mask<R> covers_point(const Primitive& primitive, const Pack<R>& x, const 
     const Pack<R> share = x * (R(1) / extent_x);
     return absolute(y) <= (R(1) - share * share) * extent_y;
   }
+  if (primitive.shape == Shape::Triangle) {
+    const Pack<R> half_width = (extent_x - x) * (extent_y / (R(2) * extent_x));
+    return (absolute(x) <= extent_x) & (absolute(y) <= half_width);
+  }
   const Mask<R> inside = (absolute(x) <= extent_x) & (absolute(y) <= extent_y);
   if (primitive.shape != Shape::Lattice) return inside;
   const auto upright = static_cast<R>(primitive.profile[2]);
@@ -167,6 +171,7 @@ inline Pack<R> hit_depth(const Primitive& primitive, const LocalRays<R>& rays) {
     case Shape::Rectangle:
     case Shape::Disc:
     case Shape::Leaf:
+    case Shape::Triangle:
     case Shape::Lattice:
       t = hit_plane(primitive, rays);
       break;

@@ -11,6 +11,8 @@ enum class Shape {
   Rectangle,  ///< z = 0 in its own frame, |x| ≤ extent[0], |y| ≤ extent[1].
   Disc,       ///< z = 0, x² + y² ≤ extent[0]².
   Leaf,       ///< z = 0, |y| ≤ extent[1]·(1 − (x/extent[0])²): pointed at both ends.
+  /// z = 0, |x| ≤ extent[0], |y| ≤ extent[1]·(1 − x/extent[0])/2: its tip lies on +x.
+  Triangle,
   /// A Rectangle of bars: upright ones at x = k·profile[0] of half width profile[2], level ones at
   /// y = k·profile[1] of half width extent[2]; a half width below 0 = none of them.
   Lattice,

@@ -18,6 +18,7 @@ Hull hull_of(const Primitive& primitive) {
   switch (primitive.shape) {
     case Shape::Rectangle:
     case Shape::Leaf:
+    case Shape::Triangle:
     case Shape::Lattice:
       return {{e[0], e[1], 0}, 0};
     case Shape::Disc:

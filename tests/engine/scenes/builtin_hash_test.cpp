@@ -41,6 +41,10 @@ class BuiltinHashTest : public QObject {
     QTest::newRow("bars") << "bars" << 0.0 << quint64{0x25f1beb119f509c1ULL};
     QTest::newRow("objects") << "objects" << 0.0 << quint64{0x743bee42456449f5ULL};
     QTest::newRow("transparent") << "transparent" << 0.0 << quint64{0xe4efdec229f4aad7ULL};
+    QTest::newRow("backgammon") << "backgammon" << 0.0 << quint64{0x4d5b1586eb483854ULL};
+    QTest::newRow("dots") << "dots" << 0.0 << quint64{0xbe199dfcafe49d3bULL};
+    QTest::newRow("stripes") << "stripes" << 0.0 << quint64{0x9f75664bca224cd1ULL};
+    QTest::newRow("pyramids") << "pyramids" << 0.0 << quint64{0x644be5c0e40d32c2ULL};
     add_random_scenes();
     QTest::newRow("fronto, noise") << "fronto" << 5.0 << quint64{0x1198548849601a94ULL};
   }

@@ -82,10 +82,11 @@ class BuiltinTest : public QObject {
     }
 
     QCOMPARE(ids.front(), std::string("demo"));
-    QCOMPARE(std::set<std::string>(ids.begin(), ids.end()),
-             (std::set<std::string>{"demo", "fronto", "slant", "edge", "bars", "objects",
-                                    "transparent", "random"}));
-    QCOMPARE(ids.size(), std::size_t{8});
+    QCOMPARE(
+        std::set<std::string>(ids.begin(), ids.end()),
+        (std::set<std::string>{"demo", "fronto", "slant", "edge", "bars", "objects", "transparent",
+                               "backgammon", "dots", "stripes", "pyramids", "random"}));
+    QCOMPARE(ids.size(), std::size_t{12});
   }
 
   void renderBuiltin_namesTheScene_data() { add_every_scene(); }
@@ -95,9 +96,9 @@ class BuiltinTest : public QObject {
     const Scene scene = render(id.toStdString(), small_options({1, 1}));
 
     const LightFieldInfo& info = scene.light_field->info();
-    const bool is_random = id == scenes::kRandomScene;
-    QCOMPARE(QString::fromStdString(info.name), is_random ? id + "_1" : id);
-    const QString text = is_random ? id + "?seed=1" : id;
+    const bool is_drawn = scenes::is_drawn(id.toStdString());
+    QCOMPARE(QString::fromStdString(info.name), is_drawn ? id + "_1" : id);
+    const QString text = is_drawn ? id + "?seed=1" : id;
     QCOMPARE(QString::fromStdString(info.source), id == "demo" ? id : "demo:" + text);
     QVERIFY(info.camera.is_known());
     QVERIFY(!info.disparity_range);

@@ -66,7 +66,8 @@ class BuiltinViewsTest : public QObject {
     QTest::addColumn<QString>("id");
     QTest::addColumn<int>("v");
     QTest::addColumn<int>("u");
-    for (const char* id : {"fronto", "slant", "edge", "bars", "objects", "demo"}) {
+    for (const char* id :
+         {"fronto", "slant", "edge", "bars", "objects", "demo", "backgammon", "pyramids"}) {
       QTest::addRow("%s, left", id) << id << 2 << 1;
       QTest::addRow("%s, right", id) << id << 2 << 3;
       QTest::addRow("%s, above", id) << id << 1 << 2;
@@ -83,8 +84,10 @@ class BuiltinViewsTest : public QObject {
     const double right_way = warp_error(scene, {v, u}, 1);
     const double wrong_way = warp_error(scene, {v, u}, -1);
 
-    // Linear interpolation and occlusion leave a few grey levels; bars have occlusion everywhere.
-    QVERIFY2(right_way < (id == "bars" ? 9 : 4), qPrintable(QString::number(right_way)));
+    // Linear interpolation and occlusion leave a few grey levels; bars and teeth have occlusion
+    // everywhere.
+    const bool is_occluded = id == "bars" || id == "backgammon";
+    QVERIFY2(right_way < (is_occluded ? 9 : 4), qPrintable(QString::number(right_way)));
     QVERIFY2(wrong_way > 1.5 * right_way,
              qPrintable(QString("%1 %2").arg(right_way).arg(wrong_way)));
   }
@@ -119,7 +122,8 @@ class BuiltinViewsTest : public QObject {
     QTest::addColumn<QString>("id");
     for (const char* id :
          {"edge", "bars", "objects", "demo", "random?seed=2", "random?seed=5&kind=dark",
-          "random?seed=1&kind=shiny", "random?seed=4&kind=occlusion"}) {
+          "random?seed=1&kind=shiny", "random?seed=4&kind=occlusion", "backgammon?seed=2",
+          "dots?seed=2", "stripes?seed=2", "pyramids?seed=2"}) {
       QTest::newRow(id) << id;
     }
   }
@@ -153,10 +157,10 @@ class BuiltinViewsTest : public QObject {
         }
       }
     }
-    QVERIFY(seen > 20 * kSize * kSize);
-    // Some random scenes are crowded with small round things.
-    QVERIFY2(farther < seen / (id.startsWith("random") ? 500 : 1000),
-             qPrintable(QString::number(farther)));
+    QVERIFY(seen > (id.startsWith("stripes") ? 10 : 20) * kSize * kSize);
+    // Some random scenes are crowded with small round things, and the rim of a bowl is steep.
+    const bool is_steep = id.startsWith("random") || id.startsWith("pyramids");
+    QVERIFY2(farther < seen / (is_steep ? 500 : 1000), qPrintable(QString::number(farther)));
   }
 
   void labels_moveWithTheirSurface() {

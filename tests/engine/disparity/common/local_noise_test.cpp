@@ -42,6 +42,7 @@ class LocalNoiseTest : public QObject {
   void gradientAndEdge_areNoNoise();
   void noise_isThatOfItsPlace();
   void viewNoise_isThatOfMostPixels();
+  void map_isMeasuredAsAView();
   void tinyView_hasNone();
 };
 
@@ -49,6 +50,24 @@ void LocalNoiseTest::noise_isMeasured_data() {
   QTest::addColumn<int>("channels");
   QTest::newRow("grey") << 1;
   QTest::newRow("colour") << 3;
+}
+
+// Of a map in px: a slope has none, whatever its step.
+void LocalNoiseTest::map_isMeasuredAsAView() {
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(0, 0.3F);
+  Image<float> map(60, 80);
+  for (int y = 0; y < 60; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      map.at(y, x) = -3 + 0.25F * static_cast<float>(x) + (y < 30 ? noise(random) : 0);
+    }
+  }
+
+  Image<float> variance = local_noise_variance(map.view(), Progress());
+
+  const double sigma = std::sqrt(quantile({variance.data(), 80 * 27}, 0.5));
+  QVERIFY2(sigma > 0.2 && sigma < 0.32, qPrintable(QString::number(sigma)));
+  for (int x = 0; x < 80; ++x) QVERIFY(variance.at(40, x) < 1e-10F);
 }
 
 void LocalNoiseTest::noise_isMeasured() {

@@ -60,6 +60,8 @@ class StereoTest : public QObject {
   void moreViews_helpAgainstNoise();
   void denoising_helps_data();
   void denoising_helps();
+  void denoising_keepsSteadySlopes_data();
+  void denoising_keepsSteadySlopes();
   void refinement_isBetterThanNone();
   void everyView_canBeEstimated();
   void bands_areThoseOfTheVolume();
@@ -97,6 +99,7 @@ void StereoTest::paperProfile_setsTheRest() {
   QCOMPARE(std::get<bool>(value_of(all, "compensate_noise")), false);
   QCOMPARE(std::get<double>(value_of(all, "weight_power")), 0.0);
   QCOMPARE(std::get<double>(value_of(all, "edge_strength")), 0.0);
+  QCOMPARE(std::get<double>(value_of(all, "map_noise")), 0.0);
   QCOMPARE(cross.notes.front(), std::string("matching cost uncapped"));
 }
 
@@ -148,6 +151,19 @@ void StereoTest::denoising_helps() {
   const double local = mse(kind.toStdString() + "_l", noisy);
   const double smooth = mse(kind.toStdString() + "_s", noisy);
   QVERIFY2(smooth < local, qPrintable(QString("%1, was %2").arg(smooth).arg(local)));
+}
+
+void StereoTest::denoising_keepsSteadySlopes_data() {
+  QTest::addColumn<QString>("method");
+  for (const char* method : {"st_av_s", "st_ch_s"}) QTest::newRow(method) << method;
+}
+
+// What total variation flattens at the ends of a slope is kept where the map was steady before.
+void StereoTest::denoising_keepsSteadySlopes() {
+  QFETCH(QString, method);
+  const double steady = mse(method.toStdString(), scene("slant"));
+  const double flattened = mse(method.toStdString(), scene("slant"), {{"map_noise", 0.0}});
+  QVERIFY2(steady < 0.6 * flattened, qPrintable(QString("%1, %2").arg(steady).arg(flattened)));
 }
 
 void StereoTest::refinement_isBetterThanNone() {

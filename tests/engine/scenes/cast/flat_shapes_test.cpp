@@ -59,6 +59,20 @@ class FlatShapesTest : public QObject {
     }
   }
 
+  void triangle_hasItsTipOnTheRight() {
+    const auto stack = seen(Shape::Triangle, {20.2, 8.3, 0}, {});
+    const auto labels = stack.view({0, 0});
+
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const double from_tip = 20.2 - from_middle(x);
+        const bool is_inside =
+            from_tip >= 0 && from_tip <= 40.4 && std::abs(from_middle(y)) <= 8.3 * from_tip / 40.4;
+        QCOMPARE(labels.at(y, x), is_inside ? 2 : 1);
+      }
+    }
+  }
+
   void lattice_hasItsBars_data() {
     QTest::addColumn<double>("level");
     QTest::newRow("upright bars") << -1.0;

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/plane/even_views.h"
+
+#include "engine/core/array/quantile.h"
+#include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/surfaces_in_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace episcope {
+namespace {
+
+constexpr float kUnit = 65535;
+constexpr double kWorthwhileGain = 0.005;
+constexpr double kWorthwhileFallOff = 0.1;
+constexpr double kUnlikelyMeans = 0.005;
+// Samples that count: beyond, noise and saturation decide.
+constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
+// Pixels between those that are looked at.
+constexpr int kStride = 3;
+constexpr int kRounds = 6;
+// Of log ratios, in medians of their size.
+constexpr float kTolerance = 3, kLeastTolerance = 0.05F;
+constexpr double kMostFallOff = 0.9;
+
+double spread(const Brightness& brightness) {
+  if (brightness.gains.empty()) return 0;
+  double sum = 0;
+  for (const auto& gain : brightness.gains) {
+    for (const double g : gain) sum += std::log(g) * std::log(g);
+  }
+  return std::sqrt(sum / (3.0 * static_cast<double>(brightness.gains.size())));
+}
+
+// Root mean square of log gains against the mean of the views on both sides, in that of gains
+// drawn one by one: what comes into views changes their means steadily.
+double unsteadiness(const Brightness& brightness, GridShape grid) {
+  double sum = 0;
+  int count = 0;
+  for (int i = 0; i < grid.count(); ++i) {
+    if (i % grid.u == 0 || i % grid.u == grid.u - 1) continue;
+    for (int c = 0; c < 3; ++c, ++count) {
+      const auto log = [&](int view) { return std::log(brightness.gains[view][c]); };
+      const double off = log(i) - 0.5 * (log(i - 1) + log(i + 1));
+      sum += off * off / 1.5;
+    }
+  }
+  return count > 0 ? std::sqrt(sum / count) : 0;
+}
+
+// r², 1 in the corners.
+class Radius {
+ public:
+  Radius(int height, int width)
+      : y_(0.5 * (height - 1)), x_(0.5 * (width - 1)), corner_(std::max(1.0, x_ * x_ + y_ * y_)) {}
+  [[nodiscard]] double squared(double y, double x) const {
+    return ((y - y_) * (y - y_) + (x - x_) * (x - x_)) / corner_;
+  }
+
+ private:
+  double y_, x_, corner_;
+};
+
+// What a point says of one view and channel: log of the ratio, and r² here and there.
+struct Ratio {
+  float log = 0, here = 0, there = 0;
+};
+
+float without_fall_off(const Ratio& ratio, double k) {
+  const double change = std::log(1 - k * ratio.there) - std::log(1 - k * ratio.here);
+  return ratio.log - static_cast<float>(change);
+}
+
+bool counts(float sample) {
+  return sample > kDarkest && sample < kBrightest;
+}
+
+class Points {
+ public:
+  Points(const LightField& lf, ViewIndex reference, ImageView<const float> disparity)
+      : lf_(lf), reference_(reference), disparity_(disparity), here_(lf.view_as_float(reference)) {}
+
+  // By channel.
+  [[nodiscard]] std::array<std::vector<Ratio>, 3> ratios(ViewIndex view) const {
+    std::array<std::vector<Ratio>, 3> all;
+    const Image<float> there = lf_.view_as_float(view);
+    const Radius radius(lf_.height(), lf_.width());
+    for (int y = 1; y < lf_.height(); y += kStride) {
+      for (int x = 1; x < lf_.width(); x += kStride) {
+        if (!lf_.is_valid(reference_, y, x)) continue;
+        const float d = disparity_.at(y, x);
+        if (d <= kNothingNear) continue;
+        const float to_y = static_cast<float>(y) - d * static_cast<float>(view.v - reference_.v);
+        const float to_x = static_cast<float>(x) - d * static_cast<float>(view.u - reference_.u);
+        const int row = static_cast<int>(std::floor(to_y)),
+                  column = static_cast<int>(std::floor(to_x));
+        if (row < 0 || column < 0 || row + 1 >= lf_.height() || column + 1 >= lf_.width()) continue;
+        const auto here = static_cast<float>(radius.squared(y, x));
+        const auto far = static_cast<float>(radius.squared(to_y, to_x));
+        const float ty = to_y - static_cast<float>(row), tx = to_x - static_cast<float>(column);
+        for (int c = 0; c < lf_.channels(); ++c) {
+          const float a = here_.at(y, x, c);
+          const float b =
+              (1 - ty) * ((1 - tx) * there.at(row, column, c) + tx * there.at(row, column + 1, c)) +
+              ty *
+                  ((1 - tx) * there.at(row + 1, column, c) + tx * there.at(row + 1, column + 1, c));
+          if (counts(a) && counts(b)) all[c].push_back({std::log(b / a), here, far});
+        }
+      }
+    }
+    return all;
+  }
+
+ private:
+  const LightField& lf_;
+  ViewIndex reference_;
+  ImageView<const float> disparity_;
+  Image<float> here_;
+};
+
+using Ratios = std::vector<std::vector<Ratio>>;  // By view and channel.
+
+std::vector<double> medians(const Ratios& ratios, double k, const Progress& progress) {
+  std::vector<double> logs(ratios.size());
+  parallel_for(static_cast<int>(ratios.size()), progress, [&](int i) {
+    if (ratios[i].size() < 50) return;
+    std::vector<float> values(ratios[i].size());
+    std::ranges::transform(ratios[i], values.begin(),
+                           [&](const Ratio& r) { return without_fall_off(r, k); });
+    logs[i] = quantile(values, 0.5);
+  });
+  return logs;
+}
+
+// How far ratios that fit may be off: noise sets it.
+float tolerance(const std::vector<Ratio>& ratios, double log, double k) {
+  std::vector<float> off(ratios.size());
+  std::ranges::transform(ratios, off.begin(), [&](const Ratio& ratio) {
+    return std::abs(without_fall_off(ratio, k) - static_cast<float>(log));
+  });
+  return std::max(kLeastTolerance, kTolerance * static_cast<float>(quantile(off, 0.5)));
+}
+
+// Sums of a Gauss-Newton step.
+struct Step {
+  double product = 0, square = 1e-9;
+};
+
+Step step_of(const std::vector<Ratio>& ratios, double log, double k) {
+  Step step;
+  if (ratios.empty()) return step;
+  const double most = tolerance(ratios, log, k);
+  for (const Ratio& ratio : ratios) {
+    const double off = without_fall_off(ratio, k) - log;
+    if (std::abs(off) > most) continue;
+    const double slope = ratio.here / (1 - k * ratio.here) - ratio.there / (1 - k * ratio.there);
+    const double trust = 1 - off * off / (most * most);
+    step.product += trust * slope * off;
+    step.square += trust * slope * slope;
+  }
+  return step;
+}
+
+// A step of k on points whose ratio fits about, the others being occluded or wrong.
+double better_fall_off(const Ratios& ratios, const std::vector<double>& logs, double k,
+                       const Progress& progress) {
+  std::vector<Step> steps(ratios.size());
+  parallel_for(static_cast<int>(ratios.size()), progress,
+               [&](int i) { steps[i] = step_of(ratios[i], logs[i], k); });
+  Step sum;
+  for (const Step& step : steps) {
+    sum.product += step.product;
+    sum.square += step.square;
+  }
+  return std::clamp(k + sum.product / sum.square, -kMostFallOff, kMostFallOff);
+}
+
+}  // namespace
+
+bool Brightness::is_uneven() const {
+  return spread(*this) > kWorthwhileGain || std::abs(fall_off) > kWorthwhileFallOff;
+}
+
+Brightness brightness_of_means(const LightField& lf, ViewIndex reference,
+                               const Progress& progress) {
+  const GridShape grid = lf.grid();
+  Brightness brightness;
+  brightness.gains.assign(grid.count(), {1, 1, 1});
+  std::vector<std::array<double, 3>> means(grid.count());
+  parallel_for(grid.count(), progress, [&](int i) {
+    const Image<float> image = lf.view_as_float(grid.view_at(i));
+    for (std::size_t k = 0; k < image.size(); ++k) {
+      means[i][k % image.channels()] += image.data()[k];
+    }
+  });
+  const std::array<double, 3>& here = means[reference.v * grid.u + reference.u];
+  for (int i = 0; i < grid.count(); ++i) {
+    for (int c = 0; c < lf.channels(); ++c) {
+      if (here[c] > 0 && means[i][c] > 0) brightness.gains[i][c] = means[i][c] / here[c];
+    }
+  }
+  if (unsteadiness(brightness, grid) < kUnlikelyMeans)
+    brightness.gains.assign(grid.count(), {1, 1, 1});
+  return brightness;
+}
+
+Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
+                                ImageView<const float> disparity, const Progress& progress) {
+  const GridShape grid = lf.grid();
+  const int channels = lf.channels();
+  const Points points(lf, reference, disparity);
+  Ratios ratios(static_cast<std::size_t>(grid.count()) * channels);
+  parallel_for(grid.count(), progress.part(0, 0.6), [&](int i) {
+    if (grid.view_at(i) == reference) return;
+    std::array<std::vector<Ratio>, 3> all = points.ratios(grid.view_at(i));
+    for (int c = 0; c < channels; ++c) ratios[i * channels + c] = std::move(all[c]);
+  });
+  Brightness brightness;
+  std::vector<double> logs = medians(ratios, 0, progress);
+  for (int i = 0; i < kRounds; ++i) {
+    brightness.fall_off = better_fall_off(ratios, logs, brightness.fall_off, progress);
+    logs = medians(ratios, brightness.fall_off, progress);
+  }
+  brightness.gains.assign(grid.count(), {1, 1, 1});
+  for (int i = 0; i < grid.count(); ++i) {
+    for (int c = 0; c < channels; ++c) {
+      brightness.gains[i][c] = std::exp(logs[i * channels + c]);
+    }
+  }
+  return brightness;
+}
+
+LightField even_views(const LightField& lf, const Brightness& brightness,
+                      const Progress& progress) {
+  ViewStack<std::uint16_t> samples(lf.grid(), lf.height(), lf.width(), lf.channels());
+  const Radius radius(lf.height(), lf.width());
+  parallel_for(lf.grid().count(), progress, [&](int i) {
+    const ViewIndex view = lf.grid().view_at(i);
+    const ImageView<std::uint16_t> out = samples.view(view);
+    std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
+    for (int y = 0; y < lf.height(); ++y) {
+      lf.read_row(view, y, 0, lf.width(), row.data());
+      std::size_t k = 0;
+      for (int x = 0; x < lf.width(); ++x) {
+        const double light = 1 - brightness.fall_off * radius.squared(y, x);
+        for (int c = 0; c < lf.channels(); ++c, ++k) {
+          const auto factor = static_cast<float>(1 / (light * brightness.gains[i][c]));
+          out.row(y)[k] =
+              static_cast<std::uint16_t>(std::clamp(row[k] * factor, 0.0F, 1.0F) * kUnit + 0.5F);
+        }
+      }
+    }
+  });
+  return {std::move(samples), lf.info(),
+          lf.valid().empty() ? ViewStack<std::uint8_t>{} : lf.valid().clone()};
+}
+
+}  // namespace episcope
