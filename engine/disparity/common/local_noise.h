@@ -15,13 +15,13 @@ namespace episcope {
 [[nodiscard]] Image<float> local_noise_variance(const LightField& light_field, ViewIndex view,
                                                 const Progress& progress);
 
-/// The same of one map, in the square of its unit.
-[[nodiscard]] Image<float> local_noise_variance(ImageView<const float> map,
-                                                const Progress& progress);
-
 /// The noise variance of a whole view: the median of the local ones, in which edges, texture in
 /// places and shadows hardly count. Throws Cancelled.
 [[nodiscard]] double view_noise_variance(const LightField& light_field, ViewIndex view,
                                          const Progress& progress);
+
+/// The same of one map, in the square of its unit.
+[[nodiscard]] Image<float> local_noise_variance(ImageView<const float> map,
+                                                const Progress& progress);
 
 }  // namespace episcope

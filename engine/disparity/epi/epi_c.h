@@ -16,7 +16,7 @@ struct EpiCParameters {
   bool replace_occluded = true;
   LineCheck line_check = {};
   /// All views together need less smoothing than each by itself.
-  DenoiseParameters denoising{.lambda = 0.06, .weight_power = 4, .edge_strength = 15};
+  DenoiseParameters denoising{.lambda = 0.05, .weight_power = 4, .edge_strength = 15};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
 
@@ -40,7 +40,7 @@ struct EpiCParameters {
 /// Lines are traced anew through the current u at each step; of lines that move with u the energy
 /// (epi_c_energy) is not bound to fall, but it does with every sweep on the scenes of the tests.
 ///
-/// Defaults: λ = 0.06, p = 4, β = 15, μ₊ = 0, two sweeps (tests/accuracy/tuning.md).
+/// Defaults: λ = 0.05, p = 4, β = 15, μ₊ = 0, two sweeps (tests/accuracy/tuning.md).
 ///
 /// The profile `paper` neither weighs data or variation nor checks lines nor replaces rays, and
 /// begins with EPI_L as published. Published is that EPI_L is denoised on EPIs by a total variation

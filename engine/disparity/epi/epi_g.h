@@ -13,11 +13,11 @@ enum class DirectionCosts { Sum, Least };
 
 /// Parameters of EPI_G: of the labeling, and those of EPI_L.
 struct EpiGParameters {
-  GlobalLabelingParameters labeling{.smoothness = 2.5, .edge_strength = 15, .settling = 3};
+  GlobalLabelingParameters labeling{.smoothness = 1.6, .edge_strength = 20, .settling = 3};
   int labels = 64;
   DirectionCosts direction_costs = DirectionCosts::Sum;
   double truncation = 0.5;
-  double weight_power = 2;
+  double weight_power = 1;
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };

@@ -96,7 +96,7 @@ class Points {
         const float to_x = static_cast<float>(x) - d * static_cast<float>(view.u - reference_.u);
         const int row = static_cast<int>(std::floor(to_y)),
                   column = static_cast<int>(std::floor(to_x));
-        if (row < 0 || column < 0 || row + 1 >= lf_.height() || column + 1 >= lf_.width()) continue;
+        if (!sees(view, row, column)) continue;
         const auto here = static_cast<float>(radius.squared(y, x));
         const auto far = static_cast<float>(radius.squared(to_y, to_x));
         const float ty = to_y - static_cast<float>(row), tx = to_x - static_cast<float>(column);
@@ -114,6 +114,13 @@ class Points {
   }
 
  private:
+  // Whether the four samples around a place are there.
+  [[nodiscard]] bool sees(ViewIndex view, int row, int column) const {
+    return row >= 0 && column >= 0 && row + 1 < lf_.height() && column + 1 < lf_.width() &&
+           lf_.is_valid(view, row, column) && lf_.is_valid(view, row, column + 1) &&
+           lf_.is_valid(view, row + 1, column) && lf_.is_valid(view, row + 1, column + 1);
+  }
+
   const LightField& lf_;
   ViewIndex reference_;
   ImageView<const float> disparity_;
@@ -177,6 +184,26 @@ double better_fall_off(const Ratios& ratios, const std::vector<double>& logs, do
   return std::clamp(k + sum.product / sum.square, -kMostFallOff, kMostFallOff);
 }
 
+// Of a view to another, `here`, over the pixels that are valid in both; 1 where nothing is known.
+std::array<double, 3> gains_of_means(const LightField& lf, ViewIndex view, ViewIndex reference,
+                                     const Image<float>& here) {
+  const Image<float> there = lf.view_as_float(view);
+  std::array<double, 3> sums{}, sums_here{}, gains{1, 1, 1};
+  for (int y = 0; y < lf.height(); ++y) {
+    for (int x = 0; x < lf.width(); ++x) {
+      if (!lf.is_valid(view, y, x) || !lf.is_valid(reference, y, x)) continue;
+      for (int c = 0; c < lf.channels(); ++c) {
+        sums[c] += there.at(y, x, c);
+        sums_here[c] += here.at(y, x, c);
+      }
+    }
+  }
+  for (int c = 0; c < lf.channels(); ++c) {
+    if (sums[c] > 0 && sums_here[c] > 0) gains[c] = sums[c] / sums_here[c];
+  }
+  return gains;
+}
+
 }  // namespace
 
 bool Brightness::is_uneven() const {
@@ -188,19 +215,10 @@ Brightness brightness_of_means(const LightField& lf, ViewIndex reference,
   const GridShape grid = lf.grid();
   Brightness brightness;
   brightness.gains.assign(grid.count(), {1, 1, 1});
-  std::vector<std::array<double, 3>> means(grid.count());
+  const Image<float> here = lf.view_as_float(reference);
   parallel_for(grid.count(), progress, [&](int i) {
-    const Image<float> image = lf.view_as_float(grid.view_at(i));
-    for (std::size_t k = 0; k < image.size(); ++k) {
-      means[i][k % image.channels()] += image.data()[k];
-    }
+    brightness.gains[i] = gains_of_means(lf, grid.view_at(i), reference, here);
   });
-  const std::array<double, 3>& here = means[reference.v * grid.u + reference.u];
-  for (int i = 0; i < grid.count(); ++i) {
-    for (int c = 0; c < lf.channels(); ++c) {
-      if (here[c] > 0 && means[i][c] > 0) brightness.gains[i][c] = means[i][c] / here[c];
-    }
-  }
   if (unsteadiness(brightness, grid) < kUnlikelyMeans)
     brightness.gains.assign(grid.count(), {1, 1, 1});
   return brightness;

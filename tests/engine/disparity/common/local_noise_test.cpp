@@ -41,8 +41,8 @@ class LocalNoiseTest : public QObject {
   void noise_isMeasured();
   void gradientAndEdge_areNoNoise();
   void noise_isThatOfItsPlace();
-  void map_isMeasuredAsAView();
   void viewNoise_isThatOfMostPixels();
+  void map_isMeasuredAsAView();
   void tinyView_hasNone();
 };
 
