@@ -27,6 +27,12 @@ void label_costs(const LightField& lf, const PlaneParameters& parameters,
                                      estimate.field.disparity.view(data.stereo.view))};
 }
 
+// What costs are measured by: the mean of the caps, or the one that all pixels share.
+double mean_cap(const LightField& lf, const StereoCosts& stereo) {
+  const auto& caps = stereo.matching.caps;
+  return caps ? mean_of_valid(*caps, lf, stereo.view) : stereo.matching.cap;
+}
+
 // Costs with what is known of the visibility, labeled; the last time also refined.
 void run_round(const LightField& lf, const PlaneParameters& parameters, const StereoCosts& stereo,
                bool is_last, Estimate& estimate, const Progress& progress) {
@@ -34,8 +40,7 @@ void run_round(const LightField& lf, const PlaneParameters& parameters, const St
   const Volume<float> volume = visible_costs(lf, stereo, progress.part(0, 0.4));
   const Image<float> means = mean_costs(volume.view(), progress.part(0.4, 0.42));
   const Image<float> edges = smoothness_weights(lf, stereo.view, parameters.labeling.edge_strength);
-  const PlaneRefinementData data{stereo, volume.view(), means, edges,
-                                 mean_of_valid(*stereo.matching.caps, lf, stereo.view)};
+  const PlaneRefinementData data{stereo, volume.view(), means, edges, mean_cap(lf, stereo)};
   label_costs(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
   if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.99), map);
