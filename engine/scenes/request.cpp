@@ -49,15 +49,15 @@ bool read_value(const std::string& key, const std::string& value, RenderOptions&
 
 void read_kind(const std::string& text, const BuiltinRequest& request, const std::string& value,
                RenderOptions& options) {
-  const std::vector<std::string>& names = random_kind_names();
-  const auto found = std::ranges::find(names, value);
   if (request.scene != kRandomScene) {
     refuse(text, fmt::format("only the scene '{}' has a kind", kRandomScene));
   }
-  if (found == names.end()) {
+  const auto kind = random_kind_of(value);
+  if (!kind) {
+    const std::vector<std::string>& names = random_kind_names();
     refuse(text, no_such_name("kind", value, names) + " (there are " + joined(names, ", ") + ")");
   }
-  options.kind = static_cast<RandomKind>(found - names.begin());
+  options.kind = *kind;
 }
 
 void read_option(const std::string& text, const std::string& option, BuiltinRequest& request) {

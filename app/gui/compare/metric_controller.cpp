@@ -123,10 +123,9 @@ QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
   for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
     parameters << QString::fromStdString(key + "=" + to_text(value));
   }
-  const bool is_early = std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
   return {QString::fromStdString(session_.light_field()->info().name),
           QString::fromStdString(estimate.method), parameters.join(' '),
-          is_early ? tr("yes") : tr("no")};
+          was_taken_early(estimate) ? tr("yes") : tr("no")};
 }
 
 std::vector<Judged> MetricController::judgeAll() {

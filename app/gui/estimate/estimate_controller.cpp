@@ -48,10 +48,7 @@ EstimateRequest request_of(const RunRequest& request) {
 // defaults.
 QString parameter_text(const Estimate& estimate) {
   QStringList texts;
-  const auto& notes = estimate.notes;
-  if (std::find(notes.begin(), notes.end(), kTakenEarly) != notes.end()) {
-    texts << EstimateController::tr("ended early");
-  }
+  if (was_taken_early(estimate)) texts << EstimateController::tr("ended early");
   for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
     texts << QString::fromStdString(key + " " + to_text(value));
   }

@@ -104,9 +104,7 @@ QString BuiltinDialog::input() const {
   scenes::RenderOptions options;
   const ParameterSet values = form_->values();
   options.seed = static_cast<unsigned>(std::get<int>(values.at(0).second));
-  const std::string& kind = std::get<std::string>(values.at(1).second);
-  options.kind = static_cast<scenes::RandomKind>(
-      std::ranges::find(scenes::random_kind_names(), kind) - scenes::random_kind_names().begin());
+  options.kind = scenes::random_kind_of(std::get<std::string>(values.at(1).second)).value();
   return "demo:" + QString::fromStdString(scenes::builtin_text(id.toStdString(), options));
 }
 

@@ -67,9 +67,13 @@ void Overlay::setProvider(Subject subject, const MapProvider* provider) {
 }
 
 void Overlay::updateProvided() {
-  if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
+  leaveWhatIsGone();
   showAvailable();
   draw();
+}
+
+void Overlay::leaveWhatIsGone() {
+  if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
 }
 
 bool Overlay::isAwaited(Quantity quantity) const {
@@ -93,7 +97,7 @@ void Overlay::update(Parts parts) {
   }
   const Parts of_choice = Part::Scene | Part::Estimates | Part::Shown | Part::TrueLabels;
   if (parts.has_any(of_choice)) {
-    if (!isAvailable(quantity_) && !isAwaited(quantity_)) quantity_ = Quantity::View;
+    leaveWhatIsGone();
     if (!session_.compared()) shows_difference_ = false;
     showAvailable();
   }

@@ -76,6 +76,7 @@ class Overlay : public QObject {
   void drawn();
 
  private:
+  void leaveWhatIsGone();
   [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
   void update(Parts parts);

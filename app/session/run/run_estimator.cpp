@@ -4,11 +4,17 @@
 #include "app/session/scene/scene_range.h"
 #include "engine/disparity/registry.h"
 
+#include <algorithm>
+
 namespace episcope {
 
 FinishedEstimate run_estimator(const LightField& light_field, const EstimateRequest& request,
                                const Progress& progress) {
   return run_estimator(light_field, find_estimator(request.method), request, progress);
+}
+
+bool was_taken_early(const Estimate& estimate) {
+  return std::ranges::find(estimate.notes, kTakenEarly) != estimate.notes.end();
 }
 
 FinishedEstimate run_estimator(const LightField& light_field, const Estimator& estimator,

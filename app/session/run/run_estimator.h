@@ -23,6 +23,8 @@ struct FinishedEstimate {
 
 /// Note of an estimate that was requested before the method was done.
 inline constexpr const char* kTakenEarly = "ended early";
+/// Whether it has that note.
+[[nodiscard]] bool was_taken_early(const Estimate& estimate);
 
 /// Runs a method of the registry. What was ended early (Progress::finish_requested) says so
 /// in its notes. Throws what the method throws, Unavailable for an unknown one.

@@ -41,4 +41,13 @@ inline void box_mean_row(const float* in, int width, int radius, float* out) {
   for (int x = outer; x < width; ++x) out[x] = mean_at(x);
 }
 
+/// out[x] = the mean of the pixels of the image within `radius` of (y, x) along both axes.
+/// `columns` holds a row meanwhile.
+inline void window_mean_row(const Image<float>& image, int y, int radius, float* columns,
+                            float* out) {
+  const auto rows = static_cast<float>(sum_rows(image, y, radius, columns));
+  box_mean_row(columns, image.width(), radius, out);
+  for (int x = 0; x < image.width(); ++x) out[x] /= rows;
+}
+
 }  // namespace episcope

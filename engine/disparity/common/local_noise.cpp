@@ -56,9 +56,8 @@ void second_differences(const Planes& planes, int y, PixelIndex way, float* out)
 // Lowers a row of `least` to the means of one direction's windows.
 void lower_row(const Image<float>& squares, int y, std::vector<float>& columns,
                std::vector<float>& means, float* least) {
-  const auto rows = static_cast<float>(sum_rows(squares, y, kRadius, columns.data()));
-  box_mean_row(columns.data(), squares.width(), kRadius, means.data());
-  for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x] / rows);
+  window_mean_row(squares, y, kRadius, columns.data(), means.data());
+  for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x]);
 }
 
 Image<float> variance_of(const Planes& planes, const Progress& progress) {

@@ -25,4 +25,9 @@ struct PackedViews {
   return static_cast<int>(packed >> (10 * c)) & 1023;
 }
 
+/// The same in [0, 1].
+[[nodiscard]] inline float packed_sample(std::uint32_t packed, int c) {
+  return static_cast<float>(packed_channel(packed, c)) / 1023;
+}
+
 }  // namespace episcope

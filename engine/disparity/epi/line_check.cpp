@@ -76,10 +76,7 @@ class Texture {
     return scratch_.row(1);
   }
   const float* window(int y) {
-    const int width = mean_.width();
-    const auto rows = static_cast<float>(sum_rows(mean_, y, kTextureRadius, column_.data()));
-    box_mean_row(column_.data(), width, kTextureRadius, window_.data());
-    for (int x = 0; x < width; ++x) window_[x] /= rows;
+    window_mean_row(mean_, y, kTextureRadius, column_.data(), window_.data());
     return window_.data();
   }
 

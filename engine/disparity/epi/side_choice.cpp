@@ -147,7 +147,7 @@ void SideChooser::measure(int j, int rows) {
     }
     const std::uint32_t* const packed = views_.pixels.view(before_.view).row(begin_ + j);
     for (int x = 0; x < width_; ++x) {
-      color[x] = static_cast<float>(packed_channel(packed[x], c)) / 1023;
+      color[x] = packed_sample(packed[x], c);
     }
   }
   if (!is_inside(j)) return;

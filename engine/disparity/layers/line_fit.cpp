@@ -20,9 +20,7 @@ class Windows {
   explicit Windows(int width) : column_(width), mean_(width) {}
 
   const float* mean(const Image<float>& image, int y) {
-    const auto rows = static_cast<float>(sum_rows(image, y, kRadius, column_.data()));
-    box_mean_row(column_.data(), image.width(), kRadius, mean_.data());
-    for (float& value : mean_) value /= rows;
+    window_mean_row(image, y, kRadius, column_.data(), mean_.data());
     return mean_.data();
   }
 
@@ -36,7 +34,7 @@ void read_row(const std::uint32_t* packed, int width, int y, std::array<Image<fl
   for (int c = 0; c < 3; ++c) {
     float* const to = samples[c].row(y);
     for (int x = 0; x < width; ++x) {
-      to[x] = static_cast<float>(packed_channel(packed[x], c)) / 1023;
+      to[x] = packed_sample(packed[x], c);
       squares.at(y, x) += to[x] * to[x];
     }
   }

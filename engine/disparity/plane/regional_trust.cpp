@@ -19,9 +19,7 @@ Image<float> regional_trust(ImageView<const float> confidence) {
   for (int y = 0; y < height; ++y) std::copy_n(confidence.row(y), width, own.row(y));
   std::vector<float> columns(width);
   for (int y = 0; y < height; ++y) {
-    const auto rows = static_cast<float>(sum_rows(own, y, kRadius, columns.data()));
-    box_mean_row(columns.data(), width, kRadius, means.row(y));
-    for (int x = 0; x < width; ++x) means.at(y, x) /= rows;
+    window_mean_row(own, y, kRadius, columns.data(), means.row(y));
   }
   return means;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,7 @@ enum class RandomKind {
 /// All kinds as they are written, in the order of the enumeration.
 [[nodiscard]] const std::vector<std::string>& random_kind_names();
 [[nodiscard]] const std::string& random_kind_name(RandomKind kind);
+/// The kind of this name; nothing if there is none.
+[[nodiscard]] std::optional<RandomKind> random_kind_of(const std::string& name);
 
 }  // namespace episcope::scenes
