@@ -327,7 +327,7 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 4},
+       .revision = 5},
       epi_c_schema(), estimate_epi_c);
 }
 

@@ -158,7 +158,7 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 5},
+       .revision = 6},
       epi_g_schema(),
       [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });

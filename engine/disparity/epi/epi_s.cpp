@@ -42,7 +42,7 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 4},
+       .revision = 5},
       epi_s_schema(), estimate_epi_s);
 }
 

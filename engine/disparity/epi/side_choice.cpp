@@ -31,7 +31,9 @@ constexpr float kMinDifference = 1.0F / 255;  // beyond rounding and resampling
 constexpr float kCap = 3;                     // of residuals, in variances of the noise
 constexpr float kColorScale = 8.0F / 255;
 constexpr float kLeastStep = 0.2F;
-constexpr float kAdvantage = 0.95F;
+constexpr float kFarAdvantage = 0.95F, kNearAdvantage = 0.8F;
+constexpr float kFarTrust = 0.2F;
+constexpr float kDoubtfulStep = 0.5F, kDoubtfulShare = 0.25F, kRelief = 1.5F;
 constexpr float kNoPixel = 100;  // as a colour: similar to none
 constexpr int kBandRows = 48;
 
@@ -108,7 +110,11 @@ SideChooser::SideChooser(const PackedViews& views, float variance, const Before&
   row_.width = width_;
   row_.sharpness = 1 / (8 * (kColorScale * kColorScale + 2 * variance));
   row_.least_step = kLeastStep;
-  row_.advantage = kAdvantage;
+  row_.far_advantage = kFarAdvantage;
+  row_.near_advantage = kNearAdvantage;
+  row_.doubtful_step = kDoubtfulStep;
+  row_.doubtful_share = kDoubtfulShare;
+  row_.relief = kRelief;
   residuals_.begin(before.view);
 }
 
@@ -123,14 +129,17 @@ void SideChooser::find_sides(int j) {
     row.disparity[k] = before_.disparity.row(y) + x;
     row.confidence[k] = before_.confidence.row(y) + x;
   }
+  row.far_trust = kFarTrust;
+  row.own_disparity = before_.disparity.row(begin_ + j) + kReach;
+  row.own_confidence = before_.confidence.row(begin_ + j) + kReach;
   row.far = sides_[Far].row(j);
   row.near = sides_[Near].row(j);
   row.far_confidence = sides_[FarConfidence].row(j);
   row.near_confidence = sides_[NearConfidence].row(j);
   kernel_.gather(row);
-  const float* const own = before_.disparity.row(begin_ + j) + kReach;
   for (int x = 0; x < width_; ++x) {
-    has_jump_[j] |= own[x] - row.far[x] > kLeastStep || row.near[x] - own[x] > kLeastStep;
+    const float own = row.own_disparity[x];
+    has_jump_[j] |= own - row.far[x] > kLeastStep || row.near[x] - own > kLeastStep;
   }
 }
 

@@ -9,13 +9,15 @@ namespace {
 
 void gather_neighbours(const NeighbourRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
-    Vec far = load(row.disparity[0] + x), near = far;
-    Vec far_confidence = load(row.confidence[0] + x), near_confidence = far_confidence;
-    for (int k = 1; k < kNeighbours; ++k) {
+    Vec far = load(row.own_disparity + x), near = far;
+    Vec far_confidence = load(row.own_confidence + x), near_confidence = far_confidence;
+    const Vec least_trust = row.far_trust * far_confidence;
+    for (int k = 0; k < kNeighbours; ++k) {
       const Vec d = load(row.disparity[k] + x), r = load(row.confidence[k] + x);
-      far_confidence = choose(d < far, r, far_confidence);
+      const IntVec is_farther = (d < far) & (r >= least_trust);
+      far_confidence = choose(is_farther, r, far_confidence);
       near_confidence = choose(d > near, r, near_confidence);
-      far = least(far, d);
+      far = choose(is_farther, d, far);
       near = greatest(near, d);
     }
     store(row.far + x, far);
@@ -52,25 +54,27 @@ inline Votes collect(const SideRow& row, int x) {
   return votes;
 }
 
-inline IntVec differs(const SideRow& row, Vec a, Vec b) {
-  return absolute(a - b) > row.least_step;
+// What is left of the confidence of rays that keep their disparity.
+inline Vec kept_share(const SideRow& row, const Votes& votes) {
+  const Vec excess = votes.far / greatest(votes.own, splat(1e-20F)) - 1.0F;
+  return least(greatest(row.doubtful_share + row.relief * excess, splat(0)), splat(1));
 }
 
 void choose_side(const SideRow& row) {
   for (int x = 0; x < row.width; x += kLanes) {
     const Vec own = load(row.disparity + x), far = load(row.far + x), near = load(row.near + x);
-    const IntVec has_far = differs(row, own, far), has_near = differs(row, own, near);
+    const IntVec has_far = own - far > row.least_step, has_near = near - own > row.least_step;
     if (!any(has_far | has_near)) continue;
     const Votes votes = collect(row, x);
-    const Vec limit = row.advantage * votes.own;
-    const IntVec takes_far =
-        has_far & (votes.far < limit) & (~has_near | (votes.far <= votes.near));
-    const IntVec takes_near = has_near & (votes.near < limit) & ~takes_far;
-    const Vec confidence =
-        choose(takes_far, load(row.far_confidence + x),
-               choose(takes_near, load(row.near_confidence + x), load(row.confidence + x)));
+    const IntVec takes_far = has_far & (votes.far < row.far_advantage * votes.own) &
+                             (~has_near | (votes.far <= votes.near));
+    const IntVec takes_near = has_near & (votes.near < row.near_advantage * votes.own) & ~takes_far;
+    const IntVec is_doubtful = own - far > row.doubtful_step;
+    const Vec confidence = load(row.confidence + x);
+    const Vec kept = choose(is_doubtful, confidence * kept_share(row, votes), confidence);
     store(row.disparity + x, choose(takes_far, far, choose(takes_near, near, own)));
-    store(row.confidence + x, confidence);
+    store(row.confidence + x, choose(takes_far, load(row.far_confidence + x),
+                                     choose(takes_near, load(row.near_confidence + x), kept)));
   }
 }
 

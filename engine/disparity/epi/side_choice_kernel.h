@@ -17,8 +17,12 @@ inline constexpr int kNeighbours = 12;
 struct NeighbourRow {
   const float* disparity[kNeighbours] = {};
   const float* confidence[kNeighbours] = {};
+  const float* own_disparity = nullptr;
+  const float* own_confidence = nullptr;
   int width = 0;
-  /// Written: the least and the largest disparity, and the confidences that belong to them.
+  float far_trust = 0;  ///< The share of the own confidence that a neighbour on the far side needs.
+  /// Written: the least and the largest disparity, the own one included, and the confidences that
+  /// belong to them.
   float* far = nullptr;
   float* near = nullptr;
   float* far_confidence = nullptr;
@@ -34,7 +38,12 @@ struct SideRow {
   int width = 0;
   float sharpness = 1;  ///< 1/(8σ²): σ is the difference of colour of pixels that belong together.
   float least_step = 0;  ///< A side that is less far off is no other.
-  float advantage = 1;   ///< The share of the own residual that the other's must be below.
+  /// The share of the own residual that the other's must be below.
+  float far_advantage = 1, near_advantage = 1;
+  /// A ray that keeps its disparity, nearer than the far side by more than `doubtful_step`, keeps
+  /// doubtful_share + relief·(far/own − 1) of its confidence, at most all; far and own are the
+  /// residuals.
+  float doubtful_step = 0, doubtful_share = 1, relief = 0;
   const float* far = nullptr;
   const float* near = nullptr;
   const float* far_confidence = nullptr;

@@ -338,7 +338,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 4},
+       .revision = 5},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 
