@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-2.0-or-later OR BSD-3-Clause
+"""Renders a light field, view by view from the centre outwards."""
+
+import os
+
+import bpy
+from mathutils import Matrix
+
+from .changes import Changes
+from .folder import PART_NAMES, Folder, view_pattern
+from .passes import render_truth
+from .visible_depth import camera_axes
+
+SUFFIX = {"PNG8": ".png", "PNG16": ".png", "EXR": ".exr"}
+RENDERED_TYPES = {"MESH", "CURVE", "CURVES", "META", "SURFACE", "FONT", "POINTCLOUD", "VOLUME"}
+
+
+def _label_names(settings, scene):
+    """Names by label. Sets pass indices where each object is a label of its own: call it inside of
+    `Changes`."""
+    objects = sorted((o for o in scene.objects if o.type in RENDERED_TYPES), key=lambda o: o.name)
+    names = {}
+    if settings.labels == "MATERIAL":
+        named = [(m.pass_index, m.name) for m in bpy.data.materials if m.users]
+    else:
+        named = [(o.pass_index, o.name) for o in objects]
+    for index, name in named:
+        if index > 0:
+            names.setdefault(index, []).append(name)
+    return [{"value": value, "name": ", ".join(names[value])} for value in sorted(names)]
+
+
+def _number_objects(changes, scene):
+    objects = sorted((o for o in scene.objects if o.type in RENDERED_TYPES), key=lambda o: o.name)
+    for number, target in enumerate(objects, start=1):
+        changes.set(target, pass_index=number)
+
+
+def _parts(settings):
+    parts = []
+    if settings.depth:
+        parts.append("depth")
+        if settings.transparent is not None:
+            parts.append("depth_behind")
+    if settings.labels != "NONE":
+        parts.append("labels")
+    if settings.normals:
+        parts.append("normals")
+    return parts
+
+
+def _facts(plan, scene, settings, labels):
+    grid = plan.grid
+    files = {"views": view_pattern(SUFFIX[settings.picture])}
+    files.update({part: PART_NAMES[part] for part in _parts(settings)})
+    smallest, largest = plan.disparity_range
+    return {
+        "name": os.path.basename(plan.folder),
+        "scene": os.path.basename(bpy.data.filepath),
+        "blender": bpy.app.version_string,
+        "grid": {"rows": grid.rows, "columns": grid.columns},
+        "size": {"width": grid.lens.width, "height": grid.lens.height},
+        "camera": {
+            "baseline": grid.baseline,
+            "focal_length_px": grid.lens.focal_px,
+            "zero_plane": grid.zero_plane,
+            "matrix": [list(row) for row in camera_axes(
+                plan.camera, bpy.context.evaluated_depsgraph_get())],
+        },
+        "depth_range": [plan.near, plan.far],
+        "disparity_range": [smallest, largest],
+        "picture": settings.picture,
+        "samples": settings.samples,
+        "seed": settings.seed,
+        "denoise": settings.denoise,
+        "engine": scene.render.engine,
+        "labels": labels,
+        "files": files,
+    }
+
+
+class _GridCamera:
+    """A camera that is moved from view to view; the user's own is left alone."""
+
+    def __init__(self, changes, scene, plan):
+        self._axes = camera_axes(plan.camera, bpy.context.evaluated_depsgraph_get())
+        self._grid = plan.grid
+        data = plan.camera.data.copy()
+        data.animation_data_clear()
+        data.dof.use_dof = False
+        self._shift = data.shift_x, data.shift_y
+        self._object = bpy.data.objects.new("light field view", data)
+        scene.collection.objects.link(self._object)
+        changes.on_exit(lambda: bpy.data.cameras.remove(data))
+        changes.set(scene, camera=self._object)
+
+    def place(self, view):
+        right, up = self._grid.offset(*view)
+        shift_x, shift_y = self._grid.lens_shift(*view)
+        self._object.matrix_world = self._axes @ Matrix.Translation((right, up, 0))
+        self._object.data.shift_x = self._shift[0] + shift_x
+        self._object.data.shift_y = self._shift[1] + shift_y
+
+
+def _prepare(changes, scene, settings):
+    """What holds for all renders of the light field."""
+    render = scene.render
+    changes.set(
+        render,
+        use_motion_blur=False,
+        use_border=False,
+        use_multiview=False,
+        use_compositing=False,
+        use_sequencer=False,
+        use_file_extension=False,
+        use_overwrite=True,
+        use_placeholder=False,
+        use_persistent_data=True,
+        dither_intensity=0,
+        use_simplify=False,
+    )
+    layer = bpy.context.view_layer
+    changes.set(
+        layer,
+        use_pass_z=True,
+        use_pass_object_index=settings.labels in {"EACH", "OBJECT"},
+        use_pass_material_index=settings.labels == "MATERIAL",
+        use_pass_normal=settings.normals,
+    )
+    for other in scene.view_layers:
+        changes.set(other, use=other == layer)
+    cycles = getattr(scene, "cycles", None)
+    if cycles is not None:
+        changes.set(cycles, samples=settings.samples, use_denoising=settings.denoise,
+                    use_animated_seed=False)
+    eevee = getattr(scene, "eevee", None)
+    if eevee is not None:
+        changes.set(eevee, taa_render_samples=settings.samples)
+
+
+def _render_picture(scene, settings, path, seed):
+    with Changes() as changes:
+        image = scene.render.image_settings
+        is_exr = settings.picture == "EXR"
+        changes.set(image, file_format="OPEN_EXR" if is_exr else "PNG", color_mode="RGB")
+        changes.set(image, color_depth={"PNG8": "8", "PNG16": "16", "EXR": "32"}[settings.picture])
+        changes.set(scene.render, filepath=path)
+        if hasattr(scene, "cycles"):
+            changes.set(scene.cycles, seed=seed)
+        bpy.ops.render.render(write_still=True)
+
+
+def _render_view(scene, settings, folder, view, seed, transparent):
+    folder.save_picture(view, lambda path: _render_picture(scene, settings, path, seed))
+    wanted = [part for part in folder.facts["files"] if part != "views"]
+    if wanted:
+        temporary = os.path.join(folder.path, ".unfinished_passes.exr")
+        truth = render_truth(scene, wanted, transparent, temporary)
+        for part, array in truth.items():
+            folder.save_array(part, view, array)
+    folder.finish(view)
+
+
+def render_light_field(scene, plan, on_view=lambda done, count, view: None):
+    """Renders what is missing in the folder of the plan. `on_view` is called after every view; what
+    it raises stops rendering, and the folder can be continued. Raises FolderProblem."""
+    settings = plan.camera.data.episcope
+    transparent = list(settings.transparent.all_objects) if settings.transparent else []
+    views = plan.grid.views_from_center()
+    with Changes() as changes:
+        if settings.labels == "EACH":
+            _number_objects(changes, scene)
+        labels = [] if settings.labels == "NONE" else _label_names(settings, scene)
+        folder = Folder(plan.folder, _facts(plan, scene, settings, labels))
+        _prepare(changes, scene, settings)
+        camera = _GridCamera(changes, scene, plan)
+        for number, view in enumerate(views):
+            if view in folder.complete:
+                continue
+            camera.place(view)
+            seed = settings.seed + view[0] * plan.grid.columns + view[1]
+            _render_view(scene, settings, folder, view, seed, transparent)
+            on_view(len(folder.complete), len(views), view)
