@@ -8,23 +8,8 @@
 import os
 import sys
 
-import bpy
-
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.modules.pop("episcope_light_field", None)
 
-import episcope_light_field  # the package, which comes before this file
-from episcope_light_field import headless
+from episcope_light_field import script  # the package, which comes before this file
 
-
-def main():
-    if not hasattr(bpy.types.Camera, "episcope"):
-        episcope_light_field.register()
-    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else None
-    if bpy.app.background or arguments:
-        code = headless.run(arguments or [])
-        sys.stdout.flush()
-        os._exit(code)  # Blender ignores the code of sys.exit in scripts given by -P
-
-
-main()
+script.main()

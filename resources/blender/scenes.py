@@ -12,32 +12,30 @@ import sys
 import bpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-sys.modules.pop("episcope_light_field", None)
 
-import episcope_light_field
 import recipes
-from episcope_light_field import headless
+from episcope_light_field import headless, script
 
 
-def main():
-    if not hasattr(bpy.types.Camera, "episcope"):
-        episcope_light_field.register()
+def parser():
     options = headless.parser()
     options.prog = "blender -b -P scenes.py --"
     options.description = "Builds a scene and renders its light field."
     options.add_argument("scene", choices=sorted(recipes.BUILDERS))
     options.add_argument("--save", metavar="FILE.blend", help="save the scene, and do not render it")
-    arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
-    given = options.parse_args(arguments)
+    return options
+
+
+def main():
+    script.make_available()
+    given = parser().parse_args(script.arguments() or [])
     scene = recipes.build(given.scene, given.seed or 0)
     given.seed = None  # that of the noise follows from it
     if given.save:
         headless.apply_options(scene, given)
         bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(given.save))
     if bpy.app.background:
-        code = 0 if given.save else headless.render(scene, given)
-        sys.stdout.flush()
-        os._exit(code)  # Blender ignores the code of sys.exit in scripts given by -P
+        script.leave(0 if given.save else headless.render(scene, given))
 
 
 main()

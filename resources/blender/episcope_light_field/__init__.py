@@ -11,9 +11,9 @@ bl_info = {
     "category": "Render",
 }
 
-from . import settings
+from . import background, overlay, panel, settings
 
-MODULES = (settings,)
+MODULES = (settings, background, panel, overlay)
 
 
 def register():

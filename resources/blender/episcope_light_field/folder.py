@@ -12,6 +12,9 @@ MANIFEST = "light_field.json"
 FORMAT = "episcope light field"
 VERSION = 1
 
+# What may differ when rendering goes on: it changes no pixel, or follows from what was rendered.
+NOT_COMPARED = {"blender", "scene", "disparity_range", "complete"}
+
 PART_NAMES = {
     "depth": "depth/depth_{row:02}_{column:02}.npy",
     "depth_behind": "depth_behind/depth_behind_{row:02}_{column:02}.npy",
@@ -58,22 +61,31 @@ class Folder:
         try:
             with open(os.path.join(self.path, MANIFEST), encoding="utf-8") as file:
                 manifest = json.load(file)
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             return []
         except (OSError, ValueError) as error:
             raise FolderProblem(
                 f"{MANIFEST} in {self.path} cannot be read ({error}); choose another folder."
             ) from error
-        complete = [tuple(view) for view in manifest.pop("complete", [])]
         differing = [
-            key for key in {**manifest, **self.facts} if manifest.get(key) != self.facts.get(key)
+            key
+            for key in sorted({*manifest, *self.facts} - NOT_COMPARED)
+            if manifest.get(key) != self.facts.get(key)
         ]
         if differing:
             raise FolderProblem(
                 f"{self.path} holds a light field of other settings ({', '.join(differing)}); "
                 "choose another folder, or delete this one."
             )
+        self._include(manifest.get("disparity_range"))
+        complete = [tuple(view) for view in manifest.get("complete", [])]
         return [view for view in complete if self._has(view)]
+
+    def _include(self, disparities):
+        """Widens the range that the manifest promises."""
+        if disparities:
+            low, high = self.facts["disparity_range"]
+            self.facts["disparity_range"] = [min(low, disparities[0]), max(high, disparities[1])]
 
     def _has(self, view):
         return all(os.path.isfile(self.file(part, view)) for part in self.facts["files"])
@@ -89,8 +101,9 @@ class Folder:
         """`write` is called with the name to write to."""
         _replace(self.file("views", view), write)
 
-    def finish(self, view):
-        """All files of this view are there."""
+    def finish(self, view, disparities):
+        """All files of this view are there. `disparities`: smallest and largest; None = unknown."""
+        self._include(disparities)
         self.complete.append(view)
         self._write_manifest()
 

@@ -8,6 +8,7 @@ import time
 import bpy
 
 from .folder import FolderProblem
+from .passes import RenderProblem
 from .plan import BadSettings, make_plan
 from .rendering import render_light_field
 
@@ -153,7 +154,7 @@ def render(scene, given):
         if not given.check:
             render_light_field(scene, plan, _Report())
             print(f"light field: complete in {plan.folder}", flush=True)
-    except (BadSettings, FolderProblem) as problem:
+    except (BadSettings, FolderProblem, RenderProblem) as problem:
         print(f"light field: {problem}", file=sys.stderr, flush=True)
         return 1
     except KeyboardInterrupt:

@@ -35,11 +35,27 @@ def _settings_of_truth(changes, scene):
     )
 
 
+class RenderProblem(Exception):
+    """A sentence for the user."""
+
+
+def render_still(scene):
+    """Renders to the path of the scene. Raises RenderProblem, KeyboardInterrupt if the user stops."""
+    try:
+        outcome = bpy.ops.render.render(write_still=True, scene=scene.name)
+    except RuntimeError as error:
+        reason = str(error).strip().replace("Error: ", "")
+        hint = "; turn Denoise off" if "Denoise" in reason else ""
+        raise RenderProblem(f"Blender cannot render this scene: {reason}{hint}.") from error
+    if outcome != {"FINISHED"}:
+        raise KeyboardInterrupt
+
+
 def _render(scene, path):
     with Changes() as changes:
         _settings_of_truth(changes, scene)
         changes.set(scene.render, filepath=path)
-        bpy.ops.render.render(write_still=True)
+        render_still(scene)
     passes = exr.read_passes(path)
     os.remove(path)
     return passes
@@ -68,10 +84,10 @@ def _make_opaque(changes, objects):
             changes.set(slot, material=opaque)
 
 
-def render_truth(scene, wanted, transparent, temporary):
-    """Arrays by part (`depth`, `labels`, `normals`, `depth_behind`), as far as wanted. NaN: no
-    surface there. `depth_behind` differs from NaN only where a transparent object is in front.
-    `temporary`: a file name ending in .exr."""
+def render_truth(scene, transparent, temporary):
+    """Arrays by part: `depth`, `labels`, `normals`, `depth_behind`. Depth is NaN where no surface
+    is seen; `depth_behind` is NaN where no transparent object is in front, and infinite where
+    nothing is behind one. `temporary`: a file name ending in .exr."""
     with Changes() as changes:
         _make_opaque(changes, transparent)
         passes = _render(scene, temporary)
@@ -89,6 +105,6 @@ def render_truth(scene, wanted, transparent, temporary):
                 changes.set(target, hide_render=True)
             behind = _depth(_render(scene, temporary))
         is_covered = ~(numpy.abs(behind - depth) <= SAME_DEPTH * depth) & numpy.isfinite(depth)
+        behind[numpy.isnan(behind)] = numpy.inf
         truth["depth_behind"] = numpy.where(is_covered, behind, numpy.float32(numpy.nan))
-        truth["layers"] = is_covered
-    return {part: array for part, array in truth.items() if part in wanted}
+    return truth

@@ -4,11 +4,12 @@
 import os
 
 import bpy
+import numpy
 from mathutils import Matrix
 
 from .changes import Changes
 from .folder import PART_NAMES, Folder, view_pattern
-from .passes import render_truth
+from .passes import render_still, render_truth
 from .visible_depth import camera_axes
 
 SUFFIX = {"PNG8": ".png", "PNG16": ".png", "EXR": ".exr"}
@@ -55,7 +56,6 @@ def _facts(plan, scene, settings, labels):
     files.update({part: PART_NAMES[part] for part in _parts(settings)})
     smallest, largest = plan.disparity_range
     return {
-        "name": os.path.basename(plan.folder),
         "scene": os.path.basename(bpy.data.filepath),
         "blender": bpy.app.version_string,
         "grid": {"rows": grid.rows, "columns": grid.columns},
@@ -147,18 +147,31 @@ def _render_picture(scene, settings, path, seed):
         changes.set(scene.render, filepath=path)
         if hasattr(scene, "cycles"):
             changes.set(scene.cycles, seed=seed)
-        bpy.ops.render.render(write_still=True)
+        render_still(scene)
 
 
-def _render_view(scene, settings, folder, view, seed, transparent):
+def _render_view(scene, settings, grid, folder, view, transparent):
+    seed = settings.seed + view[0] * grid.columns + view[1]
     folder.save_picture(view, lambda path: _render_picture(scene, settings, path, seed))
-    wanted = [part for part in folder.facts["files"] if part != "views"]
-    if wanted:
+    files = folder.facts["files"]
+    truth = {}
+    if len(files) > 1:
         temporary = os.path.join(folder.path, ".unfinished_passes.exr")
-        truth = render_truth(scene, wanted, transparent, temporary)
-        for part, array in truth.items():
-            folder.save_array(part, view, array)
-    folder.finish(view)
+        truth = render_truth(scene, transparent, temporary)
+    for part in truth.keys() & files.keys():
+        folder.save_array(part, view, truth[part])
+    folder.finish(view, _disparities(grid, truth))
+
+
+def _disparities(grid, truth):
+    """Smallest and largest of a view; None if no depth was rendered."""
+    depths = [truth[part] for part in ("depth", "depth_behind") if part in truth]
+    known = [depth[numpy.isfinite(depth)] for depth in depths]
+    known = [depth for depth in known if depth.size]
+    if not known:
+        return None
+    near, far = min(d.min() for d in known), max(d.max() for d in known)
+    return [grid.disparity(float(far)), grid.disparity(float(near))]
 
 
 def render_light_field(scene, plan, on_view=lambda done, count, view: None):
@@ -178,6 +191,5 @@ def render_light_field(scene, plan, on_view=lambda done, count, view: None):
             if view in folder.complete:
                 continue
             camera.place(view)
-            seed = settings.seed + view[0] * plan.grid.columns + view[1]
-            _render_view(scene, settings, folder, view, seed, transparent)
+            _render_view(scene, settings, plan.grid, folder, view, transparent)
             on_view(len(folder.complete), len(views), view)

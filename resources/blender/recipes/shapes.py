@@ -8,6 +8,9 @@ import bpy
 from mathutils import Vector
 
 
+LARGEST_CAP = 0.03  # radius
+
+
 def add(name, vertices, faces, material, is_smooth=False):
     mesh = bpy.data.meshes.new(name)
     mesh.from_pydata([tuple(v) for v in vertices], [], faces)
@@ -46,7 +49,7 @@ def sheet(name, width, height, material):
 
 
 def turned(name, profile, material, steps=64):
-    """A surface of revolution about z; `profile`: (radius, z) from below."""
+    """A surface of revolution about z; `profile`: (radius, z) from below. Small ends are closed."""
     vertices = [
         (r * math.cos(2 * math.pi * i / steps), r * math.sin(2 * math.pi * i / steps), z)
         for r, z in profile
@@ -58,6 +61,10 @@ def turned(name, profile, material, steps=64):
         for j in range(len(profile) - 1)
         for i in range(steps)
     ]
+    if profile[0][0] < LARGEST_CAP:
+        faces.append(tuple(reversed(range(steps))))
+    if profile[-1][0] < LARGEST_CAP:
+        faces.append(tuple(range(len(vertices) - steps, len(vertices))))
     return add(name, vertices, faces, material, is_smooth=True)
 
 
@@ -74,7 +81,7 @@ def smoothed(profile, steps=6):
 
 
 def ball(name, radius, material, steps=48):
-    """Lies on the origin's plane; the poles are not quite closed."""
+    """Lies on the origin's plane."""
     angles = [math.pi * (0.002 + 0.996 * i / (steps // 2)) for i in range(steps // 2 + 1)]
     profile = [(radius * math.sin(a), radius * (1 - math.cos(a))) for a in angles]
     return turned(name, profile, material, steps)
