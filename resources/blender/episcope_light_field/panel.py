@@ -73,8 +73,8 @@ class LightFieldPanel(bpy.types.Panel):
         is_placed_by_range = settings.zero_plane == "RANGE"
         if settings.spacing == "RANGE" or is_placed_by_range:
             column = layout.column(align=True)
-            column.prop(settings, "disparity_min")
-            column.prop(settings, "disparity_max")
+            column.prop(settings, "disparity_min", text="Disparity from")
+            column.prop(settings, "disparity_max", text="to")
         layout.prop(settings, "zero_plane")
         if settings.zero_plane == "DISTANCE":
             layout.prop(settings, "zero_distance")
@@ -98,8 +98,9 @@ class LightFieldPanel(bpy.types.Panel):
         smallest, largest = grid.disparity(settings.far), grid.disparity(settings.near)
         column = box.column(align=True)
         column.label(text=f"Depth {settings.near:.4g} … {settings.far:.4g}")
-        column.label(text=f"Disparity {smallest:.3g} … {largest:.3g} px per view")
-        column.label(text=f"Baseline {grid.baseline:.4g}, zero plane at {grid.zero_plane:.4g}")
+        column.label(text=f"Disparity {smallest:.3g} … {largest:.3g} px")
+        column.label(text=f"Baseline {grid.baseline:.4g}")
+        column.label(text=f"Zero plane {grid.zero_plane:.4g}")
 
     def _draw_files(self, layout, scene, settings):
         column = layout.column(align=True)

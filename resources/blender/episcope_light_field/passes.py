@@ -47,7 +47,8 @@ def render_still(scene):
         reason = str(error).strip().replace("Error: ", "")
         hint = "; turn Denoise off" if "Denoise" in reason else ""
         raise RenderProblem(f"Blender cannot render this scene: {reason}{hint}.") from error
-    if outcome != {"FINISHED"}:
+    # Blender ends a render that was interrupted like any other, but without a file.
+    if outcome != {"FINISHED"} or not os.path.exists(scene.render.filepath):
         raise KeyboardInterrupt
 
 
