@@ -9,7 +9,7 @@ import bpy
 
 from .folder import FolderProblem
 from .passes import RenderProblem
-from .plan import BadSettings, make_plan
+from .plan import BadSettings, make_plan, notes
 from .rendering import render_light_field
 
 
@@ -151,6 +151,8 @@ def render(scene, given):
         apply_options(scene, given)
         plan = make_plan(scene, bpy.context.evaluated_depsgraph_get())
         print("light field: " + describe(plan), flush=True)
+        for note in notes(scene, plan.camera):
+            print("light field: " + note, flush=True)
         if not given.check:
             render_light_field(scene, plan, _Report())
             print(f"light field: complete in {plan.folder}", flush=True)

@@ -93,6 +93,8 @@ class LightFieldPanel(bpy.types.Panel):
         except plan.BadSettings as problem:
             _sentence(box, str(problem), "ERROR")
             return
+        for note in plan.notes(context.scene, camera):
+            _sentence(box, note, "INFO")
         if grid is None:
             return
         smallest, largest = grid.disparity(settings.far), grid.disparity(settings.near)

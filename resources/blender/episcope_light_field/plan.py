@@ -53,6 +53,16 @@ def light_field_camera(scene):
     return camera
 
 
+def notes(scene, camera):
+    """Sentences about what is rendered in another way than the scene would be."""
+    told = []
+    if camera.data.dof.use_dof:
+        told.append("Depth of field is left out: a light field is sharp, and can be focused later.")
+    if scene.render.use_motion_blur:
+        told.append("Motion blur is left out: all views show the same moment.")
+    return told
+
+
 def measured_range(scene, camera, depsgraph):
     """Raises BadSettings if the camera sees no surface."""
     seen = visible_depth.visible_range(scene, camera, depsgraph)

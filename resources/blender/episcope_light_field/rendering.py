@@ -50,6 +50,18 @@ def _parts(settings):
     return parts
 
 
+def _axes(plan):
+    return camera_axes(plan.camera, bpy.context.evaluated_depsgraph_get())
+
+
+def _principal_point(plan):
+    """Where the optical axis of the centre view meets the image, x right and y down from the outer
+    corner of the first pixel."""
+    lens, data = plan.grid.lens, plan.camera.data
+    scale = lens.shift_unit * lens.focal_px
+    return lens.width / 2 - data.shift_x * scale, lens.height / 2 + data.shift_y * scale
+
+
 def _facts(plan, scene, settings, labels):
     grid = plan.grid
     files = {"views": view_pattern(SUFFIX[settings.picture])}
@@ -64,8 +76,8 @@ def _facts(plan, scene, settings, labels):
             "baseline": grid.baseline,
             "focal_length_px": grid.lens.focal_px,
             "zero_plane": grid.zero_plane,
-            "matrix": [list(row) for row in camera_axes(
-                plan.camera, bpy.context.evaluated_depsgraph_get())],
+            "principal_point_px": list(_principal_point(plan)),
+            "matrix": [list(row) for row in _axes(plan)],
         },
         "depth_range": [plan.near, plan.far],
         "disparity_range": [smallest, largest],
@@ -83,7 +95,7 @@ class _GridCamera:
     """A camera that is moved from view to view; the user's own is left alone."""
 
     def __init__(self, changes, scene, plan):
-        self._axes = camera_axes(plan.camera, bpy.context.evaluated_depsgraph_get())
+        self._axes = _axes(plan)
         self._grid = plan.grid
         data = plan.camera.data.copy()
         data.animation_data_clear()
@@ -117,7 +129,6 @@ def _prepare(changes, scene, settings):
         use_placeholder=False,
         use_persistent_data=True,
         dither_intensity=0,
-        use_simplify=False,
     )
     layer = bpy.context.view_layer
     changes.set(
