@@ -139,7 +139,7 @@ class BlenderReaderTest : public QObject {
     }
   }
 
-  void conversion_keepsDepthAndLabelsOfAllViews() {
+  void conversion_keepsDepthLabelsAndTheirNames() {
     const RenderedFolder folder;
     const Scene scene = folder.open();
     io::write_archive(folder.place("out/lf.h5"), scene, Progress(1));
@@ -148,6 +148,9 @@ class BlenderReaderTest : public QObject {
 
     QVERIFY(has_same_samples(scene, archive));
     QVERIFY(largest_difference(scene.truth->field, archive.truth->field) < 1e-5);
+    QCOMPARE(archive.scribbles.labels.size(), std::size_t{2});
+    QVERIFY(archive.scribbles.labels == scene.scribbles.labels);
+    QCOMPARE(archive.scribbles.labels[1].name, std::string("wall"));
     QCOMPARE(archive.truth->labels.size(), scene.truth->labels.size());
     QVERIFY(std::equal(archive.truth->labels.data(),
                        archive.truth->labels.data() + archive.truth->labels.size(),
