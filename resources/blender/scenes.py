@@ -22,7 +22,9 @@ def parser():
     options.prog = "blender -b -P scenes.py --"
     options.description = "Builds a scene and renders its light field."
     options.add_argument("scene", choices=sorted(recipes.BUILDERS))
-    options.add_argument("--save", metavar="FILE.blend", help="save the scene, and do not render it")
+    options.add_argument(
+        "--save", metavar="FILE.blend", help="save the scene, and do not render it"
+    )
     return options
 
 

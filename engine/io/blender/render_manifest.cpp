@@ -6,8 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 namespace episcope::io {
 namespace {
@@ -66,13 +68,19 @@ CameraGrid read_camera(const Json& json, int width) {
   return camera_grid_from_blender(camera);
 }
 
+/// By id, each once; names in one line.
 std::vector<LabelInfo> read_labels(const Json& json) {
-  std::vector<LabelInfo> labels;
+  std::map<int, LabelInfo> labels;
   for (const Json& label : json) {
     const int id = label.at("value").get<int>();
-    labels.push_back({id, label.at("name").get<std::string>(), label_color(id)});
+    auto name = label.at("name").get<std::string>();
+    std::ranges::replace_if(
+        name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    if (id > 0) labels.try_emplace(id, LabelInfo{id, std::move(name), label_color(id)});
   }
-  return labels;
+  std::vector<LabelInfo> list;
+  for (auto& [id, label] : labels) list.push_back(std::move(label));
+  return list;
 }
 
 RenderManifest parse(const fs::path& folder, const Json& json) {

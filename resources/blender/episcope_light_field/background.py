@@ -49,7 +49,11 @@ class _Job:
 
     def _last_word(self):
         with open(self._log_path, encoding="utf-8", errors="replace") as log:
-            told = [line[len("light field: ") :].strip() for line in log if line.startswith("light field: ")]
+            told = [
+                line[len("light field: ") :].strip()
+                for line in log
+                if line.startswith("light field: ")
+            ]
         return told[-1] if told else "Blender ended without a word"
 
     def stop(self):

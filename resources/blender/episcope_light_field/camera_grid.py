@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later OR BSD-3-Clause
 """The grid of cameras: where each one stands, how its lens is shifted, and what disparities follow.
 
-All cameras look the same way. A view is shifted by its lens so that a plane parallel to the image at
-the distance `zero_plane` appears at the same pixels everywhere: eq. (1) and (2) of Wanner, Meister,
-Goldluecke 2013. With the depth Z along the optical axis, and b the distance of neighbours,
+All cameras look the same way. A view is shifted by its lens so that a plane parallel to the image
+at the distance `zero_plane` appears at the same pixels everywhere: eq. (1) and (2) of Wanner,
+Meister, Goldluecke 2013. With the depth Z along the optical axis, and b the distance of neighbours,
 
     d = b·f/Z − b·f/Z0    px per view step, f in px, Z0 = zero_plane.
 

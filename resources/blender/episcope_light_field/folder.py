@@ -32,7 +32,8 @@ def view_pattern(suffix):
 
 
 def _replace(path, write):
-    """Writes beside `path`, then puts it in place. The name keeps its suffix, which writers heed."""
+    """Writes beside `path`, then puts it in place. The name keeps its suffix, which writers
+    heed."""
     folder, name = os.path.split(path)
     temporary = os.path.join(folder, ".unfinished_" + name)
     write(temporary)

@@ -44,7 +44,9 @@ def parser():
     options.add_argument("--size", type=SIZE, metavar="512x512", help="width and height in px")
     options.add_argument("--baseline", type=float, help="distance of neighbours in scene units")
     options.add_argument("--range", type=RANGE, metavar="A,B", help="wanted disparities in px")
-    options.add_argument("--zero", metavar="Z|OBJECT", help="zero plane: depth, or an object's name")
+    options.add_argument(
+        "--zero", metavar="Z|OBJECT", help="zero plane: depth, or an object's name"
+    )
     options.add_argument("--samples", type=int)
     options.add_argument("--seed", type=int)
     options.add_argument("--denoise", action="store_true", default=None)
@@ -52,7 +54,9 @@ def parser():
     options.add_argument("--labels", choices=["none", "each", "object", "material"])
     options.add_argument("--normals", action="store_true", default=None)
     options.add_argument("--no-depth", action="store_true")
-    options.add_argument("--transparent", metavar="COLLECTION", help="depth twice: with and without")
+    options.add_argument(
+        "--transparent", metavar="COLLECTION", help="depth twice: with and without"
+    )
     options.add_argument("--threads", type=int, help="number of threads; without, all cores")
     options.add_argument("--check", action="store_true", help="only say what would be rendered")
     return options

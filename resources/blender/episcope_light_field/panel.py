@@ -28,9 +28,7 @@ class MeasureDepth(bpy.types.Operator):
         scene = context.scene
         try:
             camera = plan.light_field_camera(scene)
-            measured.measure(
-                camera.data.episcope, scene, camera, context.evaluated_depsgraph_get()
-            )
+            measured.measure(camera.data.episcope, scene, camera, context.evaluated_depsgraph_get())
         except plan.BadSettings as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
@@ -54,8 +52,12 @@ class LightFieldPanel(bpy.types.Panel):
         layout.use_property_decorate = False
         scene = context.scene
         if scene.camera is None or scene.camera.data != context.camera:
-            _sentence(layout, "This is not the active camera of the scene, which the light field "
-                      "is rendered by; make it active with Ctrl+Numpad 0.", "INFO")
+            _sentence(
+                layout,
+                "This is not the active camera of the scene, which the light field "
+                "is rendered by; make it active with Ctrl+Numpad 0.",
+                "INFO",
+            )
             return
         settings = context.camera.episcope
         self._draw_grid(layout, settings)

@@ -40,7 +40,8 @@ class RenderProblem(Exception):
 
 
 def render_still(scene):
-    """Renders to the path of the scene. Raises RenderProblem, KeyboardInterrupt if the user stops."""
+    """Renders to the path of the scene. Raises RenderProblem, or KeyboardInterrupt if it was
+    stopped."""
     try:
         outcome = bpy.ops.render.render(write_still=True, scene=scene.name)
     except RuntimeError as error:

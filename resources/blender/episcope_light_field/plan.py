@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 import bpy
 
-from . import visible_depth
+from . import labels, visible_depth
 from .camera_grid import CameraGrid, baseline_for_range, zero_plane_for_range
-
-MOST_LABELS = 32767  # Blender's largest pass index
 
 
 class BadSettings(Exception):
@@ -48,7 +46,8 @@ def light_field_camera(scene):
     render = scene.render
     if not math.isclose(render.pixel_aspect_x, render.pixel_aspect_y):
         raise BadSettings(
-            "Pixels are not square; set both values of Aspect under Output properties, Format, to 1."
+            "Pixels are not square; set both values of Aspect under Output properties, Format, "
+            "to 1."
         )
     return camera
 
@@ -80,7 +79,8 @@ def _depth_of_object(camera, target, depsgraph):
     depth = -(axes.inverted() @ place).z
     if depth <= 0:
         raise BadSettings(
-            f"The object '{target.name}' of the zero plane is behind the camera; choose another one."
+            f"The object '{target.name}' of the zero plane is behind the camera; choose "
+            "another one."
         )
     return depth
 
@@ -132,27 +132,6 @@ def grid_of(settings, scene, camera, seen, depsgraph):
     return CameraGrid(settings.rows, settings.columns, baseline, plane, lens)
 
 
-def _check_labels(settings, scene):
-    shown = [o for o in scene.objects if not o.hide_render and o.type in {"MESH", "CURVE", "META", "SURFACE", "FONT"}]
-    if settings.labels == "EACH" and len(shown) > MOST_LABELS:
-        raise BadSettings(
-            f"The scene has {len(shown)} objects, but Blender tells {MOST_LABELS} labels apart; "
-            "choose labels by object or material index."
-        )
-    kind = {"OBJECT": "object", "MATERIAL": "material"}.get(settings.labels)
-    indices = (
-        [o.pass_index for o in shown]
-        if kind == "object"
-        else [s.material.pass_index for o in shown for s in o.material_slots if s.material]
-    )
-    if kind and not any(indices):
-        where = "Object properties, Relations" if kind == "object" else "Material properties, Settings"
-        raise BadSettings(
-            f"Every {kind} has the pass index 0, so that all labels would be 0; set Pass Index under "
-            f"{where}, or choose another kind of labels."
-        )
-
-
 def _folder(settings):
     if not settings.folder:
         raise BadSettings("No folder is chosen; choose where to write the light field.")
@@ -168,7 +147,8 @@ def make_plan(scene, depsgraph):
     """Raises BadSettings."""
     camera = light_field_camera(scene)
     settings = camera.data.episcope
-    _check_labels(settings, scene)
+    if problem := labels.problem(settings.labels, scene):
+        raise BadSettings(problem)
     if settings.transparent is not None and not settings.transparent.all_objects:
         raise BadSettings(
             f"The collection '{settings.transparent.name}' of transparent objects is empty; move "

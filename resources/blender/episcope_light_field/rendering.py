@@ -7,34 +7,13 @@ import bpy
 import numpy
 from mathutils import Matrix
 
+from . import labels
 from .changes import Changes
 from .folder import PART_NAMES, Folder, view_pattern
 from .passes import render_still, render_truth
 from .visible_depth import camera_axes
 
 SUFFIX = {"PNG8": ".png", "PNG16": ".png", "EXR": ".exr"}
-RENDERED_TYPES = {"MESH", "CURVE", "CURVES", "META", "SURFACE", "FONT", "POINTCLOUD", "VOLUME"}
-
-
-def _label_names(settings, scene):
-    """Names by label. Sets pass indices where each object is a label of its own: call it inside of
-    `Changes`."""
-    objects = sorted((o for o in scene.objects if o.type in RENDERED_TYPES), key=lambda o: o.name)
-    names = {}
-    if settings.labels == "MATERIAL":
-        named = [(m.pass_index, m.name) for m in bpy.data.materials if m.users]
-    else:
-        named = [(o.pass_index, o.name) for o in objects]
-    for index, name in named:
-        if index > 0:
-            names.setdefault(index, []).append(name)
-    return [{"value": value, "name": ", ".join(names[value])} for value in sorted(names)]
-
-
-def _number_objects(changes, scene):
-    objects = sorted((o for o in scene.objects if o.type in RENDERED_TYPES), key=lambda o: o.name)
-    for number, target in enumerate(objects, start=1):
-        changes.set(target, pass_index=number)
 
 
 def _parts(settings):
@@ -62,7 +41,7 @@ def _principal_point(plan):
     return lens.width / 2 - data.shift_x * scale, lens.height / 2 + data.shift_y * scale
 
 
-def _facts(plan, scene, settings, labels):
+def _facts(plan, scene, settings):
     grid = plan.grid
     files = {"views": view_pattern(SUFFIX[settings.picture])}
     files.update({part: PART_NAMES[part] for part in _parts(settings)})
@@ -86,7 +65,7 @@ def _facts(plan, scene, settings, labels):
         "seed": settings.seed,
         "denoise": settings.denoise,
         "engine": scene.render.engine,
-        "labels": labels,
+        "labels": [] if settings.labels == "NONE" else labels.names(settings.labels, scene),
         "files": files,
     }
 
@@ -142,8 +121,12 @@ def _prepare(changes, scene, settings):
         changes.set(other, use=other == layer)
     cycles = getattr(scene, "cycles", None)
     if cycles is not None:
-        changes.set(cycles, samples=settings.samples, use_denoising=settings.denoise,
-                    use_animated_seed=False)
+        changes.set(
+            cycles,
+            samples=settings.samples,
+            use_denoising=settings.denoise,
+            use_animated_seed=False,
+        )
     eevee = getattr(scene, "eevee", None)
     if eevee is not None:
         changes.set(eevee, taa_render_samples=settings.samples)
@@ -193,9 +176,8 @@ def render_light_field(scene, plan, on_view=lambda done, count, view: None):
     views = plan.grid.views_from_center()
     with Changes() as changes:
         if settings.labels == "EACH":
-            _number_objects(changes, scene)
-        labels = [] if settings.labels == "NONE" else _label_names(settings, scene)
-        folder = Folder(plan.folder, _facts(plan, scene, settings, labels))
+            labels.number_objects(changes, scene)
+        folder = Folder(plan.folder, _facts(plan, scene, settings))
         _prepare(changes, scene, settings)
         camera = _GridCamera(changes, scene, plan)
         for number, view in enumerate(views):

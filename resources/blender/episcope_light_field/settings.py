@@ -29,7 +29,11 @@ LABELS = (
     ("NONE", "None", "No labels"),
     ("EACH", "Each object", "Every object has a label of its own, in the order of their names"),
     ("OBJECT", "Object index", "Pass index of the object, under Object properties, Relations"),
-    ("MATERIAL", "Material index", "Pass index of the material, under Material properties, Settings"),
+    (
+        "MATERIAL",
+        "Material index",
+        "Pass index of the material, under Material properties, Settings",
+    ),
 )
 
 

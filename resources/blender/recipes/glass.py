@@ -21,16 +21,26 @@ def _things(random):
     for i in range(4):
         size = (random.uniform(0.4, 0.8), random.uniform(0.4, 0.7), random.uniform(0.4, 1.3))
         cover = materials.mottled(f"box {i + 1}", stage.hue(random, 0.5), size=0.12)
-        shapes.place(shapes.box(f"box {i + 1}", size, cover, 0.015),
-                     (-1.4 + i * 0.95, random.uniform(0.9, 2.3), 0), (0, 0, random.uniform(-40, 40)))
+        shapes.place(
+            shapes.box(f"box {i + 1}", size, cover, 0.015),
+            (-1.4 + i * 0.95, random.uniform(0.9, 2.3), 0),
+            (0, 0, random.uniform(-40, 40)),
+        )
     for i in range(4):
-        skin = materials.speckled(f"ball {i + 1}", stage.hue(random, 0.6), (0.08, 0.08, 0.1), size=0.12)
-        shapes.place(shapes.ball(f"ball {i + 1}", random.uniform(0.18, 0.3), skin),
-                     (random.uniform(-1.3, 1.3), random.uniform(0.4, 1.0), 0), (random.uniform(0, 60), 20, 0))
+        skin = materials.speckled(
+            f"ball {i + 1}", stage.hue(random, 0.6), (0.08, 0.08, 0.1), size=0.12
+        )
+        shapes.place(
+            shapes.ball(f"ball {i + 1}", random.uniform(0.18, 0.3), skin),
+            (random.uniform(-1.3, 1.3), random.uniform(0.4, 1.0), 0),
+            (random.uniform(0, 60), 20, 0),
+        )
 
 
 def _pane(random):
-    glass = materials.pane("glass", stage.hue(random, 0.8, 0.7), opacity=random.uniform(0.35, 0.5), size=0.16)
+    glass = materials.pane(
+        "glass", stage.hue(random, 0.8, 0.7), opacity=random.uniform(0.35, 0.5), size=0.16
+    )
     turn = random.uniform(-12, 12)
     pane = shapes.place(shapes.sheet("pane", 1.7, 1.5, glass), (0.1, -0.8, 0.35), (0, 0, turn))
     collection = bpy.data.collections.new(TRANSPARENT)
@@ -38,8 +48,12 @@ def _pane(random):
     bpy.context.scene.collection.objects.unlink(pane)
     collection.objects.link(pane)
     wood = materials.wood("frame", (0.3, 0.17, 0.08), size=0.07)
-    bars = [((1.86, 0.07, 0.08), (0, -0.08)), ((1.86, 0.07, 0.08), (0, 1.5)),
-            ((0.08, 0.07, 1.5), (-0.89, 0)), ((0.08, 0.07, 1.5), (0.89, 0))]
+    bars = [
+        ((1.86, 0.07, 0.08), (0, -0.08)),
+        ((1.86, 0.07, 0.08), (0, 1.5)),
+        ((0.08, 0.07, 1.5), (-0.89, 0)),
+        ((0.08, 0.07, 1.5), (0.89, 0)),
+    ]
     for i, (size, (x, z)) in enumerate(bars):
         bar = shapes.box(f"frame {i + 1}", size, wood)
         bar.parent = pane

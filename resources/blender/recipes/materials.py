@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later OR BSD-3-Clause
-"""Procedural materials: nothing is read from files. Patterns lie in the coordinates of the object, so
-`size` is in scene units."""
+"""Procedural materials: nothing is read from files. Patterns lie in the coordinates of the object,
+so `size` is in scene units."""
 
 import bpy
 
@@ -88,8 +88,12 @@ def wood(name, color, size=0.12, roughness=0.45):
     """Rings that are drawn out along x."""
     nodes = _Nodes(name)
     value = nodes.noise(nodes.coordinates((0.12, 1, 1)), size, detail=5, distortion=1.2)
-    stops = [(0.25, _scaled(color, 0.45)), (0.5, color), (0.62, _scaled(color, 0.7)),
-             (0.8, _scaled(color, 1.25))]
+    stops = [
+        (0.25, _scaled(color, 0.45)),
+        (0.5, color),
+        (0.62, _scaled(color, 0.7)),
+        (0.8, _scaled(color, 1.25)),
+    ]
     nodes.color(nodes.ramp(value, stops))
     return nodes.finish(roughness)
 

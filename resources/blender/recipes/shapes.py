@@ -45,7 +45,9 @@ def box(name, size, material, bevel=0.0):
 def sheet(name, width, height, material):
     """A rectangle in the plane of x and z, that faces -y; z from 0."""
     x = width / 2
-    return add(name, [(-x, 0, 0), (x, 0, 0), (x, 0, height), (-x, 0, height)], [(0, 1, 2, 3)], material)
+    return add(
+        name, [(-x, 0, 0), (x, 0, 0), (x, 0, height), (-x, 0, height)], [(0, 1, 2, 3)], material
+    )
 
 
 def turned(name, profile, material, steps=64):
@@ -56,8 +58,12 @@ def turned(name, profile, material, steps=64):
         for i in range(steps)
     ]
     faces = [
-        (j * steps + i, j * steps + (i + 1) % steps, (j + 1) * steps + (i + 1) % steps,
-         (j + 1) * steps + i)
+        (
+            j * steps + i,
+            j * steps + (i + 1) % steps,
+            (j + 1) * steps + (i + 1) % steps,
+            (j + 1) * steps + i,
+        )
         for j in range(len(profile) - 1)
         for i in range(steps)
     ]
@@ -75,8 +81,15 @@ def smoothed(profile, steps=6):
     for a, b, c, d in zip(points, points[1:], points[2:], points[3:]):
         for i in range(steps):
             t = i / steps
-            curve.append(0.5 * (2 * b + (c - a) * t + (2 * a - 5 * b + 4 * c - d) * t**2
-                                + (3 * b - a - 3 * c + d) * t**3))
+            curve.append(
+                0.5
+                * (
+                    2 * b
+                    + (c - a) * t
+                    + (2 * a - 5 * b + 4 * c - d) * t**2
+                    + (3 * b - a - 3 * c + d) * t**3
+                )
+            )
     return [tuple(p) for p in curve] + [tuple(profile[-1])]
 
 

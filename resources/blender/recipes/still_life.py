@@ -24,8 +24,9 @@ def _table_and_wall(random):
 
 def _vase_with_twigs(random, x, y):
     profile = [(0.02, 0), (0.2, 0), (0.3, 0.25), (0.24, 0.55), (0.1, 0.8), (0.14, 0.95)]
-    widened = [(r * random.uniform(0.9, 1.15) if 0 < i < 5 else r, z)
-               for i, (r, z) in enumerate(profile)]
+    widened = [
+        (r * random.uniform(0.9, 1.15) if 0 < i < 5 else r, z) for i, (r, z) in enumerate(profile)
+    ]
     glaze = materials.speckled("glaze", stage.hue(random, 0.5), (0.05, 0.05, 0.07), size=0.09)
     shapes.place(shapes.turned("vase", shapes.smoothed(widened), glaze), (x, y, 0))
     bark = materials.mottled("bark", (0.2, 0.12, 0.07), size=0.06)
@@ -45,7 +46,15 @@ def _vase_with_twigs(random, x, y):
 
 def _bowl_of_fruit(random, x, y):
     clay = materials.stripes("bowl", [(0.5, 0.3, 0.2), (0.75, 0.6, 0.45)], size=0.12)
-    profile = [(0.02, 0), (0.22, 0), (0.42, 0.14), (0.52, 0.3), (0.5, 0.3), (0.38, 0.14), (0.02, 0.05)]
+    profile = [
+        (0.02, 0),
+        (0.22, 0),
+        (0.42, 0.14),
+        (0.52, 0.3),
+        (0.5, 0.3),
+        (0.38, 0.14),
+        (0.02, 0.05),
+    ]
     shapes.place(shapes.turned("bowl", shapes.smoothed(profile, 4), clay), (x, y, 0))
     kinds = [((0.6, 0.1, 0.06), 0.17), ((0.75, 0.45, 0.05), 0.19), ((0.35, 0.5, 0.08), 0.16)]
     spots = [(-0.2, -0.08), (0.18, -0.12), (0.02, 0.2), (0.0, -0.02)]
@@ -53,8 +62,11 @@ def _bowl_of_fruit(random, x, y):
         color, radius = random.choice(kinds)
         skin = materials.mottled("fruit", color, size=0.07, contrast=0.45, roughness=0.4)
         fruit = shapes.ball(f"fruit {i + 1}", radius * random.uniform(0.9, 1.1), skin)
-        shapes.place(fruit, (x + dx, y + dy, 0.15 + (0.22 if i == 3 else 0)),
-                     (random.uniform(0, 40), random.uniform(0, 40), 0))
+        shapes.place(
+            fruit,
+            (x + dx, y + dy, 0.15 + (0.22 if i == 3 else 0)),
+            (random.uniform(0, 40), random.uniform(0, 40), 0),
+        )
 
 
 def _books(random, x, y):
@@ -62,7 +74,9 @@ def _books(random, x, y):
     for i in range(random.randint(3, 4)):
         size = (random.uniform(0.7, 1.0), random.uniform(0.5, 0.65), random.uniform(0.08, 0.15))
         kind = random.choice([materials.mottled, materials.plain])
-        book = shapes.box(f"book {i + 1}", size, kind(f"cover {i + 1}", stage.hue(random, 0.45)), 0.01)
+        book = shapes.box(
+            f"book {i + 1}", size, kind(f"cover {i + 1}", stage.hue(random, 0.45)), 0.01
+        )
         shapes.place(book, (x, y, z), (0, 0, random.uniform(-25, 25)))
         z += size[2]
     return z
@@ -71,7 +85,15 @@ def _books(random, x, y):
 def _candle(random, x, y, z):
     metal = materials.plain("brass", (0.45, 0.3, 0.1), roughness=0.5)
     wax = materials.mottled("wax", (0.75, 0.68, 0.5), size=0.1, contrast=0.15)
-    foot = [(0.02, 0), (0.16, 0), (0.15, 0.03), (0.03, 0.06), (0.025, 0.35), (0.07, 0.4), (0.02, 0.41)]
+    foot = [
+        (0.02, 0),
+        (0.16, 0),
+        (0.15, 0.03),
+        (0.03, 0.06),
+        (0.025, 0.35),
+        (0.07, 0.4),
+        (0.02, 0.41),
+    ]
     shapes.place(shapes.turned("candlestick", foot, metal), (x, y, z))
     body = [(0.045, 0), (0.045, random.uniform(0.3, 0.5)), (0.001, 0.5)]
     shapes.place(shapes.turned("candle", body, wax), (x, y, z + 0.41))

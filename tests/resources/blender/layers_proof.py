@@ -36,9 +36,7 @@ def glass():
     material.use_nodes = True
     nodes = material.node_tree.nodes
     shader = nodes.new("ShaderNodeBsdfGlass")
-    material.node_tree.links.new(
-        shader.outputs["BSDF"], nodes["Material Output"].inputs["Surface"]
-    )
+    material.node_tree.links.new(shader.outputs["BSDF"], nodes["Material Output"].inputs["Surface"])
     return material
 
 
@@ -56,7 +54,9 @@ def prove(folder, manifest):
             near = abs(depth[is_pane] - PANE_DEPTH).max() / PANE_DEPTH
             far = (abs(behind - expected) / expected)[is_pane & is_safe].max()
             single = (abs(depth - expected) / expected)[~is_pane & is_safe].max()
-            print(f"proof: view {view}: pane {near:.1e}, behind it {far:.1e}, beside it {single:.1e}")
+            print(
+                f"proof: view {view}: pane {near:.1e}, behind it {far:.1e}, beside it {single:.1e}"
+            )
             assert max(near, far, single) <= TOLERANCE
             number = {label["name"]: label["value"] for label in manifest["labels"]}["pane"]
             assert (labels[is_pane] == number).all() and (labels[~is_pane] != number).all()

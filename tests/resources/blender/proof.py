@@ -74,8 +74,12 @@ def _rays(manifest, view):
     step = camera["baseline"]
     x0 = step * (view[1] - grid["columns"] // 2)
     y0 = -step * (view[0] - grid["rows"] // 2)
-    x = (numpy.arange(size["width"]) + 0.5 - camera["principal_point_px"][0]) / camera["focal_length_px"]
-    y = (numpy.arange(size["height"]) + 0.5 - camera["principal_point_px"][1]) / camera["focal_length_px"]
+    x = (numpy.arange(size["width"]) + 0.5 - camera["principal_point_px"][0]) / camera[
+        "focal_length_px"
+    ]
+    y = (numpy.arange(size["height"]) + 0.5 - camera["principal_point_px"][1]) / camera[
+        "focal_length_px"
+    ]
     x, y = numpy.meshgrid(x - x0 / camera["zero_plane"], -y - y0 / camera["zero_plane"])
     return numpy.stack([x, y, -numpy.ones_like(x)], axis=-1), numpy.array([x0, y0, 0.0])
 

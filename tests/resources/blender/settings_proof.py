@@ -12,7 +12,7 @@ import bpy
 import numpy
 
 import proof
-from episcope_light_field import headless, plan, rendering
+from episcope_light_field import headless, labels, plan, rendering
 
 OPTIONS = ["--grid", "3x3", "--size", "64x48", "--range=-1,1", "--samples", "1", "--labels", "each"]
 
@@ -42,8 +42,13 @@ def expect(text, part):
 def state_of(scene):
     """Settings of the scene that rendering changes for a while."""
     owners = (scene.render, scene.render.image_settings, scene.cycles, scene.view_layers[0])
-    values = [scene.camera.name, len(bpy.data.objects), len(bpy.data.cameras),
-              len(bpy.data.materials), [o.pass_index for o in bpy.data.objects]]
+    values = [
+        scene.camera.name,
+        len(bpy.data.objects),
+        len(bpy.data.cameras),
+        len(bpy.data.materials),
+        [o.pass_index for o in bpy.data.objects],
+    ]
     for owner in owners:
         for item in owner.bl_rna.properties:
             value = getattr(owner, item.identifier)
@@ -74,7 +79,9 @@ def prove_resuming(scene, work):
     for i in range(9):
         view = divmod(i, 3)
         for part in ("depth", "labels"):
-            assert numpy.array_equal(*(proof.array(f, manifest, part, view) for f in (whole, broken)))
+            assert numpy.array_equal(
+                *(proof.array(f, manifest, part, view) for f in (whole, broken))
+            )
         assert numpy.array_equal(*(proof.picture(f, manifest, view) for f in (whole, broken)))
 
 
@@ -100,9 +107,9 @@ def prove_sentences(scene, work):
     behind.location += turned.to_3x3().col[2]
     bpy.context.view_layer.update()
     expect(sentence(scene, *out, "--zero", "behind"), "'behind' of the zero plane is behind")
-    most, plan.MOST_LABELS = plan.MOST_LABELS, 3
+    most, labels.MOST_LABELS = labels.MOST_LABELS, 3
     expect(sentence(scene, *out), "4 objects, but Blender tells 3 labels apart")
-    plan.MOST_LABELS = most
+    labels.MOST_LABELS = most
     file = os.path.join(work, "file")
     with open(file, "w", encoding="utf-8"):
         pass

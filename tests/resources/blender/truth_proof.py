@@ -51,8 +51,10 @@ def prove_disparity(folder, manifest, noise):
         at_y = y - d[y, x] * (view[0] - WARPED_CENTER[0])
         left = (proof.sampled(image, at_x, at_y) - center[y, x]).std()
         unwarped = (image[y, x] - center[y, x]).std()
-        print(f"proof: view {view} leaves {left:.3f} grey levels, {left / spread:.2f} times the "
-              f"noise of {spread:.3f}; unwarped {unwarped:.3f}")
+        print(
+            f"proof: view {view} leaves {left:.3f} grey levels, {left / spread:.2f} times the "
+            f"noise of {spread:.3f}; unwarped {unwarped:.3f}"
+        )
         assert left <= MOST_OVER_NOISE * spread
         assert unwarped > 2 * left, "the scene has too little texture to prove anything"
 
