@@ -48,7 +48,7 @@ ViewCrop complete_crop(const RenderManifest& manifest) {
 std::string progress_text(const RenderManifest& manifest, const ViewCrop& crop) {
   if (!crop.leaves_out()) return {};
   return fmt::format(
-      "{} of {} views are rendered so far; shown are the {}×{} around the centre. Open the folder "
+      "{} of {} views are rendered so far; shown are the {}×{} around the centre. Read it "
       "again to see more; if the rendering was stopped, the same command in Blender continues it.",
       manifest.complete.size(), manifest.grid.count(), crop.kept.v, crop.kept.u);
 }

@@ -96,6 +96,8 @@ class RenderLightField(bpy.types.Operator):
         except plan.BadSettings as problem:
             self.report({"ERROR"}, str(problem))
             return {"CANCELLED"}
+        settings = chosen.camera.data.episcope
+        settings.near, settings.far = chosen.near, chosen.far
         count = chosen.grid.rows * chosen.grid.columns
         STATE.job, STATE.message = _Job(chosen.camera, chosen.folder, count), ""
         manager = context.window_manager
