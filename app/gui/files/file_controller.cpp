@@ -70,6 +70,12 @@ void FileController::addOpenCommands() {
           {tr("Ctrl+Shift+O")}, &FileController::askForFolder);
   folder.icon = "open";
   bench_.commands.add(std::move(folder));
+  Command again = add("file.read_again", tr("Read again"),
+                      tr("Reads what is open again, as a program that is still writing it has left "
+                         "it by now"),
+                      {tr("Ctrl+F5")}, &FileController::readAgain);
+  again.enabled = [this] { return !bench_.opener.reopenable().isEmpty(); };
+  bench_.commands.add(std::move(again));
   Command result =
       add("file.open_result", tr("Open result…"), tr("Adds a result from a file to the list"),
           {tr("Ctrl+R")}, &FileController::askForResult);
@@ -135,6 +141,10 @@ void FileController::askForFolder() {
   ask_for_folder(&bench_.window,
                  {.name = "open_folder", .title = tr("Open the folder of a light field")},
                  [this](const QString& path) { bench_.opener.open(path); });
+}
+
+void FileController::readAgain() {
+  bench_.opener.open(bench_.opener.reopenable());
 }
 
 void FileController::askForResult() {

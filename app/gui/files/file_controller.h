@@ -26,6 +26,7 @@ class FileController : public QObject {
   void addLeaveCommands();
   void askForFile();
   void askForFolder();
+  void readAgain();
   void askForResult();
   void askForBuiltin();
   /// A result is added to the open light field; anything else is opened.

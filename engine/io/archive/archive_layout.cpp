@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/io/labels/label_list.h"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ std::string truth_of(const Hdf5Input& file) {
 }
 
 std::string labels_of(const Hdf5Input& file) {
-  const std::string views = covered(file, "GT_LABELS");
+  const std::string views = covered(file, kTrueLabels);
   const std::string labels = views.empty() ? "" : "labels of " + views;
   if (!file.has("SCRIBBLES")) return labels;
   return labels.empty() ? "scribbles" : labels + ", scribbles";

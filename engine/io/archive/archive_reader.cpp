@@ -8,6 +8,7 @@
 #include "engine/io/archive/archive_labels.h"
 #include "engine/io/archive/archive_layout.h"
 #include "engine/io/archive/companions.h"
+#include "engine/io/labels/label_list.h"
 #include "engine/io/labels/scribble_dataset.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
@@ -122,7 +123,7 @@ std::optional<Interval> stated_range(const Hdf5Input& file) {
 /// Labels of the file or of labels.h5 beside it, whose use is noted.
 ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, ConventionReport& report,
                           FolderAccount& account, const Progress& progress) {
-  const bool has_own = file.has("GT_LABELS") || file.has("SCRIBBLES");
+  const bool has_own = file.has(kTrueLabels) || file.has("SCRIBBLES");
   ArchiveLabels own =
       has_own ? read_archive_labels(file, shape, report, progress) : ArchiveLabels();
   const fs::path beside = file.path().parent_path() / "labels.h5";

@@ -5,6 +5,7 @@
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/hdf5/map_writer.h"
+#include "engine/io/labels/label_list.h"
 #include "engine/io/labels/scribble_dataset.h"
 
 #include <algorithm>
@@ -176,19 +177,20 @@ void write_true_labels(Hdf5Output& file, const Scene& scene, const Progress& pro
   const LightField& field = *scene.light_field;
   const bool is_center = labels.grid().count() == 1 && labels.first() == field.center();
   if (is_center || labels.grid() == field.grid()) {
-    return write_stack(file, "GT_LABELS", labels, "", progress);
+    return write_stack(file, kTrueLabels, labels, "", progress);
   }
   MapGeometry maps = geometry_of(labels);
   maps.grid = field.grid();
   maps.first = {};
   const std::vector<std::int32_t> none(labels.view_size(), 0);
-  write_maps<std::int32_t>(file, "GT_LABELS", maps, "", progress, [&](ViewIndex view) {
+  write_maps<std::int32_t>(file, kTrueLabels, maps, "", progress, [&](ViewIndex view) {
     return labels.contains(view) ? labels.view(view).data : none.data();
   });
 }
 
 void write_labels(Hdf5Output& file, const Scene& scene, const Progress& progress) {
   write_true_labels(file, scene, progress);
+  if (!scene.truth->labels.empty()) add_label_list(file, kTrueLabels, scene.scribbles.labels);
   if (scene.scribbles.empty()) return;
   const LightField& field = *scene.light_field;
   add_scribbles(file, scene.scribbles, {{field.grid(), field.height(), field.width()}, {}, false},

@@ -8,6 +8,7 @@
 #include "engine/io/beside/map_name.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/labels/label_list.h"
 #include "engine/io/maps/foreign_result.h"
 
 #include <fmt/format.h>
@@ -23,7 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTrueLabels = "GT_LABELS";
 constexpr std::size_t kLongestSide = 65536;  ///< In px.
 
 template <std::size_t N>

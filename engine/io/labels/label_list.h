@@ -9,6 +9,9 @@
 
 namespace episcope::io {
 
+/// The dataset of true labels.
+inline constexpr const char* kTrueLabels = "GT_LABELS";
+
 /// Names and colours of labels, stored in attributes of a dataset that other readers ignore:
 /// `label_ids`, `label_names` (one per line), `label_colors` (R, G, B each). None if there are no
 /// such attributes or they do not fit together.

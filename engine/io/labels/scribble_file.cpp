@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
+#include "engine/io/labels/label_list.h"
 #include "engine/io/labels/scribble_dataset.h"
 #include "engine/io/open/view_crop.h"
 
@@ -16,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTrueLabels = "GT_LABELS";
 constexpr const char* kScribbles = "SCRIBBLES";
 constexpr const char* kOwner = "light_field";
 

@@ -179,7 +179,7 @@ bool is_segmentation_file(const std::filesystem::path& path) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(path, ignored) || !has_hdf5_signature(path)) return false;
   const Hdf5Input file(path);
-  return file.has(kLabels) && !file.has("LF") && !file.has("SCRIBBLES") && !file.has("GT_LABELS");
+  return file.has(kLabels) && !file.has("LF") && !file.has("SCRIBBLES") && !file.has(kTrueLabels);
 }
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field/shear.h"
 #include "engine/io/archive/archive_maps.h"
+#include "engine/io/labels/label_list.h"
 #include "engine/io/open/view_crop.h"
 #include "engine/io/order/view_order.h"
 
@@ -17,7 +18,7 @@ ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path, cons
   const ViewCrop& crop = scene.convention.crop;
   const FieldShape shape{crop.leaves_out() ? crop.stored : field.grid(), field.height(),
                          field.width()};
-  auto labels = read_maps<std::int32_t>(file, "GT_LABELS", shape, progress);
+  auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress);
   if (scene.convention.raised_labels) {
     std::for_each(labels.data(), labels.data() + labels.size(),
                   [](std::int32_t& label) { ++label; });

@@ -7,6 +7,7 @@
 #include "engine/io/arrays/matlab_reader.h"
 #include "engine/io/arrays/numpy_reader.h"
 #include "engine/io/benchmark/benchmark_reader.h"
+#include "engine/io/blender/blender_reader.h"
 #include "engine/io/durable/system_error.h"
 #include "engine/io/grid/image_grid_reader.h"
 #include "engine/io/mosaic/mosaic_reader.h"
@@ -19,9 +20,10 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {sequence_reader(),   mosaic_reader(),  matlab_reader(),
-                                    hdf5_array_reader(), numpy_reader(),   archive_reader(),
-                                    benchmark_reader(),  excerpt_reader(), image_grid_reader()};
+  static const Reader kReaders[] = {blender_reader(),   sequence_reader(),   mosaic_reader(),
+                                    matlab_reader(),    hdf5_array_reader(), numpy_reader(),
+                                    archive_reader(),   benchmark_reader(),  excerpt_reader(),
+                                    image_grid_reader()};
   return kReaders;
 }
 

@@ -27,6 +27,7 @@ class OpeningTest : public QObject {
 
  private slots:
   void openedFile_isShown();
+  void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
   void randomScene_hasTheSeedAndKindThatWereTyped();
@@ -45,6 +46,19 @@ void OpeningTest::openedFile_isShown() {
 
   QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
   QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
+}
+
+void OpeningTest::readAgain_showsWhatWasWrittenMeanwhile() {
+  WindowFixture f;
+  f.openSmall();
+  scenes::RenderOptions options = WindowFixture::smallOptions();
+  options.width = 64;
+  f.writeScene("edge", options);
+  QCOMPARE(f.window.bench().session.light_field()->width(), 96);
+
+  f.trigger("file.read_again");
+
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->width(), 64, kScenePatience);
 }
 
 void OpeningTest::builtinScene_isEstimatedAtOnce() {
