@@ -57,9 +57,10 @@ static void add_random() {
     double mse, bad;
   };
   constexpr Limits all[] = {
-      {"epi_l", 25, 50.7},    {"epi_s", 6.1, 39.7},   {"epi_g", 6.2, 34.7},
-      {"st_av_l", 3.9, 32},   {"st_av_s", 3.4, 34.6}, {"st_av_g", 3.8, 30.1},
-      {"st_ch_l", 3.8, 30.7}, {"st_ch_s", 3.4, 31.1}, {"st_ch_g", 3.6, 27.1},
+      {"epi_l", 25, 50.7},     {"epi_s", 6.1, 39.7},   {"epi_g", 6.2, 34.7},
+      {"st_av_l", 3.9, 32},    {"st_av_s", 3.4, 34.6}, {"st_av_g", 3.8, 30.1},
+      {"st_ch_l", 3.8, 30.7},  {"st_ch_s", 3.4, 31.1}, {"st_ch_g", 3.6, 27.1},
+      {"plane_pm", 2.7, 10.8},
   };
   for (const Limits& each : all) {
     QTest::addRow("%s random", each.method)
@@ -79,7 +80,7 @@ static void add_others() {
       {"st_av_s", 0.07, 2.2, 0.76, 15.9},     {"st_av_g", 0.02, 0.05, 0.76, 20.6},
       {"st_ch_l", 0.008, 0.05, 2.02, 26.9},   {"st_ch_s", 0.008, 0.05, 0.96, 17.9},
       {"st_ch_g", 0.008, 0.05, 1.31, 25.5},   {"kz02", 0.05, 4.1, 1.87, 26.5},
-      {"plane_pm", 0.05, 1.0, 0.9, 17},
+      {"plane_pm", 0.013, 0.05, 0.77, 10.4},
   };
   for (const Limits& each : others) {
     QTest::addRow("%s bars", each.method)

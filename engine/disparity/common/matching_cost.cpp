@@ -42,12 +42,10 @@ void check(const LightField& lf, ViewIndex reference, const MatchingCost& cost,
   if (!(cost.cap > 0)) throw InvalidInput("the cap of the matching cost must be positive");
 }
 
-// Means of `counts` costs each, beside `prior` of the worst; the worst where there is none.
-void divide(const float* sums, const float* counts, const float* worst, float prior,
-            std::span<float> out) {
+// Means of `counts` costs each; the worst where there is none.
+void divide(const float* sums, const float* counts, const float* worst, std::span<float> out) {
   for (std::size_t x = 0; x < out.size(); ++x) {
-    const float count = counts[x] + prior;
-    out[x] = count > 0 ? (sums[x] + prior * worst[x]) / count : worst[x];
+    out[x] = counts[x] > 0 ? sums[x] / counts[x] : worst[x];
   }
 }
 
@@ -104,11 +102,6 @@ struct MatchingCostRows::State {
   [[nodiscard]] float largest_cost() const {
     return static_cast<float>(
         std::min(cost.cap, std::sqrt(static_cast<double>(light_field.channels()))));
-  }
-  [[nodiscard]] float views_compared() const {
-    const GridShape grid = light_field.grid();
-    return static_cast<float>(cost.views == MatchedViews::CrossHair ? grid.u + grid.v - 2
-                                                                    : grid.count() - 1);
   }
   [[nodiscard]] bool weighs() const { return cost.caps || cost.occluders; }
   void read_nearest(const Tile& tile, const Window& window, ViewIndex view);
@@ -316,7 +309,6 @@ void MatchingCostRows::State::add_view(const Tile& tile, ViewIndex view) {
 // Sums to means over the views that see the pixel.
 void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> costs) const {
   const float worst = largest_cost();
-  const float prior = cost.occluders ? cost.occluders->prior * views_compared() : 0.0F;
   const bool cross = cost.views == MatchedViews::CrossHair;
   for (int row = 0; row < tile.rows; ++row) {
     for (int label = 0; label < labels; ++label) {
@@ -324,7 +316,7 @@ void MatchingCostRows::State::finish(const Tile& tile, int y, VolumeView<float> 
       const float* sum = sums.data() + first;
       float* out = costs.row(y + row, label) + tile.x;
       if (!counts.empty()) {
-        divide(sum, counts.data() + first, caps.data() + row * reference_pitch, prior,
+        divide(sum, counts.data() + first, caps.data() + row * reference_pitch,
                std::span(out, tile.columns));
         continue;
       }

@@ -32,9 +32,6 @@ struct Occluders {
   /// from `tolerance + softness` on, px of disparity.
   float tolerance = 0.1F;
   float softness = 0.05F;
-  /// Views that cost ε are added for this share of the views, so that what nearly all views call
-  /// occluded is not believed for the sake of a few.
-  float prior = 0.05F;
 };
 
 /// What a matching cost is made of.

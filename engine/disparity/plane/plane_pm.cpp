@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/plane_pm.h"
 
+#include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/common/smoothness_weights.h"
-#include "engine/disparity/epi/side_choice.h"
+#include "engine/disparity/plane/carried_sides.h"
 #include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/even_views.h"
 #include "engine/disparity/stereo/volume_trust.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -69,6 +71,8 @@ namespace {
 
 // Brightness is taken from a map of which so many pixels are sure.
 constexpr double kLeastSure = 0.1;
+// Between samples of one point without noise.
+constexpr double kSmallDifference = 0.015;
 
 // The light field as it is compared, and its data term.
 class Evened {
@@ -172,6 +176,12 @@ void put_view(const Estimate& map, ViewIndex view, Estimate& estimate) {
   std::copy_n(confidence.data, confidence.size(), estimate.confidence.view(view).data);
 }
 
+// The most by which a view counts where sides are chosen: what noise explains, and a little more.
+float noise_cap(const LightField& lf, ViewIndex view, const Progress& progress) {
+  const double variance = view_noise_variance(lf, view, progress);
+  return static_cast<float>(kSmallDifference + 2 * std::sqrt(lf.channels() * variance));
+}
+
 }  // namespace
 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
@@ -197,9 +207,10 @@ Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters
   estimate.set_provenance(first.provenance());
   estimate.field.disparity = std::move(carried.disparity);
   estimate.confidence = std::move(carried.confidence);
-  // A carried silhouette is right to a pixel; each view has samples that decide.
-  choose_sides(pack_views(lf, progress.part(0.92, 0.94)), estimate, progress.part(0.94, 1));
-  put_view(first, from, estimate);
+  const PackedViews packed = pack_views(lf, progress.part(0.92, 0.93));
+  choose_carried_sides(packed, noise_cap(lf, from, progress.part(0.93, 0.931)), estimate,
+                       progress.part(0.931, 1));
+  for (const Estimate& map : maps) put_view(map, map.field.disparity.first(), estimate);
   estimate.notes.push_back(fmt::format("carried to all views from {} of them", maps.size()));
   return estimate;
 }
@@ -209,11 +220,10 @@ Estimator plane_pm_estimator() {
       {.id = "plane_pm",
        .name = "PLANE_PM",
        .summary = "Multi-view stereo over visible views, refined by TGV, carried to all views",
-       .reference = "Own; builds on Kolmogorov 2006 [Kol06], Bleyer et al. 2011 [BRR11] and "
-                    "Bredies et al. 2010 [BKP10]",
+       .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
-       .revision = 2},
+       .revision = 3},
       plane_pm_schema(), estimate_planes);
 }
 

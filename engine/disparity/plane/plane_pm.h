@@ -30,7 +30,8 @@ struct PlaneParameters {
 /// 3. Placed between labels with TGV², and anew where costs leave the labels in doubt
 ///    (plane_refinement.h).
 /// 4. For all views, the same from the outermost views; the maps are carried to every view, and
-///    their majority counts (carry.h). The first view keeps its own map.
+///    their majority counts (carry.h). Beside jumps the samples of each view decide
+///    (carried_sides.h). Views that were estimated keep their own maps.
 ///
 /// Confidence as in ST_AV_G; of carried views, the mean of those that agree. Results do not depend
 /// on the number of threads. At `progress.finish_requested()` the map of the last round that was
@@ -39,7 +40,7 @@ struct PlaneParameters {
 /// Cancelled.
 ///
 /// Reference: own; message passing Kolmogorov 2006 [Kol06], TGV Bredies, Kunisch and Pock 2010
-/// [BKP10], planes Bleyer, Rhemann and Rother 2011 [BRR11]. Evidence: tests/accuracy/tuning.md.
+/// [BKP10]. Evidence: tests/accuracy/tuning.md.
 [[nodiscard]] Estimate estimate_planes(const LightField& light_field,
                                        const PlaneParameters& parameters, ViewSelection views,
                                        const Progress& progress);

@@ -4,7 +4,6 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/plane/regional_trust.h"
 #include "engine/disparity/stereo/volume_trust.h"
-#include "engine/solvers/planes/plane_labeling.h"
 #include "engine/solvers/tgv_l2/tgv_l2.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
@@ -14,35 +13,13 @@
 namespace episcope {
 namespace {
 
-// λ of the denoising of single pixels, as in ST_AV_S.
+// λ of the denoising of single pixels, as in ST_AV_S, and the weight above which those that are
+// trusted count more than in proportion.
 constexpr double kWinnerSmoothing = 0.1;
+constexpr float kSureWeight = 0.12F;
 
 float label_step(const StereoCosts& stereo) {
   return stereo.labels[1] - stereo.labels[0];
-}
-
-void match_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
-                  const Progress& progress, ImageView<float> disparity) {
-  const float step = label_step(data.stereo);
-  Image<Plane> planes(disparity.height, disparity.width);
-  for (int y = 0; y < disparity.height; ++y) {
-    for (int x = 0; x < disparity.width; ++x) planes.at(y, x).value = disparity.at(y, x);
-  }
-  improve_planes({.cost = data.costs,
-                  .first = data.stereo.labels.front(),
-                  .step = step,
-                  .g = data.edges,
-                  .smoothness = static_cast<float>(parameters.plane_smoothness * data.scale),
-                  .truncation = static_cast<float>(parameters.truncation)},
-                 {.sweeps = parameters.sweeps, .value_noise = 2 * step}, progress, planes.view());
-  const auto reach = static_cast<float>(parameters.reach);
-  for (int y = 0; y < disparity.height; ++y) {
-    for (int x = 0; x < disparity.width; ++x) {
-      float& d = disparity.at(y, x);
-      const float value = planes.at(y, x).value;
-      if (std::abs(value - d) <= reach) d = value;
-    }
-  }
 }
 
 // What the costs around each disparity say, and how much.
@@ -84,7 +61,7 @@ Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& p
     for (int x = 0; x < width; ++x) {
       const Placement placed = place_by_costs(data.stereo, data.costs, data.means, y, x, best[x]);
       all.values.at(y, x) = placed.disparity;
-      all.weights.at(y, x) = placed.weight;
+      all.weights.at(y, x) = placed.weight * (1 + placed.weight / kSureWeight);
     }
   });
   TvL2Solver(height, width)
@@ -93,19 +70,24 @@ Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& p
   return std::move(all.values);
 }
 
-// Where costs hardly tell labels apart, a labeling settles for whole regions of one wrong label;
-// the mean of what the pixels say by themselves is then nearer to the truth.
-void settle_doubt(const PlaneRefinementData& data, double doubt, const Progress& progress,
-                  ImageView<float> disparity) {
+// Where costs hardly tell labels apart, a labeling settles for whole regions of one wrong label,
+// and for silhouettes that are a little too wide; the mean of what the pixels say by themselves is
+// then nearer to the truth, but coarser where both agree.
+void settle_doubt(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
+                  const Progress& progress, ImageView<float> disparity) {
   const Image<float> trust = regional_trust(
       volume_confidence(disparity, data.stereo, data.costs, data.means, progress.part(0, 0.1))
           .view(data.stereo.view));
   const Image<float> denoised = denoised_winners(data, progress.part(0.1, 1));
+  const auto doubt = static_cast<float>(parameters.doubt);
+  const auto leeway = static_cast<float>(std::max(parameters.leeway, 1e-6));
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
-      const float t = std::clamp((trust.at(y, x) / static_cast<float>(doubt) - 1) * 2, 0.0F, 1.0F);
       float& d = disparity.at(y, x);
-      d = denoised.at(y, x) + t * (d - denoised.at(y, x));
+      const float other = denoised.at(y, x);
+      const float trusted = std::clamp((trust.at(y, x) / doubt - 1) * 2, 0.0F, 1.0F);
+      const float agreed = std::clamp(2 - std::abs(d - other) / leeway, 0.0F, 1.0F);
+      d = other + std::max(trusted, agreed) * (d - other);
     }
   }
 }
@@ -115,25 +97,16 @@ void settle_doubt(const PlaneRefinementData& data, double doubt, const Progress&
 Schema<PlaneRefinementParameters> plane_refinement_schema() {
   using P = PlaneRefinementParameters;
   return Schema<P>()
-      .integer(
-          "sweeps", &P::sweeps,
-          {"Sweeps", "Number of times every pixel tries the planes of its neighbours; 0 = off"},
-          {0, 50})
-      .real("plane_smoothness", &P::plane_smoothness,
-            {"Plane smoothness",
-             "Weight of a px by which neighbouring planes do not continue each other, relative to "
-             "the mean matching cost"},
-            {0, 100})
-      .real("truncation", &P::truncation,
-            {"Truncation", "No pair of neighbours is taken to differ by more than this", "px"},
-            {0.001, 20, true})
-      .real("reach", &P::reach, {"Reach", "Planes move no pixel by more than this", "px"}, {0, 20})
       .real("tgv", &P::tgv, {"TGV²", "Strength of the final denoising with TGV²; 0 = off"}, {0, 10})
       .real("doubt", &P::doubt,
             {"Doubt",
              "Where the mean confidence of a region is below this, its pixels are placed by "
-             "denoising what each says by itself; 0 = nowhere"},
+             "denoising what each says by itself, if that is elsewhere; 0 = nowhere"},
             {0, 1})
+      .real("leeway", &P::leeway,
+            {"Leeway", "Labels in doubt stay where the denoised pixels differ by no more than this",
+             "px"},
+            {0, 20})
       .real("bend", &P::bend,
             {"Bend", "Cost of a bend against that of a jump in the final denoising", "px"},
             {0.01, 100, true})
@@ -143,16 +116,11 @@ Schema<PlaneRefinementParameters> plane_refinement_schema() {
 
 void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
                       const Progress& progress, ImageView<float> disparity) {
-  if (progress.finish_requested()) return;
-  if (parameters.sweeps > 0 && data.costs.layers >= 4) {
-    progress.step("matching planes");
-    match_planes(data, parameters, progress.part(0, 0.5), disparity);
-  }
   if (parameters.tgv <= 0 || progress.finish_requested()) return;
   progress.step("denoising");
-  Observations seen = observe(data, disparity, progress.part(0.5, 0.55));
+  Observations seen = observe(data, disparity, progress.part(0, 0.1));
   solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.tgv, parameters.bend},
-               parameters.tgv_iterations, progress.part(0.55, 1), seen.values.view());
+               parameters.tgv_iterations, progress.part(0.1, 0.9), seen.values.view());
   const float step = label_step(data.stereo);
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
@@ -160,7 +128,7 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
       d = std::clamp(seen.values.at(y, x), d - step, d + step);
     }
   }
-  if (parameters.doubt > 0) settle_doubt(data, parameters.doubt, progress.part(0.9, 1), disparity);
+  if (parameters.doubt > 0) settle_doubt(data, parameters, progress.part(0.9, 1), disparity);
 }
 
 }  // namespace episcope

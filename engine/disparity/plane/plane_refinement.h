@@ -9,12 +9,9 @@ namespace episcope {
 
 /// How a labeling is placed between its labels.
 struct PlaneRefinementParameters {
-  int sweeps = 0;
-  double plane_smoothness = 1.5;
-  double truncation = 0.5;
-  double reach = 0.1;
   double tgv = 0.1;
-  double doubt = 0.1;
+  double doubt = 0.3;
+  double leeway = 0.1;
   double bend = 2;
   int tgv_iterations = 100;
 };
@@ -29,13 +26,13 @@ struct PlaneRefinementData {
   double scale = 1;              ///< Unit of the smoothness: the mean cost.
 };
 
-/// Refines a map of labels in place: PatchMatch over planes (engine/solvers/planes), whose result
-/// is taken where it stays within `reach` px of the map, since its local moves shift jumps less
-/// well than the global labeling placed them; then each pixel's parabola through the costs of its
-/// nearest label and the two beside it, denoised by TGV² (engine/solvers/tgv_l2) with the
-/// square of its trust as weight, by at most one label. Where the mean trust of a region is below
-/// `doubt` (in full at 1.5 times that), each pixel's own best label, denoised, is taken instead. At
-/// `progress.finish_requested()` what is left is skipped. Throws Cancelled.
+/// Places a map of labels between them, in place: each pixel's parabola through the costs of its
+/// nearest label and the two beside it, denoised by TGV² (engine/solvers/tgv_l2) with the square of
+/// its trust as weight, by at most one label. Each pixel's own best label, denoised, is taken
+/// instead where the mean trust of a region is below `doubt` (kept in full at 1.5 times that) and
+/// the two differ by more than `leeway` px (in full at twice that): within it the labeling is
+/// finer, beyond it often a whole region is wrong, or a silhouette has grown over its surroundings.
+/// At `progress.finish_requested()` what is left is skipped. Throws Cancelled.
 void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
                       const Progress& progress, ImageView<float> disparity);
 

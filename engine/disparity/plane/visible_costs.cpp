@@ -27,11 +27,6 @@ Schema<VisibilityParameters> visibility_schema() {
       .real("tolerance", &P::tolerance,
             {"Tolerance", "A surface nearer than a point by more than this occludes it", "px"},
             {0, 2})
-      .real("prior", &P::prior,
-            {"Prior",
-             "Share of the views that is taken to cost ε, so that what nearly all views call "
-             "occluded is not believed for the sake of a few"},
-            {0, 1})
       .real("least_trust", &P::least_trust,
             {"Least confidence",
              "A surface whose confidence is below this, mean over its surroundings, occludes "
@@ -78,7 +73,6 @@ void set_occluders(const LightField& lf, ImageView<const float> disparity,
   occluders->nearest = surfaces_in_views(known, costs.view, lf.grid(), progress);
   occluders->tolerance = static_cast<float>(parameters.tolerance);
   occluders->softness = kSoftness;
-  occluders->prior = static_cast<float>(parameters.prior);
   costs.matching.occluders = std::move(occluders);
 }
 

@@ -9,8 +9,7 @@ namespace episcope {
 /// Which views count, and how much a difference does.
 struct VisibilityParameters {
   int rounds = 2;            ///< Times that costs are computed anew with what occludes what.
-  double tolerance = 0.1;    ///< Occluders::tolerance, px.
-  double prior = 0.02;       ///< Occluders::prior.
+  double tolerance = 0.2;    ///< Occluders::tolerance, px.
   double least_trust = 0.1;  ///< Of surfaces that occlude, mean over their surroundings.
   double cap_share = 0.7;    ///< Of StereoCosts' ε that is the least cap of a pixel.
   double cap_offset = 0.03;  ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.

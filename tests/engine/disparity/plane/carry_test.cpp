@@ -80,7 +80,7 @@ void CarryTest::allViews_areCloseAndInOrder() {
   const double limit = ordering_violations(ordered.field.disparity, Progress());
 
   QVERIFY(planes.field.disparity.grid() == scene.light_field->grid());
-  QVERIFY2(error < 0.4, qPrintable(QString::number(error)));
+  QVERIFY2(error < 0.07, qPrintable(QString::number(error)));
   QVERIFY2(violations <= limit, qPrintable(QString("%1, EPI_C %2").arg(violations).arg(limit)));
 }
 
