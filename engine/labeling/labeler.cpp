@@ -9,6 +9,7 @@
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/forest.h"
+#include "engine/labeling/rays/disparity_trust.h"
 #include "engine/labeling/rays/edge_probability.h"
 
 #include <fmt/format.h>
@@ -153,6 +154,7 @@ struct Labeler::State {
   LightFieldPtr light_field;
   std::shared_ptr<const DisparityField> disparity;
   std::shared_ptr<const ViewStack<float>> edges;
+  std::shared_ptr<const ViewStack<float>> confidence;
   bool has_own_edges = false;  // Computed here, with or without disparity as `set` says.
   PixelFeatureSet set;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
@@ -223,12 +225,14 @@ struct Labeler::State {
         learned.scribbles, learned.ids, disparity.get(), view, features.height, features.width);
     const std::vector<Image<float>> colors = color_guides(features);
     StrokeGuides guides{{colors.begin(), colors.end()}};
-    Image<float> filled;
+    Image<float> filled, trust;
     std::optional<LabelSurfaces> surfaces;
     if (set.with_disparity) {
       filled = filled_disparity(disparity->view(view));
       guides.disparity = filled.view();
-      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view());
+      if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
+      guides.trust = trust.view();
+      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
     }
     const StrokeDistances distances(strokes, labels, guides, progress);
     StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};
@@ -263,7 +267,8 @@ struct Labeler::State {
     const DisparityField none;
     const bool sees_disparity = set.with_disparity && disparity;
     edges = std::make_shared<const ViewStack<float>>(
-        edge_probabilities(*light_field, views, sees_disparity ? *disparity : none, {}, progress));
+        edge_probabilities(*light_field, views, sees_disparity ? *disparity : none, {}, progress,
+                           sees_disparity ? confidence.get() : nullptr));
     has_own_edges = true;
   }
 
@@ -309,45 +314,14 @@ struct Labeler::State {
   }
 };
 
-Names<FeatureSet> names_of(FeatureSet) {
-  return {{FeatureSet::Image, "image"},
-          {FeatureSet::ImageEstimate, "image+estimate"},
-          {FeatureSet::ImageTruth, "image+truth"}};
-}
-
-Schema<LabelerParameters> labeler_schema() {
-  return Schema<LabelerParameters>()
-      .choice("features", &LabelerParameters::features,
-              {"Features",
-               "Features that the forest uses: of the image alone, or of disparity as well"})
-      .choice("regularizer", &LabelerParameters::regularizer,
-              {"Smoothing",
-               "How labels are made consistent: not at all, view by view, or along "
-               "the rays of all views"})
-      .real("smoothness", &LabelerParameters::smoothness,
-            {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
-            {0, 200})
-      .real("nearness", &LabelerParameters::nearness,
-            {"Nearness",
-             "Influence of the distance to the strokes of a label, measured along surfaces"},
-            {0, 5})
-      .integer("trees", &LabelerParameters::trees, {"Trees", "Number of trees of the forest"},
-               {4, 500})
-      .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
-      .integer("seed", &LabelerParameters::seed,
-               {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
-}
-
-bool uses_disparity(const LabelerParameters& parameters) {
-  return parameters.features != FeatureSet::Image;
-}
-
 Labeler::Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
-                 std::shared_ptr<const ViewStack<float>> edges)
+                 std::shared_ptr<const ViewStack<float>> edges,
+                 std::shared_ptr<const ViewStack<float>> confidence)
     : state_(std::make_unique<State>()) {
   state_->light_field = std::move(light_field);
   state_->disparity = std::move(disparity);
   state_->edges = std::move(edges);
+  state_->confidence = std::move(confidence);
 }
 
 Labeler::~Labeler() = default;

@@ -50,12 +50,12 @@ PaintedScene paint_scene(const std::string& name, StrokeStyle style, Scene scene
 }
 
 MeasuredLabels measure_labels(const PaintedScene& painted, const LabelerParameters& parameters,
-                              std::shared_ptr<const DisparityField> disparity, bool center_only) {
+                              const LabelingDisparity& disparity, bool center_only) {
   const LightField& lf = *painted.scene.light_field;
   const ViewRectangle all{{0, 0}, lf.grid()};
   const ViewRectangle center{lf.center(), {1, 1}};
   const Stopwatch watch;
-  Labeler labeler(painted.scene.light_field, std::move(disparity));
+  Labeler labeler(painted.scene.light_field, disparity.field, nullptr, disparity.confidence());
   const Labeling labeling =
       labeler.label(painted.strokes, parameters, center_only ? center : all, Progress());
   MeasuredLabels measured;
@@ -68,9 +68,8 @@ MeasuredLabels measure_labels(const PaintedScene& painted, const LabelerParamete
   return measured;
 }
 
-std::shared_ptr<const DisparityField> disparity_for(const PaintedScene& painted,
-                                                    FeatureSet features,
-                                                    const DisparitySource& source) {
+LabelingDisparity disparity_for(const PaintedScene& painted, FeatureSet features,
+                                const DisparitySource& source) {
   LabelerParameters parameters;
   parameters.features = features;
   const std::filesystem::path file =
@@ -79,9 +78,9 @@ std::shared_ptr<const DisparityField> disparity_for(const PaintedScene& painted,
     const EstimatePtr estimate =
         run_estimator(*painted.scene.light_field, {source.method, {}, {}}, Progress()).estimate;
     if (!file.empty()) io::write_result(file, *estimate, Progress());
-    return {estimate, &estimate->field};
+    return {{estimate, &estimate->field}, source.method, estimate};
   }
-  return find_labeling_disparity(painted.scene, parameters, file, Progress()).field;
+  return find_labeling_disparity(painted.scene, parameters, file, Progress());
 }
 
 }  // namespace episcope::accuracy

@@ -8,7 +8,6 @@
 #include "tests/accuracy/strokes.h"
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -36,8 +35,7 @@ struct MeasuredLabels {
 /// Labels all views, or the centre view alone, which has no consistency.
 [[nodiscard]] MeasuredLabels measure_labels(const PaintedScene& painted,
                                             const LabelerParameters& parameters,
-                                            std::shared_ptr<const DisparityField> disparity,
-                                            bool center_only);
+                                            const LabelingDisparity& disparity, bool center_only);
 
 /// Where disparity for labels comes from.
 struct DisparitySource {
@@ -47,8 +45,7 @@ struct DisparitySource {
 
 /// The truth for FeatureSet::ImageTruth, else an estimate of all views by the source's method.
 /// Throws as find_labeling_disparity.
-[[nodiscard]] std::shared_ptr<const DisparityField> disparity_for(const PaintedScene& painted,
-                                                                  FeatureSet features,
-                                                                  const DisparitySource& source);
+[[nodiscard]] LabelingDisparity disparity_for(const PaintedScene& painted, FeatureSet features,
+                                              const DisparitySource& source);
 
 }  // namespace episcope::accuracy

@@ -62,7 +62,7 @@ void print_row(const PaintedScene& painted, const LabelerParameters& parameters,
 using Means = std::map<std::pair<std::string, std::string>, std::pair<double, int>>;
 
 void print_scene(const PaintedScene& painted, const Request& request, Means& means) {
-  std::shared_ptr<const DisparityField> estimate, truth;
+  std::optional<LabelingDisparity> estimate, truth;
   for (const auto& features : names_of(FeatureSet{})) {
     if (!is_wanted(request.features, features.name)) continue;
     LabelerParameters parameters;
@@ -73,7 +73,7 @@ void print_scene(const PaintedScene& painted, const Request& request, Means& mea
       if (!is_wanted(request.regularizers, regularizer.name)) continue;
       parameters.regularizer = regularizer.value;
       const MeasuredLabels row =
-          measure_labels(painted, parameters, disparity, request.center_only);
+          measure_labels(painted, parameters, *disparity, request.center_only);
       print_row(painted, parameters, row, request.per_label);
       auto& [sum, count] = means[{features.name, regularizer.name}];
       sum += row.quality.all.share().value_or(0);

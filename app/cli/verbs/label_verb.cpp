@@ -147,7 +147,8 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
   if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
-  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress));
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
+                  disparity.confidence());
   const auto labeling = std::make_shared<const Labeling>(
       labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
                     progress.part(0.2, 0.95)));
