@@ -28,14 +28,17 @@ ViewStack<std::int32_t> truth_of(const Scene& scene, const Scribbles& strokes) {
 
 std::filesystem::path kept_file(const PaintedScene& painted, const DisparitySource& source) {
   const LightField& lf = *painted.scene.light_field;
-  std::string name =
-      fmt::format("{}-{}x{}-{}", painted.name, lf.width(), lf.height(), source.method);
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
-  return source.kept / (name + ".h5");
+  return source.kept / fmt::format("{}-{}x{}-{}.h5", file_stem(painted.name), lf.width(),
+                                   lf.height(), source.method);
 }
 
 }  // namespace
+
+std::string file_stem(std::string scene) {
+  std::ranges::replace_if(
+      scene, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-'; }, '_');
+  return scene;
+}
 
 PaintedScene paint_scene(const std::string& name, StrokeStyle style, Scene scene) {
   Scribbles strokes;

@@ -22,6 +22,9 @@ struct PaintedScene {
   ViewStack<std::int32_t> truth;
 };
 
+/// A name for files of a scene: all but letters, digits and "-" become "_".
+[[nodiscard]] std::string file_stem(std::string scene);
+
 /// Strokes on the centre view; StrokeStyle::Stored takes those of the scene.
 [[nodiscard]] PaintedScene paint_scene(const std::string& name, StrokeStyle style, Scene scene);
 
