@@ -73,6 +73,13 @@ class Labeler {
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});
 
+  /// Labels of all views from probabilities that are known already: what `label` does after the
+  /// forest. `features` of the parameters says whether disparity makes edges.
+  /// Throws InvalidInput if they are not those of all views, or if rays are to be joined without
+  /// disparity; Cancelled.
+  [[nodiscard]] Labeling smooth(LabelProbabilities probabilities,
+                                const LabelerParameters& parameters, const Progress& progress);
+
  private:
   struct State;
   std::unique_ptr<State> state_;
