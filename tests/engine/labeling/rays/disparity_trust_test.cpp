@@ -27,11 +27,26 @@ class DisparityTrustTest : public QObject {
     QVERIFY(trust.at(20, 33) > 0);
   }
 
-  void trust_fallsFasterThanConfidence() {
-    Image<float> confidence(20, 20);
-    std::fill(confidence.begin(), confidence.end(), 0.2F);
+  // Methods scale confidence differently.
+  void unit_doesNotMatter() {
+    Image<float> confidence(40, 60), smaller(40, 60);
+    for (int y = 0; y < 40; ++y) {
+      for (int x = 0; x < 60; ++x) {
+        confidence.at(y, x) = static_cast<float>(x) / 60;
+        smaller.at(y, x) = 0.25F * confidence.at(y, x);
+      }
+    }
 
-    QVERIFY(std::abs(disparity_trust(confidence.view()).at(10, 10) - 0.25F) < 1e-5F);
+    const Image<float> trust = disparity_trust(confidence.view());
+    const Image<float> same = disparity_trust(smaller.view());
+
+    for (int x = 0; x < 60; ++x) {
+      QVERIFY(std::abs(trust.at(20, x) - same.at(20, x)) < 1e-5F);
+    }
+    // Half of what suffices is worth a quarter.
+    const int enough = static_cast<int>(0.43 * 54);
+    QVERIFY(std::abs(trust.at(20, enough / 2) - 0.25F) < 0.06F);
+    QCOMPARE(trust.at(20, enough + 2), 1.0F);
   }
 
   // Without trust, edges are those of the image alone.
