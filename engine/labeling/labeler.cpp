@@ -9,6 +9,8 @@
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/forest.h"
+#include "engine/labeling/predict_view.h"
+#include "engine/labeling/rays/disparity_trust.h"
 #include "engine/labeling/rays/edge_probability.h"
 
 #include <fmt/format.h>
@@ -49,17 +51,6 @@ void require_views(ViewRectangle views, GridShape grid) {
                   view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
-/// Rows of probabilities `[x][label]` into bytes `[label][x]`.
-void store_row(const float* row, int pitch, VolumeView<std::uint8_t> map, int y) {
-  for (int l = 0; l < map.layers; ++l) {
-    std::uint8_t* out = map.row(y, l);
-    for (int x = 0; x < map.width; ++x) {
-      const float scaled = row[static_cast<std::ptrdiff_t>(x) * pitch + l] * 255.0F + 0.5F;
-      out[x] = static_cast<std::uint8_t>(std::min(scaled, 255.0F));
-    }
-  }
-}
-
 /// Edges of colour that a path along a surface should not cross.
 std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   std::vector<Image<float>> planes;
@@ -72,48 +63,6 @@ std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   return planes;
 }
 
-/// What is known about the pixels of a view besides their features.
-struct StrokeEvidence {
-  const StrokeDistances& distances;
-  double nearness = 0;
-  const LabelSurfaces* surfaces = nullptr;  ///< Null = no disparity to compare.
-  /// Painted on this view itself: labels there are certain. Empty = none.
-  ImageView<const std::int32_t> painted{};
-};
-
-/// Certainty on the painted pixels of a row.
-void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row) {
-  for (int x = 0; x < width; ++x) {
-    if (strokes[x] == 0) continue;
-    float* p = row + static_cast<std::ptrdiff_t>(x) * pitch;
-    std::fill_n(p, pitch, 0.F);
-    p[strokes[x] - 1] = 1;
-  }
-}
-
-ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
-                            const StrokeEvidence& evidence, const Progress& progress) {
-  ProbabilityMap map(features.height, forest.label_count(), features.width);
-  const int pitch = forest.pitch();
-  constexpr int kRows = 8;
-  parallel_for_workers((features.height + kRows - 1) / kRows, progress, [&] {
-    const std::size_t size = static_cast<std::size_t>(features.width) * pitch;
-    return [&, row = std::vector<float>(size)](int item) mutable {
-      const int end = std::min(features.height, (item + 1) * kRows);
-      for (int y = item * kRows; y < end; ++y) {
-        forest.predict_row(features, y, row.data());
-        if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, pitch, row.data());
-        evidence.distances.weigh_row(y, evidence.nearness, pitch, row.data());
-        if (!evidence.painted.empty()) {
-          keep_strokes(evidence.painted.row(y), features.width, pitch, row.data());
-        }
-        store_row(row.data(), pitch, map.view(), y);
-      }
-    };
-  });
-  return map;
-}
-
 LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, ViewRectangle views) {
   LabelProbabilities probabilities;
   probabilities.ids = ids;
@@ -121,6 +70,13 @@ LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, Vie
   probabilities.first = views.first;
   probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
   return probabilities;
+}
+
+void require_disparity(Regularizer regularizer, bool has_disparity) {
+  if (has_disparity || !info_of(regularizer).joins_views) return;
+  throw InvalidInput(
+      "labels that are consistent along rays need the disparity of all views; estimate it first, "
+      "or smooth each view alone");
 }
 
 bool covers(const ViewStack<float>& maps, ViewRectangle views) {
@@ -153,6 +109,7 @@ struct Labeler::State {
   LightFieldPtr light_field;
   std::shared_ptr<const DisparityField> disparity;
   std::shared_ptr<const ViewStack<float>> edges;
+  std::shared_ptr<const ViewStack<float>> confidence;
   bool has_own_edges = false;  // Computed here, with or without disparity as `set` says.
   PixelFeatureSet set;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
@@ -223,12 +180,14 @@ struct Labeler::State {
         learned.scribbles, learned.ids, disparity.get(), view, features.height, features.width);
     const std::vector<Image<float>> colors = color_guides(features);
     StrokeGuides guides{{colors.begin(), colors.end()}};
-    Image<float> filled;
+    Image<float> filled, trust;
     std::optional<LabelSurfaces> surfaces;
     if (set.with_disparity) {
       filled = filled_disparity(disparity->view(view));
       guides.disparity = filled.view();
-      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view());
+      if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
+      guides.trust = trust.view();
+      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
     }
     const StrokeDistances distances(strokes, labels, guides, progress);
     StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};
@@ -263,38 +222,56 @@ struct Labeler::State {
     const DisparityField none;
     const bool sees_disparity = set.with_disparity && disparity;
     edges = std::make_shared<const ViewStack<float>>(
-        edge_probabilities(*light_field, views, sees_disparity ? *disparity : none, {}, progress));
+        edge_probabilities(*light_field, views, sees_disparity ? *disparity : none, {}, progress,
+                           sees_disparity ? confidence.get() : nullptr));
     has_own_edges = true;
   }
 
   /// Replaces the labels by regularised ones.
   void regularise(const Learned& learned, Labeling& labeling, const Progress& progress) {
+    if (labeling.probabilities.grid.count() > 1) {
+      regularise_together(learned.parameters, labeling, progress);
+    } else {
+      regularise_alone(learned, labeling, progress);
+    }
+  }
+
+  void regularise_together(const LabelerParameters& parameters, Labeling& labeling,
+                           const Progress& progress) {
+    const LabelProbabilities& own = labeling.probabilities;
+    progress.step("finding edges");
+    find_edges({own.first, own.grid}, progress.part(0, 0.05));
+    RayLabelingParameters options;
+    options.smoothness = parameters.smoothness;
+    const RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
+    set_labels(label_rays(input, parameters.regularizer, options, progress.part(0.05, 1)),
+               labeling);
+  }
+
+  void regularise_alone(const Learned& learned, Labeling& labeling, const Progress& progress) {
     const Regularizer regularizer = learned.parameters.regularizer;
     LabelProbabilities& own = labeling.probabilities;
     ViewRectangle views{own.first, own.grid};
     // Where rays of other views agree, two of them are nearly as informative as all.
-    if (own.grid.count() == 1 && info_of(regularizer).joins_views) views = neighbours(own.first);
+    if (info_of(regularizer).joins_views) views = neighbours(own.first);
     progress.step("finding edges");
     find_edges(views, progress.part(0, 0.05));
     RayLabelingParameters options;
     options.smoothness = learned.parameters.smoothness;
-    RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
-    RayLabeling result;
-    if (own.grid.count() > 1) {
-      result = label_rays(input, regularizer, options, progress.part(0.05, 1));
-    } else {
-      options.gap = kLiveGap;
-      LabelProbabilities around = empty_probabilities(own.ids, views);
-      around.view(own.first) = std::move(own.views[0]);
-      progress.step("labeling neighbouring views");
-      predict(learned, around, progress.part(0.05, 0.3));
-      input.probabilities = &around;
-      progress.step("regularising");
-      result = label_view(input, own.first, regularizer, options, progress.part(0.3, 1));
-      own.views[0] = std::move(around.view(own.first));
-    }
-    labeling.labels = std::move(result.labels);
+    options.gap = kLiveGap;
+    LabelProbabilities around = empty_probabilities(own.ids, views);
+    around.view(own.first) = std::move(own.views[0]);
+    progress.step("labeling neighbouring views");
+    predict(learned, around, progress.part(0.05, 0.3));
+    const RayLabelingInput input{&around, disparity.get(), edges.get(), light_field.get()};
+    progress.step("regularising");
+    set_labels(label_view(input, own.first, regularizer, options, progress.part(0.3, 1)), labeling);
+    own.views[0] = std::move(around.view(own.first));
+  }
+
+  static void set_labels(RayLabeling result, Labeling& labeling) {
     labeling.gap = result.relative_gap();
+    labeling.labels = std::move(result.labels);
   }
 
   /// The view and those beside it in its row; in a grid of one column, above and below.
@@ -309,45 +286,14 @@ struct Labeler::State {
   }
 };
 
-Names<FeatureSet> names_of(FeatureSet) {
-  return {{FeatureSet::Image, "image"},
-          {FeatureSet::ImageEstimate, "image+estimate"},
-          {FeatureSet::ImageTruth, "image+truth"}};
-}
-
-Schema<LabelerParameters> labeler_schema() {
-  return Schema<LabelerParameters>()
-      .choice("features", &LabelerParameters::features,
-              {"Features",
-               "Features that the forest uses: of the image alone, or of disparity as well"})
-      .choice("regularizer", &LabelerParameters::regularizer,
-              {"Smoothing",
-               "How labels are made consistent: not at all, view by view, or along "
-               "the rays of all views"})
-      .real("smoothness", &LabelerParameters::smoothness,
-            {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
-            {0, 200})
-      .real("nearness", &LabelerParameters::nearness,
-            {"Nearness",
-             "Influence of the distance to the strokes of a label, measured along surfaces"},
-            {0, 5})
-      .integer("trees", &LabelerParameters::trees, {"Trees", "Number of trees of the forest"},
-               {4, 500})
-      .integer("depth", &LabelerParameters::depth, {"Depth", "Maximum depth of a tree"}, {1, 25})
-      .integer("seed", &LabelerParameters::seed,
-               {"Seed", "Seed of the random numbers used to train the forest"}, {0, 1000000});
-}
-
-bool uses_disparity(const LabelerParameters& parameters) {
-  return parameters.features != FeatureSet::Image;
-}
-
 Labeler::Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
-                 std::shared_ptr<const ViewStack<float>> edges)
+                 std::shared_ptr<const ViewStack<float>> edges,
+                 std::shared_ptr<const ViewStack<float>> confidence)
     : state_(std::make_unique<State>()) {
   state_->light_field = std::move(light_field);
   state_->disparity = std::move(disparity);
   state_->edges = std::move(edges);
+  state_->confidence = std::move(confidence);
 }
 
 Labeler::~Labeler() = default;
@@ -362,11 +308,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   require_views(views, lf.grid());
   const std::vector<std::int32_t> ids = painted_labels(scribbles, lf);
   const Regularizer regularizer = parameters.regularizer;
-  if (info_of(regularizer).joins_views && !state_->disparity) {
-    throw InvalidInput(
-        "labels that are consistent along rays need the disparity of all views; estimate it first, "
-        "or smooth each view alone");
-  }
+  require_disparity(regularizer, state_->disparity != nullptr);
   state_->use({uses_disparity(parameters)});
 
   const Learned learned{scribbles, ids, parameters,
@@ -390,6 +332,21 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
     }
     state_->regularise(learned, labeling, progress.part(0.5, 1));
   }
+  labeling.seconds = watch.seconds();
+  return labeling;
+}
+
+Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParameters& parameters,
+                         const Progress& progress) {
+  const Stopwatch watch;
+  require_disparity(parameters.regularizer, state_->disparity != nullptr);
+  if (probabilities.grid != state_->light_field->grid()) {
+    throw InvalidInput("probabilities of all views are needed to label all views");
+  }
+  state_->use({uses_disparity(parameters)});
+  Labeling labeling;
+  labeling.probabilities = std::move(probabilities);
+  state_->regularise_together(parameters, labeling, progress);
   labeling.seconds = watch.seconds();
   return labeling;
 }

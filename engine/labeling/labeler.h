@@ -6,37 +6,14 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
-#include "engine/core/parameter/schema.h"
 #include "engine/labeling/label_probabilities.h"
-#include "engine/labeling/rays/regularizer.h"
+#include "engine/labeling/labeler_parameters.h"
 
 #include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 namespace episcope {
-
-/// The features that the forest uses: the three sets of the archive. Which disparity is meant is up
-/// to the caller; here all but Image judge labels by it.
-enum class FeatureSet { Image, ImageEstimate, ImageTruth };
-[[nodiscard]] Names<FeatureSet> names_of(FeatureSet);
-
-/// Parameters of a segmentation.
-struct LabelerParameters {
-  FeatureSet features = FeatureSet::ImageEstimate;
-  Regularizer regularizer = Regularizer::Rayspace;
-  double smoothness = 32;
-  double nearness = 0.35;
-  int trees = 96;
-  int depth = 14;
-  int seed = 1;
-};
-
-[[nodiscard]] Schema<LabelerParameters> labeler_schema();
-
-/// Whether the set of features includes disparity.
-[[nodiscard]] bool uses_disparity(const LabelerParameters& parameters);
 
 /// A segmentation of a rectangle of views.
 struct Labeling {
@@ -78,8 +55,10 @@ class Labeler {
   /// `disparity` may be null, or cover some views only. It carries places along the rays, couples
   /// views, and speaks for labels where the parameters say so. `edges`: EDGE_WEIGHTS of all views;
   /// null = computed, from disparity as well where that is a feature.
+  /// `confidence` of the disparity, in [0, 1], of the same views; null = it is right everywhere.
   Labeler(LightFieldPtr light_field, std::shared_ptr<const DisparityField> disparity,
-          std::shared_ptr<const ViewStack<float>> edges = nullptr);
+          std::shared_ptr<const ViewStack<float>> edges = nullptr,
+          std::shared_ptr<const ViewStack<float>> confidence = nullptr);
   ~Labeler();
   Labeler(Labeler&&) noexcept;
   Labeler& operator=(Labeler&&) noexcept;
@@ -93,6 +72,13 @@ class Labeler {
   [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});
+
+  /// Labels of all views from probabilities that are known already: what `label` does after the
+  /// forest. `features` of the parameters says whether disparity makes edges.
+  /// Throws InvalidInput if they are not those of all views, or if rays are to be joined without
+  /// disparity; Cancelled.
+  [[nodiscard]] Labeling smooth(LabelProbabilities probabilities,
+                                const LabelerParameters& parameters, const Progress& progress);
 
  private:
   struct State;

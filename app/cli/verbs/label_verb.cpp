@@ -8,6 +8,7 @@
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/labels/judge_labeling.h"
+#include "app/session/labels/label_archive.h"
 #include "app/session/labels/labeling_inputs.h"
 #include "app/session/labels/save_segmentation.h"
 #include "engine/core/error.h"
@@ -26,6 +27,8 @@ struct Request {
   std::string output;
   std::string scribbles;
   std::string disparity;
+  std::string given;    // Probabilities to begin with.
+  std::string archive;  // Folder to write.
   bool is_json = false;
   StoredProbabilities probabilities = StoredProbabilities::All;
   LabelerParameters parameters;
@@ -46,6 +49,12 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option(
       "--disparity", request.disparity, text_value("RESULT.h5"),
       std::string("Disparity of all views; by default ") + kLabelingEstimator + " estimates it");
+  parser.option("--probabilities", request.given, text_value("FILE.h5"),
+                "Label probabilities of all views to use instead of learning them, as the archive "
+                "stores them");
+  parser.option("--write-archive", request.archive, text_value("DIR"),
+                "Also write edge_weights.h5 and the label probabilities of all sets of features "
+                "into this folder, under the archive's names");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels only; probabilities take four bytes per ray and label");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
@@ -66,7 +75,7 @@ void check_output(const Request& request) {
   check_hdf5_output("label", request.output);
   check_labeling_output(request.output);
   protect_input(request.output, request.input);
-  for (const std::string& file : {request.scribbles, request.disparity}) {
+  for (const std::string& file : {request.scribbles, request.disparity, request.given}) {
     if (!file.empty()) protect_input(request.output, file);
   }
 }
@@ -75,11 +84,40 @@ Scribbles load_scribbles(const Request& request, Scene& scene, const Progress& p
   if (!request.scribbles.empty()) {
     return io::read_scribbles(request.scribbles, scene, progress);
   }
+  if (scene.scribbles.empty() && !request.given.empty() && request.archive.empty()) return {};
   if (scene.scribbles.empty()) {
     throw InvalidInput(request.input +
                        " has no scribbles next to it; name a file of scribbles with --scribbles");
   }
   return std::move(scene.scribbles);
+}
+
+Labeling label_views(Labeler& labeler, const Scribbles& scribbles, const Scene& scene,
+                     const Request& request, const Progress& progress) {
+  if (request.given.empty()) {
+    return labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
+                         progress);
+  }
+  return labeler.smooth(
+      read_all_probabilities(request.given, scene, scribbles, progress.part(0, 0.2)),
+      request.parameters, progress.part(0.2, 1));
+}
+
+/// What the archive calls features with disparity has an estimate even where labels use the truth.
+void write_archive(const Scene& scene, const Scribbles& scribbles, const Request& request,
+                   const LabelingDisparity& used, Job& job) {
+  if (request.archive.empty()) return;
+  LabelingDisparity estimate = used;
+  if (request.parameters.features == FeatureSet::ImageTruth) {
+    LabelerParameters parameters = request.parameters;
+    parameters.features = FeatureSet::ImageEstimate;
+    estimate = find_labeling_disparity(scene, parameters, {}, job.progress());
+  }
+  for (const std::string& file :
+       write_label_archive(request.archive, scene, scribbles, request.parameters, estimate,
+                           job.progress().part(1, 1))) {
+    job.note("wrote " + request.archive + "/" + file);
+  }
 }
 
 void print_json_answer(const Request& request, const Labeling& labeling,
@@ -147,10 +185,10 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const LabelingDisparity disparity = find_labeling_disparity(
       scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
   if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
-  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress));
+  Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
+                  disparity.confidence());
   const auto labeling = std::make_shared<const Labeling>(
-      labeler.label(scribbles, request.parameters, {{0, 0}, scene.light_field->grid()},
-                    progress.part(0.2, 0.95)));
+      label_views(labeler, scribbles, scene, request, progress.part(0.2, 0.95)));
   const double seconds = watch.seconds();
   progress.step("writing " + request.output);
   Segmentation segmentation;
@@ -160,6 +198,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   segmentation.reading = scene.light_field->info().reading;
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
+  write_archive(scene, scribbles, request, disparity, job);
   const LabelingScores scores =
       judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                      *scene.truth, disparity.field.get(), progress.part(1, 1));

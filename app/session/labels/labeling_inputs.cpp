@@ -35,6 +35,11 @@ LabelingDisparity disparity_of(EstimatePtr estimate, const std::string& origin) 
 
 }  // namespace
 
+std::shared_ptr<const ViewStack<float>> LabelingDisparity::confidence() const {
+  if (!estimate || estimate->confidence.empty()) return nullptr;
+  return {estimate, &estimate->confidence};
+}
+
 LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParameters& parameters,
                                           const std::filesystem::path& result_file,
                                           const Progress& progress) {

@@ -13,12 +13,15 @@
 
 namespace episcope {
 
-/// The disparity of a segmentation: it carries positions along the rays, and labels are judged by it
-/// if the parameters say so.
+/// The disparity of a segmentation: it carries positions along the rays, and labels are judged by
+/// it if the parameters say so.
 struct LabelingDisparity {
   std::shared_ptr<const DisparityField> field;
   std::string origin;    ///< "truth", "epi_c", or the file it was read from.
   EstimatePtr estimate;  ///< What `field` is part of; null for the truth.
+
+  /// How sure the estimate is of each pixel; null if that is not known, as for the truth.
+  [[nodiscard]] std::shared_ptr<const ViewStack<float>> confidence() const;
 };
 
 /// The method that estimates disparity for labels where none is given.

@@ -32,11 +32,12 @@ LabelingPtr copy(const Labeling& from) {
 }  // namespace
 
 Labeler new_labeler(const LabelingInput& input) {
-  return {input.light_field, input.disparity, input.edges};
+  return {input.light_field, input.disparity, input.edges, input.confidence};
 }
 
 bool is_same_scene(const LabelingInput& a, const LabelingInput& b) {
-  return a.light_field == b.light_field && a.disparity == b.disparity && a.edges == b.edges;
+  return a.light_field == b.light_field && a.disparity == b.disparity && a.edges == b.edges &&
+         a.confidence == b.confidence;
 }
 
 bool is_same(const LabelingInput& a, const LabelingInput& b) {

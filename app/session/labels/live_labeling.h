@@ -19,6 +19,8 @@ struct LabelingInput {
   std::shared_ptr<const ViewStack<float>> edges;
   std::shared_ptr<const ScribbleLayer> scribbles;
   LabelerParameters parameters;
+  /// Of the disparity (LabelingDisparity::confidence); null: it is right everywhere.
+  std::shared_ptr<const ViewStack<float>> confidence;
 };
 
 /// A labeler of what the input has besides strokes and parameters, and whether one of `a` serves

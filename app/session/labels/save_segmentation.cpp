@@ -36,21 +36,6 @@ ViewIndex checked_view(const io::SegmentationFile& file, const std::string& name
                      " on, but view " + view_text(view) + " was asked for");
 }
 
-/// `[y][x][label]` in [0, 1] as `[y][label][x]` in bytes.
-ProbabilityMap bytes_of(const Image<float>& probabilities) {
-  ProbabilityMap map(probabilities.height(), probabilities.channels(), probabilities.width());
-  for (int y = 0; y < probabilities.height(); ++y) {
-    for (int l = 0; l < probabilities.channels(); ++l) {
-      std::uint8_t* out = map.view().row(y, l);
-      for (int x = 0; x < probabilities.width(); ++x) {
-        const float bounded = std::clamp(probabilities.at(y, x, l), 0.0F, 1.0F);
-        out[x] = static_cast<std::uint8_t>(std::lround(bounded * 255));
-      }
-    }
-  }
-  return map;
-}
-
 }  // namespace
 
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
@@ -83,7 +68,7 @@ Segmentation read_segmentation(const std::filesystem::path& path, std::optional<
     for (const LabelInfo& info : file.infos()) probabilities.ids.push_back(info.id);
     probabilities.grid = {1, 1};
     probabilities.first = view;
-    probabilities.views.push_back(bytes_of(file.probabilities(view)));
+    probabilities.views.push_back(io::bytes_of(file.probabilities(view)));
   }
   return {std::move(labeling), file.infos(), {}, file.reading()};
 }
@@ -105,7 +90,7 @@ LabelingPtr read_archive_probabilities(const Scene& scene, ViewIndex view) {
   for (int id = 1; id <= file.label_count(); ++id) probabilities.ids.push_back(id);
   probabilities.grid = {1, 1};
   probabilities.first = view;
-  probabilities.views.push_back(bytes_of(file.view(view)));
+  probabilities.views.push_back(io::bytes_of(file.view(view)));
   const Image<std::int32_t> labels =
       most_probable_labels(probabilities.views.front().view(), probabilities.ids);
   labeling->labels = ViewStack<std::int32_t>({1, 1}, labels.height(), labels.width(), 1, view);

@@ -6,6 +6,7 @@
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/order/view_order.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 
@@ -132,6 +133,39 @@ void write_edge_probabilities(const std::filesystem::path& path, const ViewStack
       file, kEdgeWeights, geometry_of(weights), "probability", progress, [&](ViewIndex stored) {
         return weights.view(flipped(stored, field.grid(), flip_of(scene.convention))).data;
       });
+  file.close();
+  progress.check();
+  target.commit();
+}
+
+std::string companion_file(CompanionKind kind) {
+  return std::ranges::find(kKnownFiles, kind, &KnownFile::kind)->file;
+}
+
+void write_label_probabilities(const std::filesystem::path& path, int label_count,
+                               const ViewProbabilities& probabilities, const Scene& scene,
+                               const Progress& progress) {
+  progress.check();
+  const LightField& field = *scene.light_field;
+  const GridShape grid = field.grid();
+  Hdf5Shape shape = stack_shape(field);
+  shape.push_back(static_cast<std::size_t>(label_count));
+  Image<float> samples(field.height(), field.width(), label_count);
+  const std::uintmax_t views = static_cast<std::uintmax_t>(grid.count());
+  AtomicFile target(path, views * samples.size() * sizeof(float) + (1 << 16));
+  Hdf5Output file(target);
+  file.add_dataset<float>(kProbabilities, shape, "v,h,y,x,label", "probability");
+  for (int i = 0; i < grid.count(); ++i) {
+    progress.check();
+    const ViewIndex stored = grid.view_at(i);
+    fill_samples(probabilities(flipped(stored, grid, flip_of(scene.convention))), samples);
+    Hdf5Block block{Hdf5Shape(shape.size(), 0), shape};
+    block.start[0] = static_cast<std::size_t>(stored.v);
+    block.start[1] = static_cast<std::size_t>(stored.u);
+    block.count[0] = block.count[1] = 1;
+    file.write(kProbabilities, block, samples.data());
+    progress.report((i + 1.0) / grid.count());
+  }
   file.close();
   progress.check();
   target.commit();

@@ -4,9 +4,11 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/io/labels/probability_samples.h"
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace episcope::io {
@@ -30,6 +32,17 @@ namespace episcope::io {
 /// field; Cancelled.
 void write_edge_probabilities(const std::filesystem::path& path, const ViewStack<float>& weights,
                               const Scene& scene, const Progress& progress);
+
+/// The archive's name for a file of this kind, as "edge_weights.h5".
+[[nodiscard]] std::string companion_file(CompanionKind kind);
+
+/// Writes label probabilities of all views as `Probabilities` [v][h][y][x][label] in the order of
+/// views of the files of `scene`, to be stored beside them; those of a view by `probabilities`, in
+/// canonical order. Read by ProbabilityFile and `bytes_of`, they are the same bit by bit. Atomic.
+/// Throws IoError, Cancelled.
+void write_label_probabilities(const std::filesystem::path& path, int label_count,
+                               const ViewProbabilities& probabilities, const Scene& scene,
+                               const Progress& progress);
 
 /// Label probabilities of an archive file, read one view at a time because all views take
 /// gigabytes.

@@ -46,14 +46,7 @@ void write_probabilities(Hdf5Output& file, const StoredSegmentation& labeling,
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex place = grid.view_at(i);
-    const auto map = probabilities({labels.first().v + place.v, labels.first().u + place.u});
-    for (int y = 0; y < map.height; ++y) {
-      for (int l = 0; l < map.layers; ++l) {
-        const std::uint8_t* in = map.row(y, l);
-        float* out = samples.row(y) + l;
-        for (int x = 0; x < map.width; ++x) out[x * map.layers] = in[x] * (1.0F / 255);
-      }
-    }
+    fill_samples(probabilities({labels.first().v + place.v, labels.first().u + place.u}), samples);
     file.write(kProbabilities, block_of(shape, place, grid.count() > 1), samples.data());
     progress.report((i + 1.0) / grid.count());
   }

@@ -2,15 +2,14 @@
 #pragma once
 
 #include "engine/core/array/view_stack.h"
-#include "engine/core/array/volume.h"
 #include "engine/core/light_field/label_info.h"
 #include "engine/core/light_field/reading.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/parameter.h"
+#include "engine/io/labels/probability_samples.h"
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,16 +26,12 @@ struct StoredSegmentation {
   double seconds = 0;
 };
 
-/// Probabilities of one view, `[y][label][x]`, 0 … 255 for 0 … 1, labels as in
-/// StoredSegmentation::infos.
-using ViewProbabilities = std::function<VolumeView<const std::uint8_t>(ViewIndex)>;
-
 /// Writes a segmentation in canonical order of views: `LABELS` int32 [v][u][y][x],
 /// or [y][x] with the attribute `view` for a single one, with names and colours as SCRIBBLES has
 /// them; if `probabilities` is set, `Probabilities` float [v][u][y][x][label] (or [y][x][label]) as
-/// the archive names it; attributes of the root: `parameters`, `source`, `seconds`, `version`,
-/// `reader`, `reading`.
-/// Atomic. Throws IoError, Cancelled.
+/// the archive names it, labels as in StoredSegmentation::infos; attributes of the root:
+/// `parameters`, `source`, `seconds`, `version`, `reader`, `reading`. Atomic. Throws IoError,
+/// Cancelled.
 void write_segmentation(const std::filesystem::path& path, const StoredSegmentation& labeling,
                         const ViewProbabilities& probabilities, const Progress& progress);
 

@@ -45,8 +45,8 @@ Image<float> doubt_of(ImageView<const float> disparity) {
 }  // namespace
 
 LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
-                             ImageView<const float> disparity)
-    : disparity_(disparity), doubt_(doubt_of(disparity)) {
+                             ImageView<const float> disparity, ImageView<const float> trust)
+    : disparity_(disparity), trust_(trust), doubt_(doubt_of(disparity)) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(label_count));
   for (int y = 0; y < strokes.height; ++y) {
     for (int x = 0; x < strokes.width; ++x) {
@@ -160,9 +160,10 @@ void LabelSurfaces::weigh_row(int y, int pitch, float* probabilities) const {
     const float* misfit = all.data() + static_cast<std::ptrdiff_t>(x) * pitch;
     float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
     const float least = *std::min_element(misfit, misfit + count);
+    const float weight = trust_.empty() ? kWeight : kWeight * trust_.at(y, x);
     float sum = 0;
     for (std::size_t l = 0; l < count; ++l) {
-      p[l] = (p[l] + kLeastProbability) * std::exp(-kWeight * (misfit[l] - least));
+      p[l] = (p[l] + kLeastProbability) * std::exp(-weight * (misfit[l] - least));
       sum += p[l];
     }
     for (std::size_t l = 0; l < count; ++l) p[l] /= sum;

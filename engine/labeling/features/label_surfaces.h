@@ -24,9 +24,9 @@ namespace episcope {
 class LabelSurfaces {
  public:
   /// `strokes` as from `carried_strokes` (stroke_distance.h), `disparity` of the view, without
-  /// holes, borrowed.
+  /// holes, and how far it is trusted (disparity_trust.h; empty = everywhere), borrowed.
   LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
-                ImageView<const float> disparity);
+                ImageView<const float> disparity, ImageView<const float> trust = {});
 
   /// Standard deviation below which disparities say nothing, px per view step.
   static constexpr double kNoise_px = 0.04;
@@ -38,8 +38,9 @@ class LabelSurfaces {
   /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch` apart.
   void misfits(int y, int pitch, float* out) const;
 
-  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by exp(−1.5·misfit), and
-  /// makes them sum to 1 again. Before, 0.02 is added to each: a forest is never that sure.
+  /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
+  /// exp(−1.5·trust·misfit), and makes them sum to 1 again. Before, 0.02 is added to each: a forest
+  /// is never that sure.
   void weigh_row(int y, int pitch, float* probabilities) const;
 
  private:
@@ -58,6 +59,7 @@ class LabelSurfaces {
                     double ridge_px2, Surface& surface);
 
   ImageView<const float> disparity_;
+  ImageView<const float> trust_;
   Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
 };

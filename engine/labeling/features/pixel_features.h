@@ -22,6 +22,9 @@ struct PixelFeatureSet {
 /// First of the three layers of Lab averaged within wider surfaces.
 inline constexpr int kWiderSurfaceLayer = 12;
 
+/// First of the two layers of the place, column and row.
+inline constexpr int kPlaceLayer = 21;
+
 /// What each layer of PixelFeatures holds, in their order: "red", "lightness, smoothed", …
 [[nodiscard]] std::vector<std::string> pixel_feature_names(PixelFeatureSet set);
 

@@ -26,6 +26,10 @@ struct Way {
 };
 constexpr Way kWays[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
 
+float step_length(Way way) {
+  return StrokeDistances::kStep * std::sqrt(static_cast<float>(way.dx * way.dx + way.dy * way.dy));
+}
+
 std::int32_t index_of(const std::vector<std::int32_t>& ids, std::int32_t label) {
   if (label <= 0) return 0;
   return static_cast<std::int32_t>(std::ranges::lower_bound(ids, label) - ids.begin()) + 1;
@@ -85,7 +89,7 @@ StrokeDistances::StrokeDistances(ImageView<const std::int32_t> strokes, int labe
   }
   if (stroked_.size() < 2) return;  // Nothing to compare.
   find_ways(guides);
-  if (!guides.disparity.empty()) add_jumps(guides.disparity);
+  if (!guides.disparity.empty()) add_jumps(guides);
   if (guides.surfaces != nullptr) begin_on(*guides.surfaces, progress);
   sweep(progress, isa);
 }
@@ -94,8 +98,7 @@ void StrokeDistances::find_ways(const StrokeGuides& guides) {
   for (int way = 0; way < 4; ++way) {
     ways_[way].assign(static_cast<std::size_t>(height_) * width_, kFar);
     const auto [dx, dy] = kWays[way];
-    const float step = kStep * std::sqrt(static_cast<float>(dx * dx + dy * dy));
-    const float weight = guides.disparity.empty() ? 1 : kColorsBesideDisparity;
+    const float step = step_length(kWays[way]);
     for (int y = 0; y + dy < height_; ++y) {
       float* lengths = ways_[way].data() + static_cast<std::size_t>(y) * width_;
       const int begin = std::max(0, -dx);
@@ -108,20 +111,26 @@ void StrokeDistances::find_ways(const StrokeGuides& guides) {
           lengths[x] += (there[x] - here[x]) * (there[x] - here[x]);
         }
       }
-      for (int x = begin; x < end; ++x) lengths[x] = step + weight * std::sqrt(lengths[x]);
+      for (int x = begin; x < end; ++x) lengths[x] = step + std::sqrt(lengths[x]);
     }
   }
 }
 
-void StrokeDistances::add_jumps(ImageView<const float> disparity) {
+void StrokeDistances::add_jumps(const StrokeGuides& guides) {
+  const auto trust = [&](int y, int x) { return guides.trust.empty() ? 1 : guides.trust.at(y, x); };
   for (int way = 0; way < 4; ++way) {
     const auto [dx, dy] = kWays[way];
+    const float step = step_length(kWays[way]);
     for (int y = 0; y + dy < height_; ++y) {
       float* lengths = ways_[way].data() + static_cast<std::size_t>(y) * width_;
-      const float* here = disparity.row(y);
-      const float* there = disparity.row(y + dy) + dx;
+      const float* here = guides.disparity.row(y);
+      const float* there = guides.disparity.row(y + dy) + dx;
       for (int x = std::max(0, -dx); x < width_ - std::max(0, dx); ++x) {
-        lengths[x] += kJumpWeight * std::max(std::abs(there[x] - here[x]) - kSlope_px, 0.F);
+        const float jump = std::max(std::abs(there[x] - here[x]) - kSlope_px, 0.F);
+        const float t = std::min(trust(y, x), trust(y + dy, x + dx));
+        const float color = lengths[x] - step;
+        lengths[x] =
+            step + std::lerp(1.0F, kColorsBesideDisparity, t) * color + t * kJumpWeight * jump;
       }
     }
   }

@@ -29,14 +29,17 @@ struct StrokeGuides {
   ImageView<const float> disparity{};
   /// Where labels go on behind what hides them; null = nowhere.
   const LabelSurfaces* surfaces = nullptr;
+  /// How far disparity is trusted, `[y][x]` in [0, 1]; empty = everywhere.
+  ImageView<const float> trust{};
 };
 
 /// How far each pixel of a view is from the strokes of each label.
 class StrokeDistances {
  public:
   /// Shortest paths over the 8 neighbours of pixels: a step costs kStep per pixel, the Euclidean
-  /// difference of the pixels' colours (half of it beside disparity), and 5 for each px of
-  /// disparity by which they differ more than kSlope_px: slanted surfaces are no edges. A path may
+  /// difference of the pixels' colours (half of it beside trusted disparity), and 5 times the trust
+  /// for each px of disparity by which they differ more than kSlope_px: slanted surfaces are no
+  /// edges. A path may
   /// also begin at any pixel for 1 + the misfit of the label's surface there (label_surfaces.h), as
   /// if it came along the surface behind everything else.
   /// Found by three raster sweeps in both directions: exact where the path turns seldom (Toivanen
@@ -59,7 +62,7 @@ class StrokeDistances {
 
  private:
   void find_ways(const StrokeGuides& guides);
-  void add_jumps(ImageView<const float> disparity);
+  void add_jumps(const StrokeGuides& guides);
   void begin_on(const LabelSurfaces& surfaces, const Progress& progress);
   void sweep(const Progress& progress, Isa isa);
 

@@ -47,6 +47,7 @@ std::vector<std::int32_t> painted_labels(const Scribbles& scribbles, const Light
 
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,
                     const std::vector<std::int32_t>& ids, ForestSamples& samples) {
+  samples.occasional = {kPlaceLayer, kPlaceLayer + 1};
   for (int y = 0; y < features.height; ++y) {
     for (int x = 0; x < features.width; ++x) {
       const std::int32_t label = painted.labels.at(y, x);

@@ -16,7 +16,8 @@ namespace episcope {
 [[nodiscard]] std::vector<std::int32_t> painted_labels(const Scribbles& scribbles,
                                                        const LightField& light_field);
 
-/// Appends the painted pixels of a view; `ids` (ascending) gives the index of each label.
+/// Appends the painted pixels of a view; `ids` (ascending) gives the index of each label. The place
+/// is an occasional feature: with short strokes it says little about the rest of a label.
 void append_samples(const ViewScribbles& painted, VolumeView<const float> features,
                     const std::vector<std::int32_t>& ids, ForestSamples& samples);
 

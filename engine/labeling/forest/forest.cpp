@@ -25,10 +25,11 @@ std::vector<std::vector<int>> samples_by_label(const ForestSamples& samples) {
   return of_label;
 }
 
-/// As many samples of each label, drawn with replacement.
+/// As many samples of each label, drawn with replacement. `is_without`: the occasional features are
+/// constant, so that no split uses them.
 cv::Ptr<cv::ml::TrainData> draw(const ForestSamples& samples,
                                 const std::vector<std::vector<int>>& of_label, int count,
-                                std::mt19937& random) {
+                                bool is_without, std::mt19937& random) {
   const int rows = count * samples.label_count;
   cv::Mat features(rows, samples.feature_count, CV_32F);
   cv::Mat labels(rows, 1, CV_32S);
@@ -40,6 +41,9 @@ cv::Ptr<cv::ml::TrainData> draw(const ForestSamples& samples,
       std::copy_n(
           samples.features.data() + static_cast<std::ptrdiff_t>(sample) * samples.feature_count,
           samples.feature_count, features.ptr<float>(row));
+      if (is_without) {
+        for (const int feature : samples.occasional) features.at<float>(row, feature) = 0;
+      }
       labels.at<int>(row) = samples.labels[sample];
     }
   }
@@ -84,7 +88,7 @@ class Forest::Trainer {
   void grow_block(int block) {
     std::mt19937 random(static_cast<unsigned>(options_.seed) * 7919U +
                         static_cast<unsigned>(block));
-    const auto data = draw(samples_, of_label_, options_.samples_per_label, random);
+    const auto data = draw(samples_, of_label_, options_.samples_per_label, block % 2 == 0, random);
     const auto trees = grow(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
     const std::vector<int>& roots = trees->getRoots();
     for (int i = 0; i < kForestTreesPerBlock; ++i) {

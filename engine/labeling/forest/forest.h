@@ -17,6 +17,9 @@ struct ForestSamples {
   int label_count = 0;
   std::vector<float> features;       ///< `[sample][feature]`
   std::vector<std::int32_t> labels;  ///< `[sample]` in [0, label_count).
+  /// Features that every other block of trees does without: those that tell labels apart so well
+  /// where they were painted that no tree would look at anything else.
+  std::vector<int> occasional{};
 
   [[nodiscard]] int count() const { return static_cast<int>(labels.size()); }
   friend bool operator==(const ForestSamples&, const ForestSamples&) = default;

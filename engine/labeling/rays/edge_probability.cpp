@@ -4,9 +4,11 @@
 #include "engine/core/error.h"
 #include "engine/core/light_field/gradient_magnitude.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/rays/disparity_trust.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <vector>
 
 namespace episcope {
@@ -48,15 +50,19 @@ Image<float> widened(const Image<float>& map) {
   return out;
 }
 
-// What image edges count at each pixel.
-Image<float> edge_trust(const Image<float>& jumps, float texture) {
+// What image edges count at each pixel; `trust` in disparity may be empty.
+Image<float> edge_trust(const Image<float>& jumps, const Image<float>& trust, float texture) {
   Image<float> gaps(jumps.height(), jumps.width());
   std::transform(jumps.begin(), jumps.end(), gaps.begin(), [](float jump) {
     return 1 - std::exp(-kJumpSharpness * std::max(jump - kNoJump_px, 0.F));
   });
-  Image<float> trust = widened(gaps);
-  for (float& t : trust) t = texture + (1 - texture) * t;
-  return trust;
+  Image<float> count = widened(gaps);
+  for (float& c : count) c = texture + (1 - texture) * c;
+  if (!trust.empty()) {
+    std::transform(count.begin(), count.end(), trust.begin(), count.begin(),
+                   [](float c, float t) { return std::lerp(1.0F, c, t); });
+  }
+  return count;
 }
 
 Image<float> disparity_jumps(const DisparityView& map) {
@@ -68,7 +74,8 @@ Image<float> disparity_jumps(const DisparityView& map) {
 }
 
 void fill_view(const LightField& lf, ViewIndex view, const DisparityField& disparity,
-               const EdgeParameters& parameters, ImageView<float> out) {
+               const EdgeParameters& parameters, const ViewStack<float>* confidence,
+               ImageView<float> out) {
   gradient_magnitude(lf, view, out);
   const auto beta = static_cast<float>(parameters.image);
   const auto gamma = static_cast<float>(parameters.disparity);
@@ -80,11 +87,16 @@ void fill_view(const LightField& lf, ViewIndex view, const DisparityField& dispa
     }
     return;
   }
-  const Image<float> jumps = disparity_jumps(disparity.view(view));
-  const Image<float> trust = edge_trust(jumps, static_cast<float>(parameters.texture));
+  Image<float> jumps = disparity_jumps(disparity.view(view));
+  Image<float> trust;
+  if (confidence != nullptr && confidence->contains(view)) {
+    trust = disparity_trust(confidence->view(view));
+    std::transform(jumps.begin(), jumps.end(), trust.begin(), jumps.begin(), std::multiplies<>());
+  }
+  const Image<float> count = edge_trust(jumps, trust, static_cast<float>(parameters.texture));
   for (int y = 0; y < out.height; ++y) {
     float* const row = out.row(y);
-    const float *const jump = jumps.row(y), *const m = trust.row(y);
+    const float *const jump = jumps.row(y), *const m = count.row(y);
     for (int x = 0; x < out.width; ++x) {
       row[x] = 1 - std::exp(-beta * m[x] * row[x] - gamma * jump[x]);
     }
@@ -105,7 +117,7 @@ Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                               const DisparityField& disparity, const EdgeParameters& parameters) {
   check_sizes(light_field, disparity);
   Image<float> edges(light_field.height(), light_field.width());
-  fill_view(light_field, view, disparity, parameters, edges.view());
+  fill_view(light_field, view, disparity, parameters, nullptr, edges.view());
   return edges;
 }
 
@@ -117,12 +129,13 @@ ViewStack<float> edge_probabilities(const LightField& light_field, const Dispari
 
 ViewStack<float> edge_probabilities(const LightField& light_field, ViewRectangle views,
                                     const DisparityField& disparity,
-                                    const EdgeParameters& parameters, const Progress& progress) {
+                                    const EdgeParameters& parameters, const Progress& progress,
+                                    const ViewStack<float>* confidence) {
   check_sizes(light_field, disparity);
   ViewStack<float> edges(views.grid, light_field.height(), light_field.width(), 1, views.first);
   parallel_for(views.grid.count(), progress, [&](int i) {
     const ViewIndex view = views.grid.view_at(i, views.first);
-    fill_view(light_field, view, disparity, parameters, edges.view(view));
+    fill_view(light_field, view, disparity, parameters, confidence, edges.view(view));
   });
   return edges;
 }

@@ -29,7 +29,8 @@ struct EdgeParameters {
 [[nodiscard]] Image<float> edge_probability(const LightField& light_field, ViewIndex view,
                                             const DisparityField& disparity,
                                             const EdgeParameters& parameters);
-/// Of all views, or of those of a rectangle, `[v][u][y][x]`.
+/// Of all views, or of those of a rectangle, `[v][u][y][x]`. With the confidence of the disparity,
+/// m tends to 1 and jumps to 0 where disparity is not trusted (disparity_trust.h).
 [[nodiscard]] ViewStack<float> edge_probabilities(const LightField& light_field,
                                                   const DisparityField& disparity,
                                                   const EdgeParameters& parameters,
@@ -38,7 +39,8 @@ struct EdgeParameters {
                                                   ViewRectangle views,
                                                   const DisparityField& disparity,
                                                   const EdgeParameters& parameters,
-                                                  const Progress& progress);
+                                                  const Progress& progress,
+                                                  const ViewStack<float>* confidence = nullptr);
 
 /// One probability for each pixel, `[y][x]`: of one per direction (two channels) the larger one.
 [[nodiscard]] Image<float> larger_edge_probability(ImageView<const float> edge_probability);

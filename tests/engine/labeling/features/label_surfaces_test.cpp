@@ -94,6 +94,19 @@ class LabelSurfacesTest : public QObject {
     QVERIFY(p[16 * 20] > 0.9F);
     QVERIFY(p[16 * 80 + 1] > 0.1F);
   }
+
+  void untrustedDisparity_saysNothing() {
+    const Room room;
+    const Image<float> trust(kHeight, kWidth);
+    const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view(), trust.view());
+    std::vector<float> p(static_cast<std::size_t>(kWidth) * 16);
+    for (int x = 0; x < kWidth; ++x) p[static_cast<std::size_t>(x) * 16] = 1;
+
+    surfaces.weigh_row(20, 16, p.data());
+
+    for (int x = 0; x < kWidth; ++x) QCOMPARE(p[static_cast<std::size_t>(x) * 16], p[0]);
+    QVERIFY(p[0] > 0.97F);
+  }
 };
 
 }  // namespace episcope::in_label_surfaces_test

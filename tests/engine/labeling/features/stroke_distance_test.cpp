@@ -58,6 +58,7 @@ class StrokeDistanceTest : public QObject {
   void distances_areThoseOfShortestWays();
   void wall_parts();
   void jumpsOfDisparity_part_slopesDoNot();
+  void untrustedJumps_partNothing();
   void surface_goesOnBehindAFence();
   void labelWithoutStroke_isLeftToTheForest();
   void weighing_keepsTheSum();
@@ -120,6 +121,26 @@ void StrokeDistanceTest::jumpsOfDisparity_part_slopesDoNot() {
   QCOMPARE(slanted.excess(4, 7, 0), flat.excess(4, 7, 0));
   QCOMPARE(parted.excess(4, 7, 0), 0.F);
   QVERIFY(parted.excess(4, 7, 1) > 4);
+}
+
+void StrokeDistanceTest::untrustedJumps_partNothing() {
+  Image<float> guide(kHeight, kWidth);
+  Image<float> jump(kHeight, kWidth);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      guide.at(y, x) = x < 6 ? 0 : 0.5F;
+      jump.at(y, x) = x < 8 ? 0 : 1;
+    }
+  }
+  const Image<float> trust(kHeight, kWidth);
+
+  const StrokeDistances alone(two_dots(), 2, {{guide.view()}}, Progress());
+  const StrokeDistances untrusted(two_dots(), 2,
+                                  {{guide.view()}, jump.view(), nullptr, trust.view()}, Progress());
+
+  for (int x = 0; x < kWidth; ++x) {
+    QVERIFY(std::abs(untrusted.excess(4, x, 0) - alone.excess(4, x, 0)) < 1e-5F);
+  }
 }
 
 void StrokeDistanceTest::surface_goesOnBehindAFence() {

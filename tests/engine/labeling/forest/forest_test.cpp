@@ -75,6 +75,7 @@ class ForestTest : public QObject {
   void separableClouds_areToldApart();
   void probabilities_sumToOne();
   void result_dependsOnTheSeed_andNotOnThreads();
+  void occasionalFeature_isUsedByHalfOfTheTrees();
   void manySamplesOfALabel_weighNoMore();
   void flattenedTrees_voteAsOpenCv();
   void instructionSets_agree();
@@ -116,6 +117,18 @@ void ForestTest::result_dependsOnTheSeed_andNotOnThreads() {
 
   QVERIFY(one == four);
   QVERIFY(one != reseeded);
+}
+
+void ForestTest::occasionalFeature_isUsedByHalfOfTheTrees() {
+  // What tells label 0 from the others is its first feature.
+  ForestSamples samples = clouds(300, 1);
+  const std::vector<float> all = predicted(Forest::train(samples, {}, Progress()), samples, 100);
+  samples.occasional = {0, 1, 2};
+  const std::vector<float> half = predicted(Forest::train(samples, {}, Progress()), samples, 100);
+
+  QVERIFY(all[0] > 0.95F);
+  QVERIFY(half[0] > 0.55F);
+  QVERIFY(half[0] < 0.9F);
 }
 
 void ForestTest::manySamplesOfALabel_weighNoMore() {
