@@ -193,6 +193,12 @@ Interval Session::known_range() const {
   return found == estimates_.end() ? Interval{} : found->display_range;
 }
 
+void Session::set_bad_threshold(double threshold_px) {
+  if (threshold_px == bad_threshold_px_) return;
+  bad_threshold_px_ = threshold_px;
+  changed(Part::Evaluations);
+}
+
 void Session::set_true_labels(TrueLabelsPtr labels) {
   if (!scene_) return;
   true_labels_ = std::move(labels);

@@ -80,6 +80,11 @@ class Session {
   [[nodiscard]] bool is_evaluating() const { return evaluations_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
+  /// Errors beyond it make a pixel bad, in maps and in statistics of what is in sight. Kept from
+  /// scene to scene.
+  void set_bad_threshold(double threshold_px);
+  [[nodiscard]] double bad_threshold_px() const { return bad_threshold_px_; }
+
   /// Compares with other labels than those that came with the scene, until another is opened.
   void set_true_labels(TrueLabelsPtr labels);
   /// Null if there are none.
@@ -117,6 +122,7 @@ class Session {
   int shown_ = 0;
   int compared_ = 0;
   bool is_compared_chosen_ = false;
+  double bad_threshold_px_ = kBadPixelThreshold_px;
   TrueLabelsPtr true_labels_;
   ViewIndex view_;
   PixelIndex cross_hair_;

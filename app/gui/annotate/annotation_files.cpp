@@ -45,7 +45,6 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
   connect(&document_, &DocumentController::unsavedChanged, this, &AnnotationFiles::showState);
   session_.on_changed([this](Parts parts) {
     if (!parts.has(Part::Scene)) return;
-    place_.clear();
     known_ = place();
     known_stamp_ = stamp_of(path_of(known_));
     showState();
@@ -98,7 +97,8 @@ void AnnotationFiles::showState() {
 }
 
 QString AnnotationFiles::place() const {
-  if (!place_.empty()) return QString::fromStdString(place_.string());
+  const std::string file = document_.file();
+  if (!file.empty()) return QString::fromStdString(file);
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field || !document_.isWhole()) return {};
   const auto beside = label_place(*light_field);
@@ -183,7 +183,7 @@ void AnnotationFiles::reload(const QString& path) {
         const LightFieldPtr light_field = session_.light_field();
         document_.replace(document_from(*read.first, light_field->grid(), light_field->height(),
                                         light_field->width()),
-                          true);
+                          true, path.toStdString());
         known_ = path;
         known_stamp_ = read.second;
         bench_.messages.success(tr("Reloaded: %1").arg(path));
@@ -205,10 +205,9 @@ void AnnotationFiles::write(const QString& path, std::function<void()> then) {
       [this, path, generation, state = document_.document()->state(),
        then = std::move(then)](const FileStamp& stamp) {
         if (generation == session_.generation()) {
-          place_ = path_of(path);
           known_ = path;
           known_stamp_ = stamp;
-          document_.noteSaved(state);
+          document_.noteSaved(state, path.toStdString());
         }
         bench_.messages.written(path);
         if (then) then();

@@ -69,7 +69,6 @@ class AnnotationFiles : public QObject {
   Session& session_;
   DocumentController& document_;
   AnnotationBar* bar_;
-  std::filesystem::path place_;  // where it was saved last
   QString known_;  // the file that is expected to be as it was when read or written here
   FileStamp known_stamp_;
   int saving_ = 0;

@@ -144,7 +144,7 @@ void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotatio
                .arg(name_of(journal), QString::fromStdString(journal.path.string())));
     return;
   }
-  document_.replace(std::move(found.document), document_.isWhole());
+  document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
   discard_journal(journal.path);
   bench_.frame.showTab("annotate");
   bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));

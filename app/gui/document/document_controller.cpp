@@ -59,9 +59,9 @@ void DocumentController::openDocument() {
                          light_field->width());
   };
   try {
-    setDocument(make(session_.scene()->scribbles), true);
+    setDocument(make(session_.scene()->scribbles), true, {});
   } catch (const InvalidInput& error) {
-    setDocument(make({}), false);
+    setDocument(make({}), false, {});
     emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
                     "unchanged, and what you paint is saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
@@ -74,14 +74,15 @@ void DocumentController::openDocument() {
       });
 }
 
-void DocumentController::setDocument(AnnotationDocument document, bool is_whole) {
+void DocumentController::setDocument(AnnotationDocument document, bool is_whole,
+                                     const std::string& file) {
   is_whole_ = is_whole;
   written_state_.reset();
   discarded_state_.reset();
   annotation_ = std::make_unique<Annotation>(
       std::move(document),
       JournalOwner{session_.light_field()->info().name, session_.input(), sample_hash_,
-                   session_.scene()->convention.focus_px},
+                   session_.scene()->convention.focus_px, file},
       journal_folder_);
 }
 
@@ -97,18 +98,28 @@ void DocumentController::leaveDocument() {
   annotation_.reset();
 }
 
-void DocumentController::replace(AnnotationDocument document, bool is_whole) {
+std::string DocumentController::file() const {
+  return isCurrent() ? annotation_->file() : std::string();
+}
+
+void DocumentController::replace(AnnotationDocument document, bool is_whole,
+                                 const std::string& file) {
   if (!isCurrent()) return;
   stroke_.reset();
   annotation_->finish();
-  setDocument(std::move(document), is_whole);
+  setDocument(std::move(document), is_whole, file);
   keepJournal();
   emit replaced();
   tellUnsaved();
 }
 
-void DocumentController::noteSaved(std::uint64_t state) {
+void DocumentController::noteSaved(std::uint64_t state, const std::string& file) {
   if (!isCurrent()) return;
+  run([&] { annotation_->set_file(file); });
+  markSaved(state);
+}
+
+void DocumentController::markSaved(std::uint64_t state) {
   if (stroke_) {
     written_state_ = state;
   } else if (annotation_->document().state() == state) {
@@ -210,14 +221,14 @@ void DocumentController::endStroke() {
   run([this] { stroke_->commit(); });
   stroke_.reset();
   if (document.state() != before) tell({{{stroke_view_, stroke_rect_}}, false});
-  if (const auto written = std::exchange(written_state_, {})) noteSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
 }
 
 void DocumentController::cancelStroke() {
   if (!stroke_) return;
   stroke_.reset();
   if (!stroke_rect_.empty()) emit painted(stroke_view_, stroke_rect_);
-  if (const auto written = std::exchange(written_state_, {})) noteSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
 }
 
 DocumentChange DocumentController::everything() const {

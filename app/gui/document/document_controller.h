@@ -36,12 +36,14 @@ class DocumentController : public QObject {
   /// overwritten.
   [[nodiscard]] bool isWhole() const { return is_whole_; }
   [[nodiscard]] bool hasUnsavedChanges() const;
-  /// Puts another document in the place of the present one, whose journal ends. `is_whole` as
-  /// above.
-  void replace(AnnotationDocument document, bool is_whole);
+  /// The file that it was saved to last; empty if it was not.
+  [[nodiscard]] std::string file() const;
+  /// Puts another document in the place of the present one, whose journal ends. `is_whole` and
+  /// `file` as above.
+  void replace(AnnotationDocument document, bool is_whole, const std::string& file);
   /// Notes that the state was written to a file; if painting went on meanwhile, there are unsaved
   /// changes still.
-  void noteSaved(std::uint64_t state);
+  void noteSaved(std::uint64_t state, const std::string& file);
   /// The user discards the present changes: they may be dropped with the document.
   void discardChanges();
   /// Ensures that what is painted next survives a crash.
@@ -77,8 +79,9 @@ class DocumentController : public QObject {
   void update(Parts parts);
   void openDocument();
   void leaveDocument();
-  void setDocument(AnnotationDocument document, bool is_whole);
+  void setDocument(AnnotationDocument document, bool is_whole, const std::string& file);
   void go(DocumentChange (AnnotationDocument::*step)());
+  void markSaved(std::uint64_t state);
   void tell(const DocumentChange& change);
   void tellUnsaved();
   /// Runs a change and reports what it threw. A journal that fails is abandoned.

@@ -8,6 +8,7 @@
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/session/run/command_line.h"
+#include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/registry.h"
 #include "widgets/controls/fitting_splitter.h"
 #include "widgets/estimate/method_panel.h"
@@ -147,12 +148,19 @@ void EstimateController::run(const EstimateRequest& request) {
       [light_field, request](const Progress& progress) {
         return run_estimator(*light_field, request, progress);
       },
-      [this, generation](const FinishedEstimate& finished) {
+      [this, generation, light_field](const FinishedEstimate& finished) {
         session_.add_estimate(finished.estimate, finished.display_range, generation);
+        warnOfRange(*light_field, *finished.estimate);
       },
       [this] { showRunning(); });
   if (info.iterative) bench_.jobs.setIterative(job);
   showRunning();
+}
+
+void EstimateController::warnOfRange(const LightField& light_field, const Estimate& estimate) {
+  const std::string note = limited_range_note(light_field, estimate.range);
+  if (std::ranges::count(estimate.notes, note) == 0) return;
+  bench_.messages.warn(with_minus(QString::fromStdString(estimate.method + ": " + note + ".")));
 }
 
 void EstimateController::showRunning() {

@@ -46,6 +46,7 @@ class EstimateController : public QObject {
   void addResultCommands();
   void connectResults();
   void update(Parts parts);
+  void warnOfRange(const LightField& light_field, const Estimate& estimate);
   void showChoice();
   void showRunning();
   void listResults();

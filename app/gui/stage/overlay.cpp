@@ -5,6 +5,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/color_bar.h"
 #include "widgets/compare/overlay_bar.h"
+#include "widgets/style/number_text.h"
 #include "widgets/style/quantity_text.h"
 
 #include <algorithm>
@@ -51,7 +52,9 @@ void Overlay::connectStage() {
   connect(scale, &ColorBar::rangeEdited, this, [this](Interval range) { setRange(range); });
   connect(scale, &ColorBar::ownRangeRequested, this, [this] { setRange(std::nullopt); });
   connect(canvas, &ViewCanvas::cursorMoved, this, [this, scale](std::optional<PixelIndex> pixel) {
-    const auto value = pixel ? valueAt(*pixel) : std::nullopt;
+    // Colours of bad pixels say nothing of their numbers.
+    const bool has_marker = pixel && map_ && map_->measured.empty();
+    const auto value = has_marker ? valueAt(*pixel) : std::nullopt;
     scale->setMarker(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   });
   connect(&stage_, &Stage::previewChanged, this, &Overlay::draw);
@@ -234,6 +237,11 @@ QString Overlay::describe(const MapChoice& choice) const {
     if (!title.isEmpty()) return title;
   }
   if (!entry) return quantity_label(choice.quantity);
+  if (choice.quantity == Quantity::BadPixels) {
+    return tr("%1 (> %2 px) of %3")
+        .arg(quantity_label(choice.quantity), number_text(session_.bad_threshold_px(), 2),
+             name(entry));
+  }
   return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
 }
 
