@@ -49,7 +49,7 @@ RecoveryController::RecoveryController(const Workbench& bench)
       job_(this) {
   bar_->setObjectName("recoveryBar");
   bench.frame.addFloating(bar_);
-  connect(&bench.frame, &Frame::started, this, &RecoveryController::look);
+  connect(&bench.frame, &Frame::settled, this, &RecoveryController::look);
   connect(&document_, &DocumentController::replaced, this, [this] {
     if (!awaited_ || !isOpen(awaited_->owner)) return;
     read(*std::exchange(awaited_, std::nullopt));
@@ -92,14 +92,16 @@ void RecoveryController::discard(const LeftJournal& journal) {
 }
 
 void RecoveryController::recover(const LeftJournal& journal) {
-  bench_.guards.leave([this, journal] {
+  const auto go_on = [this, journal] {
     if (document_.document() && isOpen(journal.owner)) {
       read(journal);
       return;
     }
     awaited_ = journal;
     open(journal.owner);
-  });
+  };
+  // What was painted meanwhile on the same light field is replaced.
+  isOpen(journal.owner) ? bench_.guards.leave(Leaving::Reading, go_on) : go_on();
 }
 
 void RecoveryController::open(const JournalOwner& owner) {

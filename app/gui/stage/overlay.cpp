@@ -85,12 +85,7 @@ bool Overlay::isAwaited(Quantity quantity) const {
 }
 
 void Overlay::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
-    is_flipped_ = shows_difference_ = false;
-    known_estimates_ = 0;
-    pictures_.clear();
-    if (!stage_.colorBar()->isRangeLocked()) edited_ranges_.clear();
-  }
+  if (parts.has(Part::Scene)) beginScene();
   if (parts.has_any(Part::Scene | Part::Estimates)) {
     // A new result is shown.
     const std::size_t count = session_.estimates().size();
@@ -105,6 +100,19 @@ void Overlay::update(Parts parts) {
     showAvailable();
   }
   if (parts.has_any(of_choice | Part::View | Part::Evaluations)) draw();
+}
+
+// A scene that was shown before looks as it did.
+void Overlay::beginScene() {
+  is_flipped_ = shows_difference_ = false;
+  known_estimates_ = 0;
+  pictures_.clear();
+  scene_ = session_.generation();
+  const ScenePlace& place = session_.place();
+  if (!stage_.colorBar()->isRangeLocked()) edited_ranges_ = place.ranges;
+  if (!place.quantity) return;
+  quantity_ = *place.quantity;
+  known_estimates_ = session_.estimates().size();
 }
 
 bool Overlay::isAvailable(Quantity quantity) const {
@@ -188,6 +196,9 @@ void Overlay::draw() {
   stage_.canvas()->setOverlay(picture_);
   showScale(drawn_choice);
   if (session_.scene()) showCaption(drawn_choice);
+  if (session_.scene() && scene_ == session_.generation()) {
+    session_.set_display(quantity_, edited_ranges_);
+  }
   emit drawn();
 }
 

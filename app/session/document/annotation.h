@@ -30,6 +30,8 @@ class Annotation {
   /// IoError if it cannot be kept: then there will be none.
   void keep_journal();
   [[nodiscard]] bool has_journal() const { return journal_.has_value(); }
+  /// Precondition: there is one.
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_->path(); }
   /// Abandons the journal, which can no longer be written.
   void drop_journal();
   /// The session ended normally or its changes were discarded: the journal is removed.
