@@ -4,6 +4,7 @@
 #include "app/session/picture/map_source.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/render/quantity.h"
+#include "engine/render/tone.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -33,6 +34,7 @@ struct ScenePlace {
   /// What is drawn over the view; none = it was not shown yet.
   std::optional<render::Quantity> quantity;
   std::map<render::Quantity, Interval> ranges;  ///< Colour ranges that were edited.
+  render::Tone tone{};                          ///< How its views are brightened.
   friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
 };
 

@@ -128,6 +128,8 @@ class Session {
   [[nodiscard]] double focus_px() const { return now_->place.focus_px; }
   /// What is drawn over the view and in which colour ranges, to come back with the scene.
   void set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges);
+  /// How views are brightened for display.
+  void set_tone(const render::Tone& tone);
   [[nodiscard]] const ScenePlace& place() const { return now_->place; }
 
  private:

@@ -87,6 +87,10 @@ SceneSwitcher::Read SceneSwitcher::read_all(const OpenScene& scene,
   Read read;
   read.scene =
       std::make_shared<const Scene>(load_scene(scene.input, options, progress.part(0, 0.7)));
+  if (scene.sample_hash != 0 && scene.sample_hash != read.scene->light_field->sample_hash()) {
+    read.failures << tr("“%1” has other samples than before: results and scribbles may not fit.")
+                         .arg(QString::fromStdString(scene.name));
+  }
   for (const EstimateEntry& entry : scene.estimates) {
     if (entry.estimate) continue;
     progress.check();

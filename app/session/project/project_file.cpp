@@ -42,6 +42,11 @@ Json place_json(const ScenePlace& place) {
             {"pixel", {place.cross_hair.y, place.cross_hair.x}},
             {"focus_px", place.focus_px},
             {"ranges", ranges}};
+  if (!place.tone.is_plain()) {
+    json["tone"] = {{"black", place.tone.black},
+                    {"exposure", place.tone.exposure},
+                    {"gamma", place.tone.gamma}};
+  }
   if (place.quantity) json["quantity"] = render::info_of(*place.quantity).id;
   return json;
 }
@@ -53,6 +58,10 @@ ScenePlace place_of(const Json& json) {
   place.focus_px = json.at("focus_px").get<double>();
   if (const auto* shown = render::find_quantity(json.value("quantity", ""))) {
     place.quantity = shown->quantity;
+  }
+  if (json.contains("tone")) {
+    const Json& tone = json.at("tone");
+    place.tone = {tone.at("black"), tone.at("exposure"), tone.at("gamma")};
   }
   for (const auto& [id, range] : json.at("ranges").items()) {
     if (const auto* known = render::find_quantity(id)) {

@@ -281,7 +281,12 @@ void SessionTest::closedScene_isForgotten() {
 
   QVERIFY(!f.session.scene());
   QCOMPARE(f.session.scenes().size(), 1U);
-  f.session.remove(first);
+  f.session.add(tiny_scene("slant"), "demo:slant");
+  f.session.choose(first);
+  f.session.open(tiny_scene(), "demo:edge");  // read in another way: at its place of the list
+  QCOMPARE(f.session.scenes()[0]->id, f.session.generation());
+  f.session.remove(f.session.scenes()[1]->id);
+  f.session.close();
   QVERIFY(f.session.scenes().empty());
 }
 

@@ -301,7 +301,7 @@ void CompareTest::badPixels_followTheirThreshold() {
   QTest::keyClicks(threshold, "0.3");
   QTest::keyClick(threshold, Qt::Key_Return);
 
-  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad 0.01 %"), qPrintable(panel->text()),
+  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad 0.00 %"), qPrintable(panel->text()),
                             kPatience);
   QTRY_VERIFY(f.window.bench().overlay.picture() != before);
   QVERIFY(f.window.bench().overlay.describe(f.window.bench().overlay.choice()).contains("0.30 px"));

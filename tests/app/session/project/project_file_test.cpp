@@ -26,7 +26,8 @@ Project sample(const std::filesystem::path& folder) {
                  {30, 40},
                  -0.25,
                  render::Quantity::SignedError,
-                 {{render::Quantity::SignedError, {-0.5, 0.5}}}};
+                 {{render::Quantity::SignedError, {-0.5, 0.5}}},
+                 {0.05, 2, 1.5}};
   scene.results = {{.name = "mine",
                     .file = folder / "work_files/a.h5",
                     .display_range = {-1, 2},
