@@ -65,6 +65,9 @@ StatisticsController::StatisticsController(const Workbench& bench, StatisticsPan
   panel_->setBadThreshold(bench.session.bad_threshold_px());
   connect(panel_, &StatisticsPanel::badThresholdEdited, this,
           [this](double threshold_px) { bench_.session.set_bad_threshold(threshold_px); });
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene) && !statistics_) panel_->clear(tr("No map is shown"));
+  });
   begin();
 }
 

@@ -107,6 +107,8 @@ void Overlay::beginScene() {
   is_flipped_ = shows_difference_ = false;
   known_estimates_ = 0;
   pictures_.clear();
+  map_ = nullptr;  // not even for a moment over another light field
+  picture_ = {};
   scene_ = session_.generation();
   const ScenePlace& place = session_.place();
   if (!stage_.colorBar()->isRangeLocked()) edited_ranges_ = place.ranges;
