@@ -94,6 +94,9 @@ int main(int argc, char** argv) {
     }
   }
   if (!QTest::qWaitFor([&] { return window.bench().document.document(); }, kPatience)) return 3;
+  // The list of what is open is kept some milliseconds after it changes.
+  const auto* autosave = window.findChild<Autosave*>();
+  if (!QTest::qWaitFor([&] { return autosave->isIdle(); }, kPatience)) return 3;
   window.findChild<AnnotateController*>()->setAnnotating(true);
   int strokes = 0;
   for (int number = 0;; ++number) {
