@@ -9,15 +9,18 @@
 #include "app/gui/estimate/estimate.h"
 #include "app/gui/files/files.h"
 #include "app/gui/help/help.h"
+#include "app/gui/project/project.h"
 #include "app/gui/segment/segment.h"
 
 namespace episcope {
 
 std::span<const Feature> features() {
   static constexpr Feature kFeatures[] = {
-      {"files", add_files},       {"browse", add_browsing},       {"estimate", add_estimating},
-      {"compare", add_comparing}, {"annotate", add_annotating},   {"segment", add_segmenting},
-      {"cloud", add_cloud},       {"collection", add_collection}, {"help", add_help}};
+      {"files", add_files},           {"project", add_project},
+      {"browse", add_browsing},       {"estimate", add_estimating},
+      {"compare", add_comparing},     {"annotate", add_annotating},
+      {"segment", add_segmenting},    {"cloud", add_cloud},
+      {"collection", add_collection}, {"help", add_help}};
   return kFeatures;
 }
 

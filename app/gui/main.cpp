@@ -40,7 +40,9 @@ int main(int argc, char** argv) {
   const QCommandLineOption help = parser.addHelpOption();
   const QCommandLineOption version = parser.addVersionOption();
   parser.addPositionalArgument(
-      "INPUT", "an lf.h5, a scene folder, an image grid, demo or demo:<scene>", "[INPUT]");
+      "INPUT",
+      "an lf.h5, a scene folder, an image grid, a project (*.episcope), demo or demo:<scene>",
+      "[INPUT]");
   const QCommandLineOption theme("theme", "Colours: light, dark or those of the desktop.",
                                  "light|dark|system", episcope::remembered_theme());
   parser.addOption(theme);
@@ -52,7 +54,7 @@ int main(int argc, char** argv) {
   if (parser.isSet(version)) parser.showVersion();
   const QStringList inputs = parser.positionalArguments();
   if (!episcope::apply_theme(parser.value(theme)) || inputs.size() > 1) {
-    return fail(inputs.size() > 1 ? "only one INPUT can be open at a time"
+    return fail(inputs.size() > 1 ? "give one INPUT; a project (*.episcope) holds several"
                                   : "--theme must be light, dark or system");
   }
 

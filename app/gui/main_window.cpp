@@ -15,6 +15,7 @@
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/result_opener.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/opening/scene_switcher.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
@@ -49,11 +50,12 @@ struct MainWindow::Core {
         overlay(session, *stage, nullptr),
         document(session, nullptr),
         labels(document, nullptr),
-        opener(session, jobs, *stage, guards, nullptr),
+        scenes(session, jobs, messages, nullptr),
+        opener(session, jobs, *stage, guards, scenes, nullptr),
         results(session, jobs, messages, nullptr),
         features(&window),
         bench{window, features, session, jobs,     messages, commands, cancels, guards,
-              *frame, *stage,   overlay, document, labels,   opener,   results} {}
+              *frame, *stage,   overlay, document, labels,   scenes,   opener,  results} {}
 
   Session session;
   Cancels cancels;
@@ -67,6 +69,7 @@ struct MainWindow::Core {
   Overlay overlay;
   DocumentController document;
   LabelChoice labels;
+  SceneSwitcher scenes;
   SceneOpener opener;
   ResultOpener results;
   QObject features;
@@ -141,13 +144,14 @@ void MainWindow::restoreLayout() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!core_->guards.may_leave()) {
+  if (!core_->guards.may_leave(Leaving::Session)) {
     event->ignore();
-    core_->guards.leave([this] { close(); });
+    core_->guards.leave(Leaving::Session, [this] { close(); });
     return;
   }
   QSettings().setValue("geometry", saveGeometry());
   for (auto* dialog : findChildren<QDialog*>()) dialog->close();
+  core_->frame->end();
   event->accept();
 }
 

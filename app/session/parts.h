@@ -13,6 +13,9 @@ enum class Part : unsigned {
   CrossHair = 32,    ///< The current pixel.
   Focus = 64,        ///< The focus plane.
   TrueLabels = 128,  ///< The labels that segmentations are compared with.
+  Scenes = 256,      ///< The list of open scenes, or what is in memory of those set aside.
+  Display = 512,     ///< What is drawn over the view, and its colour ranges.
+  Tone = 1024,       ///< How views are brightened.
 };
 
 /// A set of parts.

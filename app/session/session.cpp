@@ -17,6 +17,14 @@ std::string name_of_method(const std::string& id) {
   return id;
 }
 
+std::string unique_name(const std::vector<EstimateEntry>& entries, const std::string& name) {
+  std::string candidate = name;
+  for (int number = 2; std::ranges::count(entries, candidate, &EstimateEntry::name) > 0; ++number) {
+    candidate = name + " " + std::to_string(number);
+  }
+  return candidate;
+}
+
 }  // namespace
 
 Session::Session(JobRunner::Post post)
@@ -38,148 +46,123 @@ void Session::deliver() {
   for (const Listener& listener : listeners_) listener(parts);
 }
 
-void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
-  close();
-  scene_ = std::move(scene);
-  input_ = std::move(input);
-  if (!scene_) return;
-  known_range_ = known_disparity_range(*scene_);
-  true_labels_ = true_labels_of(scene_->truth);
-  view_ = scene_->light_field->center();
-  cross_hair_ = {scene_->light_field->height() / 2, scene_->light_field->width() / 2};
-}
-
-void Session::close() {
-  for (const EstimateEntry& entry : estimates_) evaluations_.forget(entry.id);
-  estimates_.clear();
-  scene_.reset();
-  true_labels_.reset();
-  input_.clear();
-  shown_ = compared_ = 0;
-  is_compared_chosen_ = false;
-  known_range_ = {};
-  focus_px_ = 0;
-  ++generation_;
-  changed(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-          Part::CrossHair | Part::Focus | Part::TrueLabels);
-}
-
 ParameterSet Session::reading_options() const {
-  return scene_ ? scene_->light_field->info().reading.options : ParameterSet();
+  return now_->scene ? now_->scene->light_field->info().reading.options : ParameterSet();
 }
 
 LightFieldPtr Session::light_field() const {
-  return scene_ ? scene_->light_field : nullptr;
-}
-
-std::string Session::unique_name(const std::string& name) const {
-  const auto is_taken = [this](const std::string& candidate) {
-    return std::any_of(estimates_.begin(), estimates_.end(),
-                       [&](const EstimateEntry& entry) { return entry.name == candidate; });
-  };
-  std::string candidate = name;
-  for (int number = 2; is_taken(candidate); ++number) {
-    candidate = name + " " + std::to_string(number);
-  }
-  return candidate;
+  return now_->scene ? now_->scene->light_field : nullptr;
 }
 
 int Session::add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation) {
-  if (generation != generation_ || !scene_ || !estimate) return 0;
-  const std::string name = unique_name(name_of_method(estimate->method));
-  estimates_.push_back({++last_id_, name, std::move(estimate), display_range});
-  changed(Part::Estimates);
-  show_estimate(last_id_);
+  OpenScene* scene = open_scene(generation);
+  if (!scene || !estimate) return 0;
+  const std::string name = unique_name(scene->estimates, name_of_method(estimate->method));
+  scene->estimates.push_back({++last_id_, name, std::move(estimate), display_range});
+  changed(Part::Scenes);
+  if (scene == now_) {
+    changed(Part::Estimates);
+    show_estimate(last_id_);
+  } else {
+    if (!scene->is_compared_chosen) scene->compared = scene->shown;
+    scene->shown = last_id_;
+  }
   return last_id_;
 }
 
 void Session::remove_estimate(int id) {
-  const auto found = std::find_if(estimates_.begin(), estimates_.end(),
+  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
                                   [&](const EstimateEntry& entry) { return entry.id == id; });
-  if (found == estimates_.end()) return;
-  const auto next = estimates_.erase(found);
+  if (found == now_->estimates.end()) return;
+  const auto next = now_->estimates.erase(found);
   evaluations_.forget(id);
   changed(Part::Estimates);
-  if (shown_ == id) {
-    shown_ = estimates_.empty() ? 0 : (next == estimates_.end() ? std::prev(next) : next)->id;
-  } else if (compared_ != id) {
+  if (now_->shown == id) {
+    now_->shown =
+        now_->estimates.empty() ? 0 : (next == now_->estimates.end() ? std::prev(next) : next)->id;
+  } else if (now_->compared != id) {
     return;
   }
-  if (compared_ == id || compared_ == shown_) {
-    compared_ = 0;
-    is_compared_chosen_ = false;
+  if (now_->compared == id || now_->compared == now_->shown) {
+    now_->compared = 0;
+    now_->is_compared_chosen = false;
   }
   changed(Part::Shown);
 }
 
 void Session::restore_estimate(EstimateEntry entry, std::size_t place) {
-  if (!scene_ || find_estimate(entry.id)) return;
+  if (!now_->scene || find_estimate(entry.id)) return;
   const int id = entry.id;
-  entry.name = unique_name(entry.name);
-  estimates_.insert(estimates_.begin() + static_cast<long>(std::min(place, estimates_.size())),
-                    std::move(entry));
+  entry.name = unique_name(now_->estimates, entry.name);
+  now_->estimates.insert(
+      now_->estimates.begin() + static_cast<long>(std::min(place, now_->estimates.size())),
+      std::move(entry));
   changed(Part::Estimates);
   show_estimate(id);
 }
 
 EstimateEntry* Session::entry_of(int id) {
-  const auto found = std::ranges::find(estimates_, id, &EstimateEntry::id);
-  return found == estimates_.end() ? nullptr : &*found;
+  const auto found = std::ranges::find(now_->estimates, id, &EstimateEntry::id);
+  return found == now_->estimates.end() ? nullptr : &*found;
 }
 
 void Session::rename_estimate(int id, const std::string& name) {
   EstimateEntry* entry = entry_of(id);
   if (!entry || name.empty() || name == entry->name) return;
-  entry->name = unique_name(name);
+  entry->name = unique_name(now_->estimates, name);
   changed(Part::Estimates);
 }
 
 void Session::mark_saved(int id) {
-  if (EstimateEntry* entry = entry_of(id)) entry->is_saved = true;
+  for (const auto& scene : scenes_) {
+    const auto found = std::ranges::find(scene->estimates, id, &EstimateEntry::id);
+    if (found != scene->estimates.end()) found->is_saved = true;
+  }
 }
 
 const EstimateEntry* Session::find_estimate(int id) const {
-  const auto found = std::find_if(estimates_.begin(), estimates_.end(),
+  const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
                                   [&](const EstimateEntry& entry) { return entry.id == id; });
-  return found == estimates_.end() ? nullptr : &*found;
+  return found == now_->estimates.end() ? nullptr : &*found;
 }
 
 void Session::show_estimate(int id) {
-  if (id == shown_ || !find_estimate(id)) return;
-  if (const EstimateEntry* other = compared(); !is_compared_chosen_ || (other && other->id == id)) {
-    compared_ = shown_;
+  if (id == now_->shown || !find_estimate(id)) return;
+  if (const EstimateEntry* other = compared();
+      !now_->is_compared_chosen || (other && other->id == id)) {
+    now_->compared = now_->shown;
   }
-  shown_ = id;
+  now_->shown = id;
   changed(Part::Shown);
 }
 
 void Session::compare_with(int id) {
   if (!find_estimate(id)) return;
-  if (id == shown_) {
+  if (id == now_->shown) {
     const EstimateEntry* other = compared();
     if (!other) return;
-    shown_ = other->id;
+    now_->shown = other->id;
   }
-  compared_ = id;
-  is_compared_chosen_ = true;
+  now_->compared = id;
+  now_->is_compared_chosen = true;
   changed(Part::Shown);
 }
 
 const EstimateEntry* Session::compared() const {
-  if (const EstimateEntry* chosen = find_estimate(compared_)) return chosen;
-  for (const EstimateEntry& entry : estimates_) {
-    if (entry.id != shown_) return &entry;
+  if (const EstimateEntry* chosen = find_estimate(now_->compared)) return chosen;
+  for (const EstimateEntry& entry : now_->estimates) {
+    if (entry.id != now_->shown) return &entry;
   }
   return nullptr;
 }
 
 EvaluationPtr Session::evaluation(const EvaluationKey& key) {
   const EstimateEntry* entry = find_estimate(key.estimate);
-  return entry ? evaluations_.find_or_begin(key, entry->estimate, scene_) : nullptr;
+  return entry ? evaluations_.find_or_begin(key, entry->estimate, now_->scene) : nullptr;
 }
 
 bool Session::has_truth(ViewIndex view) const {
-  return scene_ && scene_->truth->field.contains(view);
+  return now_->scene && now_->scene->truth->field.contains(view);
 }
 
 Interval Session::disparity_range() const {
@@ -187,40 +170,61 @@ Interval Session::disparity_range() const {
 }
 
 Interval Session::known_range() const {
-  if (known_range_.length() > 0) return known_range_;
+  if (now_->known_range.length() > 0) return now_->known_range;
   const auto found = std::ranges::find_if(
-      estimates_, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
-  return found == estimates_.end() ? Interval{} : found->display_range;
+      now_->estimates, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
+  return found == now_->estimates.end() ? Interval{} : found->display_range;
+}
+
+void Session::set_bad_threshold(double threshold_px) {
+  if (threshold_px == bad_threshold_px_) return;
+  bad_threshold_px_ = threshold_px;
+  changed(Part::Evaluations);
 }
 
 void Session::set_true_labels(TrueLabelsPtr labels) {
-  if (!scene_) return;
-  true_labels_ = std::move(labels);
+  if (!now_->scene) return;
+  now_->true_labels = std::move(labels);
   changed(Part::TrueLabels);
 }
 
 void Session::set_view(ViewIndex view) {
-  if (!scene_) return;
-  const GridShape grid = scene_->light_field->grid();
+  if (!now_->scene) return;
+  const GridShape grid = now_->scene->light_field->grid();
   view = {std::clamp(view.v, 0, grid.v - 1), std::clamp(view.u, 0, grid.u - 1)};
-  if (view == view_) return;
-  view_ = view;
+  if (view == now_->place.view) return;
+  now_->place.view = view;
   changed(Part::View);
 }
 
 void Session::set_cross_hair(PixelIndex pixel) {
-  if (!scene_) return;
-  pixel = {std::clamp(pixel.y, 0, scene_->light_field->height() - 1),
-           std::clamp(pixel.x, 0, scene_->light_field->width() - 1)};
-  if (pixel == cross_hair_) return;
-  cross_hair_ = pixel;
+  if (!now_->scene) return;
+  pixel = {std::clamp(pixel.y, 0, now_->scene->light_field->height() - 1),
+           std::clamp(pixel.x, 0, now_->scene->light_field->width() - 1)};
+  if (pixel == now_->place.cross_hair) return;
+  now_->place.cross_hair = pixel;
   changed(Part::CrossHair);
 }
 
 void Session::set_focus(double focus_px) {
-  if (focus_px == focus_px_) return;
-  focus_px_ = focus_px;
+  if (focus_px == now_->place.focus_px) return;
+  now_->place.focus_px = focus_px;
   changed(Part::Focus);
+}
+
+void Session::set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges) {
+  ScenePlace place = now_->place;
+  place.quantity = quantity;
+  place.ranges = std::move(ranges);
+  if (place == now_->place) return;
+  now_->place = std::move(place);
+  changed(Part::Display);
+}
+
+void Session::set_tone(const render::Tone& tone) {
+  if (!now_->scene || tone == now_->place.tone) return;
+  now_->place.tone = tone;
+  changed(Part::Tone);
 }
 
 }  // namespace episcope

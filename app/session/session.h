@@ -2,29 +2,23 @@
 #pragma once
 
 #include "app/session/judge/evaluation_cache.h"
+#include "app/session/open_scene.h"
 #include "app/session/parts.h"
-#include "app/session/picture/map_source.h"
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace episcope {
 
-/// An estimate of the session. Ids are never given twice.
-struct EstimateEntry {
-  int id = 0;
-  std::string name;  ///< Unique in the list: "EPI_L", "EPI_L 2", or as the user calls it.
-  EstimatePtr estimate;
-  Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
-  bool is_saved = false;   ///< A file holds it.
-};
-
-/// What is open and what is known about it: scene, estimates, evaluations, and the current view and
-/// pixel. Belongs to one thread. Changes are collected and reported once per turn of that thread's
-/// event loop.
+/// The scenes that are open, one of which is shown, and what is known about them: estimates,
+/// evaluations, the current view and pixel. Unless said otherwise, functions are about the scene
+/// that is shown. Belongs to one thread. Changes are collected and reported once per turn of that
+/// thread's event loop.
 class Session {
  public:
   using Listener = std::function<void(Parts)>;
@@ -35,20 +29,49 @@ class Session {
   /// Listeners live as long as the session.
   void on_changed(Listener listener) { listeners_.push_back(std::move(listener)); }
 
-  /// Replaces the scene; drops the estimates of the former one. `input` is what opens it again.
+  /// Opens a scene in the place of the one that is shown, which is closed with its estimates.
+  /// `input` is what opens it again.
   void open(std::shared_ptr<const Scene> scene, std::string input);
+  /// Opens one more scene and shows it; the one that was shown is set aside.
+  void add(std::shared_ptr<const Scene> scene, std::string input);
+  /// Closes the scene that is shown: nothing is shown then.
   void close();
-  /// Null if nothing is open.
-  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return scene_; }
+
+  /// All open scenes, in the order in which they were opened.
+  [[nodiscard]] std::vector<const OpenScene*> scenes() const;
+  /// Null for an unknown id.
+  [[nodiscard]] const OpenScene* find_scene(std::uint64_t id) const;
+  /// Id of the open scene of this input; 0 if there is none.
+  [[nodiscard]] std::uint64_t scene_of(const std::string& input) const;
+  /// Shows another scene; the one that was shown is set aside. Precondition: it is in memory.
+  void choose(std::uint64_t id);
+  /// Adds one that is on disk only, set aside; its ids are given anew. Returns its id.
+  std::uint64_t add_aside(OpenScene scene);
+  /// Lets go of the memory of a scene that is set aside. Precondition: files keep its estimates.
+  void unload(std::uint64_t id);
+  /// What `unload` let go of, or what `add_aside` came without: the scene, and estimates by id.
+  /// Entries whose estimate is not among them are dropped. Ignored for an unknown scene.
+  void load(std::uint64_t id, std::shared_ptr<const Scene> scene,
+            const std::map<int, EstimatePtr>& estimates);
+  /// Closes a scene that is set aside.
+  void remove(std::uint64_t id);
+  void set_sample_hash(std::uint64_t id, std::uint64_t hash);
+  /// The light field of a scene that is on disk only has moved.
+  void set_input(std::uint64_t id, std::string input);
+  /// A file keeps an estimate of any open scene for the project. Unknown ids are ignored.
+  void set_kept(int estimate, const std::filesystem::path& file);
+
+  /// Null if nothing is shown.
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const { return now_->scene; }
   [[nodiscard]] LightFieldPtr light_field() const;
-  [[nodiscard]] const std::string& input() const { return input_; }
+  [[nodiscard]] const std::string& input() const { return now_->input; }
   /// The reading options that the scene was read with, the focus plane among them.
   [[nodiscard]] ParameterSet reading_options() const;
-  /// Increases with every scene: results begun under another number belong to a former light field.
-  [[nodiscard]] std::uint64_t generation() const { return generation_; }
+  /// OpenScene::id: what was begun under another one belongs to another light field.
+  [[nodiscard]] std::uint64_t generation() const { return now_->id; }
 
-  /// Adds an estimate and shows it. Returns its id, or 0 if `generation` is a former one: the
-  /// estimate is dropped.
+  /// Adds an estimate to the open scene of this id and shows it there. Returns its id, or 0 if that
+  /// scene was closed: the estimate is dropped.
   int add_estimate(EstimatePtr estimate, Interval display_range, std::uint64_t generation);
   /// Shows the neighbour if the removed one was shown. Unknown ids are ignored.
   void remove_estimate(int id);
@@ -57,15 +80,15 @@ class Session {
   void restore_estimate(EstimateEntry entry, std::size_t place);
   /// Unknown ids and empty names are ignored; a name that is taken gets a number.
   void rename_estimate(int id, const std::string& name);
-  /// Notes that a file holds it. Unknown ids are ignored.
+  /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
-  [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return estimates_; }
+  [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
 
   /// Unknown ids are ignored. Showing the compared estimate swaps the two.
   void show_estimate(int id);
   /// The shown estimate, else null.
-  [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(shown_); }
+  [[nodiscard]] const EstimateEntry* shown() const { return find_estimate(now_->shown); }
   /// Chooses what the shown estimate is compared with; it stays until another one is chosen, it is
   /// shown itself or removed. Unknown ids are ignored. Comparing the shown one swaps the two.
   void compare_with(int id);
@@ -80,10 +103,15 @@ class Session {
   [[nodiscard]] bool is_evaluating() const { return evaluations_.pending() > 0; }
   [[nodiscard]] bool has_truth(ViewIndex view) const;
 
+  /// Errors beyond it make a pixel bad, in maps and in statistics of what is in sight. Kept from
+  /// scene to scene.
+  void set_bad_threshold(double threshold_px);
+  [[nodiscard]] double bad_threshold_px() const { return bad_threshold_px_; }
+
   /// Compares with other labels than those that came with the scene, until another is opened.
   void set_true_labels(TrueLabelsPtr labels);
   /// Null if there are none.
-  [[nodiscard]] const TrueLabelsPtr& true_labels() const { return true_labels_; }
+  [[nodiscard]] const TrueLabelsPtr& true_labels() const { return now_->true_labels; }
 
   /// Disparities that pictures of this scene span: of the truth, else those that the files promise,
   /// else those of the first estimate. It does not change with the shown estimate.
@@ -95,32 +123,32 @@ class Session {
   void set_view(ViewIndex view);
   void set_cross_hair(PixelIndex pixel);
   void set_focus(double focus_px);
-  [[nodiscard]] ViewIndex view() const { return view_; }
-  [[nodiscard]] PixelIndex cross_hair() const { return cross_hair_; }
-  [[nodiscard]] double focus_px() const { return focus_px_; }
+  [[nodiscard]] ViewIndex view() const { return now_->place.view; }
+  [[nodiscard]] PixelIndex cross_hair() const { return now_->place.cross_hair; }
+  [[nodiscard]] double focus_px() const { return now_->place.focus_px; }
+  /// What is drawn over the view and in which colour ranges, to come back with the scene.
+  void set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges);
+  /// How views are brightened for display.
+  void set_tone(const render::Tone& tone);
+  [[nodiscard]] const ScenePlace& place() const { return now_->place; }
 
  private:
   void changed(Parts parts);
   void deliver();
+  void show_nothing();
+  [[nodiscard]] OpenScene* open_scene(std::uint64_t id);
   [[nodiscard]] EstimateEntry* entry_of(int id);
-  [[nodiscard]] std::string unique_name(const std::string& name) const;
 
   JobRunner::Post post_;
   std::vector<Listener> listeners_;
   Parts gathered_;
-  std::shared_ptr<const Scene> scene_;
-  std::string input_;
-  std::uint64_t generation_ = 0;
-  Interval known_range_{};  // of truth or files; empty if neither says
-  std::vector<EstimateEntry> estimates_;
+  std::vector<std::unique_ptr<OpenScene>> scenes_;
+  OpenScene none_;  // shown while nothing is open
+  OpenScene* now_ = &none_;
+  std::uint64_t last_scene_ = 0;
+  std::uint64_t uses_ = 0;
   int last_id_ = 0;
-  int shown_ = 0;
-  int compared_ = 0;
-  bool is_compared_chosen_ = false;
-  TrueLabelsPtr true_labels_;
-  ViewIndex view_;
-  PixelIndex cross_hair_;
-  double focus_px_ = 0;
+  double bad_threshold_px_ = kBadPixelThreshold_px;
   std::shared_ptr<Session*> alive_;  // posted closures outlive the session harmlessly
   EvaluationCache evaluations_;
 };

@@ -19,19 +19,20 @@ void put(std::uint8_t* pixel, const Rgb& color) {
   pixel[3] = kOpaque;
 }
 
-std::uint8_t byte_of(std::uint8_t sample) {
-  return sample;
-}
-std::uint8_t byte_of(std::uint16_t sample) {
-  return static_cast<std::uint8_t>((sample + 128U) / 257U);  // nearest: 65535 = 255 · 257
-}
-std::uint8_t byte_of(float sample) {
-  const float bounded = sample > 0 ? std::min(sample, 1.0F) : 0.0F;  // NaN becomes 0
-  return static_cast<std::uint8_t>(std::lround(bounded * 255));
-}
+/// Samples as they are, each as the nearest byte.
+struct PlainTone {
+  std::uint8_t operator()(std::uint8_t sample) const { return sample; }
+  std::uint8_t operator()(std::uint16_t sample) const {
+    return static_cast<std::uint8_t>((sample + 128U) / 257U);  // nearest: 65535 = 255 · 257
+  }
+  std::uint8_t operator()(float sample) const {
+    const float bounded = sample > 0 ? std::min(sample, 1.0F) : 0.0F;  // NaN becomes 0
+    return static_cast<std::uint8_t>(std::lround(bounded * 255));
+  }
+};
 
-template <class T>
-Image<std::uint8_t> opaque_picture(ImageView<const T> samples) {
+template <class T, class ByteOf>
+Image<std::uint8_t> opaque_picture(ImageView<const T> samples, const ByteOf& byte_of) {
   Image<std::uint8_t> picture(samples.height, samples.width, kRgba);
   for (int y = 0; y < samples.height; ++y) {
     const T* source = samples.row(y);
@@ -82,9 +83,14 @@ Image<std::uint8_t> shade(ImageView<const float> map, ImageView<const std::uint8
   return picture;
 }
 
-Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view) {
-  return std::visit([view](const auto& stack) { return opaque_picture(stack.view(view)); },
-                    light_field.samples());
+Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
+                               const ToneTable* tone) {
+  return std::visit(
+      [&](const auto& stack) {
+        return tone ? opaque_picture(stack.view(view), *tone)
+                    : opaque_picture(stack.view(view), PlainTone());
+      },
+      light_field.samples());
 }
 
 Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels) {
@@ -112,8 +118,8 @@ Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
   return picture;
 }
 
-Image<std::uint8_t> shade_samples(ImageView<const float> samples) {
-  return opaque_picture(samples);
+Image<std::uint8_t> shade_samples(ImageView<const float> samples, const ToneTable* tone) {
+  return tone ? opaque_picture(samples, *tone) : opaque_picture(samples, PlainTone());
 }
 
 Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid, double low,

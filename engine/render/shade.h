@@ -7,6 +7,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/render/color_map.h"
 #include "engine/render/quantity.h"
+#include "engine/render/tone.h"
 
 #include <cstdint>
 #include <vector>
@@ -33,8 +34,9 @@ struct Shading {
                                         ImageView<const std::uint8_t> valid,
                                         const Shading& shading);
 
-/// RGBA8 picture of a view.
-[[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view);
+/// RGBA8 picture of a view; brightened if a tone is given.
+[[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
+                                             const ToneTable* tone = nullptr);
 
 /// RGBA8 picture of label ids: 0 and negative ids transparent, the others in their `label_color`.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
@@ -42,8 +44,10 @@ struct Shading {
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
                                                const std::vector<LabelInfo>& infos);
 
-/// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view.
-[[nodiscard]] Image<std::uint8_t> shade_samples(ImageView<const float> samples);
+/// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view;
+/// brightened if a tone is given.
+[[nodiscard]] Image<std::uint8_t> shade_samples(ImageView<const float> samples,
+                                                const ToneTable* tone = nullptr);
 
 /// Range of the valid values between two quantiles, for "automatic range". {0, 1} if none is valid.
 [[nodiscard]] Interval robust_range(ImageView<const float> map, ImageView<const std::uint8_t> valid,

@@ -15,6 +15,7 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSignalSpy>
@@ -282,6 +283,27 @@ class SidePanelsTest : public QObject {
                                "(+0.006) · EPI_L 0.300 (−0.012) · ST invalid"));
     const auto* swatch = bar.findChild<QLabel*>("valueBar.swatch");
     QCOMPARE(swatch->pixmap().toImage().pixelColor(5, 5), QColor(120, 88, 40));
+  }
+
+  void values_thatDoNotFitAreLeftOutWhole() {
+    ValueBar bar;
+    std::vector<EstimateReading> seven;
+    for (int i = 1; i <= 7; ++i) seven.push_back({QString("EPI_L %1").arg(i), 0.1 * i});
+    bar.setReading(PixelReading{{417, 301}, "120 88 40", QColor(), true, 0.312, seven});
+    bar.resize(640, 24);
+    bar.show();
+    QVERIFY(QTest::qWaitForWindowExposed(&bar));
+
+    const auto* line = bar.findChild<QLabel*>("valueBar.values");
+    QVERIFY2(line->fontMetrics().horizontalAdvance(line->text()) <= line->width(),
+             qPrintable(line->text()));
+    static const QRegularExpression whole("^x 301 .*EPI_L 1 [^…]*\\) · \\+\\d more$");
+    QVERIFY2(whole.match(line->text()).hasMatch(), qPrintable(line->text()));
+    QVERIFY(line->toolTip().contains("EPI_L 7"));
+    QVERIFY(bar.text().contains("EPI_L 7"));
+
+    bar.resize(2000, 24);
+    QVERIFY(line->text().contains("EPI_L 7") && line->toolTip().isEmpty());
   }
 
   void values_withoutTruthHaveNoError() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/browse/value_bar.h"
 
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/parts_label.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/theme.h"
 
@@ -35,7 +35,7 @@ QString estimate_text(const EstimateReading& estimate, const PixelReading& readi
   return text;
 }
 
-QString reading_text(const PixelReading& reading) {
+QStringList reading_parts(const PixelReading& reading) {
   QStringList parts{ValueBar::tr("x %1 y %2").arg(reading.pixel.x).arg(reading.pixel.y)};
   if (!reading.samples.isEmpty()) {
     const bool is_rgb = reading.samples.contains(' ');
@@ -49,7 +49,7 @@ QString reading_text(const PixelReading& reading) {
     }
   }
   for (const auto& estimate : reading.estimates) parts << estimate_text(estimate, reading);
-  return parts.join(" · ");
+  return parts;
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ QString reading_text(const PixelReading& reading) {
 ValueBar::ValueBar(QWidget* parent)
     : QWidget(parent),
       swatch_(new QLabel(this)),
-      values_(new ElidedLabel(this)),
+      values_(new PartsLabel(this)),
       status_(new QLabel(this)) {
   setObjectName("valueBar");
   swatch_->setObjectName("valueBar.swatch");
@@ -74,8 +74,8 @@ ValueBar::ValueBar(QWidget* parent)
 }
 
 void ValueBar::setReading(const std::optional<PixelReading>& reading) {
-  values_->setFullText(reading ? reading_text(*reading)
-                               : tr("Move over the view to read its values"));
+  values_->setParts(reading ? reading_parts(*reading)
+                            : QStringList(tr("Move over the view to read its values")));
   QPixmap swatch(kSwatch, kSwatch);
   swatch.fill(reading && reading->color.isValid() ? reading->color : QColor(Qt::transparent));
   swatch_->setPixmap(swatch);

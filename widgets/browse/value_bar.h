@@ -14,7 +14,7 @@ class QLabel;
 
 namespace episcope {
 
-class ElidedLabel;
+class PartsLabel;
 
 /// Value of one estimate at the cursor.
 struct EstimateReading {
@@ -59,7 +59,7 @@ class ValueBar : public QWidget {
 
   bool has_reading_ = false;
   QLabel* swatch_;
-  ElidedLabel* values_;
+  PartsLabel* values_;
   QLabel* status_;
 };
 

@@ -3,18 +3,24 @@
 
 #include "widgets/compare/histogram_view.h"
 #include "widgets/controls/elided_label.h"
+#include "widgets/controls/number_spin.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/theme.h"
 
 #include <QEvent>
 #include <QGridLayout>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QLocale>
+#include <QSignalBlocker>
 
 #include <cstddef>
 
 namespace episcope {
 namespace {
+
+constexpr double kLeastThreshold = 0.001;  // px
+constexpr double kLargestThreshold = 10;
 
 enum Number { kMin, kMedian, kMean, kMax, kBad, kInvalid };
 
@@ -28,7 +34,10 @@ constexpr const char* kNames[] = {QT_TRANSLATE_NOOP("episcope::StatisticsPanel",
 }  // namespace
 
 StatisticsPanel::StatisticsPanel(QWidget* parent)
-    : QWidget(parent), title_(new ElidedLabel(this)), histogram_(new HistogramView(this)) {
+    : QWidget(parent),
+      title_(new ElidedLabel(this)),
+      histogram_(new HistogramView(this)),
+      threshold_(new NumberSpin(this)) {
   setObjectName("statisticsPanel");
   title_->setObjectName("statistics.title");
   auto* layout = new QGridLayout(this);
@@ -46,10 +55,37 @@ StatisticsPanel::StatisticsPanel(QWidget* parent)
     layout->addWidget(values_[place], 3, i);
     layout->setColumnStretch(i, 1);
   }
-  values_[kBad]->setToolTip(tr("Visible judged pixels that are off by more than 0.07 px"));
+  addThreshold(*layout);
   values_[kInvalid]->setToolTip(tr("Visible pixels without a value"));
   connect(histogram_, &HistogramView::rangeEdited, this, &StatisticsPanel::rangeEdited);
   clear(tr("No map is shown"));
+}
+
+void StatisticsPanel::addThreshold(QGridLayout& layout) {
+  threshold_->setObjectName("statistics.threshold");
+  threshold_->setRange(kLeastThreshold, kLargestThreshold);
+  threshold_->setDecimals(3);
+  threshold_->setLeastDecimals(2);
+  threshold_->setSingleStep(0.01);
+  threshold_->setKeyboardTracking(false);
+  threshold_->setSuffix(tr(" px"));
+  const QString tip = tr("Pixels whose error is larger are bad, on the map of bad pixels and here");
+  threshold_->setToolTip(tip);
+  auto* label = new QLabel(tr("Bad if off by more than"), this);
+  label->setBuddy(threshold_);
+  label->setToolTip(tip);
+  values_[kBad]->setToolTip(tr("Visible judged pixels that are off by more than the threshold"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(label);
+  row->addWidget(threshold_);
+  row->addStretch(1);
+  layout.addLayout(row, 4, 0, 1, static_cast<int>(names_.size()));
+  connect(threshold_, &NumberSpin::valueChanged, this, &StatisticsPanel::badThresholdEdited);
+}
+
+void StatisticsPanel::setBadThreshold(double threshold_px) {
+  const QSignalBlocker blocker(threshold_);
+  threshold_->setValue(threshold_px);
 }
 
 void StatisticsPanel::setSummary(const Summary& summary) {

@@ -39,15 +39,15 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
       document_(bench.document),
       bar_(bar) {
   addCommands();
-  bench.guards.add({[this] { return !document_.hasUnsavedChanges(); },
-                    [this](std::function<void()> go_on) { leave(std::move(go_on)); }});
+  bench.guards.add({[this](Leaving) { return !document_.hasUnsavedChanges(); },
+                    [this](Leaving, std::function<void()> go_on) { leave(std::move(go_on)); }});
   connect(&document_, &DocumentController::replaced, this, &AnnotationFiles::showState);
   connect(&document_, &DocumentController::unsavedChanged, this, &AnnotationFiles::showState);
   session_.on_changed([this](Parts parts) {
     if (!parts.has(Part::Scene)) return;
-    place_.clear();
-    known_ = place();
-    known_stamp_ = stamp_of(path_of(known_));
+    std::erase_if(known_, [this](const auto& each) { return !session_.find_scene(each.first); });
+    const QString path = place();
+    known_.try_emplace(session_.generation(), Known{path, stamp_of(path_of(path))});
     showState();
   });
   showState();
@@ -70,7 +70,7 @@ void AnnotationFiles::addCommand(const QString& id, const QString& text, const Q
 void AnnotationFiles::addCommands() {
   addCommand("save_scribbles", tr("Save scribbles"),
              tr("Saves labels and scribbles, beside the light field if that folder is writable"),
-             "save", {QKeySequence::Save}, &AnnotationFiles::save);
+             "save", {}, &AnnotationFiles::save);
   addCommand("save_scribbles_as", tr("Save scribbles as…"),
              tr("Saves labels and scribbles to another file"), {}, {tr("Ctrl+Shift+S")},
              &AnnotationFiles::saveAsDialog);
@@ -98,7 +98,8 @@ void AnnotationFiles::showState() {
 }
 
 QString AnnotationFiles::place() const {
-  if (!place_.empty()) return QString::fromStdString(place_.string());
+  const std::string file = document_.file();
+  if (!file.empty()) return QString::fromStdString(file);
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field || !document_.isWhole()) return {};
   const auto beside = label_place(*light_field);
@@ -153,7 +154,9 @@ std::function<Scribbles()> AnnotationFiles::snapshot() {
 }
 
 bool AnnotationFiles::hasChangedOnDisk(const QString& path) const {
-  return path == known_ && saving_ == 0 && stamp_of(path_of(path)) != known_stamp_;
+  const auto known = known_.find(session_.generation());
+  return known != known_.end() && path == known->second.path && saving_ == 0 &&
+         stamp_of(path_of(path)) != known->second.stamp;
 }
 
 void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
@@ -183,9 +186,8 @@ void AnnotationFiles::reload(const QString& path) {
         const LightFieldPtr light_field = session_.light_field();
         document_.replace(document_from(*read.first, light_field->grid(), light_field->height(),
                                         light_field->width()),
-                          true);
-        known_ = path;
-        known_stamp_ = read.second;
+                          true, path.toStdString());
+        known_[generation] = {path, read.second};
         bench_.messages.success(tr("Reloaded: %1").arg(path));
       });
 }
@@ -205,10 +207,8 @@ void AnnotationFiles::write(const QString& path, std::function<void()> then) {
       [this, path, generation, state = document_.document()->state(),
        then = std::move(then)](const FileStamp& stamp) {
         if (generation == session_.generation()) {
-          place_ = path_of(path);
-          known_ = path;
-          known_stamp_ = stamp;
-          document_.noteSaved(state);
+          known_[generation] = {path, stamp};
+          document_.noteSaved(state, path.toStdString());
         }
         bench_.messages.written(path);
         if (then) then();

@@ -14,6 +14,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 
 class QMessageBox;
 
@@ -69,9 +70,12 @@ class AnnotationFiles : public QObject {
   Session& session_;
   DocumentController& document_;
   AnnotationBar* bar_;
-  std::filesystem::path place_;  // where it was saved last
-  QString known_;  // the file that is expected to be as it was when read or written here
-  FileStamp known_stamp_;
+  /// A file that is expected to be as it was when it was read or written here.
+  struct Known {
+    QString path;
+    FileStamp stamp;
+  };
+  std::map<std::uint64_t, Known> known_;  // of each open scene
   int saving_ = 0;
   QPointer<QMessageBox> question_;
 };

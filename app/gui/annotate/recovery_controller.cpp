@@ -49,7 +49,7 @@ RecoveryController::RecoveryController(const Workbench& bench)
       job_(this) {
   bar_->setObjectName("recoveryBar");
   bench.frame.addFloating(bar_);
-  connect(&bench.frame, &Frame::started, this, &RecoveryController::look);
+  connect(&bench.frame, &Frame::settled, this, &RecoveryController::look);
   connect(&document_, &DocumentController::replaced, this, [this] {
     if (!awaited_ || !isOpen(awaited_->owner)) return;
     read(*std::exchange(awaited_, std::nullopt));
@@ -92,14 +92,16 @@ void RecoveryController::discard(const LeftJournal& journal) {
 }
 
 void RecoveryController::recover(const LeftJournal& journal) {
-  bench_.guards.leave([this, journal] {
+  const auto go_on = [this, journal] {
     if (document_.document() && isOpen(journal.owner)) {
       read(journal);
       return;
     }
     awaited_ = journal;
     open(journal.owner);
-  });
+  };
+  // What was painted meanwhile on the same light field is replaced.
+  isOpen(journal.owner) ? bench_.guards.leave(Leaving::Reading, go_on) : go_on();
 }
 
 void RecoveryController::open(const JournalOwner& owner) {
@@ -144,7 +146,7 @@ void RecoveryController::takeOver(const LeftJournal& journal, RecoveredAnnotatio
                .arg(name_of(journal), QString::fromStdString(journal.path.string())));
     return;
   }
-  document_.replace(std::move(found.document), document_.isWhole());
+  document_.replace(std::move(found.document), document_.isWhole(), found.owner.file);
   discard_journal(journal.path);
   bench_.frame.showTab("annotate");
   bench_.messages.success(tr("Recovered the annotation of “%1”.").arg(name_of(journal)));

@@ -17,6 +17,7 @@ class Messages;
 class Overlay;
 class ResultOpener;
 class SceneOpener;
+class SceneSwitcher;
 class Session;
 class Stage;
 
@@ -36,6 +37,7 @@ struct Workbench {
   Overlay& overlay;
   DocumentController& document;
   LabelChoice& labels;
+  SceneSwitcher& scenes;
   SceneOpener& opener;
   ResultOpener& results;
 };

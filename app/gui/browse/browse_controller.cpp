@@ -105,12 +105,18 @@ void BrowseController::setPreviewing(bool is_previewing) {
 }
 
 void BrowseController::update(Parts parts) {
-  if (parts.has(Part::Scene)) showScene();
+  if (parts.has(Part::Tone)) setTone(session_.place().tone);
+  if (parts.has(Part::Scene)) {
+    showScene();
+  } else if (parts.has(Part::Tone) && session_.scene()) {
+    startThumbnails();
+  }
   if (parts.has(Part::Focus)) stage_.overlayBar()->setFocus(session_.focus_px());
   if (stage_.isPreviewing()) return;
   if (parts.has(Part::View)) grid_->setCurrent(session_.view());
-  if (parts.has_any(Part::Scene | Part::View | Part::Focus)) showView();
-  if (parts.has_any(Part::Scene | Part::View | Part::Focus | Part::CrossHair)) showEpis();
+  const Parts of_view = Part::Scene | Part::View | Part::Focus | Part::Tone;
+  if (parts.has_any(of_view)) showView();
+  if (parts.has_any(of_view | Part::CrossHair)) showEpis();
   if (parts.has(Part::Estimates)) showFocusReach();
   if (parts.has_any(Part::Shown | Part::Estimates)) showSlopes();
 }
@@ -132,6 +138,10 @@ void BrowseController::showScene() {
   stage_.canvas()->zoomToFit();
 }
 
+void BrowseController::setTone(const render::Tone& tone) {
+  tone_ = tone.is_plain() ? nullptr : std::make_shared<const render::ToneTable>(tone);
+}
+
 void BrowseController::showFocusReach() {
   const Interval range = session_.known_range();
   const double known = std::max(std::abs(range.min), std::abs(range.max));
@@ -150,8 +160,8 @@ void BrowseController::startThumbnails() {
   using Pictures = std::vector<Image<std::uint8_t>>;
   const QSize size = grid_->thumbnailSize();
   thumbnail_job_.start<Pictures>(
-      [light_field = session_.light_field(), size](const Progress& progress) {
-        return make_thumbnails(*light_field, size.width(), size.height(), progress);
+      [light_field = session_.light_field(), size, tone = tone_](const Progress& progress) {
+        return make_thumbnails(*light_field, size.width(), size.height(), tone.get(), progress);
       },
       [this, grid = session_.light_field()->grid()](Pictures pictures) {
         for (int i = 0; i < grid.count(); ++i) {
@@ -167,15 +177,15 @@ void BrowseController::showView() {
   const double focus_px = session_.focus_px();
   if (focus_px == 0 || !refocuses_) {
     refocus_job_.drop();
-    showPicture(to_qimage(render::shade_view(*light_field, view)));
+    showPicture(to_qimage(render::shade_view(*light_field, view, tone_.get())));
     return;
   }
   using Picture = Image<std::uint8_t>;
   refocus_job_.start<std::shared_ptr<Picture>>(
-      [light_field, view, focus_px](const Progress& progress) {
+      [light_field, view, focus_px, tone = tone_](const Progress& progress) {
         progress.check();
         return std::make_shared<Picture>(
-            render::shade_samples(render::refocus(*light_field, view, focus_px)));
+            render::shade_samples(render::refocus(*light_field, view, focus_px), tone.get()));
       },
       [this](const std::shared_ptr<Picture>& picture) {
         if (!stage_.isPreviewing()) showPicture(to_qimage(std::move(*picture)));
@@ -203,10 +213,11 @@ void BrowseController::showEpis() {
   clearLinesOfOtherRows();
   stage_.horizontalEpi()->setFocus(focus_px);
   stage_.verticalEpi()->setFocus(focus_px);
-  stage_.horizontalEpi()->setEpi(
-      to_qimage(render::shade_samples(horizontal_epi(*light_field, view, pixel.y, focus_px))));
-  stage_.verticalEpi()->setEpi(
-      to_qimage(render::shade_samples(vertical_epi(*light_field, view, pixel.x, focus_px))));
+  const auto shade = [this](const Image<float>& epi) {
+    return to_qimage(render::shade_samples(epi, tone_.get()));
+  };
+  stage_.horizontalEpi()->setEpi(shade(horizontal_epi(*light_field, view, pixel.y, focus_px)));
+  stage_.verticalEpi()->setEpi(shade(vertical_epi(*light_field, view, pixel.x, focus_px)));
   stage_.horizontalEpi()->setCrossHair(pixel.x, view.u);
   stage_.verticalEpi()->setCrossHair(pixel.y, view.v);
   showSlopes();

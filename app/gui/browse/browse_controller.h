@@ -4,6 +4,7 @@
 #include "app/gui/bench/workbench.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
+#include "engine/render/tone.h"
 
 #include <QImage>
 #include <QKeySequence>
@@ -53,6 +54,7 @@ class BrowseController : public QObject {
   void setPreviewing(bool is_previewing);
   void showScene();
   void showFocusReach();
+  void setTone(const render::Tone& tone);
   void showView();
   void showPicture(const QImage& picture);
   void showEpis();
@@ -68,8 +70,9 @@ class BrowseController : public QObject {
   ViewGrid* grid_;
   bool refocuses_ = true;
   ViewIndex parallax_start_;
-  std::pair<int, int> horizontal_row_{-1, -1};  // v and y of the EPI that is shown
-  std::pair<int, int> vertical_row_{-1, -1};    // u and x
+  std::pair<int, int> horizontal_row_{-1, -1};     // v and y of the EPI that is shown
+  std::pair<int, int> vertical_row_{-1, -1};       // u and x
+  std::shared_ptr<const render::ToneTable> tone_;  // null = samples as they are
   LatestJob refocus_job_;
   LatestJob thumbnail_job_;
 };

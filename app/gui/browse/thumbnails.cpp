@@ -35,7 +35,8 @@ Image<std::uint8_t> shrink(const Image<std::uint8_t>& source, int factor) {
 }  // namespace
 
 std::vector<Image<std::uint8_t>> make_thumbnails(const LightField& light_field, int width,
-                                                 int height, const Progress& progress) {
+                                                 int height, const render::ToneTable* tone,
+                                                 const Progress& progress) {
   const auto times_larger = [](int full, int small) {
     return (full + small - 1) / std::max(1, small);
   };
@@ -46,7 +47,7 @@ std::vector<Image<std::uint8_t>> make_thumbnails(const LightField& light_field, 
   for (int v = 0; v < grid.v; ++v) {
     for (int u = 0; u < grid.u; ++u) {
       progress.check();
-      pictures.push_back(shrink(render::shade_view(light_field, {v, u}), factor));
+      pictures.push_back(shrink(render::shade_view(light_field, {v, u}, tone), factor));
     }
   }
   return pictures;

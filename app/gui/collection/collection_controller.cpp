@@ -2,6 +2,7 @@
 #include "app/gui/collection/collection_controller.h"
 
 #include "app/gui/collection/thumbnail_queue.h"
+#include "app/gui/document/document_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
@@ -17,6 +18,7 @@
 #include <QFileInfo>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace episcope {
@@ -81,8 +83,7 @@ CollectionController::CollectionController(const Workbench& bench)
                       .command_tip = tr("Shows the light fields of a folder"),
                       .widget = panel_});
   addCommands();
-  connect(panel_, &ScenePanel::openRequested, this,
-          [this](const QString& path) { bench_.opener.open(wanted_ = path); });
+  connect(panel_, &ScenePanel::openRequested, this, [this](const QString& path) { open(path); });
   connect(list_, &SceneList::thumbnailWanted, this, [this](const QString& path) {
     const auto entry = entries_.constFind(path);
     if (entry != entries_.cend()) thumbnails_->want(*entry, bench_.opener.cacheFolder());
@@ -195,9 +196,27 @@ void CollectionController::step(int step) {
   // A key that repeats goes on from what is loading.
   const QString path = panel_->neighbour(wanted_.isEmpty() ? openPath() : wanted_, step);
   if (path.isEmpty()) return;
-  wanted_ = path;
   panel_->reveal(path);
-  bench_.opener.open(path);
+  open(path);
+}
+
+void CollectionController::open(const QString& path) {
+  wanted_ = path;
+  std::function<void()> then;
+  if (entries_.contains(openPath())) {
+    then = [this, former = bench_.session.generation()] { leaveUntouched(former); };
+  }
+  bench_.opener.open(path, std::move(then));
+}
+
+// Who goes through a collection does not want all of it open.
+void CollectionController::leaveUntouched(std::uint64_t id) {
+  const OpenScene* scene = bench_.session.find_scene(id);
+  const auto edited = bench_.document.editedDocuments();
+  const bool is_touched = !scene || !scene->estimates.empty() ||
+                          bench_.jobs.count(Lane::Estimate) > 0 ||
+                          std::ranges::count(edited, id, &EditedDocument::scene) > 0;
+  if (!is_touched) bench_.session.remove(id);
 }
 
 }  // namespace episcope

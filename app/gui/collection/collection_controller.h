@@ -30,6 +30,9 @@ class CollectionController : public QObject {
   void add(const io::CollectionEntry& entry);
   void finish(const std::vector<io::CollectionEntry>& entries);
   void step(int step);
+  void open(const QString& path);
+  /// Closes a light field that was set aside, unless something was done on it.
+  void leaveUntouched(std::uint64_t id);
   [[nodiscard]] QString openPath() const;
   void markOpen();
 

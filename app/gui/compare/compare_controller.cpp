@@ -88,7 +88,7 @@ void CompareController::update(Parts parts) {
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown) && !isAvailable(mode_)) {
     setMode(CompareMode::Single);
   }
-  if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown)) showMode();
+  if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown | Part::Tone)) showMode();
   if (parts.has(Part::CrossHair) && session_.scene()) {
     wall_->setCrossHair(session_.cross_hair());
   }
@@ -165,7 +165,7 @@ void CompareController::showWipe() {
 }
 
 TileRequest CompareController::request(const std::optional<MapChoice>& choice) const {
-  TileRequest made{session_.light_field(), session_.view(), {}, {}, 1};
+  TileRequest made{session_.light_field(), session_.view(), {}, {}, 1, session_.place().tone};
   if (!choice) return made;
   made.source = overlay_.sourceOf(*choice);
   made.shading = overlay_.shadingOf(choice->quantity);

@@ -20,18 +20,26 @@
 namespace episcope {
 namespace {
 
+using render::Quantity;
+
 constexpr int kBars = 96;
 
-std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRect& region) {
+std::optional<double> bad_percent(const EvaluationPtr& evaluation, const PixelRect& region,
+                                  double threshold_px) {
   if (!evaluation) return std::nullopt;
   const Image<std::uint8_t>& judged = evaluation->judged;
   Image<std::uint8_t> mask(judged.height(), judged.width());
   for (int y = region.y0; y < std::min(region.y1, mask.height()); ++y) {
     for (int x = region.x0; x < std::min(region.x1, mask.width()); ++x) mask.at(y, x) = 1;
   }
-  return bad_percentage(*evaluation, &mask, InvalidEstimates::Bad, [](float error) {
-    return std::abs(error) > static_cast<float>(kBadPixelThreshold_px);
+  return bad_percentage(*evaluation, &mask, InvalidEstimates::Bad, [threshold_px](float error) {
+    return std::abs(error) > static_cast<float>(threshold_px);
   });
+}
+
+// What the numbers of a map are: those of bad pixels are errors.
+Quantity measured_by(Quantity quantity) {
+  return quantity == Quantity::BadPixels ? Quantity::AbsoluteError : quantity;
 }
 
 // Zero stays in the middle of colours that tell signs apart.
@@ -51,8 +59,15 @@ StatisticsController::StatisticsController(const Workbench& bench, StatisticsPan
   connect(stage.wall(), &TileWall::zoomChanged, this, &StatisticsController::begin);
   connect(stage.colorBar(), &ColorBar::automaticRangeRequested, this,
           &StatisticsController::useAutomaticRange);
-  connect(panel_, &StatisticsPanel::rangeEdited, &overlay_,
-          [this](Interval range) { overlay_.setRange(range); });
+  connect(panel_, &StatisticsPanel::rangeEdited, &overlay_, [this](Interval range) {
+    if (measured_by(choice_.quantity) == choice_.quantity) overlay_.setRange(range);
+  });
+  panel_->setBadThreshold(bench.session.bad_threshold_px());
+  connect(panel_, &StatisticsPanel::badThresholdEdited, this,
+          [this](double threshold_px) { bench_.session.set_bad_threshold(threshold_px); });
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene) && !statistics_) panel_->clear(tr("No map is shown"));
+  });
   begin();
 }
 
@@ -103,27 +118,29 @@ void StatisticsController::begin() {
 void StatisticsController::count(const PixelRect& region) {
   Session& session = bench_.session;
   const bool is_result = session.find_estimate(choice_.estimate) &&
-                         choice_.quantity != render::Quantity::Difference &&
-                         choice_.quantity != render::Quantity::Truth;
+                         choice_.quantity != Quantity::Difference &&
+                         choice_.quantity != Quantity::Truth;
   const EvaluationPtr evaluation =
       is_result ? session.evaluation({choice_.estimate, session.view(), Protocol::Vmv2013})
                 : nullptr;
   job_.start<Counted>(
-      [map = map_, region, evaluation,
-       shown = overlay_.shadingOf(choice_.quantity).range](const Progress& progress) {
+      [map = map_, region, evaluation, threshold_px = session.bad_threshold_px(),
+       shown = overlay_.shadingOf(measured_by(choice_.quantity)).range](const Progress& progress) {
         progress.check();
-        return Counted{
-            render::region_statistics({map->map, map->valid, map->inside}, region, shown, kBars),
-            bad_percent(evaluation, region)};
+        return Counted{render::region_statistics({map->numbers(), map->valid, map->inside}, region,
+                                                 shown, kBars),
+                       bad_percent(evaluation, region, threshold_px)};
       },
       [this](const Counted& counted) { show(counted); });
 }
 
 void StatisticsController::show(const Counted& counted) {
   statistics_ = counted.statistics;
-  panel_->setSummary({overlay_.describe(choice_), quantity_unit(choice_.quantity),
+  MapChoice measured = choice_;
+  measured.quantity = measured_by(choice_.quantity);
+  panel_->setSummary({overlay_.describe(measured), quantity_unit(measured.quantity),
                       counted.statistics, counted.bad_percent,
-                      overlay_.shadingOf(choice_.quantity)});
+                      overlay_.shadingOf(measured.quantity)});
   emit updated();
   if (wants_range_) applyAutomaticRange();
 }
@@ -136,6 +153,7 @@ void StatisticsController::useAutomaticRange() {
 
 void StatisticsController::applyAutomaticRange() {
   wants_range_ = false;
+  if (measured_by(choice_.quantity) != choice_.quantity) return;  // its colours have no range
   const bool is_signed = render::info_of(choice_.quantity).is_signed();
   const Interval range = is_signed ? balanced(statistics_->robust) : statistics_->robust;
   if (statistics_->count > 0 && range.length() > 0) overlay_.setRange(range);

@@ -18,6 +18,7 @@ struct TileRequest {
   std::optional<MapSource> source;
   render::Shading shading;
   double opacity = 1;  ///< Of the map.
+  render::Tone tone{};
 };
 /// Whether two requests give the same picture.
 [[nodiscard]] bool is_same(const TileRequest& a, const TileRequest& b);

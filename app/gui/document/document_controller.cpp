@@ -18,7 +18,9 @@ DocumentController::DocumentController(Session& session, QObject* parent)
 }
 
 DocumentController::~DocumentController() {
-  leaveDocument();
+  stroke_.reset();
+  finish(now_);
+  for (auto& [scene, open] : aside_) finish(open);
 }
 
 void DocumentController::setJournalFolder(std::filesystem::path folder) {
@@ -26,30 +28,62 @@ void DocumentController::setJournalFolder(std::filesystem::path folder) {
 }
 
 AnnotationDocument* DocumentController::document() {
-  return isCurrent() ? &annotation_->document() : nullptr;
+  return isCurrent() ? &now_.annotation->document() : nullptr;
 }
 
 const AnnotationDocument* DocumentController::document() const {
-  return isCurrent() ? &annotation_->document() : nullptr;
+  return isCurrent() ? &now_.annotation->document() : nullptr;
 }
 
 bool DocumentController::isCurrent() const {
-  return annotation_ && generation_ == session_.generation();
+  return now_.annotation && generation_ == session_.generation();
 }
 
 bool DocumentController::hasUnsavedChanges() const {
-  return isCurrent() && annotation_->document().has_unsaved_changes() &&
-         annotation_->document().state() != discarded_state_;
+  return isCurrent() && now_.has_unsaved_changes();
+}
+
+bool DocumentController::Open::has_unsaved_changes() const {
+  return annotation && annotation->document().has_unsaved_changes() &&
+         annotation->document().state() != discarded_state;
 }
 
 void DocumentController::update(Parts parts) {
-  if (!parts.has(Part::Scene)) return;
+  if (parts.has(Part::Scenes)) leaveClosed();
+  if (!parts.has(Part::Scene) || generation_ == session_.generation()) return;
   leaveDocument();
-  hash_job_.drop();
   generation_ = session_.generation();
-  if (session_.scene()) openDocument();
+  if (session_.scene() && !takeAside()) openDocument();
+  if (session_.scene()) beginHash();
   emit replaced();
   tellUnsaved();
+}
+
+void DocumentController::leaveClosed() {
+  for (auto each = aside_.begin(); each != aside_.end();) {
+    const bool is_open = session_.find_scene(each->first) != nullptr;
+    if (!is_open) finish(each->second);
+    each = is_open ? std::next(each) : aside_.erase(each);
+  }
+}
+
+bool DocumentController::takeAside() {
+  const auto found = aside_.find(generation_);
+  if (found == aside_.end()) return false;
+  now_ = std::move(found->second);
+  aside_.erase(found);
+  const ScribbleLayer& layer = now_.annotation->document().scribbles();
+  const LightField& light_field = *session_.light_field();
+  if (layer.grid() == light_field.grid() && layer.height() == light_field.height() &&
+      layer.width() == light_field.width()) {
+    return true;
+  }
+  finish(now_);
+  now_ = {};
+  emit problem(tr("What was painted on “%1” belongs to a light field of another size; it is kept "
+                  "in the project.")
+                   .arg(QString::fromStdString(light_field.info().name)));
+  return false;
 }
 
 void DocumentController::openDocument() {
@@ -59,74 +93,149 @@ void DocumentController::openDocument() {
                          light_field->width());
   };
   try {
-    setDocument(make(session_.scene()->scribbles), true);
+    setDocument(make(session_.scene()->scribbles), true, {});
   } catch (const InvalidInput& error) {
-    setDocument(make({}), false);
+    setDocument(make({}), false, {});
     emit problem(tr("The scribbles of this light field cannot be edited: %1. They are left "
                     "unchanged, and what you paint is saved to another file.")
                      .arg(QString::fromUtf8(error.what())));
   }
-  hash_job_.start<std::uint64_t>(
-      [light_field](const Progress&) { return light_field->sample_hash(); },
-      [this](std::uint64_t hash) {
-        sample_hash_ = hash;
-        if (annotation_) annotation_->set_sample_hash(hash);
-      });
 }
 
-void DocumentController::setDocument(AnnotationDocument document, bool is_whole) {
-  is_whole_ = is_whole;
+void DocumentController::beginHash() {
+  hash_job_.start<std::uint64_t>([light_field = session_.light_field()](
+                                     const Progress&) { return light_field->sample_hash(); },
+                                 [this](std::uint64_t hash) {
+                                   sample_hash_ = hash;
+                                   session_.set_sample_hash(generation_, hash);
+                                   if (now_.annotation) now_.annotation->set_sample_hash(hash);
+                                 });
+}
+
+void DocumentController::setDocument(AnnotationDocument document, bool is_whole,
+                                     const std::string& file) {
   written_state_.reset();
-  discarded_state_.reset();
-  annotation_ = std::make_unique<Annotation>(
+  now_ = {};
+  now_.is_whole = is_whole;
+  now_.annotation = std::make_unique<Annotation>(
       std::move(document),
       JournalOwner{session_.light_field()->info().name, session_.input(), sample_hash_,
-                   session_.scene()->convention.focus_px},
+                   session_.scene()->convention.focus_px, file},
       journal_folder_);
 }
 
-// A journal with unsaved changes stays, to be offered at the next start.
-void DocumentController::leaveDocument() {
-  stroke_.reset();
-  sample_hash_ = 0;
-  if (!annotation_) return;
-  const AnnotationDocument& document = annotation_->document();
-  if (!document.has_unsaved_changes() || document.state() == discarded_state_) {
-    annotation_->finish();
-  }
-  annotation_.reset();
+void DocumentController::finish(Open& open) {
+  if (open.annotation && !open.has_unsaved_changes()) open.annotation->finish();
+  open.annotation.reset();
 }
 
-void DocumentController::replace(AnnotationDocument document, bool is_whole) {
+void DocumentController::leaveDocument() {
+  const bool stays_open = session_.find_scene(generation_) != nullptr;
+  if (stays_open && stroke_) run([this] { stroke_->commit(); });
+  stroke_.reset();
+  hash_job_.drop();
+  sample_hash_ = 0;
+  if (!now_.annotation) return;
+  if (stays_open) {
+    aside_[generation_] = std::move(now_);
+  } else {
+    finish(now_);
+  }
+  now_ = {};
+}
+
+std::string DocumentController::file() const {
+  return isCurrent() ? now_.annotation->file() : std::string();
+}
+
+void DocumentController::replace(AnnotationDocument document, bool is_whole,
+                                 const std::string& file) {
   if (!isCurrent()) return;
   stroke_.reset();
-  annotation_->finish();
-  setDocument(std::move(document), is_whole);
+  now_.annotation->finish();
+  setDocument(std::move(document), is_whole, file);
   keepJournal();
   emit replaced();
   tellUnsaved();
 }
 
-void DocumentController::noteSaved(std::uint64_t state) {
+void DocumentController::noteSaved(std::uint64_t state, const std::string& file) {
   if (!isCurrent()) return;
+  run([&] { now_.annotation->set_file(file); });
+  markSaved(state);
+}
+
+void DocumentController::markSaved(std::uint64_t state) {
   if (stroke_) {
     written_state_ = state;
-  } else if (annotation_->document().state() == state) {
-    run([this] { annotation_->document().mark_saved(); });
+  } else if (now_.annotation->document().state() == state) {
+    run([this] { now_.annotation->document().mark_saved(); });
   }
   tellUnsaved();
 }
 
 void DocumentController::discardChanges() {
   endStroke();
-  if (isCurrent()) discarded_state_ = annotation_->document().state();
+  if (isCurrent()) now_.discarded_state = now_.annotation->document().state();
   tellUnsaved();
+}
+
+void DocumentController::discardAll() {
+  discardChanges();
+  for (auto& [scene, open] : aside_) open.discarded_state = open.annotation->document().state();
+}
+
+std::vector<std::uint64_t> DocumentController::unsavedScenes() const {
+  std::vector<std::uint64_t> scenes;
+  for (const auto& [scene, open] : aside_) {
+    if (open.has_unsaved_changes()) scenes.push_back(scene);
+  }
+  if (hasUnsavedChanges()) scenes.push_back(generation_);
+  return scenes;
+}
+
+std::vector<EditedDocument> DocumentController::editedDocuments() const {
+  std::vector<EditedDocument> documents;
+  const auto add = [&](std::uint64_t scene, const Open& open) {
+    if (!open.annotation || !open.annotation->has_journal()) return;
+    documents.push_back(
+        {scene, open.annotation->journal_path(), open.annotation->document().state()});
+  };
+  for (const auto& [scene, open] : aside_) add(scene, open);
+  add(generation_, now_);
+  return documents;
+}
+
+void DocumentController::noteKept(const std::vector<EditedDocument>& documents) {
+  for (const EditedDocument& each : documents) {
+    const auto found = aside_.find(each.scene);
+    if (each.scene == generation_ && isCurrent()) {
+      stroke_ ? void(written_state_ = each.state) : markSaved(each.state);
+    } else if (found != aside_.end()) {
+      AnnotationDocument& document = found->second.annotation->document();
+      if (document.state() == each.state) document.mark_saved();
+    }
+  }
+  tellUnsaved();
+}
+
+void DocumentController::bring(std::uint64_t scene, RecoveredAnnotation found, bool is_saved) {
+  Open open;
+  open.annotation = std::make_unique<Annotation>(std::move(found.document), std::move(found.owner),
+                                                 journal_folder_);
+  try {
+    open.annotation->keep_journal();
+  } catch (const IoError& error) {
+    emit problem(QString::fromUtf8(error.what()));
+  }
+  if (is_saved) open.annotation->document().mark_saved();
+  aside_[scene] = std::move(open);
 }
 
 void DocumentController::keepJournal() {
   if (!isCurrent()) return;
   try {
-    annotation_->keep_journal();
+    now_.annotation->keep_journal();
   } catch (const IoError& error) {
     emit problem(QString::fromUtf8(error.what()));
   }
@@ -136,7 +245,7 @@ void DocumentController::run(const std::function<void()>& change) {
   try {
     change();
   } catch (const IoError& error) {
-    annotation_->drop_journal();
+    now_.annotation->drop_journal();
     emit problem(tr("What you paint can no longer be recovered after a crash, so save it soon: %1")
                      .arg(QString::fromUtf8(error.what())));
   } catch (const Error& error) {
@@ -148,7 +257,7 @@ bool DocumentController::edit(const std::function<void(AnnotationDocument&)>& ch
   endStroke();
   if (!isCurrent()) return false;
   keepJournal();
-  AnnotationDocument& document = annotation_->document();
+  AnnotationDocument& document = now_.annotation->document();
   const std::uint64_t before = document.state();
   const DocumentChange what = everything();
   run([&] { change(document); });
@@ -171,7 +280,7 @@ void DocumentController::go(DocumentChange (AnnotationDocument::*step)()) {
   endStroke();
   if (!isCurrent()) return;
   keepJournal();
-  AnnotationDocument& document = annotation_->document();
+  AnnotationDocument& document = now_.annotation->document();
   const std::uint64_t before = document.state();
   DocumentChange change;
   run([&] { change = (document.*step)(); });
@@ -186,7 +295,7 @@ bool DocumentController::beginStroke(ViewIndex view, const PaintStyle& style, St
   if (!isCurrent()) return false;
   keepJournal();
   run([&] {
-    stroke_ = std::make_unique<Stroke>(annotation_->document(), view, style);
+    stroke_ = std::make_unique<Stroke>(now_.annotation->document(), view, style);
     stroke_view_ = view;
     stroke_rect_ = {};
   });
@@ -205,25 +314,25 @@ void DocumentController::extendStroke(StrokePoint at) {
 
 void DocumentController::endStroke() {
   if (!stroke_) return;
-  AnnotationDocument& document = annotation_->document();
+  AnnotationDocument& document = now_.annotation->document();
   const std::uint64_t before = document.state();
   run([this] { stroke_->commit(); });
   stroke_.reset();
   if (document.state() != before) tell({{{stroke_view_, stroke_rect_}}, false});
-  if (const auto written = std::exchange(written_state_, {})) noteSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
 }
 
 void DocumentController::cancelStroke() {
   if (!stroke_) return;
   stroke_.reset();
   if (!stroke_rect_.empty()) emit painted(stroke_view_, stroke_rect_);
-  if (const auto written = std::exchange(written_state_, {})) noteSaved(*written);
+  if (const auto written = std::exchange(written_state_, {})) markSaved(*written);
 }
 
 DocumentChange DocumentController::everything() const {
   DocumentChange change;
   change.has_new_labels = true;
-  const ScribbleLayer& layer = annotation_->document().scribbles();
+  const ScribbleLayer& layer = now_.annotation->document().scribbles();
   for (const ViewIndex view : layer.painted_views()) {
     change.views.push_back({view, {0, 0, layer.height(), layer.width()}});
   }

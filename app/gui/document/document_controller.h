@@ -11,13 +11,23 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace episcope {
 
-/// The annotation document of the open light field: creates it, changes it, keeps its journal and
-/// reports changes. Whatever shows, saves or learns from scribbles listens to this.
+/// A document of an open scene that has a journal.
+struct EditedDocument {
+  std::uint64_t scene = 0;  ///< OpenScene::id.
+  std::filesystem::path journal;
+  std::uint64_t state = 0;  ///< AnnotationDocument::state.
+};
+
+/// The annotation documents of the open light fields, of which one is shown: creates it, changes
+/// it, keeps its journal and reports changes. Whatever shows, saves or learns from scribbles
+/// listens to this.
 class DocumentController : public QObject {
   Q_OBJECT
 
@@ -34,16 +44,28 @@ class DocumentController : public QObject {
   [[nodiscard]] const AnnotationDocument* document() const;
   /// Whether it holds all scribbles of the light field's own files; if not, those must not be
   /// overwritten.
-  [[nodiscard]] bool isWhole() const { return is_whole_; }
+  [[nodiscard]] bool isWhole() const { return now_.is_whole; }
   [[nodiscard]] bool hasUnsavedChanges() const;
-  /// Puts another document in the place of the present one, whose journal ends. `is_whole` as
-  /// above.
-  void replace(AnnotationDocument document, bool is_whole);
+  /// The file that it was saved to last; empty if it was not.
+  [[nodiscard]] std::string file() const;
+  /// Puts another document in the place of the present one, whose journal ends. `is_whole` and
+  /// `file` as above.
+  void replace(AnnotationDocument document, bool is_whole, const std::string& file);
   /// Notes that the state was written to a file; if painting went on meanwhile, there are unsaved
   /// changes still.
-  void noteSaved(std::uint64_t state);
+  void noteSaved(std::uint64_t state, const std::string& file);
   /// The user discards the present changes: they may be dropped with the document.
   void discardChanges();
+  /// The same of all open scenes.
+  void discardAll();
+  /// Open scenes (OpenScene::id) whose documents have changes that no file holds.
+  [[nodiscard]] std::vector<std::uint64_t> unsavedScenes() const;
+  /// The documents of open scenes that were edited, each with its journal and its state now.
+  [[nodiscard]] std::vector<EditedDocument> editedDocuments() const;
+  /// Notes that these states are in a project.
+  void noteKept(const std::vector<EditedDocument>& documents);
+  /// What was painted before on a scene that is set aside; it is kept in a journal anew.
+  void bring(std::uint64_t scene, RecoveredAnnotation found, bool is_saved);
   /// Ensures that what is painted next survives a crash.
   void keepJournal();
 
@@ -74,11 +96,26 @@ class DocumentController : public QObject {
   void problem(const QString& sentence);
 
  private:
+  /// A document that is open.
+  struct Open {
+    std::unique_ptr<Annotation> annotation;
+    bool is_whole = true;
+    std::optional<std::uint64_t> discarded_state{};
+    [[nodiscard]] bool has_unsaved_changes() const;
+  };
+
   void update(Parts parts);
   void openDocument();
   void leaveDocument();
-  void setDocument(AnnotationDocument document, bool is_whole);
+  void leaveClosed();
+  /// Takes the document that was set aside for the scene that is shown; false if there is none.
+  bool takeAside();
+  void beginHash();
+  /// Ends a document: a journal with unsaved changes stays, to be offered at the next start.
+  static void finish(Open& open);
+  void setDocument(AnnotationDocument document, bool is_whole, const std::string& file);
   void go(DocumentChange (AnnotationDocument::*step)());
+  void markSaved(std::uint64_t state);
   void tell(const DocumentChange& change);
   void tellUnsaved();
   /// Runs a change and reports what it threw. A journal that fails is abandoned.
@@ -88,16 +125,15 @@ class DocumentController : public QObject {
 
   Session& session_;
   std::filesystem::path journal_folder_;
-  std::unique_ptr<Annotation> annotation_;
-  bool is_whole_ = true;
-  std::uint64_t generation_ = 0;   // of the session, when the document was made
-  std::uint64_t sample_hash_ = 0;  // of the light field; 0 = not known yet
+  Open now_;
+  std::map<std::uint64_t, Open> aside_;  // by scene
+  std::uint64_t generation_ = 0;         // of the scene that `now_` belongs to
+  std::uint64_t sample_hash_ = 0;        // of the light field; 0 = not known yet
   LatestJob hash_job_;
   std::unique_ptr<Stroke> stroke_;
   ViewIndex stroke_view_;
   PixelRect stroke_rect_;
   std::optional<std::uint64_t> written_state_;  // noted while a stroke was under way
-  std::optional<std::uint64_t> discarded_state_;
   bool was_unsaved_ = false;
 };
 

@@ -2,13 +2,11 @@
 #include "app/gui/estimate/estimate.h"
 
 #include "app/gui/estimate/estimate_controller.h"
-#include "app/gui/estimate/result_guard.h"
 
 namespace episcope {
 
 void add_estimating(const Workbench& bench) {
   new EstimateController(bench);
-  new ResultGuard(bench);
 }
 
 }  // namespace episcope

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/batch.h"
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/frame/cancels.h"
@@ -23,6 +24,14 @@ void EstimateController::addCommands() {
                        .icon = "run",
                        .keys = {Qt::Key_F5, tr("Ctrl+Return")},
                        .run = [this] { run(); },
+                       .section = kRun,
+                       .enabled = has_scene});
+  bench_.commands.add({.id = "estimate.batch",
+                       .menu = Menu::Estimate,
+                       .text = tr("Run on several…"),
+                       .tip = tr("Runs one or several methods on light fields that are open"),
+                       .keys = {tr("Shift+F5")},
+                       .run = [this] { ask_for_batch(bench_, runs_, method_->request()); },
                        .section = kRun,
                        .enabled = has_scene});
   QAction* cancel = bench_.commands.add({.id = "estimate.cancel",
@@ -82,7 +91,7 @@ void EstimateController::addResultCommands() {
                        .keys = {tr("Ctrl+Shift+Delete")},
                        .run = [this] { restoreRemoved(); },
                        .section = kResults,
-                       .enabled = [this] { return !removed_.empty(); }});
+                       .enabled = [this] { return canRestore(); }});
   bench_.commands.add({.id = "file.export",
                        .menu = Menu::File,
                        .text = tr("Export result…"),

@@ -36,14 +36,6 @@ std::vector<MethodDescription> described_methods() {
   return methods;
 }
 
-ViewSelection views_of(bool all_views) {
-  return all_views ? ViewSelection::All : ViewSelection::Center;
-}
-
-EstimateRequest request_of(const RunRequest& request) {
-  return {request.method, request.values, {.views = views_of(request.all_views)}};
-}
-
 // What distinguishes this run: whether it was ended early, and parameters that are not at their
 // defaults.
 QString parameter_text(const Estimate& estimate) {
@@ -75,7 +67,7 @@ QString detail_text(const Estimate& estimate) {
 }  // namespace
 
 EstimateController::EstimateController(const Workbench& bench)
-    : QObject(&bench.owner), bench_(bench), session_(bench.session) {
+    : QObject(&bench.owner), bench_(bench), session_(bench.session), runs_(bench) {
   addTab();
   addCommands();
   method_->setMethods(described_methods());
@@ -84,6 +76,7 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(method_, &MethodPanel::cancelRequested, this, &EstimateController::cancel);
   connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
   connectResults();
+  connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
   // The demo scene is estimated at once, so that there is something to see.
   connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
     if (is_builtin(input)) run({kFirstMethod, {}, {}});
@@ -138,21 +131,8 @@ void EstimateController::run() {
 }
 
 void EstimateController::run(const EstimateRequest& request) {
-  const LightFieldPtr light_field = session_.light_field();
-  if (!light_field) return;
-  const std::uint64_t generation = session_.generation();
-  const EstimatorInfo info = find_estimator(request.method).info;
-  const quint64 job = bench_.jobs.start<FinishedEstimate>(
-      Lane::Estimate, QString::fromStdString(info.name),
-      [light_field, request](const Progress& progress) {
-        return run_estimator(*light_field, request, progress);
-      },
-      [this, generation](const FinishedEstimate& finished) {
-        session_.add_estimate(finished.estimate, finished.display_range, generation);
-      },
-      [this] { showRunning(); });
-  if (info.iterative) bench_.jobs.setIterative(job);
-  showRunning();
+  if (const OpenScene* shown = session_.find_scene(session_.generation()))
+    runs_.run(request, *shown);
 }
 
 void EstimateController::showRunning() {
@@ -173,16 +153,23 @@ void EstimateController::remove(int id) {
   const auto& entries = session_.estimates();
   const auto found = std::ranges::find(entries, id, &EstimateEntry::id);
   if (found == entries.end()) return;
-  removed_.push_back({*found, static_cast<std::size_t>(found - entries.begin())});
+  removed_.push_back(
+      {*found, static_cast<std::size_t>(found - entries.begin()), session_.generation()});
   session_.remove_estimate(id);
   bench_.messages.offer(tr("Removed: %1").arg(QString::fromStdString(removed_.back().entry.name)),
                         tr("Undo"), [this] { restoreRemoved(); });
 }
 
+bool EstimateController::canRestore() const {
+  return std::ranges::count(removed_, session_.generation(), &Removed::scene) > 0;
+}
+
 void EstimateController::restoreRemoved() {
-  if (removed_.empty()) return;
-  Removed last = std::move(removed_.back());
-  removed_.pop_back();
+  if (!canRestore()) return;
+  const auto found =
+      std::ranges::find(removed_.rbegin(), removed_.rend(), session_.generation(), &Removed::scene);
+  Removed last = std::move(*found);
+  removed_.erase(std::prev(found.base()));
   session_.restore_estimate(std::move(last.entry), last.place);
 }
 
@@ -197,8 +184,11 @@ void EstimateController::showNeighbour(int step) {
 }
 
 void EstimateController::update(Parts parts) {
+  if (parts.has(Part::Scenes)) {
+    std::erase_if(removed_,
+                  [this](const Removed& each) { return !session_.find_scene(each.scene); });
+  }
   if (parts.has(Part::Scene)) {
-    removed_.clear();
     method_->setRunBlocked(session_.scene() ? QString() : tr("Open a light field first."));
   }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations | Part::View)) listResults();

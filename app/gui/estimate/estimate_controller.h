@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/gui/estimate/method_runs.h"
 #include "app/session/parts.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/session.h"
@@ -30,6 +31,7 @@ class EstimateController : public QObject {
   void removeShown();
   /// Brings back the result that was removed last.
   void restoreRemoved();
+  [[nodiscard]] bool canRestore() const;
   /// The line for what the form says.
   void copyCommand();
   void showNeighbour(int step);
@@ -37,7 +39,8 @@ class EstimateController : public QObject {
  private:
   struct Removed {
     EstimateEntry entry;
-    std::size_t place = 0;  ///< In the list.
+    std::size_t place = 0;    ///< In the list
+    std::uint64_t scene = 0;  ///< of this scene.
   };
 
   void remove(int id);
@@ -57,7 +60,8 @@ class EstimateController : public QObject {
   Session& session_;
   MethodPanel* method_;
   ResultList* results_;
-  std::vector<Removed> removed_;  // of this light field, the latest last
+  MethodRuns runs_;
+  std::vector<Removed> removed_;  // the latest last
 };
 
 }  // namespace episcope

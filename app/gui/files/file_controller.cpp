@@ -37,9 +37,15 @@ FileController::FileController(const Workbench& bench)
     remember_recent(folder);
     fillRecentMenu();
   });
+  connect(&bench.opener, &SceneOpener::isProject, this, [this](const QString& path) {
+    remember_recent(path);
+    fillRecentMenu();
+  });
   connect(&bench.commands, &Commands::keysChanged, this, &FileController::showInvitation);
-  connect(&bench.document, &DocumentController::unsavedChanged, &bench.window,
-          &QWidget::setWindowModified);
+  connect(&bench.document, &DocumentController::unsavedChanged, this, [this](bool is_unsaved) {
+    showTitle();
+    bench_.window.setWindowModified(is_unsaved);
+  });
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) showTitle();
   });
@@ -58,8 +64,9 @@ void FileController::addOpenCommands() {
                    .run = [this, run] { (this->*run)(); },
                    .section = section::kOpen};
   };
-  Command open = add("file.open", tr("Open file…"), tr("Opens a light field or a result"),
-                     {QKeySequence::Open}, &FileController::askForFile);
+  Command open =
+      add("file.open", tr("Open file…"), tr("Opens a light field, a result or a project"),
+          {QKeySequence::Open}, &FileController::askForFile);
   open.icon = "open";
   open.bar = BarSection::Files;
   bench_.commands.add(std::move(open));
@@ -132,8 +139,8 @@ void FileController::askForFile() {
   ask_for_file(&bench_.window,
                {.name = "open_file",
                 .title = tr("Open a light field"),
-                .filter = tr("Light fields and results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All "
-                             "files (*)")},
+                .filter = tr("Light fields, results and projects (*.h5 *.hdf5 *.pfm *.tif *.tiff "
+                             "*.episcope);;All files (*)")},
                [this](const QString& path) { openAny(path); });
 }
 

@@ -59,9 +59,15 @@ class Frame : public QWidget {
 
   /// The program has begun: features may offer what is left from before.
   void start() { emit started(); }
+  /// It was decided what becomes of an earlier session, if one was left.
+  void settle() { emit settled(); }
+  /// The window is closed, and nothing that the user wants is open any more.
+  void end() { emit ended(); }
 
  signals:
   void started();
+  void settled();
+  void ended();
   void tabShown(const QString& id);
 
  private:

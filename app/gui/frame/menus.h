@@ -42,9 +42,10 @@ struct MenuInfo {
 namespace section {
 
 inline constexpr int kOpen = 0;       ///< File
-inline constexpr int kScribbles = 1;  ///< File
-inline constexpr int kExport = 2;     ///< File
-inline constexpr int kLeave = 3;      ///< File
+inline constexpr int kProject = 1;    ///< File
+inline constexpr int kScribbles = 2;  ///< File
+inline constexpr int kExport = 3;     ///< File
+inline constexpr int kLeave = 4;      ///< File
 
 inline constexpr int kWalk = 0;   ///< View
 inline constexpr int kZoom = 1;   ///< View

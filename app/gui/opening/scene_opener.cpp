@@ -5,8 +5,10 @@
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/opening/reading_question.h"
 #include "app/gui/opening/remembered_conventions.h"
+#include "app/gui/opening/scene_switcher.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/picture/picture.h"
+#include "app/session/project/project_file.h"
 #include "app/session/scene/collections.h"
 #include "app/session/scene/user_folders.h"
 #include "engine/core/error.h"
@@ -101,12 +103,13 @@ bool is_builtin(const QString& input) {
 }
 
 SceneOpener::SceneOpener(Session& session, Jobs& jobs, Stage& stage, const LeaveGuards& guards,
-                         QObject* parent)
+                         SceneSwitcher& scenes, QObject* parent)
     : QObject(parent),
       session_(session),
       jobs_(jobs),
       stage_(stage),
       guards_(guards),
+      scenes_(scenes),
       cache_folder_(default_cache_folder()) {
   connect(&jobs_, &Jobs::progressed, this,
           [this](quint64 job, double fraction) { showLoading(job, fraction); });
@@ -117,11 +120,28 @@ SceneOpener::SceneOpener(Session& session, Jobs& jobs, Stage& stage, const Leave
 
 void SceneOpener::open(const QString& input_as_given, std::function<void()> then) {
   const QString input = absolute(input_as_given);
-  load({input, is_builtin(input) ? ParameterSet() : remembered_conventions(input), true,
-        [this, input, then = std::move(then)] {
-          emit opened(input);
-          if (then) then();
-        }});
+  if (names_project(input.toStdString())) {
+    emit isProject(input);
+    return;
+  }
+  if (const std::uint64_t open = session_.scene_of(input.toStdString())) {
+    scenes_.show(open, std::move(then));
+    return;
+  }
+  load({.input = input,
+        .given = is_builtin(input) ? ParameterSet() : remembered_conventions(input),
+        .is_remembered = true,
+        .then =
+            [this, input, then = std::move(then)] {
+              emit opened(input);
+              if (then) then();
+            },
+        .is_added = true});
+}
+
+void SceneOpener::setCacheFolder(const std::filesystem::path& folder) {
+  cache_folder_ = folder;
+  scenes_.setCacheFolder(folder);
 }
 
 void SceneOpener::reopenWith(const ParameterSet& given) {
@@ -173,7 +193,11 @@ void SceneOpener::load(const Load& load) {
 }
 
 void SceneOpener::leave(const Load& load, const std::function<void()>& go_on) {
-  load.keeps_results ? guards_.leave_with_results(go_on) : guards_.leave(go_on);
+  if (load.is_added) {
+    go_on();
+  } else {
+    guards_.leave(load.keeps_results ? Leaving::Reading : Leaving::Scene, go_on);
+  }
 }
 
 void SceneOpener::start(const Load& load) {
@@ -203,7 +227,7 @@ void SceneOpener::start(const Load& load) {
         // Painting may have gone on while this was read.
         leave(load, [this, number, load, scene = opened.scene] {
           if (number != number_) return;
-          finish(load.input, scene);
+          finish(load, scene);
           if (load.then) load.then();
         });
       },
@@ -235,10 +259,13 @@ void SceneOpener::showLoading(quint64 job, double fraction) {
   stage_.canvas()->showLoading(loading_name_, fraction);
 }
 
-void SceneOpener::finish(const QString& input, const ScenePtr& scene) {
-  jobs_.cancelLane(Lane::Estimate);  // they belong to the former light field
-  session_.open(scene, input.toStdString());
-  if (is_builtin(input)) keepBuiltin(input);
+void SceneOpener::finish(const Load& load, const ScenePtr& scene) {
+  if (load.is_added) {
+    session_.add(scene, load.input.toStdString());
+  } else {
+    session_.open(scene, load.input.toStdString());
+  }
+  if (is_builtin(load.input)) keepBuiltin(load.input);
 }
 
 void SceneOpener::end(quint64 number, const QString& input) {
@@ -267,14 +294,14 @@ void SceneOpener::keepBuiltin(const QString& input) {
 }
 
 void SceneOpener::close() {
-  guards_.leave([this] {
+  guards_.leave(Leaving::Scene, [this] {
     jobs_.cancelLane(Lane::Load);
-    jobs_.cancelLane(Lane::Estimate);
     ++number_;
     loading_job_ = 0;
     failed_input_.clear();
     stage_.endPreview();
     session_.close();
+    scenes_.showLatest();
     emit changed();
   });
 }

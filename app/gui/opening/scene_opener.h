@@ -16,6 +16,7 @@
 namespace episcope {
 
 class LeaveGuards;
+class SceneSwitcher;
 class Stage;
 
 /// Opens light fields in the background, and asks where files do not tell how. The centre view is
@@ -26,10 +27,11 @@ class SceneOpener : public QObject {
 
  public:
   SceneOpener(Session& session, Jobs& jobs, Stage& stage, const LeaveGuards& guards,
-              QObject* parent);
+              SceneSwitcher& scenes, QObject* parent);
 
-  /// Opens a path, `demo` or `demo:<scene>`, with the conventions that are remembered for it.
-  /// `then` is called after success.
+  /// Opens a path, `demo` or `demo:<scene>`, with the conventions that are remembered for it,
+  /// beside what is open already; what is open itself is shown. `then` is called after success. A
+  /// project is not opened here: see `isProject`.
   void open(const QString& input, std::function<void()> then = nullptr);
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
   /// for that file if it could be read.
@@ -43,12 +45,13 @@ class SceneOpener : public QObject {
   [[nodiscard]] QString reopenable() const;
   /// Whether what was asked for last could not be read.
   [[nodiscard]] bool hasFailed() const { return !failed_input_.isEmpty(); }
+  /// Closes what is shown; another light field that is open is shown then.
   void close();
 
   /// Where built-in scenes, and what is known of collections, are kept; empty = nowhere.
   [[nodiscard]] const std::filesystem::path& cacheFolder() const { return cache_folder_; }
   /// For tests.
-  void setCacheFolder(std::filesystem::path folder) { cache_folder_ = std::move(folder); }
+  void setCacheFolder(const std::filesystem::path& folder);
 
  signals:
   /// A load begins or ended; what `reopenable` says may be another.
@@ -57,6 +60,8 @@ class SceneOpener : public QObject {
   void opened(const QString& input);
   /// `open` was asked for a folder that is no light field but holds some.
   void isCollection(const QString& folder);
+  /// `open` was asked for a project file.
+  void isProject(const QString& path);
 
  private:
   struct Load {
@@ -65,6 +70,7 @@ class SceneOpener : public QObject {
     bool is_remembered = false;  ///< Conventions that do not fit any more are passed over.
     std::function<void()> then;
     bool keeps_results = false;  ///< `then` brings them back.
+    bool is_added = false;       ///< Beside what is open, not in its place.
   };
 
   void load(const Load& load);
@@ -72,7 +78,7 @@ class SceneOpener : public QObject {
   void start(const Load& load);
   [[nodiscard]] LoadOptions loadOptions(quint64 number, const ParameterSet& given);
   void showLoading(quint64 job, double fraction);
-  void finish(const QString& input, const std::shared_ptr<const Scene>& scene);
+  void finish(const Load& load, const std::shared_ptr<const Scene>& scene);
   void end(quint64 number, const QString& input);
   void ask(const Load& load, const io::Undecided& question);
   void keepBuiltin(const QString& input);
@@ -81,6 +87,7 @@ class SceneOpener : public QObject {
   Jobs& jobs_;
   Stage& stage_;
   const LeaveGuards& guards_;
+  SceneSwitcher& scenes_;
   std::filesystem::path cache_folder_;
   quint64 number_ = 0;  // of the newest load
   quint64 loading_job_ = 0;

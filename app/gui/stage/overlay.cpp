@@ -5,6 +5,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/color_bar.h"
 #include "widgets/compare/overlay_bar.h"
+#include "widgets/style/number_text.h"
 #include "widgets/style/quantity_text.h"
 
 #include <algorithm>
@@ -51,7 +52,9 @@ void Overlay::connectStage() {
   connect(scale, &ColorBar::rangeEdited, this, [this](Interval range) { setRange(range); });
   connect(scale, &ColorBar::ownRangeRequested, this, [this] { setRange(std::nullopt); });
   connect(canvas, &ViewCanvas::cursorMoved, this, [this, scale](std::optional<PixelIndex> pixel) {
-    const auto value = pixel ? valueAt(*pixel) : std::nullopt;
+    // Colours of bad pixels say nothing of their numbers.
+    const bool has_marker = pixel && map_ && map_->measured.empty();
+    const auto value = has_marker ? valueAt(*pixel) : std::nullopt;
     scale->setMarker(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   });
   connect(&stage_, &Stage::previewChanged, this, &Overlay::draw);
@@ -82,12 +85,7 @@ bool Overlay::isAwaited(Quantity quantity) const {
 }
 
 void Overlay::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
-    is_flipped_ = shows_difference_ = false;
-    known_estimates_ = 0;
-    pictures_.clear();
-    if (!stage_.colorBar()->isRangeLocked()) edited_ranges_.clear();
-  }
+  if (parts.has(Part::Scene)) beginScene();
   if (parts.has_any(Part::Scene | Part::Estimates)) {
     // A new result is shown.
     const std::size_t count = session_.estimates().size();
@@ -102,6 +100,21 @@ void Overlay::update(Parts parts) {
     showAvailable();
   }
   if (parts.has_any(of_choice | Part::View | Part::Evaluations)) draw();
+}
+
+// A scene that was shown before looks as it did.
+void Overlay::beginScene() {
+  is_flipped_ = shows_difference_ = false;
+  known_estimates_ = 0;
+  pictures_.clear();
+  map_ = nullptr;  // not even for a moment over another light field
+  picture_ = {};
+  scene_ = session_.generation();
+  const ScenePlace& place = session_.place();
+  if (!stage_.colorBar()->isRangeLocked()) edited_ranges_ = place.ranges;
+  if (!place.quantity) return;
+  quantity_ = *place.quantity;
+  known_estimates_ = session_.estimates().size();
 }
 
 bool Overlay::isAvailable(Quantity quantity) const {
@@ -185,6 +198,9 @@ void Overlay::draw() {
   stage_.canvas()->setOverlay(picture_);
   showScale(drawn_choice);
   if (session_.scene()) showCaption(drawn_choice);
+  if (session_.scene() && scene_ == session_.generation()) {
+    session_.set_display(quantity_, edited_ranges_);
+  }
   emit drawn();
 }
 
@@ -234,6 +250,11 @@ QString Overlay::describe(const MapChoice& choice) const {
     if (!title.isEmpty()) return title;
   }
   if (!entry) return quantity_label(choice.quantity);
+  if (choice.quantity == Quantity::BadPixels) {
+    return tr("%1 (> %2 px) of %3")
+        .arg(quantity_label(choice.quantity), number_text(session_.bad_threshold_px(), 2),
+             name(entry));
+  }
   return tr("%1 of %2").arg(quantity_label(choice.quantity), name(entry));
 }
 

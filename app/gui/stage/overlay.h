@@ -80,6 +80,7 @@ class Overlay : public QObject {
   [[nodiscard]] bool isAwaited(render::Quantity quantity) const;
   void connectStage();
   void update(Parts parts);
+  void beginScene();
   void showAvailable();
   void draw();
   void drawMap(const MapChoice& choice);
@@ -94,6 +95,7 @@ class Overlay : public QObject {
   bool is_flipped_ = false;
   bool is_up_to_date_ = true;
   std::size_t known_estimates_ = 0;
+  std::uint64_t scene_ = 0;                             // that is drawn
   std::map<render::Quantity, Interval> edited_ranges_;  // all disparities under one
   QuantityMapPtr map_;
   QImage picture_;

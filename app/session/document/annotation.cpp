@@ -11,6 +11,11 @@ Annotation::Annotation(AnnotationDocument document, JournalOwner owner,
                        std::filesystem::path folder)
     : document_(std::move(document)), owner_(std::move(owner)), folder_(std::move(folder)) {}
 
+void Annotation::set_file(const std::string& file) {
+  owner_.file = file;
+  if (journal_) journal_->set_file(file);
+}
+
 void Annotation::keep_journal() {
   if (journal_ || folder_.empty()) return;
   try {

@@ -22,10 +22,16 @@ class Annotation {
 
   /// LightField::sample_hash for a journal that is begun later; until then it is unknown, 0.
   void set_sample_hash(std::uint64_t hash) { owner_.sample_hash = hash; }
+  /// Where the document was saved last; a later crash does not forget it. Throws IoError if the
+  /// journal cannot be written.
+  void set_file(const std::string& file);
+  [[nodiscard]] const std::string& file() const { return owner_.file; }
   /// Begins the journal unless it is there, or is not wanted. To be called before each edit. Throws
   /// IoError if it cannot be kept: then there will be none.
   void keep_journal();
   [[nodiscard]] bool has_journal() const { return journal_.has_value(); }
+  /// Precondition: there is one.
+  [[nodiscard]] const std::filesystem::path& journal_path() const { return journal_->path(); }
   /// Abandons the journal, which can no longer be written.
   void drop_journal();
   /// The session ended normally or its changes were discarded: the journal is removed.

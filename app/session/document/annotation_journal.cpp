@@ -53,6 +53,12 @@ void AnnotationJournal::finish() {
   discard_journal(path_);
 }
 
+void AnnotationJournal::set_file(std::string file) {
+  if (file == owner_.file) return;
+  owner_.file = std::move(file);
+  rewrite();
+}
+
 void AnnotationJournal::record(const DocumentEvent& event) {
   log_->append(step_record(event));
   if (log_->byte_size() > 2 * first_bytes_ + kSlackBytes) rewrite();

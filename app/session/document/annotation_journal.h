@@ -18,6 +18,7 @@ struct JournalOwner {
   std::string source;             ///< What opens the light field again.
   std::uint64_t sample_hash = 0;  ///< LightField::sample_hash.
   double focus_px = 0;            ///< Focus plane to bake in after opening (shear.h).
+  std::string file{};             ///< Where the document was saved last; empty = nowhere yet.
   friend bool operator==(const JournalOwner&, const JournalOwner&) = default;
 };
 
@@ -39,6 +40,8 @@ class AnnotationJournal {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::uintmax_t byte_size() const { return log_->byte_size(); }
+  /// The document was saved to another file. Throws IoError.
+  void set_file(std::string file);
   /// Waits until everything is on the disk. Throws IoError.
   void flush() { log_->flush(); }
   /// Ends the journal and removes the file: the session ended normally.

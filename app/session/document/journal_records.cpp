@@ -53,6 +53,7 @@ io::LogRecord head_record(const JournalOwner& owner, const AnnotationDocument& d
   }
   out.number(document.history().max_bytes());
   out.number(std::bit_cast<std::uint64_t>(owner.focus_px));
+  out.text(owner.file);
   return out.bytes();
 }
 
@@ -83,8 +84,9 @@ Head read_head(const io::LogRecord& record) {
     *extent = static_cast<int>(in.number(kMaxExtent));
   }
   head.history_bytes = static_cast<std::size_t>(in.number());
-  // Journals of earlier programs end here.
+  // Journals of earlier programs end here, or after the next.
   if (!in.at_end()) head.owner.focus_px = std::bit_cast<double>(in.number());
+  if (!in.at_end()) head.owner.file = in.text();
   return head;
 }
 

@@ -62,6 +62,7 @@ std::optional<MapSource> map_source(Session& session, const MapChoice& choice, V
   if (subject == Subject::Error) {
     source.evaluation = session.evaluation({choice.estimate, view, Protocol::Vmv2013});
     if (!source.evaluation) return std::nullopt;
+    source.bad_threshold_px = session.bad_threshold_px();
   }
   return source;
 }

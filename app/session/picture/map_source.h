@@ -7,6 +7,7 @@
 #include "engine/core/light_field/ground_truth.h"
 #include "engine/core/light_field/label_info.h"
 #include "engine/core/light_field/light_field.h"
+#include "engine/evaluation/metrics/error_maps.h"
 #include "engine/render/quantity.h"
 
 #include <cstdint>
@@ -30,8 +31,9 @@ struct MapSource {
   LightFieldPtr light_field{};
   GroundTruthPtr truth{};
   EstimatePtr estimate{};
-  EstimatePtr other{};                   ///< For a difference: estimate − other.
-  EvaluationPtr evaluation{};            ///< Of `estimate` in `view`.
+  EstimatePtr other{};                              ///< For a difference: estimate − other.
+  EvaluationPtr evaluation{};                       ///< Of `estimate` in `view`.
+  double bad_threshold_px = kBadPixelThreshold_px;  ///< For BadPixels.
   LabelingPtr labeling{};                ///< For what is of a segmentation, but for Edges.
   std::vector<LabelInfo> label_infos{};  ///< Colours of its labels; others have the default ones.
   int label = 0;                         ///< Whose probability.

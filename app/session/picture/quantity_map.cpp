@@ -15,20 +15,26 @@ using render::Subject;
 
 using Map = std::shared_ptr<QuantityMap>;
 
-Map error_map(const EvaluationPtr& evaluation, Quantity quantity) {
+// A missing estimate has no error to draw, but it is a bad pixel.
+void fill_bad_pixels(const Evaluation& evaluation, double threshold_px, QuantityMap& made) {
+  made.computed = bad_pixel_map(evaluation, threshold_px);
+  made.computed_measured = absolute_error_map(evaluation);
+  made.map = made.computed;
+  made.measured = made.computed_measured;
+}
+
+Map error_map(const EvaluationPtr& evaluation, const MapSource& source) {
   auto made = std::make_shared<QuantityMap>();
-  if (quantity == Quantity::SignedError) {
-    made->map = evaluation->signed_error;
+  if (source.quantity == Quantity::BadPixels) {
+    fill_bad_pixels(*evaluation, source.bad_threshold_px, *made);
   } else {
-    made->computed = quantity == Quantity::AbsoluteError
-                         ? absolute_error_map(*evaluation)
-                         : bad_pixel_map(*evaluation, kBadPixelThreshold_px);
-    made->map = made->computed;
-  }
-  // A missing estimate has no error to draw, but it is a bad pixel.
-  if (quantity != Quantity::BadPixels) {
     made->computed_valid = present_mask(*evaluation);
     made->valid = made->computed_valid;
+    if (source.quantity == Quantity::AbsoluteError)
+      made->computed = absolute_error_map(*evaluation);
+    made->map = source.quantity == Quantity::AbsoluteError
+                    ? ImageView<const float>(made->computed)
+                    : ImageView<const float>(evaluation->signed_error);
   }
   made->inside = evaluation->judged;
   made->owner = evaluation;
@@ -79,7 +85,7 @@ QuantityMapPtr make_map(const MapSource& source) {
     case Subject::Result:
       return result_map_of(source.quantity).make(source.estimate, source.view);
     case Subject::Error:
-      return error_map(source.evaluation, source.quantity);
+      return error_map(source.evaluation, source);
     case Subject::ResultPair:
       return difference_map(source.estimate->field.view(source.view),
                             source.other->field.view(source.view));
@@ -92,8 +98,8 @@ QuantityMapPtr make_map(const MapSource& source) {
 std::optional<double> QuantityMap::value_at(PixelIndex pixel) const {
   if (pixel.y >= map.height || pixel.x >= map.width) return std::nullopt;
   if (!inside.empty() && inside.at(pixel.y, pixel.x) == 0) return std::nullopt;
-  if (!DisparityView{map, valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
-  return map.at(pixel.y, pixel.x);
+  if (!DisparityView{numbers(), valid}.is_valid(pixel.y, pixel.x)) return std::nullopt;
+  return numbers().at(pixel.y, pixel.x);
 }
 
 }  // namespace episcope

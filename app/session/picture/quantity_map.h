@@ -16,14 +16,21 @@ namespace episcope {
 struct QuantityMap {
   ImageView<const float> map;  ///< `[y][x]`; empty: there are labels instead.
   ImageView<const std::int32_t> labels;
+  /// What is told of a pixel where `map` holds places of colours; empty: what `map` holds.
+  ImageView<const float> measured;
   std::vector<LabelInfo> label_infos;    ///< Their colours; others have the default ones.
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged; empty = all are.
   Image<float> computed;
+  Image<float> computed_measured;
   Image<std::uint8_t> computed_valid;
   std::shared_ptr<const void> owner;
 
-  /// Nothing outside the map, where nothing is judged, and where there is no value.
+  /// The numbers of the map: `measured` where there are such.
+  [[nodiscard]] const ImageView<const float>& numbers() const {
+    return measured.empty() ? map : measured;
+  }
+  /// One of them. Nothing outside the map, where nothing is judged, and where there is no value.
   [[nodiscard]] std::optional<double> value_at(PixelIndex pixel) const;
 };
 

@@ -32,4 +32,9 @@ std::filesystem::path default_journal_folder() {
   return state.empty() ? state : state / "journals";
 }
 
+std::filesystem::path default_workspace_folder() {
+  const std::filesystem::path state = default_state_folder();
+  return state.empty() ? state : state / "sessions";
+}
+
 }  // namespace episcope

@@ -16,4 +16,7 @@ namespace episcope {
 /// Where annotation journals lie: `journals` in the state folder; empty likewise.
 [[nodiscard]] std::filesystem::path default_journal_folder();
 
+/// Where workspaces lie: `sessions` in the state folder; empty likewise.
+[[nodiscard]] std::filesystem::path default_workspace_folder();
+
 }  // namespace episcope

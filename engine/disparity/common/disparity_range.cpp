@@ -50,13 +50,6 @@ void clear_unsupported(const LightField& lf, Interval seen, OrientationHistogram
   }
 }
 
-// The largest disparity whose neighbouring views still share most of the image.
-double widest_limit(const LightField& lf) {
-  const int along = std::min(lf.grid().u > 1 ? lf.width() : lf.height(),
-                             lf.grid().v > 1 ? lf.height() : lf.width());
-  return std::clamp(along / 6.0, 2.0, kMaxDisparity);
-}
-
 // None if hardly anything is seen or nothing of it is confirmed.
 std::optional<Interval> confirmed_range(const LightField& lf, double limit, double tail,
                                         const Progress& progress) {
@@ -92,8 +85,25 @@ Interval widened(Interval range, Interval coarse) {
 
 }  // namespace
 
+// The largest disparity whose neighbouring views still share most of the image.
+double farthest_found(const LightField& lf) {
+  const int along = std::min(lf.grid().u > 1 ? lf.width() : lf.height(),
+                             lf.grid().v > 1 ? lf.height() : lf.width());
+  return std::clamp(along / 6.0, 2.0, kMaxDisparity);
+}
+
+std::string limited_range_note(const LightField& lf, Interval range) {
+  constexpr double near = 0.25;  // the width in which pixels are counted, and a little
+  const double limit = farthest_found(lf);
+  if (range.min > near - limit && range.max < limit - near) return {};
+  return fmt::format(
+      "the disparity range found, {:.2f} … {:.2f} px, ends where the search does, at ±{:.2f} px: "
+      "the scene may reach farther; give a range to search it",
+      range.min, range.max, limit);
+}
+
 Interval find_disparity_range(const LightField& lf, const Progress& progress) {
-  const double limit = widest_limit(lf);
+  const double limit = farthest_found(lf);
   std::optional<Interval> found = confirmed_range(lf, limit, kTail, progress.part(0, 0.6));
   for (const int factor : {2, 4}) {
     const Progress part = factor == 2 ? progress.part(0.6, 0.85) : progress.part(0.85, 1);

@@ -16,6 +16,13 @@ enum class RangeSource { Given, Promised, Found };
 /// "disparity range -1.65 … 1.50 px, found from the images".
 [[nodiscard]] std::string found_range_note(Interval range);
 
+/// The disparity beyond which nothing is looked for when a range is found, px per view step.
+[[nodiscard]] double farthest_found(const LightField& light_field);
+
+/// A sentence for a range found that ends at `farthest_found`, where nothing says that the scene
+/// ends too; else empty.
+[[nodiscard]] std::string limited_range_note(const LightField& light_field, Interval range);
+
 /// Help of a parameter that is a range to search.
 inline constexpr const char* kRangeHelp =
     "Range of disparities to search; auto takes it from the files or finds it from the images, "

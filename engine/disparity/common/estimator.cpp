@@ -19,12 +19,15 @@ void require_device(Device device, const EstimatorInfo& info) {
 
 namespace {
 
-// For a parameter `range` that asked to find it.
-void note_range(Estimate& estimate) {
+// For a parameter `range` that asked to find it, and for a range found that may be too narrow.
+void note_range(const LightField& light_field, Estimate& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
-    if (key != "range" || !wanted || !wanted->is_found) continue;
-    estimate.notes.push_back(found_range_note(estimate.range));
+    if (key != "range" || !wanted) continue;
+    if (wanted->is_found) estimate.notes.push_back(found_range_note(estimate.range));
+    if (range_source(light_field, *wanted) != RangeSource::Found) continue;
+    const std::string limited = limited_range_note(light_field, estimate.range);
+    if (!limited.empty()) estimate.notes.push_back(limited);
   }
 }
 
@@ -49,7 +52,7 @@ void complete_estimate(Estimate& estimate, const std::string& method, const Ligh
   estimate.version = kVersion;
   estimate.source = light_field.info().source;
   estimate.reading = light_field.info().reading;
-  note_range(estimate);
+  note_range(light_field, estimate);
   note_positions(light_field, estimate);
 }
 

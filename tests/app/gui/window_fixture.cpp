@@ -4,6 +4,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/project/autosave.h"
 #include "app/gui/segment/segment_controller.h"
 #include "engine/io/archive/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
@@ -35,6 +36,7 @@ WindowFixture::WindowFixture() {
   QSettings().clear();
   window.bench().opener.setCacheFolder({});
   window.bench().document.setJournalFolder(folder_.filePath("journals").toStdString());
+  find<Autosave>(window).setRoot(folder_.filePath("sessions").toStdString());
   window.resize(1280, 800);
   window.show();
 }

@@ -41,6 +41,10 @@ class SessionTest : public QObject {
   void evaluation_withoutTruth_isNotBegun();
   void disparityRange_doesNotFollowTheShownEstimate();
   void disparityRange_ignoresTruthThatCannotBe();
+  void scenes_keepWhatWasDoneOnThem();
+  void estimateOfASceneSetAside_goesThere();
+  void unloadedScene_takesBackWhatFilesKeep();
+  void closedScene_isForgotten();
 };
 
 void SessionTest::changes_areGatheredAndToldOnce() {
@@ -206,6 +210,84 @@ void SessionTest::disparityRange_ignoresTruthThatCannotBe() {
   f.session.add_estimate(shifted_truth(*scene, 0), {-2, 3}, f.session.generation());
 
   QVERIFY(f.session.disparity_range() == (Interval{-2, 3}));
+}
+
+void SessionTest::scenes_keepWhatWasDoneOnThem() {
+  Fixture f;
+  f.open();
+  const std::uint64_t first = f.session.generation();
+  f.session.add_estimate(shifted_truth(*f.session.scene(), 0), {}, first);
+  f.session.set_view({0, 1});
+  f.session.set_focus(0.5);
+
+  f.session.add(tiny_scene("slant"), "demo:slant");
+  QCOMPARE(f.session.scenes().size(), 2U);
+  QVERIFY(f.session.estimates().empty());
+  QVERIFY(f.session.view() == f.session.light_field()->center());
+  QCOMPARE(f.session.focus_px(), 0.0);
+  f.session.choose(first);
+
+  QCOMPARE(f.session.input(), std::string("demo:edge"));
+  QCOMPARE(f.session.estimates().size(), 1U);
+  QVERIFY(f.session.shown() != nullptr);
+  QVERIFY(f.session.view() == (ViewIndex{0, 1}));
+  QCOMPARE(f.session.focus_px(), 0.5);
+  QCOMPARE(f.session.scene_of("demo:slant"), f.session.scenes()[1]->id);
+}
+
+void SessionTest::estimateOfASceneSetAside_goesThere() {
+  Fixture f;
+  f.open();
+  const std::uint64_t first = f.session.generation();
+  const EstimatePtr late = shifted_truth(*f.session.scene(), 0);
+  f.session.add(tiny_scene("slant"), "demo:slant");
+
+  const int id = f.session.add_estimate(late, {}, first);
+
+  QVERIFY(id != 0 && f.session.estimates().empty());
+  f.session.choose(first);
+  QCOMPARE(f.session.shown()->id, id);
+}
+
+void SessionTest::unloadedScene_takesBackWhatFilesKeep() {
+  Fixture f;
+  f.open();
+  const std::uint64_t first = f.session.generation();
+  const auto scene = f.session.scene();
+  const EstimatePtr estimate = shifted_truth(*scene, 0);
+  const int kept = f.session.add_estimate(estimate, {}, first);
+  const int lost = f.session.add_estimate(estimate, {}, first);
+  f.session.set_kept(kept, "kept.h5");
+  f.session.set_kept(lost, "lost.h5");
+  f.session.add(tiny_scene("slant"), "demo:slant");
+
+  f.session.unload(first);
+  QVERIFY(byte_size(*f.session.find_scene(first)) == 0);
+  f.session.choose(first);  // not in memory
+  QVERIFY(f.session.generation() != first);
+  f.session.load(first, scene, {{kept, estimate}});
+  f.session.choose(first);
+
+  QCOMPARE(f.session.estimates().size(), 1U);
+  QCOMPARE(f.session.shown()->estimate, estimate);
+}
+
+void SessionTest::closedScene_isForgotten() {
+  Fixture f;
+  f.open();
+  const std::uint64_t first = f.session.generation();
+  f.session.add(tiny_scene("slant"), "demo:slant");
+  f.session.close();
+
+  QVERIFY(!f.session.scene());
+  QCOMPARE(f.session.scenes().size(), 1U);
+  f.session.add(tiny_scene("slant"), "demo:slant");
+  f.session.choose(first);
+  f.session.open(tiny_scene(), "demo:edge");  // read in another way: at its place of the list
+  QCOMPARE(f.session.scenes()[0]->id, f.session.generation());
+  f.session.remove(f.session.scenes()[1]->id);
+  f.session.close();
+  QVERIFY(f.session.scenes().empty());
 }
 
 }  // namespace episcope::in_session_test

@@ -5,6 +5,7 @@
 #include "annotation/document/exchange.h"
 #include "annotation/paint/stroke.h"
 #include "app/gui/frame/jobs.h"
+#include "app/gui/opening/scene_switcher.h"
 #include "app/session/session.h"
 #include "engine/io/labels/scribble_file.h"
 #include "tests/app/gui/annotating.h"
@@ -28,7 +29,7 @@ class AnnotationFilesTest : public QObject {
   void exportedPictures_comeBackByImport();
   void close_asksAboutUnsavedChanges_data();
   void close_asksAboutUnsavedChanges();
-  void openAnother_asksAboutUnsavedChanges();
+  void openAnother_keepsUnsavedChanges();
   void fileChangedOnDisk_isNotOverwrittenSilently_data();
   void fileChangedOnDisk_isNotOverwrittenSilently();
   void ownSave_isNoChangeOnDisk();
@@ -144,28 +145,25 @@ void AnnotationFilesTest::ownSave_isNoChangeOnDisk() {
   QVERIFY(!f.window.findChild<QMessageBox*>("changed_file"));
 }
 
-void AnnotationFilesTest::openAnother_asksAboutUnsavedChanges() {
+void AnnotationFilesTest::openAnother_keepsUnsavedChanges() {
   Annotating f;
   f.drag({40, 20}, {40, 60});
+  const auto first = f.window.bench().session.generation();
   const QString other = f.writeScene("slant", WindowFixture::smallOptions());
 
   f.window.bench().opener.open(other);
-  auto* box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
-  QVERIFY(box);
-  box->button(QMessageBox::Cancel)->click();
-  QCOMPARE(f.window.bench().jobs.count(), 0);
-  QCOMPARE(f.labelAt({40, 40}), 1);
-  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
-
-  f.window.bench().opener.open(other);
-  box = f.window.findChild<QMessageBox*>("unsaved_scribbles");
-  QVERIFY(box);
-  box->button(QMessageBox::Discard)->click();
   QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.input(), other.toStdString(), kPatience);
   QTRY_VERIFY(f.window.bench().document.document());
+  QVERIFY(!f.window.findChild<QMessageBox*>("unsaved_scribbles"));
   QVERIFY(f.document().scribbles().painted_views().empty());
-  // The journal of what was discarded is gone.
-  QVERIFY(left_journals(f.window.bench().document.journalFolder()).empty());
+  QVERIFY(!f.window.isWindowModified());
+
+  f.window.bench().scenes.show(first);
+  QTRY_VERIFY(f.window.isWindowModified());
+  QCOMPARE(f.labelAt({40, 40}), 1);
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({40, 40}), 0);
+  f.window.bench().document.discardAll();
 }
 
 }  // namespace episcope::in_annotation_files_test

@@ -7,6 +7,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/main_window.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/gui/project/autosave.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotate/document_digest.h"
@@ -49,6 +50,7 @@ int main(int argc, char** argv) {
   QSettings::setPath(QSettings::NativeFormat, QSettings::UserScope, argv[3]);
   MainWindow window;
   window.bench().document.setJournalFolder(argv[1]);
+  window.findChild<Autosave*>()->setRoot({});
   window.show();
   window.bench().opener.open(argv[2]);
   if (!QTest::qWaitFor([&] { return window.bench().document.document(); }, kPatience)) return 3;

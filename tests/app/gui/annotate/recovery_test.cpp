@@ -4,6 +4,7 @@
 #include "app/gui/annotate/recovery_controller.h"
 
 #include "app/gui/annotate/annotate_controller.h"
+#include "app/gui/annotate/annotation_files.h"
 #include "app/gui/document/document_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/opening/scene_opener.h"
@@ -15,6 +16,7 @@
 #include "widgets/controls/message_bar.h"
 
 #include <QAction>
+#include <QFileInfo>
 #include <QMessageBox>
 #include <QProcess>
 #include <QPushButton>
@@ -70,6 +72,7 @@ class RecoveryTest : public QObject {
   void discardedJournal_isGone();
   void whatWasPaintedAtAFocusPlane_comesBackThere();
   void whatWasPaintedMeanwhile_isNotLost();
+  void whatWasSavedElsewhere_isSavedThereAgain();
   void withoutAJournal_nothingIsOffered();
 };
 
@@ -159,6 +162,36 @@ void RecoveryTest::whatWasPaintedMeanwhile_isNotLost() {
 
   QTRY_VERIFY(f.window.bench().document.document()->history().count() >= painted.steps);
   f.window.bench().document.discardChanges();
+}
+
+void RecoveryTest::whatWasSavedElsewhere_isSavedThereAgain() {
+  WindowFixture f;
+  auto dying = std::make_unique<WindowFixture>();
+  dying->window.bench().document.setJournalFolder(f.window.bench().document.journalFolder());
+  const QString scene = f.writeScene("edge", WindowFixture::smallOptions());
+  dying->window.bench().opener.open(scene);
+  QTRY_VERIFY_WITH_TIMEOUT(dying->window.bench().document.document(), kPatience);
+  dying->trigger("annotate.mode");
+  dying->drag({40, 20}, {40, 60});
+  const QString elsewhere = f.path("elsewhere.h5");
+  find<AnnotationFiles>(dying->window).saveAs(elsewhere);
+  QTRY_VERIFY(!dying->window.isWindowModified());
+  dying->drag({60, 20}, {60, 60});
+  dying.reset();  // nobody decided about the second stroke
+  const FileStamp before = stamp_of(elsewhere.toStdString());
+  const std::string beside = (QFileInfo(scene).path() + "/labels.h5").toStdString();
+  const FileStamp beside_before = stamp_of(beside);
+
+  f.window.bench().frame.start();
+  QTRY_VERIFY(f.window.findChild<MessageBar*>("recoveryBar")->isVisible());
+  button(f, "message.action")->click();
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.isWindowModified(), kPatience);
+  QCOMPARE(find<AnnotationFiles>(f.window).place(), elsewhere);
+  find<AnnotationFiles>(f.window).save();
+
+  QTRY_VERIFY(!f.window.isWindowModified());
+  QVERIFY(stamp_of(elsewhere.toStdString()) != before);
+  QVERIFY(stamp_of(beside) == beside_before);
 }
 
 void RecoveryTest::withoutAJournal_nothingIsOffered() {

@@ -28,6 +28,7 @@ class CollectionWindowTest : public QObject {
   void droppedFolder_isListed();
   void doubleClick_andReturn_open();
   void pageKeys_goFromSceneToScene();
+  void steppingThrough_keepsOpenWhatWasWorkedOn();
   void filterAndOrder_chooseRows();
   void emptyFolder_saysSo();
   void slider_opensFrames_andKeepsTheView();
@@ -135,6 +136,30 @@ void CollectionWindowTest::pageKeys_goFromSceneToScene() {
   f.key(Qt::Key_PageDown);
   f.key(Qt::Key_PageUp);
   QTRY_COMPARE_WITH_TIMEOUT(open_input(f), folder + "/cotton", kScenePatience);
+}
+
+void CollectionWindowTest::steppingThrough_keepsOpenWhatWasWorkedOn() {
+  WindowFixture f;
+  const QString root = make_collection(f, {"a", "b", "c"});
+  open_collection(f, root, 3);
+  const auto go_to = [&](const QString& name) {
+    emit find<ScenePanel>(f.window).openRequested(root + '/' + name);
+    QTRY_VERIFY_WITH_TIMEOUT(open_input(f).startsWith(root + '/' + name), kScenePatience);
+    QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().document.document(), kPatience);
+    QCoreApplication::processEvents();
+  };
+  const auto open_count = [&f] { return f.window.bench().session.scenes().size(); };
+
+  go_to("a");
+  go_to("b");
+  QCOMPARE(open_count(), 1U);
+  f.runAndWait();
+  go_to("c");
+  QCOMPARE(open_count(), 2U);
+  go_to("a");
+
+  QCOMPARE(open_count(), 2U);
+  QCOMPARE(f.window.bench().session.scenes()[0]->estimates.size(), 1U);
 }
 
 void CollectionWindowTest::filterAndOrder_chooseRows() {

@@ -14,6 +14,7 @@
 
 #include <QClipboard>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QHeaderView>
 #include <QTabWidget>
 #include <QTableWidget>
@@ -54,6 +55,7 @@ class CompareTest : public QObject {
   void valuesOfAAndB_comeFirst();
   void withoutResults_nothingCanBeCompared();
   void closedScene_leavesEveryMode();
+  void badPixels_followTheirThreshold();
 };
 
 void CompareTest::wipe_showsBRightOfADividerThatCanBeDragged() {
@@ -277,6 +279,32 @@ void CompareTest::closedScene_leavesEveryMode() {
     QVERIFY2(f.canvas()->isVisible(), id);
     QCOMPARE(find<CompareController>(f.window).mode(), CompareMode::Single);
   }
+}
+
+// A result that is 0.2 px off everywhere.
+void CompareTest::badPixels_followTheirThreshold() {
+  Compared f({0.2F});
+  f.trigger("overlay.bad_pixels");
+  f.trigger("tab.compare");
+  auto* panel = f.window.findChild<StatisticsPanel*>();
+  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad 100.00 %"), qPrintable(panel->text()),
+                            kPatience);
+  // Numbers are errors, not the places of the two colours.
+  QVERIFY2(panel->text().contains("median 0.200"), qPrintable(panel->text()));
+  QVERIFY(std::abs(*f.window.bench().overlay.valueAt({40, 40}) - 0.2) < 1e-4);
+  const QImage before = f.window.bench().overlay.picture();
+
+  auto* threshold = panel->findChild<QDoubleSpinBox*>("statistics.threshold");
+  QVERIFY(threshold->isVisible());
+  threshold->setFocus();
+  threshold->selectAll();
+  QTest::keyClicks(threshold, "0.3");
+  QTest::keyClick(threshold, Qt::Key_Return);
+
+  QTRY_VERIFY2_WITH_TIMEOUT(panel->text().contains("bad 0.00 %"), qPrintable(panel->text()),
+                            kPatience);
+  QTRY_VERIFY(f.window.bench().overlay.picture() != before);
+  QVERIFY(f.window.bench().overlay.describe(f.window.bench().overlay.choice()).contains("0.30 px"));
 }
 
 }  // namespace episcope::in_compare_test

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What was computed is not lost by mistake.
-#include "app/gui/estimate/result_guard.h"
-
 #include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/opening/scene_switcher.h"
+#include "app/gui/project/project_guard.h"
+#include "app/session/project/project_file.h"
 #include "engine/io/maps/result_file.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
@@ -25,7 +26,7 @@ class Working : public WindowFixture {
  public:
   Working() {
     openSmall();
-    window.findChild<ResultGuard*>()->setWorthKeeping(0);
+    window.findChild<ProjectGuard*>()->setWorthKeeping(0);
   }
   Session& session() { return window.bench().session; }
   QMessageBox* question() {
@@ -57,7 +58,8 @@ class KeptResultsTest : public QObject {
   void severalRemovedResults_comeBackInTheirPlaces();
   void renamedResult_keepsItsName();
   void copiedTable_saysWhereNumbersComeFrom();
-  void anotherScene_asksForUnsavedResults();
+  void anotherScene_leavesResultsWhereTheyAre();
+  void closedScene_asksForUnsavedResults();
   void quit_asksForUnsavedResults();
   void saveAll_writesThemAndGoesOn();
   void exportedResult_isNotAskedFor();
@@ -138,20 +140,32 @@ void KeptResultsTest::copiedTable_saysWhereNumbersComeFrom() {
   QTRY_VERIFY(table.toCsv().contains("\nwide,"));
 }
 
-void KeptResultsTest::anotherScene_asksForUnsavedResults() {
+void KeptResultsTest::anotherScene_leavesResultsWhereTheyAre() {
   Working f;
   f.runAndWait();
-  const auto scene = f.session().scene();
+  const auto first = f.session().generation();
+  const EstimatePtr estimate = f.session().estimates().front().estimate;
 
-  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
+  f.openSmall("slant");
+  QVERIFY(!f.question());
+  QCOMPARE(f.session().estimates().size(), 0U);
+  f.window.bench().scenes.show(first);
+
+  QCOMPARE(f.session().estimates().size(), 1U);
+  QCOMPARE(f.session().shown()->estimate, estimate);
+}
+
+void KeptResultsTest::closedScene_asksForUnsavedResults() {
+  Working f;
+  f.runAndWait();
+
+  f.trigger("file.close");
   f.answer(QMessageBox::Cancel);
-  QTest::qWait(50);
-  QCOMPARE(f.session().scene(), scene);
   QCOMPARE(f.session().estimates().size(), 1U);
 
-  f.window.bench().opener.open(f.writeScene("slant", WindowFixture::smallOptions()));
+  f.trigger("file.close");
   f.answer(QMessageBox::Discard);
-  QTRY_VERIFY_WITH_TIMEOUT(f.session().scene() != scene, kScenePatience);
+  QTRY_VERIFY(!f.session().scene());
 }
 
 void KeptResultsTest::quit_asksForUnsavedResults() {
@@ -176,13 +190,15 @@ void KeptResultsTest::saveAll_writesThemAndGoesOn() {
 
   f.trigger("file.quit");
   f.answer(QMessageBox::SaveAll);
-  auto* dialog = f.window.findChild<QFileDialog*>("save_results");
+  auto* dialog = f.window.findChild<QFileDialog*>("save_project");
   QVERIFY(dialog);
-  emit dialog->fileSelected(f.path({}));
+  emit dialog->fileSelected(f.path("work.episcope"));
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.isVisible(), kScenePatience);
 
+  const Project project = read_project(f.path("work.episcope").toStdString());
+  QCOMPARE(project.scenes.size(), 1U);
   const LightField& light_field = *f.session().light_field();
-  const Estimate read = io::read_result((f.path("edge_EPI_L.h5")).toStdString(), light_field.grid(),
+  const Estimate read = io::read_result(project.scenes[0].results.at(0).file, light_field.grid(),
                                         light_field.info().name);
   QCOMPARE(read.method, estimate->method);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/opening/result_opener.h"
 #include "engine/io/maps/pfm.h"
@@ -36,6 +37,7 @@ class ResultsTest : public QObject {
   void resultOfOtherSamples_isOpenedWithAWarning();
   void lightField_isNoResult();
   void copiedCommand_opensTheSameFile();
+  void foundRangeThatEndsAtItsLimit_isTold();
 };
 
 void ResultsTest::run_listsItsResultWithItsError() {
@@ -212,6 +214,22 @@ void ResultsTest::copiedCommand_opensTheSameFile() {
   const QString text = QGuiApplication::clipboard()->text();
   QVERIFY2(text.startsWith("episcope-cli estimate epi_l "), qPrintable(text));
   QVERIFY2(text.contains(f.path("edge/lf.h5")), qPrintable(text));
+}
+
+// At 5.92 px, where views of 36 px are searched for ±6.
+void ResultsTest::foundRangeThatEndsAtItsLimit_isTold() {
+  WindowFixture f;
+  scenes::RenderOptions options;
+  options.height = options.width = 36;
+  options.disparity_scale = 16;
+  f.openScene("fronto", options);
+
+  find<EstimateController>(f.window).run(
+      {"st_ch_l", {{"range", IntervalOrAuto::found()}}, {.views = ViewSelection::Center}});
+
+  const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
+  QTRY_VERIFY2_WITH_TIMEOUT(told().contains("may reach farther"), qPrintable(told()),
+                            kScenePatience);
 }
 
 }  // namespace episcope::in_results_test

@@ -35,7 +35,7 @@ class OpeningTest : public QObject {
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
   void droppedFile_isOpened();
-  void anotherScene_dropsResults();
+  void anotherScene_hasItsOwnResults();
   void closedScene_leavesTheEmptyWindow();
   void recentFiles_areRemembered();
 };
@@ -175,7 +175,7 @@ void OpeningTest::droppedFile_isOpened() {
   QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kPatience);
 }
 
-void OpeningTest::anotherScene_dropsResults() {
+void OpeningTest::anotherScene_hasItsOwnResults() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();

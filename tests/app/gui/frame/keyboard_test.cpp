@@ -5,6 +5,7 @@
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/overlay_bar.h"
 
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>

@@ -244,6 +244,10 @@ void SegmentTest::otherScene_dropsEverything() {
 
   QTRY_VERIFY_WITH_TIMEOUT(!f.segment().labeler().labeling({4, 4}), kPatience);
   QVERIFY(!f.segment().segmentation());
+  f.window.bench().document.discardAll();
+  f.window.bench().opener.close();  // the first one is shown again
+  QTRY_COMPARE(f.window.bench().session.scenes().size(), 1U);
+  QTRY_VERIFY(f.window.bench().document.document());
   f.window.bench().opener.close();
   QTRY_VERIFY(!f.segment().labeler().has_input());
   QVERIFY(!f.window.bench().commands.find("segment.update")->isEnabled());

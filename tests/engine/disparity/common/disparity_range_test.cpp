@@ -78,6 +78,7 @@ class DisparityRangeTest : public QObject {
   void promisedRange_goesBeforeFound();
   void rangeToBeFound_ignoresThePromise();
   void note_tellsOfARangeToBeFound();
+  void note_tellsOfARangeThatEndsAtTheLimit();
   void foundRange_ofGridTooLargeIsRefused();
   void stop_throwsCancelled();
   void coveringShears_reachEveryDisparity_data();
@@ -291,6 +292,23 @@ void DisparityRangeTest::note_tellsOfARangeToBeFound() {
   QVERIFY(!is_noted(promising, {}));
   QVERIFY(is_noted(promising, IntervalOrAuto::found()));
   QVERIFY(is_noted(*scene.light_field, IntervalOrAuto::found()));
+}
+
+void DisparityRangeTest::note_tellsOfARangeThatEndsAtTheLimit() {
+  const Scene near = render("fronto", 36, 36, {5, 5}, 16);  // at 5.92 px; the limit is 6
+  const Scene usual = render("fronto", 36, 36, {5, 5});
+  QCOMPARE(farthest_found(*near.light_field), 6.0);
+  const auto notes = [](const Scene& scene, const IntervalOrAuto& range) {
+    const Estimate estimate =
+        find_estimator("st_ch_l").run(*scene.light_field, {{"range", range}}, {}, Progress());
+    return std::ranges::count(estimate.notes,
+                              limited_range_note(*scene.light_field, estimate.range));
+  };
+
+  QCOMPARE(notes(near, {}), 1);
+  QCOMPARE(notes(near, IntervalOrAuto::found()), 1);
+  QCOMPARE(notes(near, Interval{-6, 6}), 0);
+  QCOMPARE(notes(usual, IntervalOrAuto::found()), 0);
 }
 
 void DisparityRangeTest::foundRange_ofGridTooLargeIsRefused() {

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/method_runs.h"
+
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/session/scene/load_scene.h"
+#include "app/session/session.h"
+#include "engine/disparity/common/disparity_range.h"
+#include "engine/disparity/registry.h"
+#include "widgets/estimate/method_panel.h"
+#include "widgets/style/number_text.h"
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+struct RunResult {
+  FinishedEstimate finished;
+  QString warning;  ///< May be empty.
+};
+
+// A range found that may be too narrow.
+QString range_warning(const LightField& light_field, const Estimate& estimate) {
+  const std::string note = limited_range_note(light_field, estimate.range);
+  if (std::ranges::count(estimate.notes, note) == 0) return {};
+  return with_minus(QString::fromStdString(estimate.method + ": " + note + "."));
+}
+
+using LightFieldSource = std::function<LightFieldPtr(const Progress&)>;
+
+// For a worker: what is in memory, else it is read.
+LightFieldSource light_field_source(const OpenScene& scene, const std::filesystem::path& cache) {
+  if (scene.scene) {
+    return [light_field = scene.scene->light_field](const Progress&) { return light_field; };
+  }
+  LoadOptions options;
+  options.open = io::open_schema().parse(scene.reading);
+  options.cache_folder = cache;
+  options.needs_truth = false;
+  return [input = scene.input, options](const Progress& progress) {
+    return load_scene(input, options, progress).light_field;
+  };
+}
+
+}  // namespace
+
+ViewSelection views_of(bool all_views) {
+  return all_views ? ViewSelection::All : ViewSelection::Center;
+}
+
+EstimateRequest request_of(const RunRequest& request) {
+  return {request.method, request.values, {.views = views_of(request.all_views)}};
+}
+
+MethodRuns::MethodRuns(const Workbench& bench) : bench_(bench) {
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scenes)) cancelClosed();
+  });
+}
+
+void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
+  const EstimatorInfo info = find_estimator(request.method).info;
+  const QString method = QString::fromStdString(info.name);
+  const bool is_shown = scene.id == bench_.session.generation();
+  const quint64 job = bench_.jobs.start<RunResult>(
+      Lane::Estimate,
+      is_shown ? method : tr("%1 · %2").arg(method, QString::fromStdString(scene.name)),
+      [request,
+       source = light_field_source(scene, bench_.opener.cacheFolder())](const Progress& progress) {
+        const LightFieldPtr light_field = source(progress);
+        FinishedEstimate finished = run_estimator(*light_field, request, progress);
+        QString warning = range_warning(*light_field, *finished.estimate);
+        return RunResult{std::move(finished), std::move(warning)};
+      },
+      [this, id = scene.id](const RunResult& result) {
+        bench_.session.add_estimate(result.finished.estimate, result.finished.display_range, id);
+        if (!result.warning.isEmpty()) bench_.messages.warn(result.warning);
+      },
+      [this] { emit changed(); });
+  runs_[job] = scene.id;
+  if (info.iterative) bench_.jobs.setIterative(job);
+  emit changed();
+}
+
+void MethodRuns::cancelClosed() {
+  for (auto run = runs_.begin(); run != runs_.end();) {
+    const auto [job, scene] = *run++;
+    if (bench_.session.find_scene(scene)) continue;
+    runs_.erase(job);
+    bench_.jobs.cancel(job);
+  }
+}
+
+}  // namespace episcope
+
+#include "moc_method_runs.cpp"

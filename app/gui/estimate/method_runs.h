@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/session/open_scene.h"
+#include "app/session/run/run_estimator.h"
+
+#include <QObject>
+
+#include <cstdint>
+#include <map>
+
+namespace episcope {
+
+struct RunRequest;
+
+/// What a form asks for.
+[[nodiscard]] ViewSelection views_of(bool all_views);
+[[nodiscard]] EstimateRequest request_of(const RunRequest& request);
+
+/// Runs methods on open scenes in the background, one after the other. Results go to their scenes,
+/// whichever is shown by then; runs on scenes that are closed are cancelled.
+class MethodRuns : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit MethodRuns(const Workbench& bench);
+
+  /// A scene that is on disk only is read for it.
+  void run(const EstimateRequest& request, const OpenScene& scene);
+
+ signals:
+  /// A run began or ended.
+  void changed();
+
+ private:
+  void cancelClosed();
+
+  Workbench bench_;
+  std::map<quint64, std::uint64_t> runs_;  // jobs and the scenes they run on
+};
+
+}  // namespace episcope

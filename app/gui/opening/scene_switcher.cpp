@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/opening/scene_switcher.h"
+
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/session/run/read_result.h"
+#include "app/session/scene/load_scene.h"
+#include "app/session/scene/user_folders.h"
+#include "engine/core/error.h"
+
+#include <QFileInfo>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+std::size_t third_of_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES);
+  const long page = sysconf(_SC_PAGE_SIZE);
+  constexpr std::size_t least = std::size_t{1} << 30;
+  if (pages <= 0 || page <= 0) return least;
+  return std::max(least, static_cast<std::size_t>(pages) * static_cast<std::size_t>(page) / 3);
+}
+
+bool is_there(const std::string& input) {
+  return !builtin_scene_id(input).empty() || QFileInfo::exists(QString::fromStdString(input));
+}
+
+bool is_kept(const OpenScene& scene) {
+  return std::ranges::none_of(scene.estimates,
+                              [](const EstimateEntry& each) { return each.kept.empty(); });
+}
+
+}  // namespace
+
+SceneSwitcher::SceneSwitcher(Session& session, Jobs& jobs, Messages& messages, QObject* parent)
+    : QObject(parent),
+      session_(session),
+      jobs_(jobs),
+      messages_(messages),
+      cache_folder_(default_cache_folder()),
+      budget_(third_of_memory()) {
+  session_.on_changed([this](Parts parts) {
+    if (parts.has_any(Part::Scene | Part::Scenes)) keepBudget();
+  });
+}
+
+void SceneSwitcher::show(std::uint64_t id, std::function<void()> then) {
+  const OpenScene* scene = session_.find_scene(id);
+  if (!scene) return;
+  wanted_ = 0;
+  if (scene->scene) {
+    session_.choose(id);
+    if (then) then();
+  } else if (!is_there(scene->input)) {
+    emit notFound(id);
+  } else {
+    read(*scene, std::move(then));
+  }
+}
+
+void SceneSwitcher::step(int step) {
+  const auto scenes = session_.scenes();
+  const auto count = static_cast<int>(scenes.size());
+  const auto now = std::ranges::find(scenes, session_.generation(), &OpenScene::id);
+  if (count == 0 || now == scenes.end()) return;
+  const auto place = static_cast<int>(now - scenes.begin());
+  show(scenes[static_cast<std::size_t>((place + step + count) % count)]->id);
+}
+
+void SceneSwitcher::showLatest() {
+  const auto scenes = session_.scenes();
+  if (session_.scene() || scenes.empty()) return;
+  show((*std::ranges::max_element(scenes, {}, &OpenScene::last_used))->id);
+}
+
+SceneSwitcher::Read SceneSwitcher::read_all(const OpenScene& scene,
+                                            const std::filesystem::path& cache,
+                                            const Progress& progress) {
+  LoadOptions options;
+  options.cache_folder = cache;
+  options.open = io::open_schema().parse(scene.reading);
+  Read read;
+  read.scene =
+      std::make_shared<const Scene>(load_scene(scene.input, options, progress.part(0, 0.7)));
+  if (scene.sample_hash != 0 && scene.sample_hash != read.scene->light_field->sample_hash()) {
+    read.failures << tr("“%1” has other samples than before: results and scribbles may not fit.")
+                         .arg(QString::fromStdString(scene.name));
+  }
+  for (const EstimateEntry& entry : scene.estimates) {
+    if (entry.estimate) continue;
+    progress.check();
+    try {
+      auto estimate =
+          std::make_shared<const Estimate>(read_result_of(*read.scene->light_field, entry.kept));
+      check_fits(*estimate, *read.scene->light_field, entry.kept.string());
+      read.estimates[entry.id] = std::move(estimate);
+    } catch (const Error& error) {
+      read.failures << QString::fromUtf8(error.what());
+    }
+  }
+  return read;
+}
+
+void SceneSwitcher::read(const OpenScene& scene, std::function<void()> then) {
+  const std::uint64_t id = scene.id;
+  wanted_ = id;
+  auto copy = std::make_shared<OpenScene>(scene);
+  jobs_.start<Read>(
+      Lane::Load, tr("Opening %1").arg(QString::fromStdString(scene.name)),
+      [copy, cache = cache_folder_](const Progress& progress) {
+        return read_all(*copy, cache, progress);
+      },
+      [this, id, then = std::move(then)](const Read& found) {
+        finish(id, found);
+        if (wanted_ != id) return;
+        wanted_ = 0;
+        session_.choose(id);
+        if (then) then();
+      });
+}
+
+void SceneSwitcher::finish(std::uint64_t id, const Read& read) {
+  const OpenScene* scene = session_.find_scene(id);
+  if (!scene || scene->scene) return;
+  session_.load(id, read.scene, read.estimates);
+  if (!read.failures.isEmpty()) messages_.warn(read.failures.join(' '));
+}
+
+void SceneSwitcher::setBudget(std::size_t bytes) {
+  budget_ = bytes;
+  keepBudget();
+}
+
+void SceneSwitcher::keepBudget() {
+  std::size_t bytes = 0;
+  std::vector<const OpenScene*> loaded;
+  for (const OpenScene* each : session_.scenes()) {
+    if (!each->scene) continue;
+    bytes += byte_size(*each);
+    if (each->id != session_.generation() && is_kept(*each)) loaded.push_back(each);
+  }
+  std::ranges::sort(loaded, {}, &OpenScene::last_used);
+  for (const OpenScene* each : loaded) {
+    if (bytes <= budget_) return;
+    bytes -= byte_size(*each);
+    session_.unload(each->id);
+  }
+}
+
+}  // namespace episcope
+
+#include "moc_scene_switcher.cpp"

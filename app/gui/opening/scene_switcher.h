@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/session.h"
+
+#include <QObject>
+#include <QString>
+#include <QStringList>
+
+#include <filesystem>
+#include <functional>
+#include <map>
+
+namespace episcope {
+
+class Jobs;
+class Messages;
+
+/// Shows another of the open scenes: at once if it is in memory, else after reading it and its
+/// results in the background. Lets go of the memory of scenes that were not looked at for long
+/// while all of them take more than a budget; what was computed for them is in files by then.
+class SceneSwitcher : public QObject {
+  Q_OBJECT
+
+ public:
+  SceneSwitcher(Session& session, Jobs& jobs, Messages& messages, QObject* parent);
+
+  /// `then` is called once it is shown. Ignored for a scene that is not open.
+  void show(std::uint64_t scene, std::function<void()> then = nullptr);
+  /// The next of the list, or the one before.
+  void step(int step);
+  /// The one that was shown last, if nothing is shown.
+  void showLatest();
+
+  /// Memory for all scenes together; a third of the machine's at first.
+  void setBudget(std::size_t bytes);
+  /// Where built-in scenes are kept; empty = nowhere.
+  void setCacheFolder(std::filesystem::path folder) { cache_folder_ = std::move(folder); }
+
+ signals:
+  /// The light field of a scene is not where it was.
+  void notFound(quint64 scene);
+
+ private:
+  struct Read {
+    std::shared_ptr<const Scene> scene;
+    std::map<int, EstimatePtr> estimates;
+    QStringList failures;
+  };
+
+  void read(const OpenScene& scene, std::function<void()> then);
+  void finish(std::uint64_t id, const Read& read);
+  [[nodiscard]] static Read read_all(const OpenScene& scene, const std::filesystem::path& cache,
+                                     const Progress& progress);
+  void keepBudget();
+
+  Session& session_;
+  Jobs& jobs_;
+  Messages& messages_;
+  std::filesystem::path cache_folder_;
+  std::size_t budget_;
+  std::uint64_t wanted_ = 0;  // asked for last, and on its way
+};
+
+}  // namespace episcope

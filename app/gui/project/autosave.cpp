@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/project/autosave.h"
+
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/frame/queued_post.h"
+#include "app/session/project/project_file.h"
+#include "app/session/project/session_project.h"
+#include "app/session/project/stored_project.h"
+#include "app/session/scene/user_folders.h"
+#include "engine/core/error.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLater_ms = 1500;
+
+// A light field that was merely opened is opened again as quickly.
+bool is_worth_keeping(const Project& project) {
+  return project.scenes.size() > 1 ||
+         std::ranges::any_of(project.scenes,
+                             [](const ProjectScene& scene) { return !scene.results.empty(); });
+}
+
+// As far as files hold it.
+Project written_part(Project project) {
+  for (ProjectScene& scene : project.scenes) {
+    std::erase_if(scene.results, [](const ProjectResult& each) { return !is_in_file(each); });
+  }
+  return project;
+}
+
+}  // namespace
+
+Autosave::Autosave(const Workbench& bench)
+    : QObject(&bench.owner),
+      bench_(bench),
+      root_(default_workspace_folder()),
+      runner_(std::make_unique<JobRunner>(queued_post(this))) {
+  later_.setSingleShot(true);
+  later_.setInterval(kLater_ms);
+  connect(&later_, &QTimer::timeout, this, &Autosave::schedule);
+  connect(&bench.frame, &Frame::ended, this, [this] { is_over_ = true; });
+  bench.session.on_changed([this](Parts parts) { follow(parts); });
+}
+
+Autosave::~Autosave() {
+  runner_.reset();
+  if (is_over_ && workspace_) workspace_->remove();
+}
+
+void Autosave::follow(Parts parts) {
+  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) {
+    schedule();
+  } else if (!later_.isActive()) {
+    later_.start();
+  }
+}
+
+void Autosave::schedule() {
+  is_due_ = true;
+  if (!is_writing_) write();
+}
+
+bool Autosave::makeWorkspace() {
+  if (workspace_) return true;
+  if (root_.empty() || has_failed_) return false;
+  try {
+    workspace_ = std::make_unique<Workspace>(root_);
+  } catch (const IoError& error) {
+    has_failed_ = true;
+    bench_.messages.warn(QString::fromUtf8(error.what()));
+  }
+  return workspace_ != nullptr;
+}
+
+void Autosave::write() {
+  is_due_ = false;
+  later_.stop();
+  Project project = project_of(bench_.session);
+  project.saved_as = project_file_;
+  if (is_over_ || (!workspace_ && !is_worth_keeping(project)) || !makeWorkspace()) return;
+  is_writing_ = true;
+  runner_->start<Kept>(
+      [project, folder = workspace_->folder(),
+       file = workspace_->project_file()](const Progress& progress) mutable {
+        lower_thread_priority();
+        Kept kept;
+        for (ProjectScene& scene : project.scenes) {
+          for (ProjectResult& result : scene.results) {
+            if (is_in_file(result)) continue;
+            result.file = store_result(folder, scene.name, result, scene.input, progress);
+            kept.emplace_back(result.id, result.file);
+            write_project(file, written_part(project));
+          }
+        }
+        write_project(file, written_part(project));
+        return kept;
+      },
+      [this](const Outcome<Kept>& outcome) { finish(outcome); });
+}
+
+void Autosave::finish(const Outcome<Kept>& outcome) {
+  is_writing_ = false;
+  if (outcome.value) {
+    for (const auto& [estimate, file] : *outcome.value) bench_.session.set_kept(estimate, file);
+  } else if (outcome.failure && !std::exchange(has_failed_, true)) {
+    bench_.messages.warn(
+        tr("Results cannot be kept for a crash: %1").arg(failure_sentence(outcome.failure)));
+  }
+  if (is_due_ && !has_failed_) write();
+}
+
+void Autosave::takeOver(const fs::path& folder) {
+  auto taken = Workspace::take_over(folder);
+  runner_ = std::make_unique<JobRunner>(queued_post(this));  // what was being written is dropped
+  is_writing_ = false;
+  if (workspace_) workspace_->remove();
+  workspace_ = std::move(taken);
+  schedule();
+}
+
+void Autosave::setProjectFile(fs::path file) {
+  project_file_ = std::move(file);
+  schedule();
+}
+
+}  // namespace episcope
+
+#include "moc_autosave.cpp"

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/session/parts.h"
+#include "app/session/project/workspace.h"
+#include "engine/core/parallel/job_runner.h"
+
+#include <QObject>
+#include <QTimer>
+
+#include <filesystem>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace episcope {
+
+/// Keeps the open scenes and every result in a workspace, so that a crash loses none: results as
+/// soon as they are there, the rest soon after. What is painted has journals of its own.
+class Autosave : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit Autosave(const Workbench& bench);
+  /// The workspace stays, unless the window was closed with nothing to lose.
+  ~Autosave() override;
+
+  /// Where workspaces are, the user's own folder at first; empty = nothing is kept.
+  void setRoot(std::filesystem::path root) { root_ = std::move(root); }
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+  /// Goes on with a workspace that was left; the present one is removed. Throws IoError.
+  void takeOver(const std::filesystem::path& folder);
+  /// The user's own file of what is open; empty = none yet.
+  void setProjectFile(std::filesystem::path file);
+  [[nodiscard]] const std::filesystem::path& projectFile() const { return project_file_; }
+  /// Whether all that is open is kept.
+  [[nodiscard]] bool isIdle() const { return !is_writing_ && !is_due_; }
+
+ private:
+  using Kept = std::vector<std::pair<int, std::filesystem::path>>;  ///< Estimates and their files.
+
+  void follow(Parts parts);
+  void schedule();
+  void write();
+  bool makeWorkspace();
+  void finish(const Outcome<Kept>& outcome);
+
+  Workbench bench_;
+  std::filesystem::path root_;
+  std::filesystem::path project_file_;
+  std::unique_ptr<Workspace> workspace_;
+  bool is_writing_ = false;
+  bool is_due_ = false;
+  bool is_over_ = false;  // the window was closed
+  bool has_failed_ = false;
+  QTimer later_;
+  std::unique_ptr<JobRunner> runner_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/project/project_controller.h"
+
+#include "app/gui/document/document_controller.h"
+#include "app/gui/frame/changed_file.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/leave_guards.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/opening/scene_switcher.h"
+#include "app/gui/project/autosave.h"
+#include "app/gui/project/restore.h"
+#include "app/session/project/moved_inputs.h"
+#include "app/session/project/project_file.h"
+#include "app/session/project/session_project.h"
+#include "app/session/project/stored_project.h"
+
+#include <QFileInfo>
+#include <QMessageBox>
+#include <QPushButton>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace episcope {
+
+ProjectController::ProjectController(const Workbench& bench, Autosave& autosave)
+    : QObject(&bench.owner), bench_(bench), autosave_(autosave) {
+  addCommands();
+  connect(&bench.opener, &SceneOpener::isProject, this, &ProjectController::open);
+  connect(&bench.scenes, &SceneSwitcher::notFound, this, &ProjectController::locate);
+}
+
+void ProjectController::addCommands() {
+  const auto has_scene = [this] { return !bench_.session.scenes().empty(); };
+  // Scribbles go to their own file, as other programs read it, until there is a project.
+  bench_.commands.add({.id = "file.save",
+                       .menu = Menu::File,
+                       .text = tr("Save"),
+                       .tip = tr("Saves the project; without one, the scribbles"),
+                       .icon = "save",
+                       .keys = {QKeySequence::Save},
+                       .run =
+                           [this] {
+                             if (file().isEmpty()) {
+                               bench_.commands.trigger("file.save_scribbles");
+                             } else {
+                               save();
+                             }
+                           },
+                       .section = section::kProject,
+                       .enabled = has_scene});
+  bench_.commands.add({.id = "file.save_project",
+                       .menu = Menu::File,
+                       .text = tr("Save project as…"),
+                       .tip = tr("Saves all open light fields with their results and scribbles "
+                                 "as a project"),
+                       .icon = "save",
+                       .keys = {tr("Ctrl+Alt+S")},
+                       .run = [this] { saveAs(); },
+                       .section = section::kProject,
+                       .enabled = has_scene});
+}
+
+QString ProjectController::file() const {
+  return QString::fromStdString(autosave_.projectFile().string());
+}
+
+void ProjectController::setFile(const QString& path) {
+  autosave_.setProjectFile(path.toStdString());
+  stamp_ = stamp_of(path.toStdString());
+  bench_.commands.refresh();
+}
+
+std::string ProjectController::content() const {
+  std::string text;
+  for (const OpenScene* scene : bench_.session.scenes()) {
+    text += scene->input + '\n';
+    for (const EstimateEntry& entry : scene->estimates) {
+      text += std::to_string(entry.id) + ' ' + entry.name + '\n';
+    }
+  }
+  return text;
+}
+
+bool ProjectController::hasChanged() const {
+  return !file().isEmpty() && content() != saved_content_;
+}
+
+void ProjectController::open(const QString& path) {
+  bench_.guards.leave(Leaving::Session, [this, path] { read(path); });
+}
+
+void ProjectController::read(const QString& path) {
+  using Read = std::shared_ptr<ReadProject>;
+  bench_.jobs.start<Read>(
+      Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
+      [path](const Progress&) {
+        auto read = std::make_shared<ReadProject>();
+        read->project = read_project(path.toStdString());
+        read_strokes(*read);
+        return read;
+      },
+      [this, path](const Read& read) {
+        show_project(bench_, std::move(*read), ProjectOrigin::File);
+        setFile(path);
+        saved_content_ = content();
+      });
+}
+
+QString ProjectController::suggestion() const {
+  if (!file().isEmpty()) return file();
+  const auto scenes = bench_.session.scenes();
+  return QString::fromStdString(scenes.empty() ? "project" : scenes.front()->name) + kProjectSuffix;
+}
+
+void ProjectController::save(std::function<void()> then) {
+  file().isEmpty() ? saveAs(std::move(then)) : saveTo(file(), std::move(then));
+}
+
+void ProjectController::saveAs(std::function<void()> then) {
+  ask_where_to_save(&bench_.window,
+                    {.name = "save_project",
+                     .title = tr("Save project"),
+                     .filter = tr("Projects (*.episcope)"),
+                     .proposal = suggestion()},
+                    [this, then = std::move(then)](const QString& path) { saveTo(path, then); });
+}
+
+void ProjectController::saveTo(const QString& path, std::function<void()> then) {
+  if (path != file() || stamp_of(path.toStdString()) == stamp_) {
+    write(path, std::move(then));
+    return;
+  }
+  ask_about_changed_file(&bench_.window, path,
+                         {.overwrite = [this, path, then] { write(path, then); },
+                          .elsewhere = [this, then] { saveAs(then); },
+                          .reload = [this, path] { read(path); }});
+}
+
+void ProjectController::write(const QString& path, std::function<void()> then) {
+  bench_.document.endStroke();
+  Project project = project_of(bench_.session);
+  const std::vector<EditedDocument> documents = bench_.document.editedDocuments();
+  for (const EditedDocument& each : documents) {
+    const auto scene = std::ranges::find(project.scenes, each.scene, &ProjectScene::id);
+    if (scene != project.scenes.end()) scene->strokes = each.journal;
+  }
+  bench_.jobs.start<Project>(
+      Lane::Export, tr("Saving %1").arg(QFileInfo(path).fileName()),
+      [path, project](const Progress& progress) {
+        return store_project(path.toStdString(), project, progress);
+      },
+      [this, path, documents, content = content(), then = std::move(then)](const Project& written) {
+        bench_.document.noteKept(documents);
+        saved_content_ = content;
+        noteSaved(path, written);
+        if (then) then();
+      });
+}
+
+void ProjectController::noteSaved(const QString& path, const Project& written) {
+  for (const ProjectScene& scene : written.scenes) {
+    for (const ProjectResult& result : scene.results) {
+      bench_.session.set_kept(result.id, result.file);
+      bench_.session.mark_saved(result.id);
+    }
+  }
+  setFile(path);
+  bench_.messages.written(path);
+}
+
+void ProjectController::locate(quint64 scene) {
+  const OpenScene* missing = bench_.session.find_scene(scene);
+  if (!missing) return;
+  const QString input = QString::fromStdString(missing->input);
+  auto* box = new QMessageBox(
+      QMessageBox::Question, tr("Light field not found"),
+      tr("“%1” is no longer at %2. Where is it now? Others that were moved with it are then found "
+         "as well.")
+          .arg(QString::fromStdString(missing->name), input),
+      QMessageBox::Cancel, &bench_.window);
+  box->setObjectName("moved_light_field");
+  box->setAttribute(Qt::WA_DeleteOnClose);
+  const auto add = [&](const char* name, const QString& text, auto ask) {
+    QPushButton* button = box->addButton(text, QMessageBox::AcceptRole);
+    button->setObjectName(name);
+    connect(button, &QPushButton::clicked, this, [this, scene, ask, title = box->windowTitle()] {
+      ask(&bench_.window, {.name = "locate_light_field", .title = title},
+          [this, scene](const QString& path) { move(scene, path); });
+    });
+  };
+  add("moved_light_field.file", tr("Choose file…"), ask_for_file);
+  add("moved_light_field.folder", tr("Choose folder…"), ask_for_folder);
+  box->open();
+}
+
+void ProjectController::move(quint64 scene, const QString& input) {
+  const OpenScene* moved = bench_.session.find_scene(scene);
+  if (!moved) return;
+  const MovedFolder folder = moved_folder(moved->input, input.toStdString());
+  bench_.session.set_input(scene, input.toStdString());
+  for (const OpenScene* each : bench_.session.scenes()) {
+    const std::string found = moved_input(each->input, folder);
+    if (!found.empty()) bench_.session.set_input(each->id, found);
+  }
+  bench_.scenes.show(scene);
+}
+
+}  // namespace episcope
+
+#include "moc_project_controller.cpp"

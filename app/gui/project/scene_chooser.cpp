@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/project/scene_chooser.h"
+
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/opening/scene_switcher.h"
+#include "app/session/session.h"
+
+#include <QComboBox>
+#include <QSignalBlocker>
+
+namespace episcope {
+namespace {
+
+// "edge · 3 results".
+QString text_of(const OpenScene& scene) {
+  const QString name = QString::fromStdString(scene.name);
+  const auto count = scene.estimates.size();
+  if (count == 0) return name;
+  return count == 1 ? SceneChooser::tr("%1 · 1 result").arg(name)
+                    : SceneChooser::tr("%1 · %2 results").arg(name).arg(count);
+}
+
+}  // namespace
+
+SceneChooser::SceneChooser(const Workbench& bench)
+    : QObject(&bench.owner), bench_(bench), list_(new QComboBox(&bench.frame)) {
+  list_->setObjectName("scenes.open");
+  list_->setAccessibleName(tr("Open light fields"));
+  list_->setToolTip(tr("The light fields that are open: choose the one to show"));
+  list_->setPlaceholderText(tr("nothing is open"));
+  list_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  list_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  bench.frame.addToColumn(list_, false);
+  connect(list_, &QComboBox::activated, this, [this](int row) {
+    bench_.scenes.show(list_->itemData(row).toULongLong());
+    fill();  // until it is read, the one before is shown
+  });
+  addCommands();
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) fill();
+  });
+  fill();
+}
+
+void SceneChooser::addCommands() {
+  const auto has_several = [this] { return bench_.session.scenes().size() > 1; };
+  bench_.commands.add({.id = "scenes.next",
+                       .menu = Menu::View,
+                       .text = tr("Next open light field"),
+                       .tip = tr("Shows the next light field of those that are open"),
+                       .keys = {tr("Ctrl+Alt+PgDown")},
+                       .run = [this] { bench_.scenes.step(1); },
+                       .section = section::kTabs,
+                       .enabled = has_several});
+  bench_.commands.add({.id = "scenes.previous",
+                       .menu = Menu::View,
+                       .text = tr("Previous open light field"),
+                       .tip = tr("Shows the previous light field of those that are open"),
+                       .keys = {tr("Ctrl+Alt+PgUp")},
+                       .run = [this] { bench_.scenes.step(-1); },
+                       .section = section::kTabs,
+                       .enabled = has_several});
+}
+
+void SceneChooser::fill() {
+  const QSignalBlocker blocker(list_);
+  list_->clear();
+  for (const OpenScene* scene : bench_.session.scenes()) {
+    list_->addItem(text_of(*scene), QVariant::fromValue<qulonglong>(scene->id));
+    list_->setItemData(list_->count() - 1, QString::fromStdString(scene->input), Qt::ToolTipRole);
+  }
+  list_->setCurrentIndex(
+      list_->findData(QVariant::fromValue<qulonglong>(bench_.session.generation())));
+  list_->setEnabled(list_->count() > 0);
+}
+
+}  // namespace episcope
+
+#include "moc_scene_chooser.cpp"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/open_scene.h"
+
+namespace episcope {
+namespace {
+
+template <class T>
+std::size_t bytes_of(const ViewStack<T>& stack) {
+  return stack.size() * sizeof(T);
+}
+
+std::size_t bytes_of(const DisparityField& field) {
+  return bytes_of(field.disparity) + bytes_of(field.valid);
+}
+
+}  // namespace
+
+std::size_t byte_size(const OpenScene& scene) {
+  std::size_t bytes = 0;
+  if (scene.scene) {
+    const GroundTruth& truth = *scene.scene->truth;
+    bytes += scene.scene->light_field->byte_size() + bytes_of(truth.field) +
+             bytes_of(truth.foreground) + bytes_of(truth.background) + bytes_of(truth.labels);
+  }
+  for (const EstimateEntry& each : scene.estimates) {
+    if (each.estimate)
+      bytes += bytes_of(each.estimate->field) + bytes_of(each.estimate->confidence);
+  }
+  return bytes;
+}
+
+}  // namespace episcope

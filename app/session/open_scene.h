@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/picture/map_source.h"
+#include "engine/core/light_field/scene.h"
+#include "engine/render/quantity.h"
+#include "engine/render/tone.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// An estimate of the session. Ids are never given twice.
+struct EstimateEntry {
+  int id = 0;
+  std::string name;        ///< Unique in the list: "EPI_L", "EPI_L 2", or as the user calls it.
+  EstimatePtr estimate;    ///< Null while its scene is set aside and it is in its file only.
+  Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
+  bool is_saved = false;   ///< A file of the user's holds it.
+  std::filesystem::path kept{};  ///< The file that keeps it for the project; empty = none yet.
+};
+
+/// Where one looks in a scene, and how.
+struct ScenePlace {
+  ViewIndex view;
+  PixelIndex cross_hair;
+  double focus_px = 0;
+  /// What is drawn over the view; none = it was not shown yet.
+  std::optional<render::Quantity> quantity;
+  std::map<render::Quantity, Interval> ranges;  ///< Colour ranges that were edited.
+  render::Tone tone{};                          ///< How its views are brightened.
+  friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
+};
+
+/// A light field with all that is known of it and was done on it.
+struct OpenScene {
+  std::uint64_t id = 0;  ///< Never given twice.
+  std::string name;
+  std::string input;                   ///< What opens it again,
+  ParameterSet reading;                ///< with these options.
+  std::uint64_t sample_hash = 0;       ///< LightField::sample_hash; 0 = not known yet.
+  std::shared_ptr<const Scene> scene;  ///< Null while it is set aside and on disk only.
+  Interval known_range{};              ///< Of truth or files; empty if neither says.
+  std::vector<EstimateEntry> estimates;
+  int shown = 0;
+  int compared = 0;
+  bool is_compared_chosen = false;
+  TrueLabelsPtr true_labels;
+  ScenePlace place;
+  std::uint64_t last_used = 0;  ///< Larger = later.
+};
+
+/// Bytes of memory that the samples, the truth and the estimates of a scene take, about.
+[[nodiscard]] std::size_t byte_size(const OpenScene& scene);
+
+}  // namespace episcope

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/open_scene.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// A result of a project.
+struct ProjectResult {
+  std::string name;            ///< As the user calls it.
+  std::filesystem::path file;  ///< That holds it; empty = none does yet.
+  Interval display_range{};    ///< EstimateEntry::display_range.
+  bool is_shown = false;
+  bool is_compared = false;
+  int id = 0;  ///< EstimateEntry::id. Not part of a project file, as what follows.
+  /// In memory; null if it is in its file only.
+  EstimatePtr estimate{};
+};
+
+/// A light field of a project with what was found and drawn on it.
+struct ProjectScene {
+  std::string name;               ///< Of the light field.
+  std::string input;              ///< What opens it: a path, or a built-in scene.
+  std::uint64_t sample_hash = 0;  ///< LightField::sample_hash; 0 = unknown.
+  ParameterSet reading;           ///< Options that it was read with (io::open_schema).
+  ScenePlace place;
+  std::uint64_t id = 0;  ///< OpenScene::id. Not part of a project file.
+  std::vector<ProjectResult> results;
+  std::filesystem::path strokes;  ///< Journal of what was painted; empty = nothing was.
+};
+
+/// What a project file holds.
+struct Project {
+  std::vector<ProjectScene> scenes;
+  std::size_t current = 0;  ///< The one that is shown.
+  double bad_threshold_px = kBadPixelThreshold_px;
+  std::filesystem::path saved_as;  ///< Of a workspace: the user's own file of it; empty = none yet.
+};
+
+}  // namespace episcope

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/project/project_file.h"
+
+#include "app/session/run/result_source.h"
+#include "app/session/scene/load_scene.h"
+#include "engine/core/error.h"
+#include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/system_error.h"
+#include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/result_file.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <charconv>
+#include <fstream>
+#include <span>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kFormat = "episcope project";
+constexpr int kVersion = 1;
+
+Json interval_json(Interval interval) {
+  return Json::array({interval.min, interval.max});
+}
+
+Interval interval_of(const Json& json) {
+  return {json.at(0).get<double>(), json.at(1).get<double>()};
+}
+
+Json place_json(const ScenePlace& place) {
+  Json ranges = Json::object();
+  for (const auto& [quantity, range] : place.ranges) {
+    ranges[render::info_of(quantity).id] = interval_json(range);
+  }
+  Json json{{"view", {place.view.v, place.view.u}},
+            {"pixel", {place.cross_hair.y, place.cross_hair.x}},
+            {"focus_px", place.focus_px},
+            {"ranges", ranges}};
+  if (!place.tone.is_plain()) {
+    json["tone"] = {{"black", place.tone.black},
+                    {"exposure", place.tone.exposure},
+                    {"gamma", place.tone.gamma}};
+  }
+  if (place.quantity) json["quantity"] = render::info_of(*place.quantity).id;
+  return json;
+}
+
+ScenePlace place_of(const Json& json) {
+  ScenePlace place;
+  place.view = {json.at("view").at(0).get<int>(), json.at("view").at(1).get<int>()};
+  place.cross_hair = {json.at("pixel").at(0).get<int>(), json.at("pixel").at(1).get<int>()};
+  place.focus_px = json.at("focus_px").get<double>();
+  if (const auto* shown = render::find_quantity(json.value("quantity", ""))) {
+    place.quantity = shown->quantity;
+  }
+  if (json.contains("tone")) {
+    const Json& tone = json.at("tone");
+    place.tone = {tone.at("black"), tone.at("exposure"), tone.at("gamma")};
+  }
+  for (const auto& [id, range] : json.at("ranges").items()) {
+    if (const auto* known = render::find_quantity(id)) {
+      place.ranges[known->quantity] = interval_of(range);
+    }
+  }
+  return place;
+}
+
+Json result_json(const ProjectResult& result, const fs::path& project) {
+  return {{"name", result.name},
+          {"file", source_text(result.file.string(), project)},
+          {"display_range", interval_json(result.display_range)},
+          {"shown", result.is_shown},
+          {"compared", result.is_compared}};
+}
+
+Json scene_json(const ProjectScene& scene, const fs::path& project) {
+  Json json{{"name", scene.name},
+            {"source", source_text(scene.input, project)},
+            {"hash", fmt::format("{:016x}", scene.sample_hash)},
+            {"reading", Json::parse(io::parameters_to_json(scene.reading))},
+            {"place", place_json(scene.place)},
+            {"results", Json::array()}};
+  for (const ProjectResult& each : scene.results) {
+    json["results"].push_back(result_json(each, project));
+  }
+  if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
+  return json;
+}
+
+std::string absolute_path(const std::string& text, const fs::path& project) {
+  return (project.parent_path() / text).lexically_normal().string();
+}
+
+ProjectResult result_of(const Json& json, const fs::path& project) {
+  return {.name = json.at("name"),
+          .file = absolute_path(json.at("file"), project),
+          .display_range = interval_of(json.at("display_range")),
+          .is_shown = json.at("shown"),
+          .is_compared = json.at("compared")};
+}
+
+std::uint64_t hash_of(const std::string& text) {
+  std::uint64_t hash = 0;
+  std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+  return hash;
+}
+
+ProjectScene scene_of(const Json& json, const fs::path& project) {
+  ProjectScene scene;
+  scene.name = json.at("name");
+  const std::string source = json.at("source");
+  scene.input = builtin_scene_id(source).empty() ? absolute_path(source, project) : source;
+  scene.sample_hash = hash_of(json.at("hash"));
+  scene.reading = io::parameters_from_json(json.at("reading").dump());
+  scene.place = place_of(json.at("place"));
+  for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
+  if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
+  return scene;
+}
+
+Project project_of(const Json& json, const fs::path& path) {
+  if (json.at("format") != kFormat) throw IoError(path, "is no project of Episcope");
+  if (json.at("version").get<int>() > kVersion) {
+    throw IoError(path, "was written by a newer Episcope; open it with that one");
+  }
+  Project project;
+  for (const Json& each : json.at("scenes")) {
+    project.scenes.push_back(scene_of(each, fs::absolute(path)));
+  }
+  project.current = json.at("current");
+  project.bad_threshold_px = json.at("bad_threshold_px");
+  project.saved_as = json.value("saved_as", "");
+  return project;
+}
+
+}  // namespace
+
+bool names_project(const fs::path& path) {
+  return path.extension() == kProjectSuffix;
+}
+
+void write_project(const fs::path& path, const Project& project) {
+  Json json{{"format", kFormat},
+            {"version", kVersion},
+            {"current", project.current},
+            {"bad_threshold_px", project.bad_threshold_px},
+            {"scenes", Json::array()}};
+  if (!project.saved_as.empty()) json["saved_as"] = project.saved_as.string();
+  for (const ProjectScene& each : project.scenes) {
+    json["scenes"].push_back(scene_json(each, fs::absolute(path)));
+  }
+  const std::string text = json.dump(1) + '\n';
+  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+Project read_project(const fs::path& path) {
+  io::require_readable_file(path);
+  std::ifstream file(path);
+  try {
+    return project_of(Json::parse(file), path);
+  } catch (const Json::exception& error) {
+    throw IoError(path, std::string("is no whole project file (") + error.what() +
+                            "); open another, or restore it from a copy");
+  }
+}
+
+}  // namespace episcope

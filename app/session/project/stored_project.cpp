@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/project/stored_project.h"
+
+#include "app/session/project/project_file.h"
+#include "app/session/save/save_result.h"
+#include "engine/core/error.h"
+#include "engine/io/durable/atomic_file.h"
+
+#include <algorithm>
+#include <set>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kStrokes = ".strokes";
+
+// A name that any file system takes.
+std::string file_name_of(std::string name) {
+  constexpr std::size_t longest = 80;
+  std::ranges::replace_if(
+      name, [](char each) { return std::string("/\\:*?\"<>|").find(each) != std::string::npos; },
+      '_');
+  return name.substr(0, longest);
+}
+
+fs::path unused_file(const fs::path& folder, const std::string& stem, const std::string& suffix) {
+  fs::path path = folder / (stem + suffix);
+  for (int number = 2; fs::exists(path); ++number) {
+    path = folder / (stem + "_" + std::to_string(number) + suffix);
+  }
+  return path;
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw IoError(folder, "the folder cannot be created (" + error.message() + ")");
+}
+
+void copy_to(const fs::path& from, const fs::path& to) {
+  io::AtomicFile file(to);
+  std::error_code error;
+  fs::copy_file(from, file.temporary(), fs::copy_options::overwrite_existing, error);
+  if (error)
+    throw IoError(from, "cannot be copied to " + to.string() + " (" + error.message() + ")");
+  file.commit();
+}
+
+// All files beside the project that it names.
+std::set<fs::path> files_in(const Project& project, const fs::path& folder) {
+  std::set<fs::path> files;
+  const auto add = [&](const fs::path& file) {
+    if (file.parent_path() == folder) files.insert(file);
+  };
+  for (const ProjectScene& scene : project.scenes) {
+    add(scene.strokes);
+    for (const ProjectResult& result : scene.results) add(result.file);
+  }
+  return files;
+}
+
+std::set<fs::path> files_of_former(const fs::path& path, const fs::path& folder) {
+  try {
+    if (fs::exists(path)) return files_in(read_project(path), folder);
+  } catch (const IoError&) {
+    // What it named is not known: it stays.
+  }
+  return {};
+}
+
+void store_results(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
+  for (ProjectResult& result : scene.results) {
+    if (!is_in_file(result)) result.file.clear();
+    if (result.file.parent_path() == folder) continue;
+    if (result.file.empty()) {
+      result.file = store_result(folder, scene.name, result, scene.input, progress);
+    } else {
+      const std::string stem = file_name_of(scene.name + "_" + result.name);
+      const fs::path target = unused_file(folder, stem, ".h5");
+      copy_to(result.file, target);
+      result.file = target;
+    }
+    progress.check();
+  }
+}
+
+// What was painted may have gone on since it was stored last: always a new file.
+void store_strokes(ProjectScene& scene, const fs::path& folder) {
+  if (scene.strokes.empty()) return;
+  const fs::path target = unused_file(folder, file_name_of(scene.name), kStrokes);
+  copy_to(scene.strokes, target);
+  scene.strokes = target;
+}
+
+}  // namespace
+
+bool is_in_file(const ProjectResult& result) {
+  std::error_code ignored;
+  return !result.file.empty() && (!result.estimate || fs::exists(result.file, ignored));
+}
+
+fs::path files_of_project(const fs::path& project) {
+  return fs::absolute(project).lexically_normal().parent_path() /
+         (project.stem().string() + "_files");
+}
+
+fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,
+                      const std::string& input, const Progress& progress) {
+  make_folder(folder);
+  const fs::path file = unused_file(folder, file_name_of(scene + "_" + result.name), ".h5");
+  save_result(file, *result.estimate, input, progress);
+  return file;
+}
+
+Project store_project(const fs::path& path, Project project, const Progress& progress) {
+  const fs::path folder = files_of_project(path);
+  const std::set<fs::path> former = files_of_former(path, folder);
+  make_folder(folder);
+  double done = 0;
+  for (ProjectScene& scene : project.scenes) {
+    const double next = done + 1.0 / static_cast<double>(project.scenes.size());
+    store_results(scene, folder, progress.part(done, std::min(next, 1.0)));
+    store_strokes(scene, folder);
+    done = std::min(next, 1.0);
+  }
+  write_project(path, project);
+  const std::set<fs::path> now = files_in(project, folder);
+  for (const fs::path& each : former) {
+    std::error_code ignored;
+    if (!now.contains(each)) fs::remove(each, ignored);
+  }
+  return project;
+}
+
+}  // namespace episcope

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/session/project/project.h"
+#include "engine/core/parallel/progress.h"
+
+#include <filesystem>
+
+namespace episcope {
+
+/// The folder beside a project file that holds its results and strokes: "name_files".
+[[nodiscard]] std::filesystem::path files_of_project(const std::filesystem::path& project);
+
+/// Whether its file holds a result: one that is in memory may have lost its file.
+[[nodiscard]] bool is_in_file(const ProjectResult& result);
+
+/// Writes a result that is in memory to a file of `folder` that no other has, named after it.
+/// Atomic. Returns the file. Throws IoError, Cancelled.
+[[nodiscard]] std::filesystem::path store_result(const std::filesystem::path& folder,
+                                                 const std::string& scene,
+                                                 const ProjectResult& result,
+                                                 const std::string& input,
+                                                 const Progress& progress);
+
+/// Writes a project file with all that it names beside it: results and strokes that lie elsewhere
+/// are copied. The old file stays until everything is there; then what only the old one named is
+/// removed. Returns the project with the places of its files. Throws IoError, Cancelled.
+[[nodiscard]] Project store_project(const std::filesystem::path& path, Project project,
+                                    const Progress& progress);
+
+}  // namespace episcope

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/project/workspace.h"
+
+#include "app/session/project/project_file.h"
+#include "engine/core/error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <random>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kLock = "lock";
+
+fs::path project_in(const fs::path& folder) {
+  return folder / (std::string("session") + kProjectSuffix);
+}
+
+fs::path make_folder(const fs::path& root) {
+  std::random_device random;
+  const fs::path folder = root / fmt::format("{:08x}", random());
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw IoError(root, "the folder cannot be created (" + error.message() +
+                            "), so results could not be recovered after a crash; create it or "
+                            "make its parent writable");
+  }
+  return folder;
+}
+
+}  // namespace
+
+Workspace::Workspace(const fs::path& root) : Workspace(Existing{make_folder(root)}) {}
+
+Workspace::Workspace(Existing existing)
+    : folder_(std::move(existing.folder)),
+      lock_(folder_ / kLock, io::LogFraming::Lines, io::LogFlush::AtOnce) {}
+
+std::unique_ptr<Workspace> Workspace::take_over(const fs::path& folder) {
+  return std::unique_ptr<Workspace>(new Workspace(Existing{folder}));
+}
+
+fs::path Workspace::project_file() const {
+  return project_in(folder_);
+}
+
+void Workspace::remove() {
+  discard_workspace(folder_);
+}
+
+std::vector<LeftWorkspace> left_workspaces(const fs::path& root) {
+  std::vector<LeftWorkspace> left;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(root, ignored)) {
+    const fs::path& folder = entry.path();
+    if (!entry.is_directory(ignored) || io::is_held(folder / kLock)) continue;
+    const fs::path file = project_in(folder);
+    try {
+      left.push_back({folder, read_project(file), fs::last_write_time(file, ignored)});
+    } catch (const IoError&) {
+      // Killed before anything was in it, or not to be read: nothing can be offered.
+    }
+  }
+  std::ranges::sort(left, std::greater{}, &LeftWorkspace::last_change);
+  return left;
+}
+
+void discard_workspace(const fs::path& folder) {
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);
+}
+
+}  // namespace episcope

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/session.h"
+
+#include "app/session/scene/scene_range.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+Parts everything() {
+  return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
+         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone;
+}
+
+}  // namespace
+
+void Session::open(std::shared_ptr<const Scene> scene, std::string input) {
+  const auto place = std::ranges::find(scenes_, now_->id, &OpenScene::id) - scenes_.begin();
+  close();
+  if (!scene) return;
+  add(std::move(scene), std::move(input));
+  if (place < std::ssize(scenes_)) {
+    std::rotate(scenes_.begin() + place, scenes_.end() - 1, scenes_.end());
+  }
+}
+
+void Session::add(std::shared_ptr<const Scene> scene, std::string input) {
+  auto added = std::make_unique<OpenScene>();
+  const LightField& light_field = *scene->light_field;
+  added->id = ++last_scene_;
+  added->name = light_field.info().name;
+  added->input = std::move(input);
+  added->reading = light_field.info().reading.options;
+  added->known_range = known_disparity_range(*scene);
+  added->true_labels = true_labels_of(scene->truth);
+  added->place.view = light_field.center();
+  added->place.cross_hair = {light_field.height() / 2, light_field.width() / 2};
+  added->scene = std::move(scene);
+  scenes_.push_back(std::move(added));
+  choose(last_scene_);
+}
+
+void Session::close() {
+  if (const std::uint64_t id = now_->id; now_ != &none_) {
+    show_nothing();
+    remove(id);
+  }
+  show_nothing();
+}
+
+void Session::show_nothing() {
+  none_ = {};
+  none_.id = ++last_scene_;
+  now_ = &none_;
+  changed(everything());
+}
+
+std::vector<const OpenScene*> Session::scenes() const {
+  std::vector<const OpenScene*> all;
+  for (const auto& each : scenes_) all.push_back(each.get());
+  return all;
+}
+
+OpenScene* Session::open_scene(std::uint64_t id) {
+  const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
+  return found == scenes_.end() ? nullptr : found->get();
+}
+
+const OpenScene* Session::find_scene(std::uint64_t id) const {
+  const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
+  return found == scenes_.end() ? nullptr : found->get();
+}
+
+std::uint64_t Session::scene_of(const std::string& input) const {
+  const auto found = std::ranges::find(scenes_, input, &OpenScene::input);
+  return found == scenes_.end() ? 0 : (*found)->id;
+}
+
+void Session::choose(std::uint64_t id) {
+  OpenScene* chosen = open_scene(id);
+  if (!chosen || !chosen->scene || chosen == now_) return;
+  now_ = chosen;
+  now_->last_used = ++uses_;
+  changed(everything());
+}
+
+std::uint64_t Session::add_aside(OpenScene scene) {
+  scene.id = ++last_scene_;
+  const int shown = scene.shown;
+  const int compared = scene.compared;
+  for (EstimateEntry& entry : scene.estimates) {
+    const int former = std::exchange(entry.id, ++last_id_);
+    if (former == shown) scene.shown = entry.id;
+    if (former == compared) scene.compared = entry.id;
+  }
+  scenes_.push_back(std::make_unique<OpenScene>(std::move(scene)));
+  changed(Part::Scenes);
+  return last_scene_;
+}
+
+void Session::unload(std::uint64_t id) {
+  OpenScene* scene = open_scene(id);
+  if (!scene || scene == now_) return;
+  scene->scene.reset();
+  scene->true_labels.reset();
+  for (EstimateEntry& entry : scene->estimates) {
+    evaluations_.forget(entry.id);
+    entry.estimate.reset();
+  }
+  changed(Part::Scenes);
+}
+
+void Session::load(std::uint64_t id, std::shared_ptr<const Scene> scene,
+                   const std::map<int, EstimatePtr>& estimates) {
+  OpenScene* loaded = open_scene(id);
+  if (!loaded || !scene) return;
+  loaded->known_range = known_disparity_range(*scene);
+  loaded->true_labels = true_labels_of(scene->truth);
+  loaded->scene = std::move(scene);
+  for (EstimateEntry& entry : loaded->estimates) {
+    const auto found = estimates.find(entry.id);
+    if (!entry.estimate && found != estimates.end()) entry.estimate = found->second;
+  }
+  auto& entries = loaded->estimates;
+  std::erase_if(entries, [](const EstimateEntry& entry) { return !entry.estimate; });
+  if (std::ranges::count(entries, loaded->shown, &EstimateEntry::id) == 0) {
+    loaded->shown = entries.empty() ? 0 : entries.front().id;
+  }
+  changed(Part::Scenes);
+}
+
+void Session::remove(std::uint64_t id) {
+  const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
+  if (found == scenes_.end() || found->get() == now_) return;
+  for (const EstimateEntry& entry : (*found)->estimates) evaluations_.forget(entry.id);
+  scenes_.erase(found);
+  changed(Part::Scenes);
+}
+
+void Session::set_sample_hash(std::uint64_t id, std::uint64_t hash) {
+  if (OpenScene* scene = open_scene(id)) scene->sample_hash = hash;
+}
+
+void Session::set_input(std::uint64_t id, std::string input) {
+  OpenScene* scene = open_scene(id);
+  if (!scene || scene->scene) return;
+  scene->input = std::move(input);
+  changed(Part::Scenes);
+}
+
+void Session::set_kept(int estimate, const std::filesystem::path& file) {
+  for (const auto& scene : scenes_) {
+    const auto found = std::ranges::find(scene->estimates, estimate, &EstimateEntry::id);
+    if (found == scene->estimates.end() || found->kept == file) continue;
+    found->kept = file;
+    changed(Part::Scenes);
+  }
+}
+
+}  // namespace episcope

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/project/project_file.h"
+
+#include "app/session/project/moved_inputs.h"
+#include "app/session/project/workspace.h"
+#include "engine/core/error.h"
+#include "tests/test_main.h"
+
+#include <QDir>
+#include <QTemporaryDir>
+
+#include <fstream>
+#include <sstream>
+
+namespace episcope::in_project_file_test {
+
+namespace {
+
+Project sample(const std::filesystem::path& folder) {
+  ProjectScene scene;
+  scene.name = "édge “1”";
+  scene.input = folder / "data/edge/lf.h5";
+  scene.sample_hash = 0xfedcba9876543210;
+  scene.reading = {{"flip", std::string("u")}, {"focus", 0.5}};
+  scene.place = {{1, 2},
+                 {30, 40},
+                 -0.25,
+                 render::Quantity::SignedError,
+                 {{render::Quantity::SignedError, {-0.5, 0.5}}},
+                 {0.05, 2, 1.5}};
+  scene.results = {{.name = "mine",
+                    .file = folder / "work_files/a.h5",
+                    .display_range = {-1, 2},
+                    .is_shown = true}};
+  scene.strokes = folder / "work_files/edge.strokes";
+  ProjectScene demo;
+  demo.name = demo.input = "demo";
+  return {{scene, demo}, 1, 0.1, {}};
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::stringstream text;
+  text << std::ifstream(path).rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+class ProjectFileTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void project_readsBack();
+  void paths_moveWithTheFile();
+  void truncatedFile_isRefusedInASentence();
+  void otherFiles_areRefused_data();
+  void otherFiles_areRefused();
+  void movedFolder_isFoundForOthers();
+  void leftWorkspace_isOfferedOnceNobodyHoldsIt();
+};
+
+void ProjectFileTest::project_readsBack() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  const Project project = sample(root);
+
+  write_project(root / "work.episcope", project);
+  const Project read = read_project(root / "work.episcope");
+
+  QCOMPARE(read.scenes.size(), 2U);
+  QCOMPARE(read.current, 1U);
+  QCOMPARE(read.bad_threshold_px, 0.1);
+  const ProjectScene& scene = read.scenes[0];
+  const ProjectScene& before = project.scenes[0];
+  QCOMPARE(scene.name, before.name);
+  QCOMPARE(scene.input, before.input);
+  QCOMPARE(scene.sample_hash, before.sample_hash);
+  QVERIFY(scene.reading == before.reading);
+  QVERIFY(scene.place == before.place);
+  QVERIFY(scene.strokes == before.strokes);
+  QCOMPARE(scene.results.at(0).name, std::string("mine"));
+  QVERIFY(scene.results[0].file == before.results[0].file);
+  QCOMPARE(scene.results[0].display_range, (Interval{-1, 2}));
+  QVERIFY(scene.results[0].is_shown && !scene.results[0].is_compared);
+  QCOMPARE(read.scenes[1].input, std::string("demo"));
+  QVERIFY(!read.scenes[1].place.quantity);
+}
+
+void ProjectFileTest::paths_moveWithTheFile() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  std::filesystem::create_directories(root / "here");
+  write_project(root / "here/work.episcope", sample(root / "here"));
+
+  QVERIFY(!QString::fromStdString(text_of(root / "here/work.episcope")).contains(folder.path()));
+  std::filesystem::rename(root / "here", root / "there");
+  const Project read = read_project(root / "there/work.episcope");
+
+  QCOMPARE(read.scenes[0].input, (root / "there/data/edge/lf.h5").string());
+  QVERIFY(read.scenes[0].results[0].file == root / "there/work_files/a.h5");
+}
+
+// However short: one sentence that names the file, never half a project.
+void ProjectFileTest::truncatedFile_isRefusedInASentence() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  write_project(root / "work.episcope", sample(root));
+  const std::string whole = text_of(root / "work.episcope");
+
+  for (std::size_t bytes = 0; bytes + 2 < whole.size(); bytes += 17) {
+    std::ofstream(root / "cut.episcope") << whole.substr(0, bytes);
+    QVERIFY_THROWS_EXCEPTION(IoError, (void)read_project(root / "cut.episcope"));
+  }
+}
+
+void ProjectFileTest::otherFiles_areRefused_data() {
+  QTest::addColumn<QString>("text");
+  QTest::addColumn<QString>("told");
+  QTest::newRow("not JSON") << "lf.h5"
+                            << "is no whole project";
+  QTest::newRow("other JSON") << "{\"a\": 1}"
+                              << "is no whole project";
+  QTest::newRow("another format") << "{\"format\": \"x\", \"version\": 1}"
+                                  << "is no project";
+  QTest::newRow("a newer one") << "{\"format\": \"episcope project\", \"version\": 99}"
+                               << "newer";
+  QTest::newRow("wrong types") << "{\"format\": \"episcope project\", \"version\": \"one\"}"
+                               << "is no whole project";
+}
+
+void ProjectFileTest::otherFiles_areRefused() {
+  QFETCH(QString, text);
+  QFETCH(QString, told);
+  const QTemporaryDir folder;
+  const std::string path = folder.filePath("x.episcope").toStdString();
+  std::ofstream(path) << text.toStdString();
+
+  try {
+    (void)read_project(path);
+    QFAIL("it was read");
+  } catch (const IoError& error) {
+    QVERIFY2(QString(error.what()).contains(told), error.what());
+  }
+}
+
+void ProjectFileTest::movedFolder_isFoundForOthers() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  std::filesystem::create_directories(root / "new/b");
+  std::ofstream(root / "new/b/lf.h5") << "x";
+
+  const MovedFolder moved = moved_folder(root / "old/a/lf.h5", root / "new/a/lf.h5");
+
+  QVERIFY(moved.from == root / "old");
+  QCOMPARE(moved_input(root / "old/b/lf.h5", moved), (root / "new/b/lf.h5").string());
+  QCOMPARE(moved_input(root / "old/c/lf.h5", moved), std::string());  // is not there either
+  QCOMPARE(moved_input("/elsewhere/lf.h5", moved), std::string());
+  QCOMPARE(moved_input(root / "new/b/lf.h5", moved), std::string());  // is where it was
+  QCOMPARE(moved_input("demo", moved), std::string());
+}
+
+void ProjectFileTest::leftWorkspace_isOfferedOnceNobodyHoldsIt() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  auto held = std::make_unique<Workspace>(root);
+  write_project(held->project_file(), sample(root));
+  QVERIFY(left_workspaces(root).empty());
+
+  held.reset();
+  const auto left = left_workspaces(root);
+  QCOMPARE(left.size(), 1U);
+  QCOMPARE(left[0].project.scenes.size(), 2U);
+  const auto taken = Workspace::take_over(left[0].folder);
+  QVERIFY(left_workspaces(root).empty());
+  taken->remove();
+  QVERIFY(!std::filesystem::exists(left[0].folder));
+}
+
+}  // namespace episcope::in_project_file_test
+
+EPISCOPE_TEST(project_file_test, ProjectFileTest)
+#include "project_file_test.moc"
