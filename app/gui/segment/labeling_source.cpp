@@ -21,7 +21,7 @@ LabelingSource::LabelingSource(Session& session, Jobs& jobs, QObject* parent)
 void LabelingSource::update(Parts parts) {
   if (parts.has(Part::Scene)) {
     choice_ = Automatic;
-    own_ = nullptr;
+    own_ = {};
     is_running_ = false;
   }
   if (!parts.has_any(Part::Scene | Part::Estimates | Part::Shown)) return;
@@ -38,31 +38,31 @@ bool LabelingSource::coversAll(const DisparityField& field) const {
   return !field.empty() && field.disparity.grid() == session_.light_field()->grid();
 }
 
-std::shared_ptr<const DisparityField> LabelingSource::fieldOf(const EstimateEntry* entry) const {
-  if (!entry || !coversAll(entry->estimate->field)) return nullptr;
-  return {entry->estimate, &entry->estimate->field};
+LabelingDisparity LabelingSource::fieldOf(const EstimateEntry* entry) const {
+  if (!entry || !coversAll(entry->estimate->field)) return {};
+  return disparity_of(entry->estimate, entry->name);
 }
 
-std::shared_ptr<const DisparityField> LabelingSource::truth() const {
+LabelingDisparity LabelingSource::truth() const {
   const GroundTruthPtr& truth = session_.scene()->truth;
-  if (!coversAll(truth->field)) return nullptr;
-  return {truth, &truth->field};
+  if (!coversAll(truth->field)) return {};
+  return {{truth, &truth->field}, "truth", nullptr};
 }
 
-std::shared_ptr<const DisparityField> LabelingSource::automatic() const {
-  if (auto shown = fieldOf(session_.shown())) return shown;
+LabelingDisparity LabelingSource::automatic() const {
+  if (LabelingDisparity shown = fieldOf(session_.shown()); shown.field) return shown;
   const auto& entries = session_.estimates();
   for (auto entry = entries.rbegin(); entry != entries.rend(); ++entry) {
-    if (auto field = fieldOf(&*entry)) return field;
+    if (LabelingDisparity found = fieldOf(&*entry); found.field) return found;
   }
   // Its own belongs to the light field that it was made of.
-  return tried_ == session_.generation() ? own_ : nullptr;
+  return tried_ == session_.generation() ? own_ : LabelingDisparity{};
 }
 
-std::shared_ptr<const DisparityField> LabelingSource::find(FeatureSet features) const {
-  if (!session_.scene()) return nullptr;
+LabelingDisparity LabelingSource::find(FeatureSet features) const {
+  if (!session_.scene()) return {};
   if (features == FeatureSet::ImageTruth || choice_ == Truth) return truth();
-  if (choice_ == None) return nullptr;
+  if (choice_ == None) return {};
   return choice_ == Automatic ? automatic() : fieldOf(session_.find_estimate(choice_));
 }
 
@@ -70,22 +70,23 @@ std::vector<SegmentPanel::Source> LabelingSource::sources() const {
   std::vector<SegmentPanel::Source> sources{{Automatic, tr("automatic"), true},
                                             {None, tr("none, images only"), true}};
   if (!session_.scene()) return sources;
-  sources.push_back({Truth, tr("the ground truth"), truth() != nullptr});
+  sources.push_back({Truth, tr("the ground truth"), truth().field != nullptr});
   for (const EstimateEntry& entry : session_.estimates()) {
-    sources.push_back({entry.id, QString::fromStdString(entry.name), fieldOf(&entry) != nullptr});
+    sources.push_back(
+        {entry.id, QString::fromStdString(entry.name), fieldOf(&entry).field != nullptr});
   }
   return sources;
 }
 
 bool LabelingSource::isComing() const {
-  return choice_ == Automatic && jobs_.count(Lane::Estimate) > 0 && !automatic();
+  return choice_ == Automatic && jobs_.count(Lane::Estimate) > 0 && !automatic().field;
 }
 
 void LabelingSource::provide() {
   const LightFieldPtr light_field = session_.light_field();
   const std::uint64_t generation = session_.generation();
-  if (!light_field || choice_ != Automatic || automatic() || is_running_ || tried_ == generation ||
-      jobs_.count(Lane::Estimate) > 0) {
+  if (!light_field || choice_ != Automatic || automatic().field || is_running_ ||
+      tried_ == generation || jobs_.count(Lane::Estimate) > 0) {
     return;
   }
   tried_ = generation;
@@ -97,7 +98,7 @@ void LabelingSource::provide() {
       },
       [this, generation](const FinishedEstimate& finished) {
         if (generation != session_.generation()) return;
-        own_ = {finished.estimate, &finished.estimate->field};
+        own_ = disparity_of(finished.estimate, kQuickEstimator);
       },
       [this] {
         is_running_ = false;

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "app/gui/frame/jobs.h"
+#include "app/session/labels/labeling_inputs.h"
 #include "app/session/session.h"
 #include "engine/labeling/labeler.h"
 #include "widgets/annotate/segment_panel.h"
 
 #include <QObject>
 
-#include <memory>
 #include <vector>
 
 namespace episcope {
@@ -28,8 +28,8 @@ class LabelingSource : public QObject {
   void choose(int choice);
   [[nodiscard]] int choice() const { return choice_; }
   [[nodiscard]] std::vector<SegmentPanel::Source> sources() const;
-  /// What the features ask for; null if there is none (yet).
-  [[nodiscard]] std::shared_ptr<const DisparityField> find(FeatureSet features) const;
+  /// What the features ask for; without a field if there is none (yet).
+  [[nodiscard]] LabelingDisparity find(FeatureSet features) const;
   /// Begins to estimate what is missing, unless that was tried already, something is chosen, or a
   /// run is under way that may give it.
   void provide();
@@ -42,16 +42,16 @@ class LabelingSource : public QObject {
 
  private:
   void update(Parts parts);
-  [[nodiscard]] std::shared_ptr<const DisparityField> fieldOf(const EstimateEntry* entry) const;
-  [[nodiscard]] std::shared_ptr<const DisparityField> automatic() const;
-  [[nodiscard]] std::shared_ptr<const DisparityField> truth() const;
+  [[nodiscard]] LabelingDisparity fieldOf(const EstimateEntry* entry) const;
+  [[nodiscard]] LabelingDisparity automatic() const;
+  [[nodiscard]] LabelingDisparity truth() const;
   [[nodiscard]] bool coversAll(const DisparityField& field) const;
 
   Session& session_;
   Jobs& jobs_;
   int choice_ = Automatic;
-  std::shared_ptr<const DisparityField> own_;  // estimated for labels alone
-  std::uint64_t tried_ = 0;                    // generation of the session
+  LabelingDisparity own_;    // estimated for labels alone
+  std::uint64_t tried_ = 0;  // generation of the session
   bool is_running_ = false;
 };
 

@@ -54,8 +54,9 @@ void SegmentController::connectDocument() {
   connect(&bench_.labels, &LabelChoice::changed, this, &SegmentController::publish);
   connect(&source_, &LabelingSource::changed, this, [this] {
     panel_->setSources(source_.sources(), source_.choice());
-    const bool is_same = live_.has_input() && live_.input()->disparity ==
-                                                  source_.find(live_.input()->parameters.features);
+    const bool is_same =
+        live_.has_input() &&
+        live_.input()->disparity == source_.find(live_.input()->parameters.features).field;
     is_same ? showState() : noteInput();
   });
   connect(&edges_, &EdgeSource::changed, this, &SegmentController::noteInput);
@@ -143,7 +144,9 @@ void SegmentController::noteInput() {
     LabelingInput input;
     input.light_field = session_.light_field();
     input.parameters = parameters();
-    input.disparity = source_.find(input.parameters.features);
+    const LabelingDisparity disparity = source_.find(input.parameters.features);
+    input.disparity = disparity.field;
+    input.confidence = disparity.confidence();
     input.edges = edges_.edges();
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
     live_.set_input(std::move(input));

@@ -29,11 +29,11 @@ std::shared_ptr<const DisparityField> true_field(const Scene& scene) {
   return {scene.truth, &scene.truth->field};
 }
 
+}  // namespace
+
 LabelingDisparity disparity_of(EstimatePtr estimate, const std::string& origin) {
   return {{estimate, &estimate->field}, origin, estimate};
 }
-
-}  // namespace
 
 std::shared_ptr<const ViewStack<float>> LabelingDisparity::confidence() const {
   if (!estimate || estimate->confidence.empty()) return nullptr;

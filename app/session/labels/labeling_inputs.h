@@ -24,6 +24,9 @@ struct LabelingDisparity {
   [[nodiscard]] std::shared_ptr<const ViewStack<float>> confidence() const;
 };
 
+/// The disparity of an estimate, which must not be null.
+[[nodiscard]] LabelingDisparity disparity_of(EstimatePtr estimate, const std::string& origin);
+
 /// The method that estimates disparity for labels where none is given.
 inline constexpr const char* kLabelingEstimator = "epi_c";
 
