@@ -151,7 +151,7 @@ void FileController::askForFolder() {
 }
 
 void FileController::readAgain() {
-  bench_.opener.open(bench_.opener.reopenable());
+  bench_.opener.reopen();
 }
 
 void FileController::askForResult() {

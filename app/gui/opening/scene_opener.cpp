@@ -144,6 +144,16 @@ void SceneOpener::setCacheFolder(const std::filesystem::path& folder) {
   scenes_.setCacheFolder(folder);
 }
 
+void SceneOpener::reopen() {
+  const QString input = reopenable();
+  if (input.isEmpty()) return;
+  load({.input = input,
+        .given = remembered_conventions(input),
+        .is_remembered = true,
+        .then = nullptr,
+        .is_added = hasFailed()});
+}
+
 void SceneOpener::reopenWith(const ParameterSet& given) {
   const QString input = reopenable();
   if (input.isEmpty()) return;

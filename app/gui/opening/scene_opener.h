@@ -33,6 +33,8 @@ class SceneOpener : public QObject {
   /// beside what is open already; what is open itself is shown. `then` is called after success. A
   /// project is not opened here: see `isProject`.
   void open(const QString& input, std::function<void()> then = nullptr);
+  /// Reads what is open, or what failed to open, again as it is on the disk by now.
+  void reopen();
   /// Reads what is open, or what failed to open, again as the user chose. The choice is remembered
   /// for that file if it could be read.
   void reopenWith(const ParameterSet& given);

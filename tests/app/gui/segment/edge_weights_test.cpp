@@ -40,7 +40,6 @@ class Weighted : public WindowFixture {
                                  Progress());
     open(file);
   }
-  void openWithout() { open(writeScene("objects", smallOptions()).toStdString()); }
   static bool isLeft(int x, int width) { return x < width / 2; }
 
   [[nodiscard]] const LiveLabeler& labeler() { return find<SegmentController>(window).labeler(); }
@@ -93,7 +92,7 @@ void EdgeWeightsTest::withoutAFile_edgesAreComputed() {
   QTRY_VERIFY_WITH_TIMEOUT(f.labeler().input()->edges, kPatience);
   std::filesystem::remove(std::filesystem::path(f.path("objects/edge_weights.h5").toStdString()));
 
-  f.openWithout();
+  f.trigger("file.read_again");
   QTRY_VERIFY_WITH_TIMEOUT(!f.labeler().input()->edges, kPatience);
 
   QVERIFY2(f.chipTip().contains("computed"), qPrintable(f.chipTip()));
