@@ -17,7 +17,7 @@ struct EpiGParameters {
   int labels = 64;
   DirectionCosts direction_costs = DirectionCosts::Sum;
   double truncation = 0.5;
-  double weight_power = 2;
+  double weight_power = 1;
   LineCheck line_check = {};
   EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };

@@ -38,6 +38,7 @@ EpiGParameters parameters_of_single_pixels() {
   p.labeling.smoothness = 0;
   p.labeling.settling = 0;
   p.line_check = {.chooses_sides = false, .is_on = false};
+  p.weight_power = 2;
   return p;
 }
 
