@@ -90,6 +90,7 @@ void Autosave::write() {
       [project, folder = workspace_->folder(),
        file = workspace_->project_file()](const Progress& progress) mutable {
         lower_thread_priority();
+        write_project(file, written_part(project));  // results may take long
         Kept kept;
         for (ProjectScene& scene : project.scenes) {
           for (ProjectResult& result : scene.results) {
@@ -99,7 +100,6 @@ void Autosave::write() {
             write_project(file, written_part(project));
           }
         }
-        write_project(file, written_part(project));
         return kept;
       },
       [this](const Outcome<Kept>& outcome) { finish(outcome); });

@@ -5,6 +5,7 @@
 #include "app/session/save/save_result.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/make_folder.h"
 
 #include <algorithm>
 #include <set>
@@ -31,12 +32,6 @@ fs::path unused_file(const fs::path& folder, const std::string& stem, const std:
     path = folder / (stem + "_" + std::to_string(number) + suffix);
   }
   return path;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(folder, "the folder cannot be created (" + error.message() + ")");
 }
 
 void copy_to(const fs::path& from, const fs::path& to) {
@@ -108,7 +103,7 @@ fs::path files_of_project(const fs::path& project) {
 
 fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,
                       const std::string& input, const Progress& progress) {
-  make_folder(folder);
+  io::make_folder(folder);
   const fs::path file = unused_file(folder, file_name_of(scene + "_" + result.name), ".h5");
   save_result(file, *result.estimate, input, progress);
   return file;
@@ -117,7 +112,7 @@ fs::path store_result(const fs::path& folder, const std::string& scene, const Pr
 Project store_project(const fs::path& path, Project project, const Progress& progress) {
   const fs::path folder = files_of_project(path);
   const std::set<fs::path> former = files_of_former(path, folder);
-  make_folder(folder);
+  io::make_folder(folder);
   double done = 0;
   for (ProjectScene& scene : project.scenes) {
     const double next = done + 1.0 / static_cast<double>(project.scenes.size());
