@@ -40,8 +40,8 @@ Views circle(GridShape grid) {
   Views views;
   for (int i = 0; i < steps; ++i) {
     const double angle = 2 * std::numbers::pi * i / steps;
-    const ViewIndex view{static_cast<int>(std::lround(v0 + v0 * std::sin(angle))),
-                         static_cast<int>(std::lround(u0 + u0 * std::cos(angle)))};
+    const ViewIndex view{static_cast<int>(std::lround(v0 - v0 * std::cos(angle))),
+                         static_cast<int>(std::lround(u0 + u0 * std::sin(angle)))};
     if (views.empty() || !(views.back() == view)) views.push_back(view);
   }
   while (views.size() > 1 && views.back() == views.front()) views.pop_back();
@@ -51,6 +51,7 @@ Views circle(GridShape grid) {
 }  // namespace
 
 Views camera_path(GridShape grid, CameraPath path) {
+  if (grid.count() <= 0) return {};
   if (path == CameraPath::Snake) return snake(grid);
   const bool is_line = grid.v == 1 || grid.u == 1;
   return path == CameraPath::Swing || is_line ? swing(grid) : circle(grid);

@@ -16,7 +16,8 @@ enum class CameraPath {
 };
 
 /// The views that the camera stands at, one after the other; the first follows the last. No view
-/// follows itself, unless there is but one. A circle in a grid of one row or column is a swing.
+/// follows itself, unless there is but one; none in an empty
+/// grid. A circle in a grid of one row or column is a swing.
 [[nodiscard]] std::vector<ViewIndex> camera_path(GridShape grid, CameraPath path);
 
 /// A value for each of `count` pictures that goes from `from` to `to` and back, slowly at the ends.

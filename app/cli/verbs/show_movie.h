@@ -7,27 +7,21 @@
 
 #include <functional>
 #include <optional>
-#include <string>
 
 namespace episcope::cli {
 
-/// What changes in a movie that `show` writes.
-enum class MovieKind { Parallax, Refocus, Flip };
-
 /// The options of a movie.
 struct MovieRequest {
-  std::optional<MovieKind> kind;  ///< Empty: a parallax if the output is named like a movie.
-  render::CameraPath path = render::CameraPath::Circle;
-  double seconds = 3;
-  int width_px = 0;               ///< 0 = as many as the picture has.
+  std::optional<render::MovieKind> kind;  ///< Empty: a parallax if the output is named like a movie.
   std::optional<Interval> focus;  ///< Empty = the disparities known of the light field.
+  render::MovieChoice choice;             ///< The rest.
 };
 
 void declare_movie_options(Arguments& parser, MovieRequest& request);
 
-/// The movie of a map that was loaded; `picture` draws it as it stands in a source. Throws
-/// InvalidInput if the views or disparities that it needs are not known.
-[[nodiscard]] Movie make_movie(const MovieRequest& request, const LoadedMap& loaded,
-                               const std::function<RgbaImage(const MapSource&)>& picture);
+/// The movie of a map that was loaded, which outlives it. Throws InvalidInput if the views or
+/// disparities that it needs are not known.
+[[nodiscard]] Movie movie_of(const MovieRequest& request, const LoadedMap& loaded,
+                             std::function<RgbaImage(const MapSource&)> draw);
 
 }  // namespace episcope::cli

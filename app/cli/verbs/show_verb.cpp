@@ -20,6 +20,7 @@
 namespace episcope::cli {
 namespace {
 
+using render::MovieKind;
 using render::Quantity;
 
 constexpr int kMost = std::numeric_limits<int>::max();
@@ -183,10 +184,10 @@ std::string write_picture(const Request& request, const LoadedMap& loaded, Job& 
 }
 
 std::string write_movie_of(const Request& request, const LoadedMap& loaded, Job& job) {
-  const Movie movie = make_movie(request.movie, loaded, [&](const MapSource& source) {
+  const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
     return picture_of(request, loaded, source);
   });
-  write_movie(request.output, movie, request.movie.width_px, job.progress());
+  write_movie(request.output, movie, request.movie.choice.width_px, job.progress());
   const std::string what = request.movie.kind == MovieKind::Flip ? "flip" : request.what.id;
   return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
 }

@@ -8,44 +8,91 @@
 #include <cmath>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace episcope {
 namespace {
 
+using render::MovieChoice;
+using render::MovieKind;
+using render::Quantity;
+
 constexpr double kRefocusRate = 12;  // Pictures per second.
+
+GridShape grid_of(const MapSource& source) {
+  if (source.light_field) return source.light_field->grid();
+  const ViewStack<float>& maps = source.estimate->field.disparity;
+  return {maps.first().v + maps.grid().v, maps.first().u + maps.grid().u};
+}
+
+bool has_map(const MovieSubject& subject, ViewIndex view) {
+  MapSource source = subject.source;
+  source.view = view;
+  if (source.quantity == Quantity::View) return true;
+  if (!reason_against(source).empty()) return false;
+  if (!source.evaluation || view == subject.source.view) return true;
+  return subject.scene && can_judge(*source.estimate, *subject.scene, view);
+}
+
+MapSource in_view(const MovieSubject& subject, ViewIndex view) {
+  MapSource source = subject.source;
+  if (source.evaluation && !(source.view == view)) {
+    source.evaluation =
+        std::make_shared<const Evaluation>(judge(*source.estimate, *subject.scene, {}, view));
+  }
+  source.view = view;
+  return source;
+}
+
+Movie parallax(const MovieChoice& choice, const MovieSubject& subject) {
+  std::vector<ViewIndex> views = render::camera_path(grid_of(subject.source), choice.path);
+  std::erase_if(views, [&](ViewIndex view) { return !has_map(subject, view); });
+  if (views.empty()) {
+    throw InvalidInput(
+        "none of the views along the path has such a picture; a movie needs a result of all views");
+  }
+  const auto count = static_cast<int>(views.size());
+  return {count, count / choice.seconds, [views = std::move(views), subject](int i) {
+            return subject.draw(in_view(subject, views[i]));
+          }};
+}
+
+Movie refocused(const MovieChoice& choice, const MovieSubject& subject) {
+  if (!subject.source.light_field || subject.source.quantity != Quantity::View) {
+    throw InvalidInput("only the view of a light field can be refocused, not a map");
+  }
+  const int count = std::max(2, static_cast<int>(std::lround(choice.seconds * kRefocusRate)));
+  std::vector<double> focus =
+      render::there_and_back(choice.focus_px.min, choice.focus_px.max, count);
+  return {count, count / choice.seconds, [focus = std::move(focus), subject](int i) {
+            const MapSource& source = subject.source;
+            const Image<float> samples =
+                render::refocus(*source.light_field, source.view, focus[i]);
+            return render::shade_samples(samples.view(), subject.tone);
+          }};
+}
+
+Movie flipped(const MovieChoice& choice, const MovieSubject& subject) {
+  if (!subject.other) throw InvalidInput("a flip needs two results; choose a second one");
+  return {2, 2 / choice.seconds,
+          [subject](int i) { return subject.draw(i == 0 ? subject.source : *subject.other); }};
+}
 
 }  // namespace
 
-Movie parallax_movie(GridShape grid, render::CameraPath path, double seconds,
-                     const std::function<bool(ViewIndex)>& has_picture,
-                     std::function<RgbaImage(ViewIndex)> picture) {
-  std::vector<ViewIndex> views = render::camera_path(grid, path);
-  std::erase_if(views, [&](ViewIndex view) { return !has_picture(view); });
-  if (views.empty())
-    throw InvalidInput(
-        "none of the views along the path has such a picture; a movie needs a result of all views");
-  const auto count = static_cast<int>(views.size());
-  return {count, count / seconds, [views = std::move(views), picture = std::move(picture)](int i) {
-            return picture(views[i]);
-          }};
+Movie make_movie(const MovieChoice& choice, const MovieSubject& subject) {
+  switch (choice.kind) {
+    case MovieKind::Parallax:
+      return parallax(choice, subject);
+    case MovieKind::Refocus:
+      return refocused(choice, subject);
+    case MovieKind::Flip:
+      break;
+  }
+  return flipped(choice, subject);
 }
 
-Movie refocus_movie(LightFieldPtr light_field, ViewIndex view, Interval range_px, double seconds) {
-  const int count = std::max(2, static_cast<int>(std::lround(seconds * kRefocusRate)));
-  std::vector<double> focus = render::there_and_back(range_px.min, range_px.max, count);
-  return {count, count / seconds,
-          [light_field = std::move(light_field), view, focus = std::move(focus)](int i) {
-            return render::shade_samples(render::refocus(*light_field, view, focus[i]).view());
-          }};
-}
-
-Movie flip_movie(RgbaImage a, RgbaImage b, double seconds) {
-  const auto first = std::make_shared<const RgbaImage>(std::move(a));
-  const auto second = std::make_shared<const RgbaImage>(std::move(b));
-  return {2, 2 / seconds, [first, second](int i) { return RgbaImage(i == 0 ? *first : *second); }};
-}
-
-void write_movie(const std::filesystem::path& path, const Movie& movie, int width_shown,
+void write_movie(const std::filesystem::path& path, const Movie& movie, int width_px,
                  const Progress& progress) {
   std::unique_ptr<io::MovieFile> file;
   for (int i = 0; i < movie.count; ++i) {
@@ -53,7 +100,7 @@ void write_movie(const std::filesystem::path& path, const Movie& movie, int widt
     const RgbaImage picture = movie.picture(i);
     if (!file) {
       file = std::make_unique<io::MovieFile>(
-          path, io::MovieShape{picture.height(), picture.width(), movie.rate, width_shown});
+          path, io::MovieShape{picture.height(), picture.width(), movie.rate, width_px});
     }
     file->add(picture.view());
     progress.report(static_cast<double>(i + 1) / movie.count);

@@ -2,14 +2,25 @@
 #pragma once
 
 #include "app/session/picture/picture.h"
+#include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
-#include "engine/render/camera_path.h"
+#include "engine/render/movie_choice.h"
 
 #include <filesystem>
 #include <functional>
-#include <vector>
+#include <optional>
 
 namespace episcope {
+
+/// What a movie is made from.
+struct MovieSubject {
+  MapSource source;                  ///< The map, as it stands in the view that is shown.
+  std::optional<MapSource> other{};  ///< Of a flip.
+  const Scene* scene = nullptr;      ///< Judges errors in other views; outlives the movie.
+  /// Draws a map, or the view of the light field; for any thread.
+  std::function<RgbaImage(const MapSource&)> draw;
+  const render::ToneTable* tone = nullptr;  ///< Of refocused views; outlives the movie.
+};
 
 /// Pictures of one size, made when they are asked for.
 struct Movie {
@@ -18,22 +29,12 @@ struct Movie {
   std::function<RgbaImage(int)> picture;
 };
 
-/// What each view looks like along a path; views without a picture, of which `has_picture` is
-/// false, are passed over. `seconds`: once along the path. Throws InvalidInput if no view has one.
-[[nodiscard]] Movie parallax_movie(GridShape grid, render::CameraPath path, double seconds,
-                                   const std::function<bool(ViewIndex)>& has_picture,
-                                   std::function<RgbaImage(ViewIndex)> picture);
+/// A parallax passes over views that lack the map. Throws InvalidInput if all along the path do, if
+/// no view is refocused or if `other` is missing.
+[[nodiscard]] Movie make_movie(const render::MovieChoice& choice, const MovieSubject& subject);
 
-/// The view refocused from one end of a range of disparities to the other and back.
-[[nodiscard]] Movie refocus_movie(LightFieldPtr light_field, ViewIndex view, Interval range_px,
-                                  double seconds);
-
-/// Two pictures in turns.
-[[nodiscard]] Movie flip_movie(RgbaImage a, RgbaImage b, double seconds);
-
-/// Makes the pictures and writes them (MovieFile). `width_shown`: px, 0 = as they are. Throws what
-/// MovieFile does, Cancelled.
-void write_movie(const std::filesystem::path& path, const Movie& movie, int width_shown,
+/// Makes the pictures and writes them. Throws what io::MovieFile does, Cancelled.
+void write_movie(const std::filesystem::path& path, const Movie& movie, int width_px,
                  const Progress& progress);
 
 }  // namespace episcope
