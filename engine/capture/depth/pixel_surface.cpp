@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/depth/pixel_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::capture {
+namespace {
+
+/// Visible areas below this share of a pixel are rounding.
+constexpr double kNoArea = 1e-10;
+/// Sums of areas of fragments, which are floats, differ from 1 by less.
+constexpr float kAreaRounding = 2e-5F;
+
+struct Box {
+  Corner low;
+  Corner high;
+};
+
+Box box_of(const Polygon& polygon) {
+  Box box{polygon.corners[0], polygon.corners[0]};
+  for (int i = 1; i < polygon.count; ++i) {
+    const Corner& c = polygon.corners[i];
+    box.low = {std::min(box.low.x, c.x), std::min(box.low.y, c.y)};
+    box.high = {std::max(box.high.x, c.x), std::max(box.high.y, c.y)};
+  }
+  return box;
+}
+
+bool overlap(const Box& a, const Box& b) {
+  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
+}
+
+/// A triangle in the pixel, with its range of 1/Z there.
+struct Part {
+  Polygon polygon;
+  Box box;
+  double near = 0;
+  double far = 0;
+};
+
+Part part_of(const ScreenTriangle& triangle) {
+  Part part;
+  part.polygon = clipped_to_pixel(triangle.polygon);
+  if (part.polygon.count == 0) return part;
+  part.box = box_of(part.polygon);
+  part.near = part.far = triangle.plane.at(part.polygon.corners[0]);
+  for (int i = 1; i < part.polygon.count; ++i) {
+    const double w = triangle.plane.at(part.polygon.corners[i]);
+    part.near = std::max(part.near, w);
+    part.far = std::min(part.far, w);
+  }
+  return part;
+}
+
+/// Where `other` lies in front of a triangle with `plane`; `is_earlier` decides for equal depth.
+Polygon region_before(const Part& other, const InversePlane& of_other, const InversePlane& plane,
+                      bool is_earlier) {
+  const HalfPlane nearer{of_other.by_x - plane.by_x, of_other.by_y - plane.by_y,
+                         of_other.at_zero - plane.at_zero};
+  const double reach = std::abs(nearer.a) + std::abs(nearer.b) + std::abs(nearer.c);
+  if (reach <= 1e-13 * std::abs(plane.at_zero)) return is_earlier ? other.polygon : Polygon{};
+  return clipped(other.polygon, nearer);
+}
+
+}  // namespace
+
+std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles) {
+  std::vector<Part> parts;
+  parts.reserve(triangles.size());
+  for (const ScreenTriangle& triangle : triangles) parts.push_back(part_of(triangle));
+  std::vector<VisiblePart> visible;
+  std::vector<Polygon> pieces;
+  std::vector<Polygon> next;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (parts[i].polygon.count == 0) continue;
+    pieces.assign(1, parts[i].polygon);
+    for (std::size_t j = 0; j < parts.size() && !pieces.empty(); ++j) {
+      if (j == i || parts[j].polygon.count == 0 || parts[j].near < parts[i].far) continue;
+      if (!overlap(parts[i].box, parts[j].box)) continue;
+      const Polygon hole =
+          region_before(parts[j], triangles[j].plane, triangles[i].plane, j < i);
+      if (std::abs(twice_area(hole)) <= kNoArea) continue;
+      next.clear();
+      for (const Polygon& piece : pieces) subtract(piece, hole, next);
+      pieces.swap(next);
+    }
+    VisiblePart part{static_cast<int>(i), 0, {}};
+    for (const Polygon& piece : pieces) {
+      const double area = std::abs(twice_area(piece)) / 2;
+      const Corner middle = centroid(piece);
+      part.area += area;
+      part.centroid.x += area * middle.x;
+      part.centroid.y += area * middle.y;
+    }
+    if (part.area <= kNoArea) continue;
+    part.centroid = {part.centroid.x / part.area, part.centroid.y / part.area};
+    visible.push_back(part);
+  }
+  return visible;
+}
+
+std::size_t PixelResolver::order(std::span<Fragment> fragments) {
+  std::ranges::sort(fragments, [](const Fragment& a, const Fragment& b) {
+    return a.near != b.near ? a.near > b.near : a.triangle < b.triangle;
+  });
+  float sum = 0;
+  float far = 2e38F;
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    sum += fragments[i].area;
+    far = std::min(far, fragments[i].far);
+    if (sum > 1 + kAreaRounding) return 0;
+    if (sum < 1 - kAreaRounding) continue;
+    const bool is_last = i + 1 == fragments.size();
+    return is_last || fragments[i + 1].near < far ? i + 1 : 0;
+  }
+  return 0;
+}
+
+bool PixelResolver::spreads(std::span<const Fragment> fragments) const {
+  float near = 0;
+  float far = 2e38F;
+  for (const Fragment& f : fragments) {
+    near = std::max(near, f.near);
+    far = std::min(far, f.far);
+  }
+  return near - far >= jump_;
+}
+
+PixelSurface PixelResolver::exact(std::span<const Fragment> fragments) const {
+  const std::vector<VisiblePart> parts = visible_parts(triangles_);
+  PixelSurface surface;
+  if (parts.empty()) return surface;
+  const VisiblePart* best = parts.data();
+  double covered = 0;
+  for (const VisiblePart& part : parts) {
+    covered += part.area;
+    const bool is_first = fragments[part.index].triangle < fragments[best->index].triangle;
+    if (part.area > best->area || (part.area == best->area && is_first)) best = &part;
+  }
+  const ScreenTriangle& winner = triangles_[best->index];
+  surface.triangle = fragments[best->index].triangle;
+  surface.covered = static_cast<float>(covered);
+  surface.is_front = winner.is_front;
+  surface.plane = winner.plane;
+  for (const VisiblePart& part : parts) {
+    const double own = triangles_[part.index].plane.at(part.centroid);
+    if (std::abs(own - winner.plane.at(part.centroid)) >= jump_) surface.is_edge = true;
+    if (triangles_[part.index].is_front != winner.is_front) surface.is_edge = true;
+  }
+  return surface;
+}
+
+}  // namespace episcope::capture
