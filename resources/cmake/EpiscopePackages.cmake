@@ -4,6 +4,15 @@ find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(ZLIB REQUIRED)
 find_package(Matio REQUIRED)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs ml calib3d features2d)
+# For ChArUco boards; the build does without.
+find_library(EPISCOPE_ARUCO_LIBRARY opencv_aruco)
+find_path(EPISCOPE_ARUCO_INCLUDE_DIR opencv2/aruco/charuco.hpp PATH_SUFFIXES opencv4)
+if(EPISCOPE_ARUCO_LIBRARY AND EPISCOPE_ARUCO_INCLUDE_DIR AND NOT TARGET opencv_aruco)
+  add_library(opencv_aruco UNKNOWN IMPORTED)
+  set_target_properties(opencv_aruco PROPERTIES IMPORTED_LOCATION "${EPISCOPE_ARUCO_LIBRARY}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${EPISCOPE_ARUCO_INCLUDE_DIR}"
+                        INTERFACE_LINK_LIBRARIES "opencv_calib3d;opencv_imgproc;opencv_core")
+endif()
 find_package(Eigen3 REQUIRED NO_MODULE)
 find_package(assimp REQUIRED)
 find_package(PNG REQUIRED)
