@@ -113,6 +113,12 @@ PlanePoint RectifyingMap::rectified(ViewIndex view, const PlanePoint& photograph
           f * y + camera_.center_y - off.y + shift_ * (view.v - middle.v) - crop_.y};
 }
 
+PlanePoint Rectified::center_pixel(const LensCamera& camera, const PlanePoint& photograph) const {
+  const GridShape grid = light_field->grid();
+  const RectifyingMap map(alignment, camera, grid, crop, light_field->info().camera.shift);
+  return map.rectified(grid.center(), photograph);
+}
+
 Rectified rectify(const LightField& photographs, const LensCamera& camera,
                   const RectifyOptions& options, const Progress& progress) {
   require_fitting(photographs, camera);
@@ -152,6 +158,7 @@ Rectified rectify(const LightField& photographs, const LensCamera& camera,
   info.camera.shift = shift;
   info.camera.pinhole =
       Pinhole{result.alignment.focal_px, camera.center_x - crop.x, camera.center_y - crop.y};
+  result.crop = crop;
   result.light_field = std::make_shared<LightField>(std::move(samples), std::move(info));
   result.after = row_errors(match_views(*result.light_field, progress.part(0.7, 1)));
   return result;

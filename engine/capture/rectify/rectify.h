@@ -28,6 +28,11 @@ struct Rectified {
   RowErrors before;           ///< Of the photographs,
   RowErrors after;            ///< measured again in the rectified views.
   std::size_t points = 0;     ///< That were followed.
+  PlanePoint crop;            ///< Pixel of the aligned plane that became the first.
+
+  /// The pixel of the rectified centre view that shows a place of its photograph.
+  [[nodiscard]] PlanePoint center_pixel(const LensCamera& camera,
+                                        const PlanePoint& photograph) const;
 };
 
 /// Rectifies photographs of a camera that was moved on a grid: without lens distortion, rows and
