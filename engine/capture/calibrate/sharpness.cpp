@@ -17,19 +17,19 @@ double sharpness(ImageView<const std::uint8_t> grey, std::span<const std::array<
     const int y1 = std::min(static_cast<int>(py) + reach, grey.height - 1);
     int low = 255;
     int high = 0;
-    int steepest = 0;
+    int across = 0;
+    int down = 0;
     for (int y = y0; y < y1; ++y) {
       for (int x = x0; x < x1; ++x) {
         const int here = grey.at(y, x);
         low = std::min(low, here);
         high = std::max(high, here);
-        const int change = std::max(std::abs(here - grey.at(y, x - 1)),
-                                    std::abs(here - grey.at(y - 1, x)));
-        steepest = std::max(steepest, change);
+        across = std::max(across, std::abs(here - grey.at(y, x - 1)));
+        down = std::max(down, std::abs(here - grey.at(y - 1, x)));
       }
     }
     if (high - low < 8) continue;
-    sum += static_cast<double>(steepest) / (high - low);
+    sum += static_cast<double>(std::min(across, down)) / (high - low);
     ++count;
   }
   return count > 0 ? sum / count : 0;

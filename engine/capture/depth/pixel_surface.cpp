@@ -34,7 +34,7 @@ bool overlap(const Box& a, const Box& b) {
 /// A triangle in the pixel, with its range of 1/Z there.
 struct Part {
   Polygon polygon;
-  Box box;
+  Box box{};
   double near = 0;
   double far = 0;
 };
@@ -78,6 +78,8 @@ std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles
     for (std::size_t j = 0; j < parts.size() && !pieces.empty(); ++j) {
       if (j == i || parts[j].polygon.count == 0 || parts[j].near < parts[i].far) continue;
       if (!overlap(parts[i].box, parts[j].box)) continue;
+      if (edge_parts(parts[i].polygon, parts[j].polygon)) continue;
+      if (edge_parts(parts[j].polygon, parts[i].polygon)) continue;
       const Polygon hole =
           region_before(parts[j], triangles[j].plane, triangles[i].plane, j < i);
       if (std::abs(twice_area(hole)) <= kNoArea) continue;
@@ -85,7 +87,7 @@ std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles
       for (const Polygon& piece : pieces) subtract(piece, hole, next);
       pieces.swap(next);
     }
-    VisiblePart part{static_cast<int>(i), 0, {}};
+    VisiblePart part{static_cast<int>(i), 0, {0, 0}};
     for (const Polygon& piece : pieces) {
       const double area = std::abs(twice_area(piece)) / 2;
       const Corner middle = centroid(piece);

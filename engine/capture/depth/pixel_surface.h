@@ -23,7 +23,7 @@ struct Fragment {
 struct VisiblePart {
   int index = 0;    ///< Of the triangle in the list.
   double area = 0;  ///< That is seen, in px².
-  Corner centroid;  ///< Of the seen part.
+  Corner centroid{0, 0};  ///< Of the seen part.
 };
 
 /// What is seen of each of the triangles around a pixel: each minus all that lies in front of it,

@@ -25,7 +25,7 @@ double twice_area(const Polygon& polygon) {
 
 Corner centroid(const Polygon& polygon) {
   double weight = 0;
-  Corner sum;
+  Corner sum{0, 0};
   const Corner& o = polygon.corners[0];
   for (int i = 2; i < polygon.count; ++i) {
     const Corner& p = polygon.corners[i - 1];
@@ -64,6 +64,24 @@ Polygon clipped_to_pixel(const Polygon& polygon) {
   part = clipped(part, {-1, 0, 0.5});
   part = clipped(part, {0, 1, 0.5});
   return clipped(part, {0, -1, 0.5});
+}
+
+bool edge_parts(const Polygon& a, const Polygon& b) {
+  const double turn = twice_area(a) >= 0 ? 1 : -1;
+  Corner p = a.corners[a.count - 1];
+  for (int i = 0; i < a.count; ++i) {
+    const Corner& q = a.corners[i];
+    const double nx = turn * (p.y - q.y);
+    const double ny = turn * (q.x - p.x);
+    const double rounding = 1e-12 * (std::abs(nx) + std::abs(ny));
+    bool is_outside = true;
+    for (int k = 0; k < b.count && is_outside; ++k) {
+      is_outside = nx * (b.corners[k].x - p.x) + ny * (b.corners[k].y - p.y) <= rounding;
+    }
+    if (is_outside) return true;
+    p = q;
+  }
+  return false;
 }
 
 void subtract(const Polygon& polygon, const Polygon& hole, std::vector<Polygon>& pieces) {

@@ -8,8 +8,8 @@ namespace episcope::capture {
 
 /// A point of the image plane, in px.
 struct Corner {
-  double x = 0;
-  double y = 0;
+  double x;
+  double y;
 };
 
 /// The half-plane a·x + b·y + c ≥ 0.
@@ -23,7 +23,7 @@ struct HalfPlane {
 /// A convex polygon, of either orientation, without memory of its own.
 struct Polygon {
   static constexpr int kMost = 24;  ///< Corners: a triangle cut by a square has at most 7.
-  std::array<Corner, kMost> corners;
+  std::array<Corner, kMost> corners;  ///< The first `count`; others are not initialised.
   int count = 0;
 
   void add(const Corner& corner) {
@@ -39,6 +39,9 @@ struct Polygon {
 [[nodiscard]] Polygon clipped(const Polygon& polygon, const HalfPlane& half);
 /// The part in the square of a pixel around (0, 0).
 [[nodiscard]] Polygon clipped_to_pixel(const Polygon& polygon);
+
+/// Whether an edge of `a` keeps `b` outside, up to rounding; then they do not overlap.
+[[nodiscard]] bool edge_parts(const Polygon& a, const Polygon& b);
 
 /// Appends to `pieces` the convex parts of `polygon` outside of the convex `hole`.
 void subtract(const Polygon& polygon, const Polygon& hole, std::vector<Polygon>& pieces);

@@ -14,7 +14,7 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 constexpr double kFlat = 0.01;
-constexpr int kMostSubsets = 200;
+constexpr int kMostSubsets = 60;
 
 Eigen::Vector3d place_of(const PointPair& pair) {
   return {pair.point.x, pair.point.y, pair.point.z};

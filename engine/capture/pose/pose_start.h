@@ -24,7 +24,7 @@ enum class PointLayout { Line, Plane, Space };
                                                   const Pinhole& pinhole);
 
 /// First poses of all pairs and of subsets of them, so that wrong picks do not spoil all: at most
-/// 200 sets of 4, drawn by a fixed seed.
+/// 60 sets of 4, drawn by a fixed seed.
 [[nodiscard]] std::vector<RigidPose> first_poses(std::span<const PointPair> pairs,
                                                  const Pinhole& pinhole);
 
