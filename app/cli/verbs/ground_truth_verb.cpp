@@ -72,8 +72,8 @@ GroundTruth truth_of(const Request& request, Scene& scene, const Progress& progr
 LightFieldPtr with_step(LightFieldPtr field, double step) {
   LightFieldInfo info = field->info();
   info.camera.baseline = step;
-  auto samples = std::visit(
-      [](const auto& stack) -> LightField::Samples { return stack.clone(); }, field->samples());
+  auto samples = std::visit([](const auto& stack) -> LightField::Samples { return stack.clone(); },
+                            field->samples());
   return std::make_shared<LightField>(std::move(samples), std::move(info), field->valid().clone());
 }
 
@@ -97,10 +97,11 @@ void print(const Request& request, const Scene& scene) {
     json["output"] = request.output;
     return print_json(json);
   }
-  std::cout << fmt::format("{}: depth of {} views from {} mesh{}; meshes cover {:.1f} % of the "
-                           "pixels, {:.1f} % have depth\n",
-                           request.output, scene.light_field->grid().count(), request.poses.size(),
-                           request.poses.size() == 1 ? "" : "es", seen_percent, valid_percent);
+  std::cout << fmt::format(
+      "{}: depth of {} views from {} mesh{}; meshes cover {:.1f} % of the "
+      "pixels, {:.1f} % have depth\n",
+      request.output, scene.light_field->grid().count(), request.poses.size(),
+      request.poses.size() == 1 ? "" : "es", seen_percent, valid_percent);
 }
 
 }  // namespace

@@ -28,11 +28,11 @@ struct Request {
 };
 
 bool parse(const VerbArguments& arguments, Request& request) {
-  Arguments parser("pose",
-                   {"Finds where a mesh lies before the camera, from points of the centre view and\n"
-                    "the same points of the mesh: at least 4 pairs, best 10. Wrong picks are named.\n"
-                    "A line of the pairs is name,x_px,y_px,X,Y,Z.",
-                    "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
+  Arguments parser(
+      "pose", {"Finds where a mesh lies before the camera, from points of the centre view and\n"
+               "the same points of the mesh: at least 4 pairs, best 10. Wrong picks are named.\n"
+               "A line of the pairs is name,x_px,y_px,X,Y,Z.",
+               "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
   parser.positional("INPUT", request.input, "A light field, as rectify writes it");
   parser.required_option("--mesh", request.mesh, text_value("MESH"), "Mesh as PLY, OBJ or STL");
   parser.required_option("--pairs", request.pairs, text_value("PAIRS.csv"), "The pairs");
@@ -55,8 +55,7 @@ Json answer(const capture::PoseStory& story, const std::string& output) {
                                   {"outlier", solved.pairs[i].is_outlier}}));
   }
   json["pairs"] = std::move(pairs);
-  json["rotation"] =
-      std::vector<double>(solved.pose.rotation.begin(), solved.pose.rotation.end());
+  json["rotation"] = std::vector<double>(solved.pose.rotation.begin(), solved.pose.rotation.end());
   json["translation"] =
       std::vector<double>(solved.pose.translation.begin(), solved.pose.translation.end());
   json["output"] = output;
@@ -70,8 +69,9 @@ void print(const capture::PoseStory& story, const std::string& output) {
                              solved.pairs[i].residual_px,
                              solved.pairs[i].is_outlier ? ", probably a wrong pick; left out" : "");
   }
-  std::cout << fmt::format("{}: reprojection error {:.3f} px, depth error {:.3g} (unit of the mesh)",
-                           output, solved.reprojection_error_px, solved.delta_tz);
+  std::cout << fmt::format(
+      "{}: reprojection error {:.3f} px, depth error {:.3g} (unit of the mesh)", output,
+      solved.reprojection_error_px, solved.delta_tz);
   if (std::isfinite(solved.delta_tz_px)) {
     std::cout << fmt::format(", {:.4f} px of disparity", solved.delta_tz_px);
   }

@@ -39,7 +39,8 @@ std::string list_of_scenes() {
     list += "  " + scene.id + ": " + scene.summary + "\n";
   }
   list +=
-      "  gantry: what a capture begins with, written to a folder OUT: photographs of a grid and of\n"
+      "  gantry: what a capture begins with, written to a folder OUT: photographs of a grid and "
+      "of\n"
       "    a pattern, a scanned mesh, picked points, and the commands that lead on\n";
   return list;
 }

@@ -14,9 +14,9 @@ namespace episcope::capture {
 namespace {
 
 constexpr std::size_t kLeastPhotographs = 3;
-constexpr double kBlurred = 0.5;   // of the median sharpness
-constexpr double kMisfit = 3;      // median errors
-constexpr double kGoodFit = 0.3;   // px; better photographs are never left out
+constexpr double kBlurred = 0.5;  // of the median sharpness
+constexpr double kMisfit = 3;     // median errors
+constexpr double kGoodFit = 0.3;  // px; better photographs are never left out
 constexpr int kSharpnessReach = 5;
 
 double median(std::vector<double> values) {
@@ -44,14 +44,14 @@ void require_enough(const std::vector<PatternPhotograph>& photographs) {
   for (const PatternPhotograph& each : photographs) {
     if (!each.is_used()) problems += fmt::format("; {}: {}", each.name, each.problem);
   }
-  throw InvalidInput(fmt::format("a calibration needs at least {} photographs that show the whole "
-                                 "pattern sharply, and there are {}{}",
-                                 kLeastPhotographs, used, problems));
+  throw InvalidInput(
+      fmt::format("a calibration needs at least {} photographs that show the whole "
+                  "pattern sharply, and there are {}{}",
+                  kLeastPhotographs, used, problems));
 }
 
 void leave_out_blurred(std::vector<PatternPhotograph>& photographs) {
-  const double usual =
-      median_of_used(photographs, [](const auto& each) { return each.sharpness; });
+  const double usual = median_of_used(photographs, [](const auto& each) { return each.sharpness; });
   for (PatternPhotograph& each : photographs) {
     if (!each.is_used() || each.sharpness >= kBlurred * usual) continue;
     each.problem = fmt::format("blurred: its edges are {:.1f} times as wide as usual",
@@ -105,8 +105,8 @@ bool leave_out_misfit(std::vector<PatternPhotograph>& photographs) {
     if (each.is_used() && (worst == nullptr || each.rms > worst->rms)) worst = &each;
   }
   if (worst->rms <= std::max(kGoodFit, kMisfit * usual)) return false;
-  worst->problem = fmt::format("does not fit: error {:.2f} px, of the others {:.2f} px", worst->rms,
-                               usual);
+  worst->problem =
+      fmt::format("does not fit: error {:.2f} px, of the others {:.2f} px", worst->rms, usual);
   return true;
 }
 
@@ -158,8 +158,8 @@ Calibration calibrate(const std::vector<std::filesystem::path>& files, const Pat
     PatternPhotograph photograph;
     photograph.name = files[i].string();
     if (grey.rows != height || grey.cols != width) {
-      photograph.problem = fmt::format("{}×{} px, but the first has {}×{}", grey.cols, grey.rows,
-                                       width, height);
+      photograph.problem =
+          fmt::format("{}×{} px, but the first has {}×{}", grey.cols, grey.rows, width, height);
     } else {
       const ImageView<const std::uint8_t> view{grey.data, height, width, 1,
                                                static_cast<std::ptrdiff_t>(grey.step[0])};

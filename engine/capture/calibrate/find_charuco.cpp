@@ -9,16 +9,16 @@ namespace episcope::capture {
 namespace {
 
 constexpr cv::aruco::PREDEFINED_DICTIONARY_NAME kDictionaries[] = {
-    cv::aruco::DICT_4X4_50,   cv::aruco::DICT_4X4_250, cv::aruco::DICT_4X4_1000,
+    cv::aruco::DICT_4X4_50,   cv::aruco::DICT_4X4_250,  cv::aruco::DICT_4X4_1000,
     cv::aruco::DICT_5X5_250,  cv::aruco::DICT_5X5_1000, cv::aruco::DICT_6X6_250,
     cv::aruco::DICT_6X6_1000, cv::aruco::DICT_7X7_250};
 constexpr int kLeastMarkers = 4;
 
 cv::Ptr<cv::aruco::CharucoBoard> board_of(const Pattern& pattern, int dictionary) {
-  return cv::aruco::CharucoBoard::create(
-      pattern.columns + 1, pattern.rows + 1, static_cast<float>(pattern.square),
-      static_cast<float>(pattern.square * kMarkerShare),
-      cv::aruco::getPredefinedDictionary(dictionary));
+  return cv::aruco::CharucoBoard::create(pattern.columns + 1, pattern.rows + 1,
+                                         static_cast<float>(pattern.square),
+                                         static_cast<float>(pattern.square * kMarkerShare),
+                                         cv::aruco::getPredefinedDictionary(dictionary));
 }
 
 cv::Mat matrix_of(ImageView<const std::uint8_t> grey) {

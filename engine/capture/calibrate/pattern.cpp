@@ -47,8 +47,9 @@ FoundPattern find_pattern(ImageView<const std::uint8_t> grey, const Pattern& pat
   const cv::Size size(pattern.columns, pattern.rows);
   const cv::Mat picture = matrix_of(grey);
   std::vector<cv::Point2f> pixels;
-  const bool is_found = pattern.kind == PatternKind::Circles ? find_circles(picture, size, pixels)
-                                                             : find_chessboard(picture, size, pixels);
+  const bool is_found = pattern.kind == PatternKind::Circles
+                            ? find_circles(picture, size, pixels)
+                            : find_chessboard(picture, size, pixels);
   FoundPattern found;
   if (!is_found) {
     found.problem = "the pattern was not found; it may be cut off, blurred or of another size";

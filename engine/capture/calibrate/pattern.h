@@ -19,7 +19,7 @@ enum class PatternKind { Chessboard, Charuco, Circles };
 /// A calibration pattern, flat.
 struct Pattern {
   PatternKind kind = PatternKind::Chessboard;
-  int columns = 9;    ///< Inner corners of a chessboard or ChArUco board, circles of a grid.
+  int columns = 9;  ///< Inner corners of a chessboard or ChArUco board, circles of a grid.
   int rows = 6;
   double square = 1;  ///< Distance of neighbouring points, in any unit.
 };
@@ -35,6 +35,5 @@ struct FoundPattern {
 /// all points must be seen, of ChArUco boards a quarter. Throws Unavailable for ChArUco in a build
 /// without ArUco.
 [[nodiscard]] FoundPattern find_pattern(ImageView<const std::uint8_t> grey, const Pattern& pattern);
-
 
 }  // namespace episcope::capture

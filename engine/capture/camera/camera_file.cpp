@@ -63,8 +63,8 @@ LensCamera parse(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 void write_camera(const std::filesystem::path& path, const LensCamera& camera) {
-  cv::FileStorage file(".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY |
-                                   cv::FileStorage::FORMAT_YAML);
+  cv::FileStorage file(
+      ".yml", cv::FileStorage::WRITE | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
   const cv::Mat matrix = (cv::Mat_<double>(3, 3) << camera.focal_x, 0, camera.center_x, 0,
                           camera.focal_y, camera.center_y, 0, 0, 1);
   const cv::Mat distortion(5, 1, CV_64F, const_cast<double*>(camera.distortion.data()));

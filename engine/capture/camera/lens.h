@@ -24,8 +24,8 @@ struct PlanePoint {
   return {camera.focal_x * x + camera.center_x, camera.focal_y * y + camera.center_y};
 }
 
-/// The ray that meets a pixel, to about 1e-10 for lenses as they are bought: Newton's steps with the
-/// slope of an ideal lens.
+/// The ray that meets a pixel, to about 1e-10 for lenses as they are bought: Newton's steps with
+/// the slope of an ideal lens.
 [[nodiscard]] inline PlanePoint ray_of_pixel(const LensCamera& camera, const PlanePoint& pixel) {
   PlanePoint ray{(pixel.x - camera.center_x) / camera.focal_x,
                  (pixel.y - camera.center_y) / camera.focal_y};

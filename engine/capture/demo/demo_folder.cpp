@@ -82,9 +82,8 @@ LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
     const ViewIndex view = rig.grid.view_at(i);
     progress.step("photographing view " + view_text(view));
     const double begin = static_cast<double>(i) / rig.grid.count();
-    const Image<std::uint8_t> picture =
-        photograph(scene, rig.camera, rig.exposures[i],
-                   progress.part(begin, begin + 1.0 / rig.grid.count()));
+    const Image<std::uint8_t> picture = photograph(
+        scene, rig.camera, rig.exposures[i], progress.part(begin, begin + 1.0 / rig.grid.count()));
     std::copy(picture.begin(), picture.end(), samples.view(view).data);
   }
   LightFieldInfo info;

@@ -27,9 +27,15 @@ std::array<double, 9> turn(double about_x, double about_y, double about_z) {
   const double sy = std::sin(about_y * degree);
   const double cz = std::cos(about_z * degree);
   const double sz = std::sin(about_z * degree);
-  return {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx,
-          sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx,
-          -sy,     cy * sx,                cy * cx};
+  return {cz * cy,
+          cz * sy * sx - sz * cx,
+          cz * sy * cx + sz * sx,
+          sz * cy,
+          sz * sy * sx + cz * cx,
+          sz * sy * cx - cz * sx,
+          -sy,
+          cy * sx,
+          cy * cx};
 }
 
 }  // namespace
@@ -68,8 +74,8 @@ PlanePoint photographed(const DemoRig& rig, const Exposure& exposure, const Poin
   const double y = p.y - exposure.y;
   const auto& r = exposure.rotation;  // its transpose turns the gantry's axes into the camera's
   const double z = r[2] * x + r[5] * y + r[8] * p.z;
-  return pixel_of_ray(rig.camera, {(r[0] * x + r[3] * y + r[6] * p.z) / z,
-                                   (r[1] * x + r[4] * y + r[7] * p.z) / z});
+  return pixel_of_ray(
+      rig.camera, {(r[0] * x + r[3] * y + r[6] * p.z) / z, (r[1] * x + r[4] * y + r[7] * p.z) / z});
 }
 
 std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
@@ -92,10 +98,10 @@ std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
   for (const Vertex& mark : scan_landmarks()) {
     const Point3 on_scan{mark[0], mark[1], mark[2]};
     const Point3 p = rig.pose.apply(on_scan);
-    const int x = static_cast<int>(std::lround(
-        camera.pinhole.focal_px * (p.x - camera.x) / p.z + camera.pinhole.center_x));
-    const int y = static_cast<int>(std::lround(
-        camera.pinhole.focal_px * (p.y - camera.y) / p.z + camera.pinhole.center_y));
+    const int x = static_cast<int>(
+        std::lround(camera.pinhole.focal_px * (p.x - camera.x) / p.z + camera.pinhole.center_x));
+    const int y = static_cast<int>(
+        std::lround(camera.pinhole.focal_px * (p.y - camera.y) / p.z + camera.pinhole.center_y));
     if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
     if (surface.inverse_depth.at(y, x) > 1.01 / p.z) continue;  // hidden
     const PlanePoint pixel = photographed(rig, exposure, on_scan);

@@ -32,8 +32,8 @@ Image<std::uint8_t> circles(const Pattern& pattern, int pixels) {
       const double column = std::clamp(std::round((x + 0.5) / pixels), 1.0, 1.0 * pattern.columns);
       const double row = std::clamp(std::round((y + 0.5) / pixels), 1.0, 1.0 * pattern.rows);
       const double off = std::hypot(x + 0.5 - column * pixels, y + 0.5 - row * pixels);
-      picture.at(y, x) = static_cast<std::uint8_t>(
-          20 + 215 * std::clamp(off - radius + 0.5, 0.0, 1.0));
+      picture.at(y, x) =
+          static_cast<std::uint8_t>(20 + 215 * std::clamp(off - radius + 0.5, 0.0, 1.0));
     }
   }
   return picture;
@@ -48,7 +48,8 @@ float sample(const Image<std::uint8_t>& picture, double x, double y) {
   const auto tx = static_cast<float>(px - ix);
   const auto ty = static_cast<float>(py - iy);
   const auto at = [&](int dy, int dx) { return static_cast<float>(picture.at(iy + dy, ix + dx)); };
-  return (at(0, 0) * (1 - tx) + at(0, 1) * tx) * (1 - ty) + (at(1, 0) * (1 - tx) + at(1, 1) * tx) * ty;
+  return (at(0, 0) * (1 - tx) + at(0, 1) * tx) * (1 - ty) +
+         (at(1, 0) * (1 - tx) + at(1, 1) * tx) * ty;
 }
 
 /// Where a ray meets the plane of the pattern, in its unit; false if it does not.
@@ -106,7 +107,7 @@ std::vector<RigidPose> pattern_poses(const Pattern& pattern, double distance, in
   const double half_height = pattern.square * (pattern.rows + 2) / 2;
   for (int i = 0; i < count; ++i) {
     const double phase = 2.4 * i;
-    const double a = 0.5 * std::cos(phase);  // about y,
+    const double a = 0.5 * std::cos(phase);   // about y,
     const double b = 0.45 * std::sin(phase);  // and about x
     const double ca = std::cos(a);
     const double sa = std::sin(a);

@@ -13,7 +13,7 @@
 namespace episcope::capture {
 namespace {
 
-constexpr int kFine = 3;       // samples along a pixel
+constexpr int kFine = 3;          // samples along a pixel
 constexpr double kMargin = 1.08;  // by how much the fine picture is wider than the rays need
 
 PlanePoint turned(const std::array<double, 9>& r, const PlanePoint& ray) {

@@ -15,15 +15,16 @@ constexpr Vertex kBox{105, 65, -40};
 constexpr float kBoxSide = 38;  // half
 constexpr float kBoxTurn = 0.45F;
 
-/// Adds the surface place(s, t), s and t in [0, 1], of `steps` × `steps` quads; its outside is where
-/// the place turns clockwise as s and t grow, in a frame with y downwards and z forwards.
+/// Adds the surface place(s, t), s and t in [0, 1], of `steps` × `steps` quads; its outside is
+/// where the place turns clockwise as s and t grow, in a frame with y downwards and z forwards.
 template <class Place>
 void add_surface(TriangleMesh& mesh, int steps, const Place& place) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   const auto across = static_cast<std::uint32_t>(steps + 1);
   for (int i = 0; i <= steps; ++i) {
     for (int k = 0; k <= steps; ++k) {
-      mesh.vertices.push_back(place(static_cast<double>(k) / steps, static_cast<double>(i) / steps));
+      mesh.vertices.push_back(
+          place(static_cast<double>(k) / steps, static_cast<double>(i) / steps));
     }
   }
   for (std::uint32_t i = 0; i + 1 < across; ++i) {

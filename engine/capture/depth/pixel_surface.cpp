@@ -27,10 +27,6 @@ Box box_of(const Polygon& polygon) {
   return box;
 }
 
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x < b.high.x && b.low.x < a.high.x && a.low.y < b.high.y && b.low.y < a.high.y;
-}
-
 /// A triangle in the pixel, with its range of 1/Z there.
 struct Part {
   Polygon polygon;
@@ -43,6 +39,9 @@ Part part_of(const ScreenTriangle& triangle) {
   Part part;
   part.polygon = clipped_to_pixel(triangle.polygon);
   if (part.polygon.count == 0) return part;
+  if (twice_area(part.polygon) < 0) {
+    std::reverse(part.polygon.corners.begin(), part.polygon.corners.begin() + part.polygon.count);
+  }
   part.box = box_of(part.polygon);
   part.near = part.far = triangle.plane.at(part.polygon.corners[0]);
   for (int i = 1; i < part.polygon.count; ++i) {
@@ -52,6 +51,47 @@ Part part_of(const ScreenTriangle& triangle) {
   }
   return part;
 }
+
+/// The bounds of all parts, bound by bound, so that what may hide a part is found quickly.
+class Bounds {
+ public:
+  explicit Bounds(const std::vector<Part>& parts) {
+    for (const Part& part : parts) {
+      // Parts that are empty are nowhere.
+      const bool is_there = part.polygon.count > 0;
+      near_.push_back(is_there ? part.near : -1);
+      left_.push_back(part.box.low.x);
+      right_.push_back(part.box.high.x);
+      top_.push_back(part.box.low.y);
+      bottom_.push_back(part.box.high.y);
+    }
+    may_hide_.resize(parts.size());
+  }
+
+  /// Indices of the parts that may lie in front of this one, in their order.
+  const std::vector<int>& before(const Part& part) {
+    const std::size_t count = near_.size();
+    for (std::size_t j = 0; j < count; ++j) {
+      may_hide_[j] = static_cast<char>((near_[j] >= part.far) & (left_[j] < part.box.high.x) &
+                                       (right_[j] > part.box.low.x) & (top_[j] < part.box.high.y) &
+                                       (bottom_[j] > part.box.low.y));
+    }
+    indices_.clear();
+    for (std::size_t j = 0; j < count; ++j) {
+      if (may_hide_[j] != 0) indices_.push_back(static_cast<int>(j));
+    }
+    return indices_;
+  }
+
+ private:
+  std::vector<double> near_;
+  std::vector<double> left_;
+  std::vector<double> right_;
+  std::vector<double> top_;
+  std::vector<double> bottom_;
+  std::vector<char> may_hide_;
+  std::vector<int> indices_;
+};
 
 /// Where `other` lies in front of a triangle with `plane`; `is_earlier` decides for equal depth.
 Polygon region_before(const Part& other, const InversePlane& of_other, const InversePlane& plane,
@@ -63,41 +103,44 @@ Polygon region_before(const Part& other, const InversePlane& of_other, const Inv
   return clipped(other.polygon, nearer);
 }
 
+VisiblePart sum_of(const std::vector<Polygon>& pieces, int index) {
+  VisiblePart part{index, 0, {0, 0}};
+  for (const Polygon& piece : pieces) {
+    const double area = std::abs(twice_area(piece)) / 2;
+    const Corner middle = centroid(piece);
+    part.area += area;
+    part.centroid.x += area * middle.x;
+    part.centroid.y += area * middle.y;
+  }
+  if (part.area > 0) part.centroid = {part.centroid.x / part.area, part.centroid.y / part.area};
+  return part;
+}
+
 }  // namespace
 
 std::vector<VisiblePart> visible_parts(std::span<const ScreenTriangle> triangles) {
   std::vector<Part> parts;
   parts.reserve(triangles.size());
   for (const ScreenTriangle& triangle : triangles) parts.push_back(part_of(triangle));
+  Bounds bounds(parts);
   std::vector<VisiblePart> visible;
   std::vector<Polygon> pieces;
   std::vector<Polygon> next;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
     if (parts[i].polygon.count == 0) continue;
     pieces.assign(1, parts[i].polygon);
-    for (std::size_t j = 0; j < parts.size() && !pieces.empty(); ++j) {
-      if (j == i || parts[j].polygon.count == 0 || parts[j].near < parts[i].far) continue;
-      if (!overlap(parts[i].box, parts[j].box)) continue;
-      if (edge_parts(parts[i].polygon, parts[j].polygon)) continue;
+    for (const int j : bounds.before(parts[i])) {
+      if (j == i || edge_parts(parts[i].polygon, parts[j].polygon)) continue;
       if (edge_parts(parts[j].polygon, parts[i].polygon)) continue;
-      const Polygon hole =
-          region_before(parts[j], triangles[j].plane, triangles[i].plane, j < i);
-      if (std::abs(twice_area(hole)) <= kNoArea) continue;
+      const Polygon hole = region_before(parts[j], triangles[j].plane, triangles[i].plane, j < i);
+      if (hole.count == 0 || std::abs(twice_area(hole)) <= kNoArea) continue;
       next.clear();
       for (const Polygon& piece : pieces) subtract(piece, hole, next);
       pieces.swap(next);
+      if (pieces.empty()) break;
     }
-    VisiblePart part{static_cast<int>(i), 0, {0, 0}};
-    for (const Polygon& piece : pieces) {
-      const double area = std::abs(twice_area(piece)) / 2;
-      const Corner middle = centroid(piece);
-      part.area += area;
-      part.centroid.x += area * middle.x;
-      part.centroid.y += area * middle.y;
-    }
-    if (part.area <= kNoArea) continue;
-    part.centroid = {part.centroid.x / part.area, part.centroid.y / part.area};
-    visible.push_back(part);
+    const VisiblePart part = sum_of(pieces, i);
+    if (part.area > kNoArea) visible.push_back(part);
   }
   return visible;
 }
@@ -113,8 +156,8 @@ std::size_t PixelResolver::order(std::span<Fragment> fragments) {
     far = std::min(far, fragments[i].far);
     if (sum > 1 + kAreaRounding) return 0;
     if (sum < 1 - kAreaRounding) continue;
-    const bool is_last = i + 1 == fragments.size();
-    return is_last || fragments[i + 1].near < far ? i + 1 : 0;
+    // Slivers of the same surface may follow.
+    if (i + 1 == fragments.size() || fragments[i + 1].near < far) return i + 1;
   }
   return 0;
 }

@@ -12,17 +12,17 @@ namespace episcope::capture {
 /// The part of a triangle in a pixel.
 struct Fragment {
   std::uint32_t triangle = 0;
-  float area = 0;   ///< Share of the pixel, whether hidden or not.
-  float near = 0;   ///< Largest 1/Z in the pixel,
-  float far = 0;    ///< and the smallest.
+  float area = 0;  ///< Share of the pixel, whether hidden or not.
+  float near = 0;  ///< Largest 1/Z in the pixel,
+  float far = 0;   ///< and the smallest.
   std::uint16_t pixel = 0;
   bool is_front = false;
 };
 
 /// What a pixel shows of a triangle, exactly.
 struct VisiblePart {
-  int index = 0;    ///< Of the triangle in the list.
-  double area = 0;  ///< That is seen, in px².
+  int index = 0;          ///< Of the triangle in the list.
+  double area = 0;        ///< That is seen, in px².
   Corner centroid{0, 0};  ///< Of the seen part.
 };
 

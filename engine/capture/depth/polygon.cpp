@@ -67,12 +67,11 @@ Polygon clipped_to_pixel(const Polygon& polygon) {
 }
 
 bool edge_parts(const Polygon& a, const Polygon& b) {
-  const double turn = twice_area(a) >= 0 ? 1 : -1;
   Corner p = a.corners[a.count - 1];
   for (int i = 0; i < a.count; ++i) {
     const Corner& q = a.corners[i];
-    const double nx = turn * (p.y - q.y);
-    const double ny = turn * (q.x - p.x);
+    const double nx = p.y - q.y;
+    const double ny = q.x - p.x;
     const double rounding = 1e-12 * (std::abs(nx) + std::abs(ny));
     bool is_outside = true;
     for (int k = 0; k < b.count && is_outside; ++k) {

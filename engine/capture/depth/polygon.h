@@ -22,7 +22,7 @@ struct HalfPlane {
 
 /// A convex polygon, of either orientation, without memory of its own.
 struct Polygon {
-  static constexpr int kMost = 24;  ///< Corners: a triangle cut by a square has at most 7.
+  static constexpr int kMost = 24;    ///< Corners: a triangle cut by a square has at most 7.
   std::array<Corner, kMost> corners;  ///< The first `count`; others are not initialised.
   int count = 0;
 
@@ -41,6 +41,7 @@ struct Polygon {
 [[nodiscard]] Polygon clipped_to_pixel(const Polygon& polygon);
 
 /// Whether an edge of `a` keeps `b` outside, up to rounding; then they do not overlap.
+/// Precondition: the area of `a` is not negative.
 [[nodiscard]] bool edge_parts(const Polygon& a, const Polygon& b);
 
 /// Appends to `pieces` the convex parts of `polygon` outside of the convex `hole`.

@@ -76,11 +76,7 @@ void fill_pixel(const InversePlane& plane, const Corner& center, Fragment& fragm
 }  // namespace
 
 TileRaster::TileRaster(const RasterInput& input)
-    : input_(input),
-      resolver_(input.jump),
-      starts_(kPixels + 1),
-      cover_(kPixels),
-      far_(kPixels) {}
+    : input_(input), resolver_(input.jump), starts_(kPixels + 1), cover_(kPixels), far_(kPixels) {}
 
 ScreenTriangle TileRaster::triangle(std::uint32_t face, int x, int y) const {
   ScreenTriangle triangle = around_pixel(input_.corners(face), x, y);

@@ -39,8 +39,9 @@ class TileRaster {
       if (starts_[p] == starts_[p + 1]) continue;
       const int y = top_ + p / kTile;
       const int x = left_ + p % kTile;
-      put(y, x, resolver_.resolve({sorted_.data() + starts_[p], starts_[p + 1] - starts_[p]},
-                                  [&](std::uint32_t id) { return triangle(id, x, y); }));
+      put(y, x,
+          resolver_.resolve({sorted_.data() + starts_[p], starts_[p + 1] - starts_[p]},
+                            [&](std::uint32_t id) { return triangle(id, x, y); }));
     }
   }
 

@@ -47,8 +47,8 @@ ViewSurface blank(const ViewCamera& camera) {
 void put(int y, int x, const PixelSurface& surface, ViewSurface& view) {
   if (surface.triangle == PixelSurface::kNone) return;
   constexpr float whole = 1 - 1e-4F;
-  const bool is_seen = surface.is_front && !surface.is_edge && surface.covered >= whole &&
-                       surface.plane.at_zero > 0;
+  const bool is_seen =
+      surface.is_front && !surface.is_edge && surface.covered >= whole && surface.plane.at_zero > 0;
   view.triangle.at(y, x) = surface.triangle;
   view.inverse_depth.at(y, x) = static_cast<float>(surface.plane.at_zero);
   view.by_x.at(y, x) = static_cast<float>(surface.plane.by_x);
@@ -111,9 +111,8 @@ ViewRaster::~ViewRaster() = default;
 ViewSurface ViewRaster::view(const ViewCamera& camera, const Progress& progress) {
   State& s = *state_;
   s.vertices.resize(s.scene.vertices.size());
-  for_each_chunked(s.vertices.size(), progress.part(0, 0.1), [&](std::size_t i) {
-    s.vertices[i] = project(s.scene.vertices[i], camera);
-  });
+  for_each_chunked(s.vertices.size(), progress.part(0, 0.1),
+                   [&](std::size_t i) { s.vertices[i] = project(s.scene.vertices[i], camera); });
   s.bins.fill(s.scene.faces, s.vertices, camera.height, camera.width, s.both_sides,
               progress.part(0.1, 0.3));
   ViewSurface view = blank(camera);
@@ -121,7 +120,8 @@ ViewSurface ViewRaster::view(const ViewCamera& camera, const Progress& progress)
                           camera.width,  s.jump,     s.both_sides};
   parallel_for_workers(s.bins.tile_count(), progress.part(0.3, 0.95), [&] {
     return [&, raster = TileRaster(input)](int tile) mutable {
-      raster.run(tile, [&](int y, int x, const PixelSurface& surface) { put(y, x, surface, view); });
+      raster.run(tile,
+                 [&](int y, int x, const PixelSurface& surface) { put(y, x, surface, view); });
     };
   });
   mark_cracks(view, s.jump, progress.part(0.95, 1));

@@ -34,8 +34,8 @@ struct PlacedScene {
 
 /// A view: a pinhole that was moved in its image plane.
 struct ViewCamera {
-  Pinhole pinhole;   ///< Of the centre view.
-  double x = 0;      ///< Place of this view, in the unit of the mesh.
+  Pinhole pinhole;  ///< Of the centre view.
+  double x = 0;     ///< Place of this view, in the unit of the mesh.
   double y = 0;
   double shift_x = 0;  ///< Added to pixels, since views are shifted onto the zero plane.
   double shift_y = 0;

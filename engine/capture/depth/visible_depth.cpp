@@ -36,7 +36,8 @@ void require_seen(const ViewSurface& surface) {
   const auto unsure = count(ViewSurface::Unsure);
   if (seen + unsure == 0) {
     throw InvalidInput(
-        "the meshes are not in the picture of the centre view; check their poses, and that pose and "
+        "the meshes are not in the picture of the centre view; check their poses, and that pose "
+        "and "
         "light field are in the same unit");
   }
   if (unsure > 3 * seen) {
@@ -81,8 +82,8 @@ GroundTruth visible_depth(std::span<const PlacedMesh> meshes, const DepthGrid& g
     const ViewIndex view = shape.view_at(i, first);
     progress.step("depth of view " + view_text(view));
     const double begin = 0.03 + 0.97 * i / shape.count();
-    const ViewSurface surface = raster.view(
-        view_camera(grid, view), progress.part(begin, begin + 0.97 / shape.count()));
+    const ViewSurface surface =
+        raster.view(view_camera(grid, view), progress.part(begin, begin + 0.97 / shape.count()));
     write_view(surface, scene, camera, view, truth);
   }
   return truth;

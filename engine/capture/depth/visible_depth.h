@@ -16,7 +16,8 @@ struct DepthGrid {
 };
 
 struct DepthOptions {
-  double jump_px = 0.1;  ///< Least difference of disparity across a discontinuity, px per view step.
+  double jump_px =
+      0.1;  ///< Least difference of disparity across a discontinuity, px per view step.
   bool both_sides = false;  ///< Faces are not oriented: both sides count as outside.
   bool centre_only = false;
 };

@@ -5,10 +5,10 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/atomic_file.h"
 
-#include <assimp/Importer.hpp>
-#include <assimp/ProgressHandler.hpp>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <assimp/Importer.hpp>
+#include <assimp/ProgressHandler.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -78,8 +78,8 @@ TriangleMesh mesh_of(const std::filesystem::path& path, const aiScene& scene,
   }
   constexpr std::size_t most = std::numeric_limits<std::uint32_t>::max() / 4;
   if (vertices > most || faces > most) {
-    throw IoError(path, "this mesh has more than " + std::to_string(most) +
-                            " vertices or faces; reduce it");
+    throw IoError(
+        path, "this mesh has more than " + std::to_string(most) + " vertices or faces; reduce it");
   }
   TriangleMesh mesh;
   mesh.vertices.reserve(vertices);
@@ -126,8 +126,7 @@ void write_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
       "ply\nformat binary_little_endian 1.0\nelement vertex " +
       std::to_string(mesh.vertices.size()) +
       "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-      std::to_string(mesh.faces.size()) +
-      "\nproperty list uchar int vertex_indices\nend_header\n";
+      std::to_string(mesh.faces.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
   constexpr std::size_t face_bytes = 1 + sizeof(Face);
   std::vector<std::uint8_t> bytes(header.begin(), header.end());
   const std::size_t vertex_bytes = mesh.vertices.size() * sizeof(Vertex);

@@ -41,9 +41,8 @@ Pose moved(const Pose& pose, const Vector6& step) {
   Pose result = pose;
   if (angle > 0) {
     result.rotation = Eigen::AngleAxisd(angle, axis / angle).toRotationMatrix() * pose.rotation;
-    result.rotation = Eigen::Quaterniond(Eigen::Matrix3d(result.rotation))
-                          .normalized()
-                          .toRotationMatrix();
+    result.rotation =
+        Eigen::Quaterniond(Eigen::Matrix3d(result.rotation)).normalized().toRotationMatrix();
   }
   result.translation += step.tail<3>();
   return result;

@@ -71,7 +71,8 @@ void write_pairs(const std::filesystem::path& path, std::span<const PointPair> p
   std::string text = std::string(kHeader) + "\n";
   for (const PointPair& pair : pairs) {
     if (pair.name.find_first_of(",\n\r") != std::string::npos) {
-      throw IoError(path, "the name '" + pair.name + "' has a comma or a line end; rename the pair");
+      throw IoError(path,
+                    "the name '" + pair.name + "' has a comma or a line end; rename the pair");
     }
     text += fmt::format("{},{},{},{},{},{}\n", pair.name, pair.x_px, pair.y_px, pair.point.x,
                         pair.point.y, pair.point.z);

@@ -34,8 +34,8 @@ Json pairs_json(const PoseStory& story) {
 /// The path of the mesh as it is found from the folder of the file.
 std::string stored_mesh(const std::filesystem::path& mesh, const std::filesystem::path& path) {
   std::error_code error;
-  const auto relative = std::filesystem::relative(
-      mesh, std::filesystem::absolute(path, error).parent_path(), error);
+  const auto relative =
+      std::filesystem::relative(mesh, std::filesystem::absolute(path, error).parent_path(), error);
   return error || relative.empty() ? std::filesystem::absolute(mesh).string() : relative.string();
 }
 
@@ -94,7 +94,8 @@ PoseStory read_pose(const std::filesystem::path& path) {
                   "make one with episcope-cli pose");
   }
   if (!is_rotation(story.solved.pose.rotation)) {
-    throw IoError(path, "rotation is no rotation matrix; make the pose again with episcope-cli pose");
+    throw IoError(path,
+                  "rotation is no rotation matrix; make the pose again with episcope-cli pose");
   }
   if (story.mesh.is_relative()) {
     story.mesh = std::filesystem::absolute(path).parent_path() / story.mesh;

@@ -84,8 +84,8 @@ std::optional<RigidPose> by_homography(std::span<const PointPair> pairs, const S
   }
   const Eigen::VectorXd h = null_vector(rows);
   Matrix3 homography = Eigen::Map<const Matrix3>(h.data());
-  homography *= (homography(2, 2) < 0 ? -2 : 2) /
-                (homography.col(0).norm() + homography.col(1).norm());
+  homography *=
+      (homography(2, 2) < 0 ? -2 : 2) / (homography.col(0).norm() + homography.col(1).norm());
   if (!homography.allFinite()) return {};
   Eigen::Matrix3d frame;
   frame << homography.col(0), homography.col(1),

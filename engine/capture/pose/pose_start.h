@@ -17,9 +17,9 @@ enum class PointLayout { Line, Plane, Space };
 [[nodiscard]] PointLayout layout_of(std::span<const PointPair> pairs);
 
 /// A first pose: by the homography of points in a plane (≥ 4), by the direct linear transform of
-/// points in space (≥ 6), else (4 or 5 points in space) by SQPnP (Terzakis, Lourakis: A consistently
-/// fast and globally optimal solution to the perspective-n-point problem, ECCV 2020). None if the
-/// points do not determine one in front of the camera.
+/// points in space (≥ 6), else (4 or 5 points in space) by SQPnP (Terzakis, Lourakis: A
+/// consistently fast and globally optimal solution to the perspective-n-point problem, ECCV 2020).
+/// None if the points do not determine one in front of the camera.
 [[nodiscard]] std::optional<RigidPose> first_pose(std::span<const PointPair> pairs,
                                                   const Pinhole& pinhole);
 

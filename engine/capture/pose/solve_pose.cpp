@@ -95,8 +95,8 @@ double delta_tz(std::span<const PointPair> pairs, const RigidPose& pose, const P
   double least = std::numeric_limits<double>::infinity();
   for (const PointPair& pair : pairs) {
     const double z = pose.apply(pair.point).z;
-    const double off = std::max(std::abs(pair.x_px - pinhole.center_x),
-                                std::abs(pair.y_px - pinhole.center_y));
+    const double off =
+        std::max(std::abs(pair.x_px - pinhole.center_x), std::abs(pair.y_px - pinhole.center_y));
     const double delta = z * error_px / off;
     if (delta < least) depth = z;
     least = std::min(least, delta);
@@ -121,9 +121,9 @@ void set_errors(std::span<const PointPair> pairs, const MinimisedPose& pose,
   double depth = 0;
   solved.delta_tz =
       delta_tz(pairs, pose.pose, *camera.pinhole, solved.reprojection_error_px, depth);
-  solved.delta_tz_px = camera.is_known() ? camera.baseline * camera.focal_length * solved.delta_tz /
-                                               (depth * depth)
-                                         : std::numeric_limits<double>::quiet_NaN();
+  solved.delta_tz_px =
+      camera.is_known() ? camera.baseline * camera.focal_length * solved.delta_tz / (depth * depth)
+                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
@@ -131,18 +131,20 @@ void set_errors(std::span<const PointPair> pairs, const MinimisedPose& pose,
 SolvedPose solve_pose(std::span<const PointPair> pairs, const CameraGrid& camera) {
   if (!camera.pinhole) throw InvalidInput("the pinhole of the camera is not known");
   if (pairs.size() < 4) {
-    throw InvalidInput(fmt::format("a pose needs 4 pairs, and there are {}; pick more, best 10",
-                                   pairs.size()));
+    throw InvalidInput(
+        fmt::format("a pose needs 4 pairs, and there are {}; pick more, best 10", pairs.size()));
   }
   if (layout_of(pairs) == PointLayout::Line) {
-    throw InvalidInput("the points of the pairs lie on one line, which leaves the pose open; pick "
-                       "points beside it");
+    throw InvalidInput(
+        "the points of the pairs lie on one line, which leaves the pose open; pick "
+        "points beside it");
   }
   const Pinhole& pinhole = *camera.pinhole;
   MinimisedPose pose = best_pose(pairs, pinhole);
   if (!std::isfinite(pose.cost)) {
-    throw InvalidInput("no pose in front of the camera fits these pairs; check that each names the "
-                       "same point in the view and on the mesh");
+    throw InvalidInput(
+        "no pose in front of the camera fits these pairs; check that each names the "
+        "same point in the view and on the mesh");
   }
   SolvedPose solved;
   solved.pairs = judged(pairs, pose.pose, pinhole);

@@ -17,7 +17,7 @@ using Vector2 = Eigen::Vector2d;
 
 constexpr int kRounds = 6;
 constexpr int kSweeps = 12;
-constexpr double kHuber = 0.3;       // px
+constexpr double kHuber = 0.3;  // px
 constexpr double kOutlierMedians = 6;
 constexpr double kTiltPrior = 0.02;  // radian: rotations out of the plane are hardly seen
 constexpr double kNoise = 0.05;      // px, of matches
@@ -97,8 +97,7 @@ class Model {
     const double limit = std::max(kHuber, kOutlierMedians * median(sizes));
     sizes = sizes_of(residual);
     for (std::size_t i = 0; i < sizes.size(); ++i) {
-      observations_[i].weight =
-          sizes[i] > limit ? 0 : (sizes[i] <= kHuber ? 1 : kHuber / sizes[i]);
+      observations_[i].weight = sizes[i] > limit ? 0 : (sizes[i] <= kHuber ? 1 : kHuber / sizes[i]);
     }
   }
 
@@ -112,7 +111,8 @@ class Model {
 
   static std::vector<double> sizes_of(const Eigen::VectorXd& residual) {
     std::vector<double> sizes;
-    for (long i = 0; i + 1 < residual.size(); i += 2) sizes.push_back(residual.segment<2>(i).norm());
+    for (long i = 0; i + 1 < residual.size(); i += 2)
+      sizes.push_back(residual.segment<2>(i).norm());
     return sizes;
   }
   static double median(std::vector<double>& values) {

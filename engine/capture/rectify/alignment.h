@@ -22,21 +22,22 @@ struct ViewCorrection {
 
 /// How photographs turn into a rectified light field.
 struct Alignment {
-  /// Turns rays of the camera into those of a camera whose axes are those of the gantry, row by row.
+  /// Turns rays of the camera into those of a camera whose axes are those of the gantry, row by
+  /// row.
   std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};
   double focal_px = 0;  ///< Of that camera; its principal point is that of the lens.
   std::vector<ViewCorrection> corrections;  ///< Row by row.
-  std::vector<double> parallax;  ///< Of each point, px per view step, before any shift.
-  double residual_px = 0;        ///< Median distance of matches from the model.
+  std::vector<double> parallax;             ///< Of each point, px per view step, before any shift.
+  double residual_px = 0;                   ///< Median distance of matches from the model.
 
   /// Angle of the rotation in degrees about the optical axis.
   [[nodiscard]] double roll_degrees() const;
 };
 
-/// Finds the rotation between camera and gantry with which all points move along rows and columns by
-/// the same parallax, and what each view is off, robustly (Huber, 0.3 px). The corrections have no
-/// trend along rows or columns: that would be parallax. Throws InvalidInput if the matches do not
-/// fit a grid.
+/// Finds the rotation between camera and gantry with which all points move along rows and columns
+/// by the same parallax, and what each view is off, robustly (Huber, 0.3 px). The corrections have
+/// no trend along rows or columns: that would be parallax. Throws InvalidInput if the matches do
+/// not fit a grid.
 [[nodiscard]] Alignment align(const ViewMatches& matches, const LensCamera& camera);
 
 }  // namespace episcope::capture

@@ -5,8 +5,8 @@
 
 namespace episcope::capture {
 
-/// A view for matching: grey, in units of 1/255, smoothed by a Gaussian of 0.8 px, so that noise and
-/// interpolation do not draw matches to whole pixels.
+/// A view for matching: grey, in units of 1/255, smoothed by a Gaussian of 0.8 px, so that noise
+/// and interpolation do not draw matches to whole pixels.
 [[nodiscard]] Image<float> grey_view(const LightField& field, ViewIndex view);
 
 }  // namespace episcope::capture

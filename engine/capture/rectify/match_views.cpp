@@ -24,7 +24,8 @@ cv::Mat matrix_of(const Image<float>& picture) {
 std::vector<PlanePoint> corners_of(const Image<float>& picture) {
   constexpr int margin = Patch::kReach + 2;
   if (picture.height() <= 4 * margin || picture.width() <= 4 * margin) return {};
-  const cv::Rect inside(margin, margin, picture.width() - 2 * margin, picture.height() - 2 * margin);
+  const cv::Rect inside(margin, margin, picture.width() - 2 * margin,
+                        picture.height() - 2 * margin);
   const double distance = std::sqrt(picture.size() / (2.0 * kMostPoints));
   std::vector<cv::Point2f> corners;
   cv::goodFeaturesToTrack(matrix_of(picture)(inside), corners, kMostPoints, 0.002, distance,

@@ -18,7 +18,8 @@ constexpr double kAlike = 0.35;       // difference by contrast
 std::array<float, 4> cubic(double t) {
   const double tt = t * t;
   const double ttt = tt * t;
-  return {static_cast<float>((-ttt + 2 * tt - t) / 2), static_cast<float>((3 * ttt - 5 * tt + 2) / 2),
+  return {static_cast<float>((-ttt + 2 * tt - t) / 2),
+          static_cast<float>((3 * ttt - 5 * tt + 2) / 2),
           static_cast<float>((-3 * ttt + 4 * tt + t) / 2), static_cast<float>((ttt - tt) / 2)};
 }
 
@@ -90,8 +91,8 @@ std::optional<PatchMatch> Patch::find(ImageView<const float> picture,
     double by[4] = {};
     double squares = 0;
     for (int i = 0; i < kCount; ++i) {
-      const float error = seen[i] - static_cast<float>(gain) * template_[i] -
-                          static_cast<float>(offset);
+      const float error =
+          seen[i] - static_cast<float>(gain) * template_[i] - static_cast<float>(offset);
       squares += static_cast<double>(error) * error;
       for (int k = 0; k < 4; ++k) by[k] += update_[k][i] * error;
     }

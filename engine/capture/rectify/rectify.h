@@ -11,8 +11,8 @@
 namespace episcope::capture {
 
 struct RectifyOptions {
-  double step = 1;          ///< Between neighbouring positions of the gantry, in the mesh's unit.
-  bool equalise = false;    ///< Divide each view by its gain.
+  double step = 1;        ///< Between neighbouring positions of the gantry, in the mesh's unit.
+  bool equalise = false;  ///< Divide each view by its gain.
 };
 
 /// Vertical disparity of horizontal neighbours, absolute, in px.

@@ -98,11 +98,13 @@ class CalibrateTest : public QObject {
     const std::filesystem::path folder = "/usr/share/doc/opencv-doc/examples/data";
     std::vector<std::filesystem::path> files;
     for (int i = 1; i <= 14; ++i) {
-      const auto file = folder / ("left" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".jpg");
+      const auto file =
+          folder / ("left" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".jpg");
       if (std::filesystem::exists(file)) files.push_back(file);
     }
     if (files.size() != 13) QSKIP("opencv-doc is not installed");
-    const Calibration calibration = calibrate(files, {PatternKind::Chessboard, 9, 6, 1}, Progress(1));
+    const Calibration calibration =
+        calibrate(files, {PatternKind::Chessboard, 9, 6, 1}, Progress(1));
     QVERIFY2(calibration.camera.rms <= 0.41, qPrintable(QString::number(calibration.camera.rms)));
     QVERIFY(std::abs(calibration.camera.focal_x - 536) < 5);
   }

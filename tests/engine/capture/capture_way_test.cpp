@@ -39,7 +39,8 @@ Calibration calibrated(const DemoRig& rig) {
     Exposure exposure;
     exposure.noise = 2;
     exposure.seed = 40 + static_cast<unsigned>(photographs.size());
-    const Image<std::uint8_t> picture = pattern_photograph(demo_pattern(), pose, rig.camera, exposure);
+    const Image<std::uint8_t> picture =
+        pattern_photograph(demo_pattern(), pose, rig.camera, exposure);
     PatternPhotograph photograph;
     photograph.found = find_pattern(picture, demo_pattern());
     photograph.sharpness = sharpness(picture, photograph.found.pixels, 5);

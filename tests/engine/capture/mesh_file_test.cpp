@@ -60,8 +60,9 @@ class MeshFileTest : public QObject {
         read_mesh(file("c.obj", "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\n"), Progress(1));
     QCOMPARE(obj.faces.size(), std::size_t{2});  // a square is two triangles
     const TriangleMesh stl = read_mesh(
-        file("d.stl", "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex "
-                      "0 1 0\nendloop\nendfacet\nendsolid s\n"),
+        file("d.stl",
+             "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex "
+             "0 1 0\nendloop\nendfacet\nendsolid s\n"),
         Progress(1));
     QCOMPARE(stl.faces.size(), std::size_t{1});
   }

@@ -73,7 +73,10 @@ class PixelSurfaceTest : public QObject {
         // Samples miss by up to half a sample along borders, of which there are a few px.
         QVERIFY2(std::abs(areas[i] - expected[i]) < 4.0 / side,
                  qPrintable(QString("trial %1, triangle %2: %3, by samples %4")
-                                .arg(trial).arg(i).arg(areas[i]).arg(expected[i])));
+                                .arg(trial)
+                                .arg(i)
+                                .arg(areas[i])
+                                .arg(expected[i])));
       }
     }
   }
@@ -101,8 +104,8 @@ class PixelSurfaceTest : public QObject {
 
   void tilesOfOneSurface_areNotCounted_twice() {
     // Two triangles of a square cut the pixel along its diagonal: half of it each, the first wins.
-    const std::vector<std::array<ScreenVertex, 3>> corners{
-        flat(-2, -2, 2, 2, -2, 2, 0.1F), flat(-2, -2, 2, -2, 2, 2, 0.1F)};
+    const std::vector<std::array<ScreenVertex, 3>> corners{flat(-2, -2, 2, 2, -2, 2, 0.1F),
+                                                           flat(-2, -2, 2, -2, 2, 2, 0.1F)};
     const std::vector<ScreenTriangle> triangles{around_pixel(corners[0], 0, 0),
                                                 around_pixel(corners[1], 0, 0)};
     const auto parts = visible_parts(triangles);

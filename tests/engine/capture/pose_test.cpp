@@ -124,7 +124,8 @@ class PoseTest : public QObject {
   void deltaTz_isThatOfThePaper() {
     // Zc = 0.8 m, u − cx = 400 px, Δu = 0.5 px: 1 mm, 0.009 px of disparity for 1 mm of baseline.
     std::vector<PointPair> pairs;
-    for (const auto& [x, y] : {std::pair{400.0, 0.0}, {-300.0, 20.0}, {10.0, 300.0}, {0.0, -310.0}}) {
+    for (const auto& [x, y] :
+         {std::pair{400.0, 0.0}, {-300.0, 20.0}, {10.0, 300.0}, {0.0, -310.0}}) {
       PointPair pair{"p", 460 + x, 455 + y, {x * 800 / 5740.38, y * 800 / 5740.38, 0}};
       pair.x_px += x > 0 ? 0.5 : -0.5;
       pairs.push_back(pair);
@@ -157,8 +158,9 @@ class PoseTest : public QObject {
   }
 
   void tooFewPairs_orOnALine_areRefused() {
-    QVERIFY(message_of([&] { (void)solve_pose(pairs_of(3, 0, 1), camera()); })
-                .contains("needs 4 pairs, and there are 3"));
+    QVERIFY(message_of([&] {
+              (void)solve_pose(pairs_of(3, 0, 1), camera());
+            }).contains("needs 4 pairs, and there are 3"));
     std::vector<PointPair> pairs = pairs_of(6, 0, 1);
     for (PointPair& pair : pairs) pair.point = {pair.point.x, 0, 0};
     QVERIFY(message_of([&] { (void)solve_pose(pairs, camera()); }).contains("one line"));

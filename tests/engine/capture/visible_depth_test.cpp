@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/depth/visible_depth.h"
 #include "engine/capture/demo/scan_mesh.h"
 #include "engine/capture/depth/pixel_surface.h"
-#include "engine/capture/depth/visible_depth.h"
 #include "engine/core/error.h"
 
 #include "tests/engine/capture/exact_rays.h"
@@ -93,10 +93,11 @@ class VisibleDepthTest : public QObject {
           const double dy = (y - camera.shift_y - camera.pinhole.center_y) / kFocal;
           const double a = dx * dx + dy * dy + 1;
           const double b = -camera.x * dx - camera.y * dy + kDistance;
-          const double c = camera.x * camera.x + camera.y * camera.y + kDistance * kDistance -
-                           kRadius * kRadius;
+          const double c =
+              camera.x * camera.x + camera.y * camera.y + kDistance * kDistance - kRadius * kRadius;
           const double root = b * b - a * c;
-          if (root < 400.0 * 400) continue;  // near the silhouette, or beside the sphere
+          if (root < 0.16 * kRadius * kRadius)
+            continue;  // near the silhouette, or beside the sphere
           ++inside;
           QVERIFY(truth.field.valid.view(view).at(y, x) == 1);
           const double exact = (b - std::sqrt(root)) / a;
@@ -136,7 +137,8 @@ class VisibleDepthTest : public QObject {
     const DepthGrid cameras = grid();
     for (int tenth = 0; tenth < 10; ++tenth) {
       const double edge_px = 90 + 0.1 * tenth;
-      const auto edge = static_cast<float>((edge_px - cameras.camera.pinhole->center_x) * 500 / kFocal);
+      const auto edge =
+          static_cast<float>((edge_px - cameras.camera.pinhole->center_x) * 500 / kFocal);
       const TriangleMesh front = rectangle(-900, -900, edge, 900, 500, 0);
       const std::vector<PlacedMesh> placed{{&back, {}}, {&front, {}}};
       const GroundTruth truth = visible_depth(placed, cameras, {}, Progress(1));
