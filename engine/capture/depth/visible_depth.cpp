@@ -71,15 +71,14 @@ GroundTruth visible_depth(std::span<const PlacedMesh> meshes, const DepthGrid& g
   ViewRaster raster(scene, options.jump_px / (camera.baseline * camera.focal_length),
                     options.both_sides);
   const ViewIndex center = grid.grid.center();
-  const GridShape shape = options.centre_only ? GridShape{1, 1} : grid.grid;
-  const ViewIndex first = options.centre_only ? center : ViewIndex{};
+  const GridShape shape = grid.grid;
   GroundTruth truth;
-  truth.field.disparity = ViewStack<float>(shape, grid.height, grid.width, 1, first);
-  truth.field.valid = ViewStack<std::uint8_t>(shape, grid.height, grid.width, 1, first);
-  truth.labels = ViewStack<std::int32_t>(shape, grid.height, grid.width, 1, first);
+  truth.field.disparity = ViewStack<float>(shape, grid.height, grid.width);
+  truth.field.valid = ViewStack<std::uint8_t>(shape, grid.height, grid.width);
+  truth.labels = ViewStack<std::int32_t>(shape, grid.height, grid.width);
   require_seen(raster.view(view_camera(grid, center), progress.part(0.02, 0.03)));
   for (int i = 0; i < shape.count(); ++i) {
-    const ViewIndex view = shape.view_at(i, first);
+    const ViewIndex view = shape.view_at(i);
     progress.step("depth of view " + view_text(view));
     const double begin = 0.03 + 0.97 * i / shape.count();
     const ViewSurface surface =

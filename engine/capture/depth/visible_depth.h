@@ -6,7 +6,7 @@
 
 namespace episcope::capture {
 
-/// The cameras of a rectified light field. Throws nothing.
+/// The cameras of a rectified light field.
 struct DepthGrid {
   GridShape grid;
   int height = 0;
@@ -19,7 +19,6 @@ struct DepthOptions {
   double jump_px =
       0.1;  ///< Least difference of disparity across a discontinuity, px per view step.
   bool both_sides = false;  ///< Faces are not oriented: both sides count as outside.
-  bool centre_only = false;
 };
 
 /// The camera of one view.
