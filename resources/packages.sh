@@ -2,12 +2,13 @@
 # The Debian packages that Episcope needs, in one place. Sourced by run.sh and test.sh.
 
 ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-core-dev
-  libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libcli11-dev
+  libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libopencv-calib3d-dev
+  libopencv-features2d-dev libeigen3-dev libassimp-dev libcli11-dev
   libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev
   pkg-config libavfilter-dev libavformat-dev libavcodec-dev"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
-TEST_PACKAGES="ccache libbenchmark-dev xvfb xauth"
+TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth"
 
 # install_missing PACKAGE…: installs those that are not installed yet; asks nothing and touches
 # nothing if all are.

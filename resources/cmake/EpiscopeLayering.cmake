@@ -105,6 +105,8 @@ foreach(target episcope_disparity episcope_labeling)
   episcope_forbid(${target} ${ui} ${above_engine} ${hdf5} "^episcope_io$")
 endforeach()
 episcope_forbid(episcope_evaluation ${ui} ${above_engine} ${hdf5} "^episcope_io$")
+episcope_forbid(episcope_capture ${ui} ${above_engine}
+                "^episcope_(scenes|solvers|disparity|labeling|evaluation|render)$")
 episcope_forbid(episcope_annotation ${ui} ${hdf5} "^episcope_(io|session|widgets)$")
 episcope_forbid(episcope_session ${ui} "^episcope_(widgets|window)$")
 episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evaluation|window)$" ${hdf5}
@@ -112,6 +114,7 @@ episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evalua
 episcope_forbid(episcope-cli ${ui})
 episcope_floors(engine/core . array,hash,parallel,text parameter light_field)
 episcope_floors(engine/disparity tensor common epi,stereo cuts,layers,plane)
+episcope_floors(engine/capture camera,mesh calibrate,depth,pose rectify demo)
 episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare)
 episcope_floors(app/gui frame document,stage opening bench
                 annotate,browse,cloud,collection,compare,estimate,files,help,project,segment)

@@ -4,6 +4,7 @@
 #include "app/cli/output/job.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
+#include "engine/capture/demo/demo_folder.h"
 #include "engine/io/archive/write_scene.h"
 #include "engine/scenes/request.h"
 
@@ -14,6 +15,7 @@
 namespace episcope::cli {
 namespace {
 
+constexpr const char* kGantry = "gantry";
 constexpr int kMostViews = 101;
 constexpr int kMostPixels = 8192;
 constexpr double kMostNoise = 255;
@@ -36,6 +38,10 @@ std::string list_of_scenes() {
   for (const auto& scene : scenes::builtin_scenes()) {
     list += "  " + scene.id + ": " + scene.summary + "\n";
   }
+  list +=
+      "  gantry: what a capture begins with, written to a folder OUT: photographs of a grid and "
+      "of\n"
+      "    a pattern, a scanned mesh, picked points, and the commands that lead on\n";
   return list;
 }
 
@@ -74,11 +80,28 @@ scenes::BuiltinRequest scene_of(const Request& request) {
   return scene;
 }
 
+/// The folder of the gantry, in place of a light field.
+void synthesize_gantry(const Request& request, std::stop_token stop) {
+  capture::DemoOptions options;
+  if (request.views) options.grid = {request.views->first, request.views->second};
+  if (request.size) {
+    options.width = request.size->first;
+    options.height = request.size->second;
+  }
+  options.noise = request.noise.value_or(options.noise);
+  if (request.seed) options.seed = static_cast<unsigned>(*request.seed);
+  Job job(std::move(stop), request.job);
+  capture::write_demo_folder(request.output, options, job.progress());
+  job.finish();
+  std::cout << request.output << ": photographs, pattern, mesh and picks; see readme.txt\n";
+}
+
 }  // namespace
 
 void run_synthesize(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
+  if (request.scene == kGantry) return synthesize_gantry(request, std::move(stop));
   check_builtin_scene(request.scene);
   const auto [id, options] = scene_of(request);
   check_hdf5_output("synthesize", request.output);

@@ -5,6 +5,14 @@
 
 namespace episcope {
 
+/// The pinhole of the centre view: a point (X, Y, Z) is seen at (f·X/Z + cx, f·Y/Z + cy), in pixels
+/// whose centres have whole coordinates.
+struct Pinhole {
+  double focal_px = 0;
+  double center_x = 0;
+  double center_y = 0;
+};
+
 /// The camera grid that turns depth into disparity and back: parallel cameras on an equidistant
 /// square grid, rectified onto a plane of zero disparity.
 ///
@@ -16,6 +24,7 @@ struct CameraGrid {
   double focal_length = 0;  ///< f (`focalLength`).
   double shift = 0;         ///< Δx in px per view step (`shift`).
   std::optional<double> cam_distance;  ///< Z0, where d = 0 (`camDistance`, Blender scenes).
+  std::optional<Pinhole> pinhole;      ///< Known of rectified photographs.
 
   /// Whether depth and disparity can be converted into each other.
   [[nodiscard]] bool is_known() const { return baseline * focal_length > 0; }

@@ -13,6 +13,9 @@ inline constexpr const char* kConventionText =
 /// Attribute of the root: x and y of the camera of each view, row by row; and their unit.
 inline constexpr const char* kPositions = "camera_positions";
 inline constexpr const char* kPositionUnit = "camera_position_unit";
+/// Attribute of the root: the pinhole of the centre view: focal length, x and y of its centre in
+/// px.
+inline constexpr const char* kPinhole = "pinhole";
 /// Dataset `[v][h][y][x]`, uint8: 0 = the pixel holds nothing that was seen.
 inline constexpr const char* kValid = "VALID";
 /// Datasets `[y][x]`, uint8: a region mask of the centre view, whose name follows.

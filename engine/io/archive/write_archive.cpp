@@ -76,6 +76,9 @@ void write_attributes(Hdf5Output& file, const Scene& scene, const CameraGrid& ca
   file.set_number(root, "focalLength", camera.focal_length);
   file.set_number(root, "shift", camera.shift);
   if (camera.cam_distance) file.set_number(root, "camDistance", *camera.cam_distance);
+  if (const auto& pinhole = camera.pinhole) {
+    file.set_numbers(root, kPinhole, {pinhole->focal_px, pinhole->center_x, pinhole->center_y});
+  }
   file.set_text(root, kConvention, kConventionText);
   file.set_text(root, "name", field.info().name);
   if (!field.info().camera.is_known()) {

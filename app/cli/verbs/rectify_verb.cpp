@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/arguments/arguments.h"
+#include "app/cli/arguments/usage_error.h"
+#include "app/cli/input/input.h"
+#include "app/cli/output/json.h"
+#include "app/cli/output/output_file.h"
+#include "app/cli/verbs/verbs.h"
+#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/rectify/rectify.h"
+#include "engine/io/archive/write_scene.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace episcope::cli {
+namespace {
+
+struct Request {
+  std::string input;
+  std::string camera;
+  std::string output;
+  std::string picks;
+  std::string pairs;
+  std::optional<double> step;
+  bool equalise = false;
+  bool is_json = false;
+  Overwrite overwrite = Overwrite::No;
+  JobOptions job;
+  ReadOptions read;
+};
+
+bool parse(const VerbArguments& arguments, Request& request) {
+  Arguments parser(
+      "rectify",
+      {"Makes a light field of photographs taken on a grid: without distortion of the lens,\n"
+       "rows and columns aligned, shifted so that the scene is at disparity 0, each sample\n"
+       "interpolated once.",
+       "episcope-cli rectify photographs/ --camera camera.yml --step 12 -o lf.h5"});
+  parser.positional("FOLDER", request.input, "The photographs, or any light field");
+  parser.required_option("--camera", request.camera, text_value("CAMERA.yml"),
+                         "The camera, as calibrate writes it");
+  parser.required_option("-o,--output", request.output, text_value("OUT.h5"),
+                         "Light field to write");
+  parser.option("--step", request.step, real_value("LENGTH", 1e-9, 1e9),
+                "Step of the gantry in the unit of the mesh (default 1: depth is in steps)");
+  parser.flag("--even-gain", request.equalise, true,
+              "Divide each view by its gain, as measured against the centre");
+  parser.option("--picks", request.picks, text_value("PICKS.csv"),
+                "Pairs picked in the photograph of the centre view, to carry over");
+  parser.option("--pairs", request.pairs, text_value("PAIRS.csv"),
+                "Where to write the picks, as pixels of the rectified centre view");
+  parser.flag("--json", request.is_json, "Print one JSON object instead of text");
+  parser.flag("--overwrite", request.overwrite, Overwrite::Yes, "Replace an existing light field");
+  request.read.needs_truth = false;
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  if (request.picks.empty() != request.pairs.empty()) {
+    throw UsageError("--picks and --pairs belong together: what to carry over, and where to");
+  }
+  return true;
+}
+
+Json errors_json(const capture::RowErrors& errors) {
+  return Json::object({{"median", errors.median}, {"percentile_95", errors.percentile_95}});
+}
+
+Json answer(const capture::Rectified& rectified, const std::string& output) {
+  const LightField& field = *rectified.light_field;
+  Json json;
+  json["width"] = field.width();
+  json["height"] = field.height();
+  json["points"] = rectified.points;
+  json["vertical_disparity_before_px"] = errors_json(rectified.before);
+  json["vertical_disparity_after_px"] = errors_json(rectified.after);
+  json["roll_degrees"] = rectified.alignment.roll_degrees();
+  json["shift"] = field.info().camera.shift;
+  json["focal_length_px"] = field.info().camera.focal_length;
+  json["gains"] = rectified.gains;
+  json["output"] = output;
+  return json;
+}
+
+void print(const capture::Rectified& rectified, const std::string& output) {
+  const LightField& field = *rectified.light_field;
+  const auto [low, high] = std::ranges::minmax(rectified.gains);
+  std::cout << fmt::format(
+      "{}: {}×{} views of {}×{} px, shifted by {:.3f} px per view step\n"
+      "vertical disparity of neighbours (median, 95 %): before {:.3f}, {:.3f} px, after {:.3f}, "
+      "{:.3f} px, of {} points\n"
+      "the camera was turned by {:.3f}° against the gantry; gains {:.3f} … {:.3f}\n",
+      output, field.grid().v, field.grid().u, field.width(), field.height(),
+      field.info().camera.shift, rectified.before.median, rectified.before.percentile_95,
+      rectified.after.median, rectified.after.percentile_95, rectified.points,
+      -rectified.alignment.roll_degrees(), low, high);
+}
+
+void check_outputs(const Request& request) {
+  check_hdf5_output("rectify", request.output);
+  protect_input(request.output, request.input);
+  check_light_field_output(request.output, request.overwrite);
+  if (request.pairs.empty()) return;
+  check_output_file(request.pairs);
+  protect_input(request.pairs, request.picks);
+}
+
+}  // namespace
+
+void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
+  Request request;
+  if (!parse(arguments, request)) return;
+  check_outputs(request);
+  const capture::LensCamera camera = capture::read_camera(request.camera);
+  std::vector<capture::PointPair> picks;
+  if (!request.picks.empty()) picks = capture::read_pairs(request.picks);
+  Job job(std::move(stop), request.job);
+  Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.2));
+  for (const auto& warning : scene.convention.warnings) job.note(warning);
+  const capture::Rectified rectified =
+      capture::rectify(*scene.light_field, camera, {request.step.value_or(1), request.equalise},
+                       job.progress().part(0.2, 0.9));
+  scene.light_field = rectified.light_field;
+  scene.truth = std::make_shared<GroundTruth>();
+  scene.scribbles = {};
+  io::write_archive(request.output, scene, job.progress().part(0.9, 1));
+  for (capture::PointPair& pair : picks) {
+    const capture::PlanePoint place = rectified.center_pixel(camera, {pair.x_px, pair.y_px});
+    pair.x_px = place.x;
+    pair.y_px = place.y;
+  }
+  if (!picks.empty()) capture::write_pairs(request.pairs, picks);
+  job.finish();
+  if (request.is_json) return print_json(answer(rectified, request.output));
+  print(rectified, request.output);
+}
+
+}  // namespace episcope::cli

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/demo/photograph.h"
+
+#include "engine/capture/demo/solid_noise.h"
+#include "engine/capture/depth/pixel_surface.h"
+#include "engine/core/parallel/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace episcope::capture {
+namespace {
+
+constexpr int kFine = 3;          // samples along a pixel
+constexpr double kMargin = 1.08;  // by how much the fine picture is wider than the rays need
+
+PlanePoint turned(const std::array<double, 9>& r, const PlanePoint& ray) {
+  const double z = r[6] * ray.x + r[7] * ray.y + r[8];
+  return {(r[0] * ray.x + r[1] * ray.y + r[2]) / z, (r[3] * ray.x + r[4] * ray.y + r[5]) / z};
+}
+
+/// The fine picture, without lens and rotation, that holds all rays of the camera.
+ViewCamera fine_camera(const LensCamera& camera, const Exposure& exposure) {
+  double reach_x = 0;
+  double reach_y = 0;
+  for (int i = 0; i <= 8; ++i) {
+    for (int k = 0; k <= 8; ++k) {
+      const PlanePoint pixel{camera.width * i / 8.0, camera.height * k / 8.0};
+      const PlanePoint ray = turned(exposure.rotation, ray_of_pixel(camera, pixel));
+      reach_x = std::max(reach_x, std::abs(ray.x));
+      reach_y = std::max(reach_y, std::abs(ray.y));
+    }
+  }
+  ViewCamera fine;
+  const double focal = kFine * camera.focal_x;
+  fine.width = static_cast<int>(2 * kMargin * reach_x * focal);
+  fine.height = static_cast<int>(2 * kMargin * reach_y * focal);
+  fine.pinhole = {focal, (fine.width - 1) / 2.0, (fine.height - 1) / 2.0};
+  fine.x = exposure.x;
+  fine.y = exposure.y;
+  return fine;
+}
+
+std::array<float, 3> color_at(const Point3& p) {
+  const double broad = solid_noise(p, 35, 1);
+  const double middle = solid_noise(p, 11, 2);
+  const double fine = solid_noise(p, 4.5, 3);
+  std::array<float, 3> color;
+  constexpr double base[3] = {138, 122, 104};
+  for (int c = 0; c < 3; ++c) {
+    const double tint = solid_noise(p, 18, 4 + static_cast<unsigned>(c));
+    color[c] = static_cast<float>(
+        std::clamp(base[c] + 30 * broad + 34 * middle + 32 * fine + 16 * tint, 4.0, 250.0));
+  }
+  return color;
+}
+
+Image<float> colors_of(const ViewSurface& surface, const ViewCamera& camera,
+                       const Progress& progress) {
+  Image<float> colors(camera.height, camera.width, 3, 20.0F);
+  parallel_for(camera.height, progress, [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const double w = surface.inverse_depth.at(y, x);
+      if (surface.triangle.at(y, x) == PixelSurface::kNone || !(w > 0)) continue;
+      const double scale = 1 / (w * camera.pinhole.focal_px);
+      const Point3 place{(x - camera.pinhole.center_x) * scale + camera.x,
+                         (y - camera.pinhole.center_y) * scale + camera.y, 1 / w};
+      const std::array<float, 3> color = color_at(place);
+      std::copy(color.begin(), color.end(), &colors.at(y, x));
+    }
+  });
+  return colors;
+}
+
+void add_sample(const Image<float>& fine, const PlanePoint& at, float* sum) {
+  const int x = std::clamp(static_cast<int>(at.x), 0, fine.width() - 2);
+  const int y = std::clamp(static_cast<int>(at.y), 0, fine.height() - 2);
+  const auto tx = static_cast<float>(at.x - x);
+  const auto ty = static_cast<float>(at.y - y);
+  for (int c = 0; c < 3; ++c) {
+    const float top = fine.at(y, x, c) * (1 - tx) + fine.at(y, x + 1, c) * tx;
+    const float bottom = fine.at(y + 1, x, c) * (1 - tx) + fine.at(y + 1, x + 1, c) * tx;
+    sum[c] += (top * (1 - ty) + bottom * ty) / (kFine * kFine);
+  }
+}
+
+}  // namespace
+
+Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure) {
+  Image<std::uint8_t> samples(light.height(), light.width(), light.channels());
+  std::mt19937 random(exposure.seed);
+  // The sum of twelve uniform numbers, because std::normal_distribution differs between libraries.
+  const auto normal = [&random] {
+    double sum = -6;
+    for (int i = 0; i < 12; ++i) sum += random() * 0x1p-32;
+    return sum;
+  };
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double value = light.data()[i] * exposure.gain + exposure.noise * normal();
+    samples.data()[i] = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+  }
+  return samples;
+}
+
+Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
+                               const Exposure& exposure, const Progress& progress) {
+  const ViewCamera fine = fine_camera(camera, exposure);
+  ViewRaster raster(scene, std::numeric_limits<double>::infinity());
+  const ViewSurface surface = raster.view(fine, progress.part(0, 0.5));
+  const Image<float> colors = colors_of(surface, fine, progress.part(0.5, 0.9));
+  Image<float> light(camera.height, camera.width, 3);
+  parallel_for(camera.height, progress.part(0.9, 1), [&](int y) {
+    for (int x = 0; x < camera.width; ++x) {
+      for (int i = 0; i < kFine * kFine; ++i) {
+        const PlanePoint pixel{x + (i % kFine + 0.5) / kFine - 0.5,
+                               y + (i / kFine + 0.5) / kFine - 0.5};
+        const PlanePoint ray = turned(exposure.rotation, ray_of_pixel(camera, pixel));
+        add_sample(colors,
+                   {ray.x * fine.pinhole.focal_px + fine.pinhole.center_x,
+                    ray.y * fine.pinhole.focal_px + fine.pinhole.center_y},
+                   &light.at(y, x));
+      }
+    }
+  });
+  return exposed(light, exposure);
+}
+
+}  // namespace episcope::capture

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/capture/camera/lens.h"
+#include "engine/capture/depth/view_surface.h"
+#include "engine/core/array/image.h"
+#include "engine/core/parallel/progress.h"
+
+#include <array>
+#include <cstdint>
+
+namespace episcope::capture {
+
+/// Where a camera stands and how its sensor works.
+struct Exposure {
+  double x = 0;  ///< In the frame of the gantry, in the unit of the mesh.
+  double y = 0;
+  std::array<double, 9> rotation{1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< Camera to gantry, row by row.
+  double gain = 1;
+  double noise = 0;  ///< Standard deviation in grey levels.
+  unsigned seed = 1;
+};
+
+/// A photograph, RGB, of a textured scene in the frame of the gantry, through a lens: rasterised
+/// three times as fine (view_surface.h), seen through the lens and averaged over each pixel. The
+/// texture is noise in space, so it sticks to the surface. Deterministic. Throws Cancelled.
+[[nodiscard]] Image<std::uint8_t> photograph(const PlacedScene& scene, const LensCamera& camera,
+                                             const Exposure& exposure, const Progress& progress);
+
+/// Adds Gaussian noise of a seed to samples, and rounds them.
+[[nodiscard]] Image<std::uint8_t> exposed(const Image<float>& light, const Exposure& exposure);
+
+}  // namespace episcope::capture

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/pose/pose_file.h"
+
+#include "engine/core/error.h"
+#include "engine/io/durable/atomic_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+namespace episcope::capture {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json pairs_json(const PoseStory& story) {
+  Json pairs = Json::array();
+  for (std::size_t i = 0; i < story.pairs.size(); ++i) {
+    const PointPair& pair = story.pairs[i];
+    const PairResidual& judged = story.solved.pairs[i];
+    pairs.push_back({{"name", pair.name},
+                     {"x_px", pair.x_px},
+                     {"y_px", pair.y_px},
+                     {"X", pair.point.x},
+                     {"Y", pair.point.y},
+                     {"Z", pair.point.z},
+                     {"residual_px", judged.residual_px},
+                     {"outlier", judged.is_outlier}});
+  }
+  return pairs;
+}
+
+/// The path of the mesh as it is found from the folder of the file.
+std::string stored_mesh(const std::filesystem::path& mesh, const std::filesystem::path& path) {
+  std::error_code error;
+  const auto relative =
+      std::filesystem::relative(mesh, std::filesystem::absolute(path, error).parent_path(), error);
+  return error || relative.empty() ? std::filesystem::absolute(mesh).string() : relative.string();
+}
+
+bool is_rotation(const std::array<double, 9>& r) {
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      double product = 0;
+      for (int c = 0; c < 3; ++c) product += r[3 * i + c] * r[3 * k + c];
+      if (!(std::abs(product - (i == k ? 1 : 0)) < 1e-6)) return false;
+    }
+  }
+  const double turn = r[0] * (r[4] * r[8] - r[5] * r[7]) - r[1] * (r[3] * r[8] - r[5] * r[6]) +
+                      r[2] * (r[3] * r[7] - r[4] * r[6]);
+  return turn > 0;
+}
+
+}  // namespace
+
+std::string pose_json(const PoseStory& story, const std::filesystem::path& path) {
+  const SolvedPose& solved = story.solved;
+  Json json;
+  json["mesh"] = stored_mesh(story.mesh, path);
+  json["light_field"] = story.light_field;
+  json["rotation"] = solved.pose.rotation;
+  json["translation"] = solved.pose.translation;
+  json["reprojection_error_px"] = solved.reprojection_error_px;
+  json["delta_tz"] = solved.delta_tz;
+  if (std::isfinite(solved.delta_tz_px)) json["delta_tz_px"] = solved.delta_tz_px;
+  json["covariance"] = solved.covariance;
+  if (story.camera.pinhole) {
+    const Pinhole& pinhole = *story.camera.pinhole;
+    json["pinhole"] = {pinhole.focal_px, pinhole.center_x, pinhole.center_y};
+  }
+  json["pairs"] = pairs_json(story);
+  return json.dump(2) + "\n";
+}
+
+void write_pose(const std::filesystem::path& path, const PoseStory& story) {
+  const std::string text = pose_json(story, path);
+  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+PoseStory read_pose(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file) throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
+  PoseStory story;
+  try {
+    const Json json = Json::parse(file);
+    story.mesh = json.at("mesh").get<std::string>();
+    json.at("rotation").get_to(story.solved.pose.rotation);
+    json.at("translation").get_to(story.solved.pose.translation);
+    story.light_field = json.value("light_field", "");
+  } catch (const Json::exception&) {
+    throw IoError(path,
+                  "this is no pose: mesh, rotation (9 numbers) and translation (3) are expected; "
+                  "make one with episcope-cli pose");
+  }
+  if (!is_rotation(story.solved.pose.rotation)) {
+    throw IoError(path,
+                  "rotation is no rotation matrix; make the pose again with episcope-cli pose");
+  }
+  if (story.mesh.is_relative()) {
+    story.mesh = std::filesystem::absolute(path).parent_path() / story.mesh;
+  }
+  return story;
+}
+
+}  // namespace episcope::capture

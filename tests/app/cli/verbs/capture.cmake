@@ -1,0 +1,45 @@
+# From photographs of a gantry to a light field with truth: synthesize gantry, calibrate, rectify,
+# pose, ground-truth; and what each says of wrong input.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+
+expect(synthesize 0 OUT "picks; see readme.txt"
+       ARGS synthesize gantry -o rig --views 3x3 --size 320x240 --seed 4)
+expect("synthesize into a full folder" 1 ERR "not empty" ARGS synthesize gantry -o rig)
+file(GLOB photographs RELATIVE "${WORK}" "${WORK}/rig/pattern/*.png")
+
+expect(calibrate 0 ARGS calibrate ${photographs} --pattern 9x6 --square 25 -o camera.yml --json)
+json_near("${out}" 0 0.3 rms)
+json_near("${out}" 448 458 focal_length_px 0)
+json_is("${out}" ON photos 0 used)
+json_is("${out}" OFF photos 12 used)
+json_is("${out}" OFF photos 13 used)
+expect("calibrate with too few" 1 ERR "at least 3 photographs"
+       ARGS calibrate rig/pattern/01.png --pattern 9x6 -o other.yml)
+expect("calibrate without a pattern" 2 ERR "pattern" ARGS calibrate rig/pattern/01.png -o other.yml)
+expect("calibrate over its input" 1 ERR "01.png"
+       ARGS calibrate rig/pattern/01.png --pattern 9x6 -o rig/pattern/01.png)
+
+expect(rectify 0 ARGS rectify rig/photographs --camera camera.yml --step 12 --picks rig/picks.csv
+       --pairs pairs.csv -o raw.h5 --json --quiet)
+json_near("${out}" 0 0.1 vertical_disparity_after_px percentile_95)
+json_near("${out}" 0.1 9 vertical_disparity_before_px percentile_95)
+expect("rectify without a camera" 1 ERR "camera_matrix"
+       ARGS rectify rig/photographs --camera rig/picks.csv -o other.h5 --quiet)
+
+expect(pose 0 ARGS pose raw.h5 --mesh rig/mesh.ply --pairs pairs.csv -o pose.json --json --quiet)
+json_near("${out}" 0 1.2 reprojection_error_px)
+json_is("${out}" p1 pairs 0 name)
+json_is("${out}" OFF pairs 0 outlier)
+expect("pose of pairs that are none" 1 ERR "line 1" ARGS pose raw.h5 --mesh rig/mesh.ply
+       --pairs rig/readme.txt -o other.json --quiet)
+expect("pose without a pinhole" 1 ERR "pinhole" ARGS pose demo:edge --mesh rig/mesh.ply
+       --pairs pairs.csv -o other.json --quiet)
+
+expect(ground-truth 0 OUT "depth of 9 views from 1 mesh"
+       ARGS ground-truth raw.h5 --pose pose.json -o lf.h5 --quiet)
+expect(info 0 ARGS info lf.h5 --json)
+json_is("${out}" all truth views)
+json_near("${out}" 80 99.99 truth valid_percent)
+expect("ground-truth without a pose" 2 ERR "--pose" ARGS ground-truth raw.h5 -o other.h5)
+expect("ground-truth over its input" 1 ERR "raw.h5"
+       ARGS ground-truth raw.h5 --pose pose.json -o raw.h5 --overwrite --quiet)

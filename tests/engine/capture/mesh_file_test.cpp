@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/capture/mesh/mesh_file.h"
+#include "engine/core/error.h"
+
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <fstream>
+
+namespace episcope::in_mesh_file_test {
+
+using namespace capture;
+
+namespace {
+
+const std::string kPly =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n";
+
+}  // namespace
+
+class MeshFileTest : public QObject {
+  Q_OBJECT
+
+  QTemporaryDir folder_;
+
+  std::filesystem::path file(const std::string& name, const std::string& text) {
+    const std::filesystem::path path = folder_.filePath(QString::fromStdString(name)).toStdString();
+    std::ofstream(path, std::ios::binary) << text;
+    return path;
+  }
+  QString problem(const std::string& name, const std::string& text) {
+    try {
+      (void)read_mesh(file(name, text), Progress(1));
+    } catch (const IoError& error) {
+      return QString::fromUtf8(error.what());
+    }
+    return {};
+  }
+
+ private slots:
+  void binaryPly_isReadAsWritten() {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3.5F}, {1, 1, -4}};
+    mesh.faces = {{0, 2, 1}, {1, 2, 3}};
+    const std::filesystem::path path = folder_.filePath("a.ply").toStdString();
+    write_mesh(path, mesh);
+    const TriangleMesh read = read_mesh(path, Progress(1));
+    QVERIFY(read.vertices == mesh.vertices);
+    QVERIFY(read.faces == mesh.faces);
+  }
+
+  void asciiForms_areRead() {
+    const TriangleMesh ply = read_mesh(
+        file("b.ply", kPly + "0 0 1\n1 0 2\n0 1 3.5\n1 1 -4\n3 0 2 1\n3 1 2 3\n"), Progress(1));
+    QCOMPARE(ply.vertices.size(), std::size_t{4});
+    QVERIFY(ply.faces == (std::vector<Face>{{0, 2, 1}, {1, 2, 3}}));
+    const TriangleMesh obj =
+        read_mesh(file("c.obj", "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\n"), Progress(1));
+    QCOMPARE(obj.faces.size(), std::size_t{2});  // a square is two triangles
+    const TriangleMesh stl = read_mesh(
+        file("d.stl",
+             "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex "
+             "0 1 0\nendloop\nendfacet\nendsolid s\n"),
+        Progress(1));
+    QCOMPARE(stl.faces.size(), std::size_t{1});
+  }
+
+  void brokenMeshes_getASentence() {
+    QVERIFY(problem("no.ply", kPly + "0 0 1\n1 0 2\n0 1 nan\n1 1 4\n3 0 2 1\n3 1 2 3\n")
+                .contains("no number"));
+    QVERIFY(problem("far.ply", kPly + "0 0 1\n1 0 2\n0 1 3\n1 1 4\n3 0 2 1\n3 1 2 9\n")
+                .contains("far.ply"));
+    QVERIFY(problem("cut.ply", kPly + "0 0 1\n1 0 2\n").contains("cut.ply"));
+    QVERIFY(problem("text.ply", "no mesh at all").contains("cannot be read"));
+    QVERIFY(problem("points.ply",
+                    "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
+                    "y\nproperty float z\nend_header\n0 0 1\n")
+                .contains("points.ply"));
+    QVERIFY(problem("mesh.xyz", "0 0 0").contains(".ply, .obj or .stl"));
+    QVERIFY_EXCEPTION_THROWN((void)read_mesh("/nowhere/a.ply", Progress(1)), IoError);
+  }
+};
+
+}  // namespace episcope::in_mesh_file_test
+
+EPISCOPE_TEST(mesh_file_test, MeshFileTest)
+#include "mesh_file_test.moc"
