@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -50,11 +51,27 @@ std::vector<Image<float>> weights_of(const RayLabelingInput& input, const Progre
   return weights;
 }
 
-LinkedProblem problem_of(const RayLabelingInput& input, const RayLabelingParameters& parameters,
-                         const std::vector<LinesOfView>& lines,
-                         const std::vector<Image<float>>& weights) {
-  const LabelProbabilities& p = *input.probabilities;
+// The problem, and what it borrows.
+struct JointProblem {
+  JointProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+               const Progress& progress)
+      : lines(lines_of(input, progress.part(0, 0.7))),
+        weights(weights_of(input, progress.part(0.7, 1))) {
+    state(input, parameters);
+  }
+  JointProblem(const JointProblem&) = delete;
+  JointProblem& operator=(const JointProblem&) = delete;
+
+  std::vector<LinesOfView> lines;
+  std::vector<Image<float>> weights;
   LinkedProblem problem;
+
+ private:
+  void state(const RayLabelingInput& input, const RayLabelingParameters& parameters);
+};
+
+void JointProblem::state(const RayLabelingInput& input, const RayLabelingParameters& parameters) {
+  const LabelProbabilities& p = *input.probabilities;
   problem.table = cost_table(parameters.floor);
   problem.smoothness = parameters.smoothness;
   problem.coherence = parameters.coherence;
@@ -69,16 +86,13 @@ LinkedProblem problem_of(const RayLabelingInput& input, const RayLabelingParamet
       image.links[kind] = {to, of_kind.target, of_kind.weight};
     }
   }
-  return problem;
 }
 
 // Layers, not ids.
 RayLabeling solve(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                   double gap, const Progress& progress) {
   progress.step("lines");
-  const auto lines = lines_of(input, progress.part(0, 0.02));
-  const auto weights = weights_of(input, progress.part(0.02, 0.03));
-  const LinkedProblem problem = problem_of(input, parameters, lines, weights);
+  const JointProblem joint(input, parameters, progress.part(0, 0.03));
   LinkedOptions options;
   options.gap = gap;
   options.max_iterations = parameters.max_iterations;
@@ -89,7 +103,7 @@ RayLabeling solve(const RayLabelingInput& input, const RayLabelingParameters& pa
   }
   progress.step("views");
   const LinkedResult solved =
-      solve_linked_labeling(problem, options, progress.part(0.03, 1), labels);
+      solve_linked_labeling(joint.problem, options, progress.part(0.03, 1), labels);
   result.energy = solved.energy;
   result.bound = solved.bound;
   result.iterations = solved.iterations;
@@ -100,7 +114,7 @@ RayLabeling solve(const RayLabelingInput& input, const RayLabelingParameters& pa
 
 RayLabeling smooth_lines(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const Progress& progress) {
-  RayLabeling result = solve(input, parameters, parameters.gap_all_views, progress);
+  RayLabeling result = solve(input, parameters, parameters.gap_joint, progress);
   replace_layers_by_ids(input.probabilities->ids, result);
   return result;
 }
@@ -117,6 +131,20 @@ RayLabeling smooth_lines_of_view(const RayLabelingInput& input, ViewIndex view,
   std::copy_n(wanted.data, all.labels.view_size(), result.labels.view(view).data);
   replace_layers_by_ids(input.probabilities->ids, result);
   return result;
+}
+
+double line_energy(const RayLabelingInput& input, const RayLabelingParameters& parameters,
+                   const ViewStack<std::int32_t>& labels) {
+  const LabelProbabilities& p = *input.probabilities;
+  ViewStack<std::int32_t> layers = labels.clone();
+  std::for_each(layers.data(), layers.data() + layers.size(), [&p](std::int32_t& label) {
+    label = static_cast<std::int32_t>(std::ranges::lower_bound(p.ids, label) - p.ids.begin());
+  });
+  std::vector<ImageView<const int>> views;
+  for (int i = 0; i < p.grid.count(); ++i) {
+    views.push_back(std::as_const(layers).view(p.view_at(i)));
+  }
+  return linked_energy(JointProblem(input, parameters, Progress()).problem, views);
 }
 
 }  // namespace episcope

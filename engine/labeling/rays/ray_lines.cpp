@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -16,42 +17,56 @@ float drawn_on(int from, float d, int steps) {
   return std::floor(center - d * static_cast<float>(steps + 1) + 0.5F);
 }
 
+// Two views and the way from one to the other.
+struct Step {
+  DisparityView here, there;
+  bool is_across = false;
+  int from_middle = 0;  // views between the middle column (row) and the first view
+};
+
+// Where the line through a pixel ends in the other view, −1 if it does not get there.
+std::int32_t line_end(const Step& step, int y, int x) {
+  const auto& [here, there, is_across, from_middle] = step;
+  if (!here.is_valid(y, x)) return -1;
+  const int width = here.disparity.width, height = here.disparity.height;
+  const float d = here.disparity.at(y, x);
+  const float at_x = is_across ? drawn_on(x, d, from_middle) : static_cast<float>(x);
+  const float at_y = is_across ? static_cast<float>(y) : drawn_on(y, d, from_middle);
+  // The comparison also drops what is too far off to be an int.
+  if (!(at_x >= 0 && at_y >= 0 && at_x < static_cast<float>(width) &&
+        at_y < static_cast<float>(height))) {
+    return -1;
+  }
+  const PixelIndex end{static_cast<int>(at_y), static_cast<int>(at_x)};
+  if (!there.is_valid(end.y, end.x)) return -1;
+  const bool is_hidden = std::fabs(there.disparity.at(end.y, end.x) - d) > kSamePointTolerance_px;
+  return is_hidden ? -1 : end.y * width + end.x;
+}
+
 }  // namespace
 
 RayLines find_ray_lines(const RayLineSources& sources, ViewIndex view, ViewIndex next,
                         const Progress& progress) {
-  const DisparityView here = sources.disparity.view(view), there = sources.disparity.view(next);
-  const int height = here.disparity.height, width = here.disparity.width;
-  RayLines lines{Image<std::int32_t>(height, width), Image<std::uint8_t>(height, width)};
-  std::fill(lines.weight.begin(), lines.weight.end(), std::uint8_t{0});
-  Image<std::uint8_t> is_taken(height, width);
-  std::fill(is_taken.begin(), is_taken.end(), std::uint8_t{0});
   const bool is_across = next.u != view.u;
+  const Step step{sources.disparity.view(view), sources.disparity.view(next), is_across,
+                  is_across ? view.u - sources.middle.u : view.v - sources.middle.v};
+  const int height = step.here.disparity.height, width = step.here.disparity.width;
+  RayLines lines{Image<std::int32_t>(height, width), Image<std::uint8_t>(height, width)};
+  std::fill(lines.target.begin(), lines.target.end(), -1);
+  std::fill(lines.weight.begin(), lines.weight.end(), std::uint8_t{0});
+  std::vector<bool> is_taken(static_cast<std::size_t>(height) * width);
   for (int y = 0; y < height; ++y) {
     progress.check();
     const RayColors::Pair colors = sources.colors.pair(view, y, next);
     for (int x = 0; x < width; ++x) {
-      lines.target.at(y, x) = -1;
-      if (!here.is_valid(y, x)) continue;
-      const float d = here.disparity.at(y, x);
-      const float at_x =
-          is_across ? drawn_on(x, d, view.u - sources.middle.u) : static_cast<float>(x);
-      const float at_y =
-          is_across ? static_cast<float>(y) : drawn_on(y, d, view.v - sources.middle.v);
-      // The comparison also drops what is too far off to be an int.
-      if (!(at_x >= 0 && at_y >= 0 && at_x < static_cast<float>(width) &&
-            at_y < static_cast<float>(height))) {
-        continue;
-      }
-      const PixelIndex end{static_cast<int>(at_y), static_cast<int>(at_x)};
-      if (!there.is_valid(end.y, end.x) || is_taken.at(end.y, end.x) != 0) continue;
-      if (std::fabs(there.disparity.at(end.y, end.x) - d) > kSamePointTolerance_px) continue;
-      const float trust = sources.colors.trust(colors, x, end.y * width + end.x);
-      const auto weight = static_cast<std::uint8_t>(255 * trust + 0.5F);
+      const std::int32_t end = line_end(step, y, x);
+      if (end < 0 || is_taken[end]) continue;
+      const auto weight =
+          static_cast<std::uint8_t>(255 * sources.colors.trust(colors, x, end) + 0.5F);
       if (weight == 0) continue;
-      lines.target.at(y, x) = end.y * width + end.x;
+      lines.target.at(y, x) = end;
       lines.weight.at(y, x) = weight;
-      is_taken.at(end.y, end.x) = 1;
+      is_taken[end] = true;
     }
   }
   return lines;

@@ -52,9 +52,10 @@ void check_labels(const LinkedProblem& problem, const Labels& labels) {
     throw InvalidInput("there must be a label image of the size of the costs for each image");
 }
 
-std::vector<PairLimits> limits_of(const LinkedProblem& problem) {
+std::vector<PairLimits> limits_of(const LinkedProblem& problem, const Progress& progress) {
   std::vector<PairLimits> limits;
   for (const LinkedImage& image : problem.images) {
+    progress.check();
     limits.emplace_back(image.codes.height, image.codes.width, problem.smoothness / 2, image.g);
   }
   return limits;
@@ -99,8 +100,8 @@ class LinkedSolver {
       : problem_(problem),
         options_(options),
         sources_(problem, progress.part(0, 0)),
-        limits_(limits_of(problem)),
-        unknowns_(problem),
+        limits_(limits_of(problem, progress)),
+        unknowns_(problem, progress.part(0, 0)),
         bounds_(problem.images.size()),
         energies_(problem.images.size()) {
     for (std::size_t i = 0; i < problem.images.size(); ++i) {
@@ -200,7 +201,7 @@ double linked_energy(const LinkedProblem& problem,
                      const std::vector<ImageView<const int>>& labels) {
   check_problem(problem);
   check_labels(problem, labels);
-  const std::vector<PairLimits> limits = limits_of(problem);
+  const std::vector<PairLimits> limits = limits_of(problem, Progress());
   double sum = 0;
   for (std::size_t i = 0; i < labels.size(); ++i) {
     sum += image_energy(problem, limits[i], labels, static_cast<int>(i));

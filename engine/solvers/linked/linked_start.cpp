@@ -6,6 +6,7 @@
 #include "engine/solvers/simplex/pair_labels.h"
 #include "engine/solvers/simplex/simplex_labeling.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace episcope {
@@ -15,6 +16,7 @@ namespace {
 constexpr int kLongestChain = 9;
 // The agreement of images changes more than what more iterations of one would.
 constexpr int kMostIterations = 100;
+constexpr double kLeastGap = 1e-2;
 
 struct Chain {
   int begin = 0, end = 0;
@@ -50,7 +52,7 @@ class SingleImages {
       for (int y = 0; y < costs_.height(); ++y) {
         look_up_costs(problem_, kernel_, i, y, costs_.view().row(y, 0));
       }
-      SimplexOptions options{kMostIterations, options_.gap, 5, {}};
+      SimplexOptions options{kMostIterations, std::max(options_.gap, kLeastGap), 5, {}};
       if (i > chain.begin) options.from_last = sources_.pixels(i, 0);
       const SimplexProblem single{costs_.view(), problem_.images[i].g, problem_.smoothness};
       solver_.solve(single, options, progress, labels_.view());

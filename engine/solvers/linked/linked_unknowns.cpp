@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/solvers/linked/linked_unknowns.h"
 
+#include "engine/core/parallel/parallel.h"
 #include "engine/solvers/simplex/pair_limits.h"
 
 #include <algorithm>
@@ -28,17 +29,18 @@ float unit_of(double twice_the_limit) {
 
 }  // namespace
 
-LinkedUnknowns::LinkedUnknowns(const LinkedProblem& problem) {
+LinkedUnknowns::LinkedUnknowns(const LinkedProblem& problem, const Progress& progress) {
   const auto& codes = problem.images[0].codes;
   row_ = {codes.layers, codes.width, layer_pitch(codes.width)};
   height_ = codes.height;
   pair_unit_ = unit_of(problem.smoothness * static_cast<double>(largest_weight(problem)));
   link_unit_ = unit_of(problem.coherence);
   const std::size_t size = static_cast<std::size_t>(height_) * stride() + kLayerRowUnit;
-  for (std::size_t i = 0; i < problem.images.size(); ++i) {
-    memory_.push_back(make_large<std::int16_t>(size));
-    std::fill_n(memory_.back().get(), size, std::int16_t{0});
-  }
+  memory_.resize(problem.images.size());
+  parallel_for(static_cast<int>(problem.images.size()), progress, [&](int i) {
+    memory_[i] = make_large<std::int16_t>(size);
+    std::fill_n(memory_[i].get(), size, std::int16_t{0});
+  });
 }
 
 }  // namespace episcope

@@ -15,8 +15,9 @@ namespace episcope {
 /// `pitch` apart; beyond the width everything stays 0.
 class LinkedUnknowns {
  public:
-  /// Everything 0. Units are those of the problem: u in ±4, duals up to twice their limits.
-  explicit LinkedUnknowns(const LinkedProblem& problem);
+  /// Everything 0. Units are those of the problem: u in ±4, duals up to twice their limits. Throws
+  /// Cancelled.
+  LinkedUnknowns(const LinkedProblem& problem, const Progress& progress);
 
   [[nodiscard]] const LinkedRow& row() const { return row_; }
   [[nodiscard]] long row_size() const { return row_.layers * row_.pitch; }
