@@ -101,7 +101,8 @@ class Runner {
       grids_.push_back(options.has_search ? search_grid(method.parameters)
                                           : std::vector<ParameterSet>());
     }
-    report_.has_disparities = options.labels.empty() || !options.methods.empty();
+    report_.has_disparities =
+        options.labels.empty() || !options.methods.empty() || !options.submissions.empty();
     report_.has_labels = !options.labels.empty();
     expect_work();
   }

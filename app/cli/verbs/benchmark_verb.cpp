@@ -33,8 +33,8 @@ struct Request {
   std::vector<std::string> submissions;
   std::optional<std::vector<Estimator>> methods;
   bool has_labels = false;
-  std::vector<FeatureSet> features = all_values<FeatureSet>();
-  std::vector<Regularizer> regularizers = all_values<Regularizer>();
+  std::optional<std::vector<FeatureSet>> features;
+  std::optional<std::vector<Regularizer>> regularizers;
   std::string output;
   bool has_search = false;
   bool is_json = false;
@@ -63,7 +63,7 @@ std::vector<Estimator> methods_named(const std::string& list) {
   return chosen;
 }
 
-/// Several values by their names, in the order of the enumeration.
+/// Several values by their names, each once.
 template <NamedEnum E>
 OptionValue<std::vector<E>> values_value(const char* name) {
   return {name, [](const std::string&, const std::string& text) {
@@ -74,7 +74,8 @@ OptionValue<std::vector<E>> values_value(const char* name) {
               if (std::ranges::find(known, each) == known.end()) {
                 throw unknown_name("choice", each, known);
               }
-              chosen.push_back(value_named<E>(each));
+              const E value = value_named<E>(each);
+              if (std::ranges::find(chosen, value) == chosen.end()) chosen.push_back(value);
             }
             return chosen;
           }};
@@ -123,9 +124,9 @@ bool parse(const VerbArguments& arguments, Request& request) {
               "Label all views from the strokes of each scene, by every set of features and "
               "regulariser; instead of methods, unless --methods is given");
   parser.option("--features", request.features, values_value<FeatureSet>("NAME,..."),
-                "With --labels: sets of features, separated by commas");
+                "With --labels: sets of features, separated by commas (default all)");
   parser.option("--regularizers", request.regularizers, values_value<Regularizer>("NAME,..."),
-                "With --labels: regularisers, separated by commas");
+                "With --labels: regularisers, separated by commas (default all)");
   request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
@@ -135,14 +136,19 @@ bool parse(const VerbArguments& arguments, Request& request) {
   views.help = "Views to estimate for the tables; all if the method can";
   request.job.run.declare(parser, {views});
   parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
-  return parse_reading(parser, arguments, request.job, request.read);
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  if (!request.has_labels && (request.features || request.regularizers)) {
+    throw UsageError(
+        "benchmark: --features and --regularizers have no effect without --labels; add it");
+  }
+  return true;
 }
 
 /// Every set of features with every regulariser.
 std::vector<LabelerParameters> label_ways(const Request& request) {
   std::vector<LabelerParameters> ways;
-  for (const FeatureSet features : request.features) {
-    for (const Regularizer regularizer : request.regularizers) {
+  for (const FeatureSet features : request.features.value_or(all_values<FeatureSet>())) {
+    for (const Regularizer regularizer : request.regularizers.value_or(all_values<Regularizer>())) {
       LabelerParameters way;
       way.features = features;
       way.regularizer = regularizer;

@@ -103,6 +103,13 @@ expect("labels and a method" 0 OUT "^Labels ranked.*Algorithms ranked"
        ARGS benchmark painted --labels --features image --regularizers none --methods epi_l -o both)
 expect("no strokes" 1 ERR "edge has no strokes"
        ARGS benchmark edge --labels --features image --regularizers none -o strokeless)
+expect("features without labels" 2 ERR "without --labels"
+       ARGS benchmark painted --features image --methods epi_l -o o)
+file(MAKE_DIRECTORY "${WORK}/painters")
+expect("a map of it" 0 ARGS convert painted painters/painted.pfm)
+expect("labels and a submission" 0 OUT "^Labels ranked.*Algorithms ranked.*painters"
+       ARGS benchmark painted --labels --features image --regularizers none -o ways_and_theirs
+       --submission painters)
 expect("no such regulariser" 2 ERR "wsg12.*wsg13"
        ARGS benchmark painted --labels --regularizers wsg12 -o o)
 
