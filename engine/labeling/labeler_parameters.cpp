@@ -16,8 +16,9 @@ Schema<LabelerParameters> labeler_schema() {
                "Features that the forest uses: of the image alone, or of disparity as well"})
       .choice("regularizer", &LabelerParameters::regularizer,
               {"Smoothing",
-               "How labels are made consistent: not at all, view by view, or along "
-               "the rays of all views"})
+               "How labels are made consistent: not at all, view by view, along the rays of all "
+               "views (rayspace), or by minimising one energy of all views (wsg13; slower, 16 "
+               "bytes per ray and label)"})
       .real("smoothness", &LabelerParameters::smoothness,
             {"Smoothness", "Cost of one pixel of boundary between labels, in units of -log p", ""},
             {0, 200})

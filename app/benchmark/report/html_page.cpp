@@ -173,7 +173,31 @@ std::string numbers_text(const BenchmarkResult& result) {
   return text;
 }
 
-std::string entry_html(const BenchmarkResult& result) {
+/// "accuracy 97.4 %, mIoU 92.1 %, boundaries 93.0 %, 31.2 s for all views".
+std::string label_numbers_text(const BenchmarkResult& result) {
+  std::string text;
+  for (const auto& [key, name] :
+       {std::pair{"accuracy_all_views", "accuracy"}, std::pair{"miou", "mIoU"},
+        std::pair{"boundary_accuracy", "boundaries"}}) {
+    const auto share = find_metric(result.labels, key);
+    if (share) text += fmt::format("{} {:.2f} %, ", name, 100 * *share);
+  }
+  return text + fixed_text(result.seconds, 2) + " s for all views";
+}
+
+std::string labels_html(const BenchmarkScene& scene, const BenchmarkResult& result) {
+  const std::string& entry = result.entry;
+  std::string html = "<figure class=\"entry\">" +
+                     picture_html(picture_file(result.scene, entry, "labels"), entry + ", labels");
+  if (scene.has_label_picture) {
+    html += picture_html(picture_file(result.scene, entry, "wrong"), entry + ", what is wrong");
+  }
+  return html + "<figcaption><b>" + escaped(entry) + "</b> " + escaped(label_numbers_text(result)) +
+         paragraph(result.problem, "faint") + "</figcaption></figure>\n";
+}
+
+std::string entry_html(const BenchmarkScene& scene, const BenchmarkResult& result) {
+  if (!result.labels.empty()) return labels_html(scene, result);
   const std::string& entry = result.entry;
   std::string html = "<figure class=\"entry\">";
   const bool has_maps = !result.has_failed && (!result.is_foreign || !result.vmv2013.empty());
@@ -205,9 +229,10 @@ std::string scene_html(const BenchmarkReport& report, const BenchmarkScene& scen
                     "faint") +
           "<div class=\"tiles\">\n" + tile_html(scene, "view", "centre view");
   if (scene.has_truth_picture) html += tile_html(scene, "truth", "true disparity");
+  if (scene.has_label_picture) html += tile_html(scene, "labels", "true labels");
   html += "</div>\n<div class=\"entries\">\n";
   for (const BenchmarkResult& result : report.results) {
-    if (result.scene == scene.name) html += entry_html(result);
+    if (result.scene == scene.name) html += entry_html(scene, result);
   }
   return html + "</div>\n";
 }
@@ -220,31 +245,48 @@ std::string failures_html(const BenchmarkReport& report) {
   return html + "</ul>\n";
 }
 
+/// How scores and pictures are to be read.
+std::string scores_text(const BenchmarkReport& report) {
+  std::string text;
+  if (report.has_disparities) {
+    text +=
+        " Disparities are evaluated in the centre view: mean squared errors are in px² × 100, "
+        "lower is better.";
+  }
+  if (report.has_labels) text += " Labels are evaluated in all views, in %: higher is better.";
+  return text;
+}
+
+std::string pictures_text(const BenchmarkReport& report) {
+  std::string text;
+  if (report.has_disparities) {
+    text +=
+        "Errors are truth − estimate from −0.2 (blue: too near) to 0.2 px (red: too far). The "
+        "name of a method links to its result file. ";
+  }
+  if (report.has_labels) text += "Beside the labels of the centre view stands what is wrong. ";
+  return text + "Click a picture to see it in full size.";
+}
+
 }  // namespace
 
 std::string html_page(const BenchmarkReport& report, const std::vector<TitledTable>& tables) {
+  const std::string title = report.has_disparities ? "Disparity benchmark" : "Label benchmark";
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<title>Disparity benchmark</title>\n<style>" +
-      std::string(kStyle) + "\n</style>\n</head>\n<body>\n<h1>Disparity benchmark</h1>\n" +
+      "<title>" +
+      title + "</title>\n<style>" + std::string(kStyle) + "\n</style>\n</head>\n<body>\n<h1>" +
+      title + "</h1>\n" +
       paragraph(
           fmt::format("{} scene{}", report.scenes.size(), report.scenes.size() == 1 ? "" : "s") +
-              ", evaluated in the centre view. "
-              "Mean squared errors are in px² × 100; lower is better, the best is in bold. Made by "
-              "Episcope " +
-              kVersion +
+              "." + scores_text(report) + " The best is in bold. Made by Episcope " + kVersion +
               "; the same numbers are in tables.csv, tables.tex, "
               "results.csv and results.json, every run in log.jsonl.",
           "faint") +
       failures_html(report);
   for (const TitledTable& table : tables) html += table_html(table);
-  html += "<h2>Scenes</h2>\n" +
-          paragraph(
-              "Errors are truth − estimate from −0.2 (blue: too near) to 0.2 px (red: too "
-              "far). Click a picture to see it in full size; the name of a method links to its "
-              "result file.",
-              "faint");
+  html += "<h2>Scenes</h2>\n" + paragraph(pictures_text(report), "faint");
   for (const BenchmarkScene& scene : report.scenes) html += scene_html(report, scene);
   return html + "<script>" + kScript + "\n</script>\n</body>\n</html>\n";
 }

@@ -17,6 +17,7 @@ struct BenchmarkScene {
   Interval range;     ///< Disparities at the ends of the colour map; {0, 0} if each has its own.
   bool has_truth_picture = false;
   std::string problem;  ///< Why nothing was run on it; empty = it could be read.
+  bool has_label_picture = false;
 };
 
 /// All that a benchmark found out; files with pictures and maps lie in `scenes/<scene>/`.
@@ -24,6 +25,8 @@ struct BenchmarkReport {
   std::vector<BenchmarkScene> scenes;
   std::vector<BenchmarkResult> results;  ///< By scene, then by entry.
   std::vector<SearchResult> searched;    ///< By scene, method and point; empty without a search.
+  bool has_disparities = true;           ///< Whether disparity was asked for,
+  bool has_labels = false;               ///< and labels.
   int reused = 0;                        ///< Runs and points that were taken from an earlier call.
 
   /// Sentences for what failed: scenes that cannot be read, methods, submissions, points.

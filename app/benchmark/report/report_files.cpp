@@ -4,6 +4,7 @@
 #include "app/benchmark/report/html_page.h"
 #include "app/benchmark/report/published.h"
 #include "app/benchmark/report/report_json.h"
+#include "engine/evaluation/tables/label_tables.h"
 #include "engine/evaluation/tables/search_tables.h"
 #include "engine/io/durable/atomic_file.h"
 
@@ -19,7 +20,9 @@ void write_text(const std::filesystem::path& path, const std::string& text) {
 }  // namespace
 
 std::vector<TitledTable> report_tables(const BenchmarkReport& report) {
-  std::vector<TitledTable> tables = benchmark_tables(report.results);
+  std::vector<TitledTable> tables = label_tables(report.results);
+  if (!report.has_disparities) return tables;
+  for (auto& table : benchmark_tables(report.results)) tables.push_back(std::move(table));
   TitledTable published = published_table(report);
   if (!published.table.rows.empty()) tables.push_back(std::move(published));
   for (auto& table : search_tables(report.searched)) tables.push_back(std::move(table));

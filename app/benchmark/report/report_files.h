@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// Every table of a benchmark, in the order of the page: overview, accuracy, beside the
-/// paper, search.
+/// Every table of a benchmark, in the order of the page: labels, overview, accuracy, beside
+/// the paper, search.
 [[nodiscard]] std::vector<TitledTable> report_tables(const BenchmarkReport& report);
 
 /// The tables one below the other, each after a line with its title.

@@ -35,6 +35,7 @@ Json result_json(const BenchmarkResult& result) {
         std::pair{Protocol::Benchmark2016, &result.benchmark2016}}) {
     for (const auto& [key, value] : *metrics) json[protocol_name(protocol)][key] = value;
   }
+  for (const auto& [key, value] : result.labels) json["labels"][key] = value;
   const auto published = published_figures().mse_100(result.scene, result.entry);
   if (published) json["figure_7"] = *published;
   if (!result.problem.empty()) json["problem"] = result.problem;
@@ -43,8 +44,7 @@ Json result_json(const BenchmarkResult& result) {
   return json;
 }
 
-Json ranking_json(const BenchmarkReport& report) {
-  const ScoreMatrix matrix = score_matrix(report.results, Protocol::Vmv2013, "mse_100");
+Json ranking_json(const ScoreMatrix& matrix, const char* key) {
   const Ranking ranking = rank_entries(matrix, kScoreDigits);
   Json scenes = Json::array();
   for (const std::size_t scene : ranking.scenes) scenes.push_back(matrix.scenes[scene]);
@@ -52,7 +52,7 @@ Json ranking_json(const BenchmarkReport& report) {
   for (const std::size_t entry : ranking.order) {
     Json json{{"entry", matrix.entries[entry]}};
     if (ranking.ranks[entry] > 0) json["rank"] = ranking.ranks[entry];
-    if (ranking.averages[entry]) json["mse_100"] = *ranking.averages[entry];
+    if (ranking.averages[entry]) json[key] = *ranking.averages[entry];
     entries.push_back(json);
   }
   return {{"scenes", scenes}, {"entries", entries}};
@@ -90,7 +90,16 @@ std::string report_to_json(const BenchmarkReport& report) {
   Json json{{"program", "episcope"}, {"version", kVersion}};
   json["scenes"] = Json::array();
   for (const auto& scene : report.scenes) json["scenes"].push_back(scene_json(scene));
-  json["ranking"] = ranking_json(report);
+  if (report.has_disparities) {
+    json["ranking"] =
+        ranking_json(score_matrix(report.results, Protocol::Vmv2013, "mse_100"), "mse_100");
+  }
+  if (report.has_labels) {
+    ScoreMatrix matrix =
+        score_matrix(report.results, &BenchmarkResult::labels, "accuracy_all_views");
+    matrix.better = BetterScore::Larger;
+    json["label_ranking"] = ranking_json(matrix, "accuracy_all_views");
+  }
   json["results"] = Json::array();
   for (const auto& result : report.results) json["results"].push_back(result_json(result));
   if (!report.searched.empty()) {

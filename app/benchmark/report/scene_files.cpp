@@ -80,6 +80,38 @@ std::vector<std::string> write_pictures(const std::filesystem::path& folder,
   return files;
 }
 
+bool write_label_truth(const std::filesystem::path& folder, const std::string& name,
+                       const Scene& scene) {
+  const MapSource source{.quantity = Quantity::TrueLabels,
+                         .view = scene.light_field->center(),
+                         .light_field = scene.light_field,
+                         .truth = scene.truth,
+                         .label_infos = scene.scribbles.labels,
+                         .true_labels = true_labels_of(scene.truth)};
+  if (!reason_against(source).empty()) return false;
+  write_map(folder / scene_file(name, "labels"), source, {});
+  return true;
+}
+
+std::vector<std::string> write_label_pictures(const std::filesystem::path& folder,
+                                              const std::string& name, const Scene& scene,
+                                              const LabelingPtr& labeling,
+                                              const std::string& entry) {
+  MapSource source{.quantity = Quantity::Segmentation,
+                   .view = scene.light_field->center(),
+                   .light_field = scene.light_field,
+                   .labeling = labeling,
+                   .label_infos = scene.scribbles.labels,
+                   .true_labels = true_labels_of(scene.truth)};
+  std::vector<std::string> files{picture_file(name, entry, "labels")};
+  write_map(folder / files.front(), source, {});
+  source.quantity = Quantity::WrongLabels;
+  if (!reason_against(source).empty()) return files;
+  files.push_back(picture_file(name, entry, "wrong"));
+  write_map(folder / files.back(), source, {});
+  return files;
+}
+
 Estimate center_of(const Estimate& estimate, ViewIndex center) {
   Estimate one;
   one.field = one_view(estimate.field, center);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/session/judge/judge.h"
+#include "app/session/labels/live_labeling.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
@@ -15,9 +16,10 @@ namespace episcope {
 /// Files of a benchmark, named below its folder. All are written atomically; all functions that
 /// write throw IoError.
 
-/// "scenes/cotton/view.png": `what` may be "view", "truth".
+/// "scenes/cotton/view.png": `what` may be "view", "truth", "labels".
 [[nodiscard]] std::string scene_file(const std::string& scene, const std::string& what);
-/// "scenes/cotton/epi_l-error.png": `what` may be "disparity", "error".
+/// "scenes/cotton/epi_l-error.png": `what` may be "disparity", "error", "labels",
+/// "wrong".
 [[nodiscard]] std::string picture_file(const std::string& scene, const std::string& entry,
                                        const std::string& what);
 /// "scenes/cotton/epi_l.h5".
@@ -34,6 +36,17 @@ std::vector<std::string> write_pictures(const std::filesystem::path& folder,
                                         const std::string& scene, const EstimatePtr& center,
                                         const std::string& entry, const EvaluationPtr& evaluation,
                                         Interval range);
+
+/// A picture of the true labels of the centre view, if it has any; returns whether it has.
+bool write_label_truth(const std::filesystem::path& folder, const std::string& name,
+                       const Scene& scene);
+
+/// Pictures of the labels of the centre view and, where true labels are known, of what is wrong.
+/// Returns what was written.
+std::vector<std::string> write_label_pictures(const std::filesystem::path& folder,
+                                              const std::string& name, const Scene& scene,
+                                              const LabelingPtr& labeling,
+                                              const std::string& entry);
 
 /// The centre view alone of an estimate, with a note if its seconds are those of all views.
 [[nodiscard]] Estimate center_of(const Estimate& estimate, ViewIndex center);

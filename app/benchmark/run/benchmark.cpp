@@ -3,6 +3,7 @@
 
 #include "app/benchmark/report/report_files.h"
 #include "app/benchmark/report/scene_files.h"
+#include "app/benchmark/run/label_runs.h"
 #include "app/benchmark/run/run_log.h"
 #include "app/benchmark/run/scene_fingerprint.h"
 #include "app/benchmark/run/submission.h"
@@ -101,6 +102,9 @@ class Runner {
       grids_.push_back(options.has_search ? search_grid(method.parameters)
                                           : std::vector<ParameterSet>());
     }
+    report_.has_disparities =
+        options.labels.empty() || !options.methods.empty() || !options.submissions.empty();
+    report_.has_labels = !options.labels.empty();
     expect_work();
   }
 
@@ -115,11 +119,11 @@ class Runner {
  private:
   [[nodiscard]] BenchmarkRun table_run(const Estimator& method) const {
     const bool all = method.info.all_views && options_.views == ViewSelection::All;
-    return plan_run(method, {}, all ? ViewSelection::All : ViewSelection::Center, false);
+    return plan_run(method, {}, all ? ViewSelection::All : ViewSelection::Center, RunKind::Table);
   }
 
   [[nodiscard]] std::size_t runs_per_scene() const {
-    std::size_t count = options_.methods.size();
+    std::size_t count = options_.methods.size() + options_.labels.size();
     for (const auto& grid : grids_) count += grid.size();
     return count;
   }
@@ -129,7 +133,7 @@ class Runner {
     double sum = 0;
     int count = 0;
     for (const BenchmarkRecord& record : log_.records()) {
-      if (record.run.method != run.method || record.run.is_search != run.is_search) continue;
+      if (record.run.method != run.method || record.run.kind != run.kind) continue;
       const bool is_same = record.input == input && record.run.parameters == run.parameters;
       if (is_same && !record.result.has_failed) return 0;
       sum += record.result.seconds;
@@ -144,10 +148,13 @@ class Runner {
       for (const Estimator& method : options_.methods) {
         workload_.expect(expected_seconds(input, table_run(method)));
       }
+      for (const LabelerParameters& way : options_.labels) {
+        workload_.expect(expected_seconds(input, plan_label_run(way)));
+      }
       for (std::size_t i = 0; i < options_.methods.size(); ++i) {
         for (const ParameterSet& point : grids_[i]) {
           workload_.expect(expected_seconds(
-              input, plan_run(options_.methods[i], point, ViewSelection::Center, true)));
+              input, plan_run(options_.methods[i], point, ViewSelection::Center, RunKind::Search)));
         }
       }
     }
@@ -160,13 +167,14 @@ class Runner {
       const Progress part = workload_.next(open->name + ", " + method.info.id);
       report_.results.push_back(find_or_run(*open, method, table_run(method), part));
     }
+    label(*open);
     for (std::size_t i = 0; i < options_.submissions.size(); ++i) {
       progress_.check();
       judge_submission(*open, options_.submissions[i], submission_names_[i]);
     }
     if (!options_.has_search) return;
     if (!open->scene.truth->has_disparity())
-      return workload_.skip(runs_per_scene() - options_.methods.size());
+      return workload_.skip(runs_per_scene() - options_.methods.size() - options_.labels.size());
     for (std::size_t i = 0; i < options_.methods.size(); ++i) {
       search(*open, options_.methods[i], grids_[i]);
     }
@@ -190,13 +198,25 @@ class Runner {
     const bool has_truth = write_scene_pictures(options_.folder, open.name, open.scene, open.range);
     report_.scenes.push_back(
         {open.name, input, shape_text(*open.scene.light_field), open.range, has_truth, {}});
+    if (!options_.labels.empty()) {
+      report_.scenes.back().has_label_picture =
+          write_label_truth(options_.folder, open.name, open.scene);
+    }
     return open;
   }
 
   BenchmarkResult find_or_run(const OpenScene& open, const Estimator& method,
                               const BenchmarkRun& run, const Progress& part) {
+    return find_or_run(open, open.fingerprint, run, part,
+                       [&](BenchmarkRecord& record) { run_and_judge(open, method, record, part); });
+  }
+
+  /// `work` fills the record; what it throws is the result's problem.
+  template <class Work>
+  BenchmarkResult find_or_run(const OpenScene& open, const std::string& fingerprint,
+                              const BenchmarkRun& run, const Progress& part, const Work& work) {
     part.check();
-    const std::string key = record_key(run, open.fingerprint);
+    const std::string key = record_key(run, fingerprint);
     if (const BenchmarkRecord* record = log_.find(key, open.name)) {
       ++report_.reused;
       part.report(1);
@@ -207,32 +227,35 @@ class Runner {
     record.result.entry = run.method;
     record.result.scene = open.name;
     record.result.has_all_views = run.views == ViewSelection::All;
-    run_and_judge(open, method, record, part);
+    try {
+      work(record);
+    } catch (const Error& error) {
+      fail(record.result, error.what());
+    } catch (const std::bad_alloc&) {
+      fail(record.result, "not enough memory");
+    }
+    part.check();
     log_.add(record);
     return record.result;
+  }
+
+  static void fail(BenchmarkResult& result, const std::string& problem) {
+    result.problem = problem;
+    result.has_failed = true;
   }
 
   void run_and_judge(const OpenScene& open, const Estimator& method, BenchmarkRecord& record,
                      const Progress& part) {
     BenchmarkResult& result = record.result;
-    EstimatePtr estimate;
-    try {
-      estimate =
-          run_estimator(*open.scene.light_field, method,
-                        {record.run.method, record.run.parameters, {.views = record.run.views}},
-                        part.part(0, 0.95))
-              .estimate;
-    } catch (const Error& error) {
-      result.problem = error.what();
-    } catch (const std::bad_alloc&) {
-      result.problem = "not enough memory";
-    }
-    result.has_failed = !result.problem.empty();
-    if (result.has_failed) return;
+    EstimatePtr estimate =
+        run_estimator(*open.scene.light_field, method,
+                      {record.run.method, record.run.parameters, {.views = record.run.views}},
+                      part.part(0, 0.95))
+            .estimate;
     result.seconds = estimate->seconds;
     result.notes = estimate->notes;
     part.step("evaluating");
-    if (record.run.is_search) {
+    if (record.run.kind == RunKind::Search) {
       const auto evaluation =
           judge_by({.protocol = Protocol::Vmv2013}, *estimate, open.scene, result);
       if (evaluation) result.vmv2013 = evaluation->metrics;
@@ -244,7 +267,18 @@ class Runner {
       record.files.push_back(map_file(open.name, result.entry));
       io::write_result(options_.folder / record.files.back(), *center, part.part(0.95, 1));
     }
-    part.check();
+  }
+
+  void label(const OpenScene& open) {
+    if (options_.labels.empty()) return;
+    const std::string fingerprint = open.fingerprint + label_fingerprint(open.scene);
+    LabelRuns labels(open.scene, open.name);
+    for (const LabelerParameters& way : options_.labels) {
+      const Progress part = workload_.next(open.name + ", " + label_entry(way));
+      report_.results.push_back(find_or_run(
+          open, fingerprint, plan_label_run(way), part,
+          [&](BenchmarkRecord& record) { labels.run(way, options_.folder, part, record); }));
+    }
   }
 
   std::vector<std::string> judge_and_write(const OpenScene& open, const EstimatePtr& center,
@@ -283,7 +317,7 @@ class Runner {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Progress part = workload_.next(
           fmt::format("{}, {} {} of {}", open.name, method.info.id, i + 1, points.size()));
-      const BenchmarkRun run = plan_run(method, points[i], ViewSelection::Center, true);
+      const BenchmarkRun run = plan_run(method, points[i], ViewSelection::Center, RunKind::Search);
       const BenchmarkResult result = find_or_run(open, method, run, part);
       report_.searched.push_back({method.info.id, open.name, points[i],
                                   find_metric(result.vmv2013, "mse_100"), result.seconds,

@@ -5,6 +5,7 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/disparity/common/estimator.h"
+#include "engine/labeling/labeler_parameters.h"
 
 #include <filesystem>
 #include <functional>
@@ -22,15 +23,16 @@ struct BenchmarkOptions {
   /// estimate the centre view alone.
   ViewSelection views = ViewSelection::All;
   bool has_search = false;
+  std::vector<LabelerParameters> labels;  ///< Ways to label all views from the scene's strokes.
 };
 
 /// Opens one of the inputs.
 using SceneLoader = std::function<Scene(const std::string& input, const Progress&)>;
 
 /// Runs every method with its default parameters on every scene, judges it and the submissions in
-/// the centre view by both protocols, with `has_search` also tries every point of `search_grid`,
-/// and writes tables, pictures and maps into the folder, renewed after every scene. One scene is in
-/// memory at a time.
+/// the centre view by both protocols, labels in all views (label_runs.h), with `has_search` also
+/// tries every point of `search_grid`, and writes tables, pictures and maps into the folder,
+/// renewed after every scene. One scene is in memory at a time.
 ///
 /// What fails (a scene, a method, a submission, a point) is a sentence in the report, the others go
 /// on. Finished runs are in the log of the folder and are not computed again by a later call,

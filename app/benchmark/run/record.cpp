@@ -34,7 +34,7 @@ BenchmarkRecord read_record(const Json& json) {
   record.input = json.at("input");
   record.files = json.at("files");
   BenchmarkRun& run = record.run;
-  run.is_search = json.at("kind") == "search";
+  run.kind = value_named<RunKind>(json.at("kind"));
   run.method = json.at("method");
   run.revision = json.at("revision");
   run.parameters = io::parameters_from_json(json.at("parameters").dump());
@@ -46,6 +46,7 @@ BenchmarkRecord read_record(const Json& json) {
   result.has_all_views = run.views == ViewSelection::All;
   result.vmv2013 = metrics_from(json.at("vmv2013"));
   result.benchmark2016 = metrics_from(json.at("benchmark2016"));
+  if (json.contains("labels")) result.labels = metrics_from(json.at("labels"));
   result.problem = json.at("problem");
   result.has_failed = json.at("failed");
   result.notes = json.at("notes");
@@ -54,9 +55,13 @@ BenchmarkRecord read_record(const Json& json) {
 
 }  // namespace
 
+Names<RunKind> names_of(RunKind) {
+  return {{RunKind::Table, "run"}, {RunKind::Search, "search"}, {RunKind::Labels, "labels"}};
+}
+
 BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point, ViewSelection views,
-                      bool is_search) {
-  BenchmarkRun run{is_search, estimator.info.id, estimator.info.revision, {}, views};
+                      RunKind kind) {
+  BenchmarkRun run{kind, estimator.info.id, estimator.info.revision, {}, views};
   for (const auto& parameter : estimator.parameters) {
     const auto set = std::find_if(point.begin(), point.end(),
                                   [&](const auto& value) { return value.first == parameter.key; });
@@ -67,7 +72,7 @@ BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point, Vie
 }
 
 std::string record_key(const BenchmarkRun& run, const std::string& fingerprint) {
-  std::string text = run.is_search ? "search" : "run";
+  std::string text = name_of(run.kind);
   for (const std::string& part :
        {fingerprint, run.method, io::parameters_to_json(run.parameters), name_of(run.views),
         std::string(kVersion), std::to_string(run.revision)}) {
@@ -80,7 +85,7 @@ std::string record_to_json(const BenchmarkRecord& record) {
   const BenchmarkResult& result = record.result;
   Json json;
   json["key"] = record.key;
-  json["kind"] = record.run.is_search ? "search" : "run";
+  json["kind"] = name_of(record.run.kind);
   json["scene"] = result.scene;
   json["input"] = record.input;
   json["method"] = record.run.method;
@@ -91,6 +96,7 @@ std::string record_to_json(const BenchmarkRecord& record) {
   json["seconds"] = result.seconds;
   json["vmv2013"] = metrics_json(result.vmv2013);
   json["benchmark2016"] = metrics_json(result.benchmark2016);
+  if (!result.labels.empty()) json["labels"] = metrics_json(result.labels);
   json["problem"] = result.problem;
   json["failed"] = result.has_failed;
   json["notes"] = result.notes;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parameter/named.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/disparity/common/estimator.h"
 #include "engine/evaluation/tables/benchmark_result.h"
@@ -11,9 +12,17 @@
 
 namespace episcope {
 
-/// What is run: a method with parameters, judged for the tables or as a point of a search.
+/// What a run is for. The names are those of the log.
+enum class RunKind {
+  Table,   ///< A method, judged for the tables,
+  Search,  ///< or as a point of a search.
+  Labels   ///< Labels from strokes.
+};
+[[nodiscard]] Names<RunKind> names_of(RunKind);
+
+/// What is run: a method, or a way to label, with parameters.
 struct BenchmarkRun {
-  bool is_search = false;
+  RunKind kind = RunKind::Table;
   std::string method;
   int revision = 1;         ///< EstimatorInfo::revision.
   ParameterSet parameters;  ///< All of the method.
@@ -22,7 +31,7 @@ struct BenchmarkRun {
 
 /// `point` over the defaults of the method.
 [[nodiscard]] BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point,
-                                    ViewSelection views, bool is_search);
+                                    ViewSelection views, RunKind kind);
 
 /// Names the result of a run on a scene with this fingerprint, by all that it depends on, the
 /// version of the program included.

@@ -1,34 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/benchmark/run/scene_fingerprint.h"
 
-#include "engine/core/hash/fnv1a.h"
-
-#include <string_view>
-
 namespace episcope {
 namespace {
-
-class Fingerprint {
- public:
-  void add(std::string_view bytes) { hash_.add(bytes); }
-  template <class T>
-  void add_value(const T& value) {
-    add({reinterpret_cast<const char*>(&value), sizeof value});
-  }
-  template <class T>
-  void add_image(ImageView<const T> image) {
-    add_value(image.height);
-    add_value(image.width);
-    for (int y = 0; y < image.height; ++y) {
-      const std::size_t count = static_cast<std::size_t>(image.width) * image.channels;
-      add({reinterpret_cast<const char*>(image.row(y)), count * sizeof(T)});
-    }
-  }
-  [[nodiscard]] std::string text() const { return hash_digits(hash_.value()); }
-
- private:
-  Fnv1a hash_;
-};
 
 /// Raised when a metric changes its meaning, so that kept results are judged anew.
 constexpr int kMetricRules = 2;

@@ -15,15 +15,26 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <sstream>
 
 namespace episcope::cli {
 namespace {
 
+template <NamedEnum E>
+std::vector<E> all_values() {
+  std::vector<E> values;
+  for (const Named<E>& each : names_of(E{})) values.push_back(each.value);
+  return values;
+}
+
 struct Request {
   std::vector<std::string> inputs;
   std::vector<std::string> submissions;
-  std::vector<Estimator> methods = registered_estimators();
+  std::optional<std::vector<Estimator>> methods;
+  bool has_labels = false;
+  std::optional<std::vector<FeatureSet>> features;
+  std::optional<std::vector<Regularizer>> regularizers;
   std::string output;
   bool has_search = false;
   bool is_json = false;
@@ -50,6 +61,24 @@ std::vector<Estimator> methods_named(const std::string& list) {
   }
   if (chosen.empty()) throw UsageError("--methods is empty; name ids of methods, or all");
   return chosen;
+}
+
+/// Several values by their names, each once.
+template <NamedEnum E>
+OptionValue<std::vector<E>> values_value(const char* name) {
+  return {name, [](const std::string&, const std::string& text) {
+            std::vector<E> chosen;
+            std::istringstream names(text);
+            for (std::string each; std::getline(names, each, ',');) {
+              const std::vector<std::string> known = all_names<E>();
+              if (std::ranges::find(known, each) == known.end()) {
+                throw unknown_name("choice", each, known);
+              }
+              const E value = value_named<E>(each);
+              if (std::ranges::find(chosen, value) == chosen.end()) chosen.push_back(value);
+            }
+            return chosen;
+          }};
 }
 
 OptionValue<std::vector<Estimator>> methods_value() {
@@ -85,11 +114,19 @@ bool parse(const VerbArguments& arguments, Request& request) {
        "tables (HTML, CSV, LaTeX, JSON), pictures and maps. Finished runs are kept: the same\n"
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
        "tables are written nevertheless.",
-       "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search"});
+       "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search\n"
+       "episcope-cli benchmark demo:edge demo:bars --labels --features image -o tables"});
   parser.positionals("INPUT", request.inputs, "The light fields, or folders that hold some");
   parser.required_option("-o,--output", request.output, text_value("DIR"), "Output folder");
   parser.option("--methods", request.methods, methods_value(),
                 "Ids of estimators, separated by commas, or all");
+  parser.flag("--labels", request.has_labels,
+              "Label all views from the strokes of each scene, by every set of features and "
+              "regulariser; instead of methods, unless --methods is given");
+  parser.option("--features", request.features, values_value<FeatureSet>("NAME,..."),
+                "With --labels: sets of features, separated by commas (default all)");
+  parser.option("--regularizers", request.regularizers, values_value<Regularizer>("NAME,..."),
+                "With --labels: regularisers, separated by commas (default all)");
   request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
@@ -99,13 +136,34 @@ bool parse(const VerbArguments& arguments, Request& request) {
   views.help = "Views to estimate for the tables; all if the method can";
   request.job.run.declare(parser, {views});
   parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
-  return parse_reading(parser, arguments, request.job, request.read);
+  if (!parse_reading(parser, arguments, request.job, request.read)) return false;
+  if (!request.has_labels && (request.features || request.regularizers)) {
+    throw UsageError(
+        "benchmark: --features and --regularizers have no effect without --labels; add it");
+  }
+  return true;
+}
+
+/// Every set of features with every regulariser.
+std::vector<LabelerParameters> label_ways(const Request& request) {
+  std::vector<LabelerParameters> ways;
+  for (const FeatureSet features : request.features.value_or(all_values<FeatureSet>())) {
+    for (const Regularizer regularizer : request.regularizers.value_or(all_values<Regularizer>())) {
+      LabelerParameters way;
+      way.features = features;
+      way.regularizer = regularizer;
+      ways.push_back(way);
+    }
+  }
+  return ways;
 }
 
 BenchmarkOptions benchmark_options(const Request& request, const std::vector<SceneInput>& scenes) {
   BenchmarkOptions options;
   for (const SceneInput& scene : scenes) options.inputs.push_back(scene.input);
-  options.methods = request.methods;
+  if (request.has_labels) options.labels = label_ways(request);
+  options.methods = request.methods.value_or(request.has_labels ? std::vector<Estimator>()
+                                                                : registered_estimators());
   for (Estimator& method : options.methods) {
     method.parameters = with_defaults(std::move(method.parameters), request.profile.values());
   }

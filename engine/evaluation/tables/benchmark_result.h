@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// The result of one entry (a method of this build with its default parameters, or an external
-/// submission) on one scene, evaluated in the centre view.
+/// The result of one entry (a method of this build with its default parameters, an external
+/// submission, or a way to label) on one scene. Disparities are evaluated in the centre view.
 struct BenchmarkResult {
   std::string entry;
   std::string scene;
@@ -20,6 +20,7 @@ struct BenchmarkResult {
   bool has_all_views = false;  ///< Whether `seconds` are those of all views.
   Metrics vmv2013;             ///< Empty if there is nothing to judge or to judge against.
   Metrics benchmark2016;       ///< Likewise; also of views smaller than two borders of 15 px.
+  Metrics labels;              ///< Of labels, see label_tables.h; empty for disparities.
   std::string problem;         ///< Why a score is missing, a sentence; empty = none is.
   bool has_failed = false;     ///< The method or the submission failed, not the scene.
   std::vector<std::string> notes;

@@ -14,8 +14,9 @@ namespace {
 
 constexpr const char* kGap = "–";
 
-const Metrics& metrics_of(const BenchmarkResult& result, Protocol protocol) {
-  return protocol == Protocol::Vmv2013 ? result.vmv2013 : result.benchmark2016;
+Metrics BenchmarkResult::*metrics_of(Protocol protocol) {
+  return protocol == Protocol::Vmv2013 ? &BenchmarkResult::vmv2013
+                                       : &BenchmarkResult::benchmark2016;
 }
 
 std::string rank_text(int rank) {
@@ -49,25 +50,27 @@ bool is_scored(const ScoreMatrix& matrix, std::size_t scene) {
                      [&](const auto& scores) { return scores[scene].has_value(); });
 }
 
-/// Stresses the least of the last line, as it is shown.
-void stress_least(TitledTable& titled, const std::vector<std::optional<double>>& scores) {
-  const auto least =
-      std::min_element(scores.begin(), scores.end(),
-                       [](const auto& a, const auto& b) { return a && (!b || *a < *b); });
-  if (least == scores.end() || !*least) return;
+/// Stresses the best of the last line, as it is shown.
+void stress_best(TitledTable& titled, const std::vector<std::optional<double>>& scores,
+                 BetterScore better) {
+  const auto best =
+      std::min_element(scores.begin(), scores.end(), [better](const auto& a, const auto& b) {
+        return a && (!b || (better == BetterScore::Larger ? *a > *b : *a < *b));
+      });
+  if (best == scores.end() || !*best) return;
   for (std::size_t i = 0; i < scores.size(); ++i) {
-    if (scores[i] && score_text(scores[i]) == score_text(*least)) {
+    if (scores[i] && score_text(scores[i]) == score_text(*best)) {
       titled.best.emplace_back(titled.table.rows.size() - 1, i + 1);
     }
   }
 }
 
 void add_scores(TitledTable& titled, const std::string& name,
-                const std::vector<std::optional<double>>& scores) {
+                const std::vector<std::optional<double>>& scores, BetterScore better) {
   std::vector<std::string> cells{name};
   for (const auto& score : scores) cells.push_back(score_text(score));
   titled.table.rows.push_back(std::move(cells));
-  stress_least(titled, scores);
+  stress_best(titled, scores, better);
 }
 
 /// Of every scene that an entry has, and of how many: no two entries need have the same.
@@ -107,16 +110,17 @@ Speed speed_of(const std::vector<BenchmarkResult>& results, const std::string& e
   return speed;
 }
 
-void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results, Protocol protocol) {
+void add_columns(TextTable& table, const std::vector<BenchmarkResult>& results,
+                 Metrics BenchmarkResult::*metrics, const std::string& name) {
   std::vector<std::string> keys;
   for (const BenchmarkResult& result : results) {
-    for (const auto& [key, value] : metrics_of(result, protocol)) find_or_append(keys, key);
+    for (const auto& [key, value] : result.*metrics) find_or_append(keys, key);
   }
   constexpr int exact_digits = 6;
   for (const auto& key : keys) {
-    table.header.push_back(std::string(protocol_name(protocol)) + "." + key);
+    table.header.push_back(name + "." + key);
     for (std::size_t i = 0; i < results.size(); ++i) {
-      const auto value = find_metric(metrics_of(results[i], protocol), key);
+      const auto value = find_metric(results[i].*metrics, key);
       table.rows[i].push_back(value ? fixed_text(*value, exact_digits) : "");
     }
   }
@@ -130,6 +134,11 @@ std::string score_text(const std::optional<double>& score) {
 
 ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol protocol,
                          const std::string& key) {
+  return score_matrix(results, metrics_of(protocol), key);
+}
+
+ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
+                         Metrics BenchmarkResult::*metrics, const std::string& key) {
   ScoreMatrix matrix;
   for (const BenchmarkResult& result : results) {
     find_or_append(matrix.entries, result.entry);
@@ -138,8 +147,8 @@ ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results, Protocol p
   matrix.scores.assign(matrix.entries.size(),
                        std::vector<std::optional<double>>(matrix.scenes.size()));
   for (const BenchmarkResult& result : results) {
-    matrix.scores[find_or_append(matrix.entries, result.entry)][find_or_append(
-        matrix.scenes, result.scene)] = find_metric(metrics_of(result, protocol), key);
+    matrix.scores[find_or_append(matrix.entries, result.entry)]
+                 [find_or_append(matrix.scenes, result.scene)] = find_metric(result.*metrics, key);
   }
   return matrix;
 }
@@ -159,10 +168,11 @@ TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix) 
   for (std::size_t scene = 0; scene < matrix.scenes.size(); ++scene) {
     if (!is_scored(matrix, scene)) continue;
     add_scores(titled, matrix.scenes[scene],
-               in_order([&](std::size_t entry) { return matrix.scores[entry][scene]; }));
+               in_order([&](std::size_t entry) { return matrix.scores[entry][scene]; }),
+               matrix.better);
   }
   add_scores(titled, "average",
-             in_order([&](std::size_t entry) { return ranking.averages[entry]; }));
+             in_order([&](std::size_t entry) { return ranking.averages[entry]; }), matrix.better);
   if (!ranking.missing.empty()) {
     titled.table.rows.push_back(own_averages(matrix, ranking.order));
   }
@@ -220,7 +230,7 @@ std::vector<TitledTable> benchmark_tables(const std::vector<BenchmarkResult>& re
   for (const Choice& choice : choices) {
     const ScoreMatrix matrix = score_matrix(results, choice.protocol, choice.key);
     TitledTable table = accuracy_table(choice.title, matrix);
-    constexpr std::size_t summary_rows = 2;
+    constexpr std::size_t summary_rows = 2;  // average and rank
     if (table.table.rows.size() > summary_rows) tables.push_back(std::move(table));
   }
   return tables;
@@ -234,8 +244,10 @@ TextTable results_table(const std::vector<BenchmarkResult>& results) {
                           result.seconds > 0 ? fixed_text(result.seconds, time_digits) : "",
                           result.has_all_views ? "yes" : "no"});
   }
-  add_columns(table, results, Protocol::Vmv2013);
-  add_columns(table, results, Protocol::Benchmark2016);
+  for (const Protocol protocol : {Protocol::Vmv2013, Protocol::Benchmark2016}) {
+    add_columns(table, results, metrics_of(protocol), protocol_name(protocol));
+  }
+  add_columns(table, results, &BenchmarkResult::labels, "labels");
   table.header.emplace_back("problem");
   for (std::size_t i = 0; i < results.size(); ++i) table.rows[i].push_back(results[i].problem);
   return table;

@@ -27,14 +27,18 @@ struct TitledTable {
   std::vector<std::pair<std::size_t, std::size_t>> best;  ///< Cells to stress: row, column.
 };
 
-/// Scores by one metric. Entries and scenes stand in the order of their first result.
+/// Scores by one metric of `metrics`, a member like &BenchmarkResult::labels. Entries and scenes
+/// stand in the order of their first result.
+[[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
+                                       Metrics BenchmarkResult::*metrics, const std::string& key);
+/// Of the metrics of a protocol.
 [[nodiscard]] ScoreMatrix score_matrix(const std::vector<BenchmarkResult>& results,
                                        Protocol protocol, const std::string& key);
 
 /// As figure 7 of the paper: one line per scene, one column per entry, best entry first; then
 /// average and rank, and between them, if averages omit scenes, the average over all scenes that an
 /// entry has, with their number. Gaps are "–"; the note says which scenes the averages omit and
-/// why. The lowest score of each line is highlighted. Entries and scenes without any score are
+/// why. The best score of each line is highlighted. Entries and scenes without any score are
 /// omitted.
 [[nodiscard]] TitledTable accuracy_table(const std::string& title, const ScoreMatrix& matrix);
 

@@ -50,8 +50,10 @@ Ranking rank_entries(const ScoreMatrix& matrix, int digits) {
   std::iota(ranking.order.begin(), ranking.order.end(), std::size_t{0});
   const auto unranked =
       std::stable_partition(ranking.order.begin(), ranking.order.end(), is_ranked);
-  std::stable_sort(ranking.order.begin(), unranked,
-                   [&](std::size_t a, std::size_t b) { return shown(a) < shown(b); });
+  const bool is_falling = matrix.better == BetterScore::Larger;
+  std::stable_sort(ranking.order.begin(), unranked, [&](std::size_t a, std::size_t b) {
+    return is_falling ? shown(a) > shown(b) : shown(a) < shown(b);
+  });
 
   ranking.ranks.assign(matrix.entries.size(), 0);
   for (auto place = ranking.order.begin(); place != unranked; ++place) {

@@ -8,11 +8,15 @@
 
 namespace episcope {
 
-/// Scores of entries (methods, submissions) on scenes; smaller is better, empty = a gap.
+/// Which scores are the better ones.
+enum class BetterScore { Smaller, Larger };
+
+/// Scores of entries (methods, submissions) on scenes; empty = a gap.
 struct ScoreMatrix {
   std::vector<std::string> entries;
   std::vector<std::string> scenes;
   std::vector<std::vector<std::optional<double>>> scores;  ///< [entry][scene]
+  BetterScore better = BetterScore::Smaller;
 };
 
 /// Entries in the order of their averages.

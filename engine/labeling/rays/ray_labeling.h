@@ -15,10 +15,12 @@ namespace episcope {
 /// For independent errors of single rays λ = 1 is appropriate.
 struct RayLabelingParameters {
   double smoothness = 32;       ///< λ: cost of one pixel of boundary, in units of −log p; ≥ 0.
+  double coherence = 3;         ///< μ: cost of a label that changes along a line, likewise; ≥ 0.
   double floor = 0.05;          ///< Probabilities below are raised to this, in (0, 1].
   double gap = 2e-3;            ///< Relative duality gap at which label_view stops, > 0,
-  double gap_all_views = 1e-2;  ///< and label_rays in each view.
-  int max_iterations = 300;     ///< In each view.
+  double gap_all_views = 1e-2;  ///< and label_rays in each view,
+  double gap_joint = 4e-3;      ///< or of all views where they are one problem.
+  int max_iterations = 300;     ///< In each view, or of all together.
 };
 
 /// What is known about the rays; borrowed for the call.

@@ -2,6 +2,7 @@
 #include "engine/labeling/rays/regularizer.h"
 
 #include "engine/core/error.h"
+#include "engine/labeling/rays/line_smoothing.h"
 #include "engine/labeling/rays/no_smoothing.h"
 #include "engine/labeling/rays/ray_smoothing.h"
 #include "engine/labeling/rays/view_smoothing.h"
@@ -25,6 +26,10 @@ constexpr RegularizerInfo kRegularizers[] = {
      .joins_views = true,
      .label_all = smooth_rays,
      .label_one = smooth_rays_of_view},
+    {.choice = {Regularizer::Wsg13, "wsg13"},
+     .joins_views = true,
+     .label_all = smooth_lines,
+     .label_one = smooth_lines_of_view},
 };
 
 bool covers(const GridShape& grid, ViewIndex first, const LabelProbabilities& p) {

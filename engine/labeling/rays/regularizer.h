@@ -12,6 +12,7 @@ enum class Regularizer {
   None,      ///< Not at all: the most probable label of each ray (no_smoothing.h).
   View,      ///< Within each view, whatever the others say (view_smoothing.h).
   Rayspace,  ///< Within each view and along the rays through all of them (ray_smoothing.h).
+  Wsg13,     ///< All views as one problem, coupled along the lines of EPIs (line_smoothing.h).
 };
 [[nodiscard]] Names<Regularizer> names_of(Regularizer);
 

@@ -27,24 +27,37 @@ void check_boundaries(ImageView<const float> g, double smoothness, int height, i
 /// The text for a stage of a solver: "labeling, gap 1.0e-03".
 [[nodiscard]] std::string labeling_gap_text(double gap);
 
-/// Energy of row `y` of a labeling `u`: the costs of its pixels, and of the pairs that begin there,
-/// each its limit times `jump(from, to)`.
+/// Energy of the pairs that begin in row `y` of a labeling `u`, each its limit times
+/// `jump(from, to)`.
 template <class Jump>
-[[nodiscard]] double pair_row_energy(VolumeView<const float> cost, const PairLimits& limits,
-                                     ImageView<const int> u, int y, const Jump& jump) {
+[[nodiscard]] double boundary_row_energy(const PairLimits& limits, ImageView<const int> u, int y,
+                                         const Jump& jump) {
   const int* const here = u.row(y);
   const int* const below = u.row(std::min(y + 1, u.height - 1));
   const auto pair = [&](int kind, int x, int from, int to) {
     return static_cast<double>(limits.row(y, kind)[x]) * jump(from, to);
   };
   double sum = 0;
-  for (int x = 0; x < cost.width; ++x) {
-    const int right = std::min(x + 1, cost.width - 1);
-    sum += cost.at(y, here[x], x) + pair(0, x, here[x], here[right]) +
-           pair(1, x, here[x], below[x]) + pair(2, x, here[x], below[right]) +
-           pair(3, x, here[right], below[x]);
+  for (int x = 0; x < u.width; ++x) {
+    const int right = std::min(x + 1, u.width - 1);
+    sum += pair(0, x, here[x], here[right]) + pair(1, x, here[x], below[x]) +
+           pair(2, x, here[x], below[right]) + pair(3, x, here[right], below[x]);
   }
   return sum;
+}
+
+/// Energy of row `y` of a labeling `u`: the costs of its pixels and of the pairs that begin there.
+template <class Jump>
+[[nodiscard]] double pair_row_energy(VolumeView<const float> cost, const PairLimits& limits,
+                                     ImageView<const int> u, int y, const Jump& jump) {
+  double sum = boundary_row_energy(limits, u, y, jump);
+  for (int x = 0; x < cost.width; ++x) sum += static_cast<double>(cost.at(y, u.at(y, x), x));
+  return sum;
+}
+
+/// Potts: a jump changes the layers of both labels, each weighted by half of λ.
+[[nodiscard]] inline double potts_jump(int from, int to) {
+  return from == to ? 0.0 : 2.0;
 }
 
 }  // namespace episcope

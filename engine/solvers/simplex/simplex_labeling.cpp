@@ -56,8 +56,7 @@ PairLimits limits_of(const SimplexProblem& problem) {
 
 double row_energy(const SimplexProblem& problem, const PairLimits& limits, ImageView<const int> u,
                   int y) {
-  return pair_row_energy(problem.cost, limits, u, y,
-                         [](int from, int to) { return from == to ? 0.0 : 2.0; });
+  return pair_row_energy(problem.cost, limits, u, y, potts_jump);
 }
 
 // Each pixel is in 8 pairs, so |K|² ≤ 16. u moves within [0, 1]; how far the duals move grows with
@@ -224,6 +223,10 @@ SimplexSolver::SimplexSolver(int height, int layers, int width, Isa isa) {
 }
 SimplexSolver::~SimplexSolver() = default;
 SimplexSolver::SimplexSolver(SimplexSolver&&) noexcept = default;
+
+LayeredSweep& SimplexSolver::unknowns() {
+  return state_->sweep;
+}
 
 SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexOptions& options,
                                    const Progress& progress, ImageView<int> labels) {

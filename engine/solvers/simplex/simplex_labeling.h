@@ -11,6 +11,8 @@
 
 namespace episcope {
 
+class LayeredSweep;
+
 /// A division of one image into L regions (Potts): labels u(x) ∈ {0, …, L − 1} in no order,
 /// E(u) = Σ c(x, u(x)) + λ Σ ½ Σ_l g · TV([u = l]). A boundary between two regions belongs to both,
 /// so it costs λ g times its length, whichever they are.
@@ -75,6 +77,10 @@ class SimplexSolver {
   /// on a stop request (checked at least once per iteration).
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
+
+  /// Where the last call with λ > 0 and more than one label ended, φ is u, for a method that starts
+  /// there. Valid until the next call.
+  [[nodiscard]] LayeredSweep& unknowns();
 
  private:
   struct State;

@@ -73,6 +73,46 @@ if(NOT page MATCHES "Failures.*any.pfm")
   fail_case("the page does not tell the failure")
 endif()
 
+# Labels: ways to label instead of methods, resumed likewise; a scene without strokes is a failure.
+file(MAKE_DIRECTORY "${WORK}/painted")
+expect("make a scene with strokes" 0 ARGS synthesize objects -o painted/lf.h5 --views 3x3 --size 64x64)
+set(ways benchmark painted --labels --features image,image+truth --regularizers none,wsg13)
+expect("labels" 0 OUT "^Labels ranked.*\npainted: intersection over union of each label"
+       ARGS ${ways} -o ways)
+expect_reused("4 results, 0 points searched, 0 taken from before")
+expect_files(ways index.html log.jsonl results.csv results.json scenes tables.csv tables.tex)
+expect_file(ways/scenes/painted/image+truth-wsg13-wrong.png ${png})
+expect_file(ways/scenes/painted/labels.png ${png})
+file(READ "${WORK}/ways/index.html" page)
+if(NOT page MATCHES "Label benchmark.*image%2Btruth-wsg13-wrong.png" OR page MATCHES "MSE")
+  fail_case("the page of labels lacks pictures, or tells of disparities")
+endif()
+file(READ "${WORK}/ways/results.csv" text)
+if(NOT text MATCHES "labels.iou_label_2.*\nimage-none,painted,")
+  fail_case("results.csv lacks labels:\n${text}")
+endif()
+expect("labels again" 0 ARGS ${ways} -o ways --json)
+json_near("${out}" 0.9 1 results 3 labels accuracy_all_views)
+json_near("${out}" 0.9 1 results 3 labels boundary_accuracy)
+json_near("${out}" 1 1 label_ranking entries 0 rank)
+json_absent("${out}" ranking)
+expect("a way more" 0 ARGS benchmark painted --labels --features image --regularizers none,view
+       -o ways)
+expect_reused("2 results, 0 points searched, 1 taken from before")
+expect("labels and a method" 0 OUT "^Labels ranked.*Algorithms ranked"
+       ARGS benchmark painted --labels --features image --regularizers none --methods epi_l -o both)
+expect("no strokes" 1 ERR "edge has no strokes"
+       ARGS benchmark edge --labels --features image --regularizers none -o strokeless)
+expect("features without labels" 2 ERR "without --labels"
+       ARGS benchmark painted --features image --methods epi_l -o o)
+file(MAKE_DIRECTORY "${WORK}/painters")
+expect("a map of it" 0 ARGS convert painted painters/painted.pfm)
+expect("labels and a submission" 0 OUT "^Labels ranked.*Algorithms ranked.*painters"
+       ARGS benchmark painted --labels --features image --regularizers none -o ways_and_theirs
+       --submission painters)
+expect("no such regulariser" 2 ERR "wsg12.*wsg13"
+       ARGS benchmark painted --labels --regularizers wsg12 -o o)
+
 # A method that cannot use a scene, a scene that cannot be read, a scene without truth.
 file(MAKE_DIRECTORY "${WORK}/flat" "${WORK}/plain")
 expect("make a single view" 0 ARGS synthesize edge -o flat/lf.h5 --views 1x1 --size 48x48)

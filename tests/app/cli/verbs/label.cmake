@@ -16,6 +16,12 @@ json_near("${out}" 0.95 1 consistency)
 json_near("${out}" 0 0.01 gap)
 json_is("${out}" rayspace parameters regularizer)
 expect_file(l.h5 ${hdf5})
+expect("one energy of all views" 0 ARGS label lf.h5 -o w.h5 --features image+truth
+       --regularizer wsg13 --json)
+json_is("${out}" wsg13 parameters regularizer)
+json_near("${out}" 0 0.01 gap)
+json_near("${out}" 0.95 1 accuracy_all_views)
+json_near("${out}" 0.95 1 consistency)
 expect("label again, over its own result" 0 OUT "3 labels in 9 views.*consistency along rays.*accuracy of all views"
        ARGS label lf.h5 -o l.h5 --features image --regularizer none --trees 8)
 

@@ -103,6 +103,16 @@ class RankingTest : public QObject {
     QCOMPARE(rank_entries(matrix, 4).ranks, (std::vector<int>{2, 1, 3}));
   }
 
+  void largerScores_rankFirstWhereTheyAreBetter() {
+    const ScoreMatrix matrix{
+        {"a", "b", "c"}, {"x"}, {{0.5104}, {0.5096}, {0.6}}, BetterScore::Larger};
+
+    const Ranking ranking = rank_entries(matrix, 2);
+
+    QCOMPARE(ranking.ranks, (std::vector<int>{2, 2, 1}));
+    QCOMPARE(ranking.order.front(), std::size_t{2});
+  }
+
   void accuracyTable_isOrderedAndStressesTheBest() {
     const TitledTable titled =
         accuracy_table("t", score_matrix({result("a", "x", 2), result("b", "x", 1),

@@ -8,7 +8,7 @@
 #include "engine/labeling/rays/ray_colors.h"
 #include "engine/scenes/builtin.h"
 #include "tests/cpu_time.h"
-#include "tests/engine/labeling/noisy_labels.h"
+#include "tests/engine/labeling/rays/noisy_case.h"
 #include "tests/test_main.h"
 
 #include <cmath>
@@ -18,40 +18,6 @@ namespace episcope::in_ray_labeling_test {
 using namespace episcope::test;
 
 namespace {
-
-constexpr GridShape kGrid{5, 5};
-// Weak ones: regularisers are tested, not edges.
-constexpr EdgeParameters kEdges{.image = 10, .texture = 1};
-
-Scene render(const std::string& id, int size = 96) {
-  scenes::RenderOptions options;
-  options.grid = kGrid;
-  options.height = options.width = size;
-  return scenes::render_builtin(id, options, Progress());
-}
-
-// A scene, what is said of its labels, and its edges.
-struct Case {
-  explicit Case(const std::string& id, double share = 0.4, int size = 96)
-      : scene(render(id, size)),
-        probabilities(mistaken(scene.truth->labels, share)),
-        edges(edge_probabilities(*scene.light_field, scene.truth->field, kEdges, Progress())) {}
-
-  [[nodiscard]] RayLabelingInput input() const {
-    return {&probabilities, &scene.truth->field, &edges, scene.light_field.get()};
-  }
-  [[nodiscard]] RayLabeling label(Regularizer regularizer, RayLabelingParameters parameters = {},
-                                  int threads = 0) const {
-    return label_rays(input(), regularizer, parameters, Progress(threads));
-  }
-  [[nodiscard]] double right(const RayLabeling& labeling) const {
-    return accuracy(labeling.labels, scene.truth->labels);
-  }
-
-  Scene scene;
-  LabelProbabilities probabilities;
-  ViewStack<float> edges;
-};
 
 // Each pixel takes the largest disparity within `radius`.
 DisparityField widened(const DisparityField& field, int radius) {
@@ -71,10 +37,6 @@ DisparityField widened(const DisparityField& field, int radius) {
     }
   }
   return wide;
-}
-
-bool same(const ViewStack<std::int32_t>& a, const ViewStack<std::int32_t>& b) {
-  return a.size() == b.size() && std::equal(a.data(), a.data() + a.size(), b.data());
 }
 
 }  // namespace
@@ -250,7 +212,8 @@ void RayLabelingTest::label_keepsIds() {
 void RayLabelingTest::label_certifiesItself() {
   const Case noisy("objects", 0.4, 64);
 
-  for (const Regularizer regularizer : {Regularizer::View, Regularizer::Rayspace}) {
+  for (const Regularizer regularizer :
+       {Regularizer::View, Regularizer::Rayspace, Regularizer::Wsg13}) {
     const RayLabeling labeling = noisy.label(regularizer);
     QVERIFY(labeling.bound <= labeling.energy);
     QVERIFY2(labeling.relative_gap() < 1e-2, qPrintable(QString::number(labeling.relative_gap())));
@@ -306,7 +269,8 @@ void RayLabelingTest::colors_doNotDependOnTheStoredType() {
 
 void RayLabelingTest::label_stopsOnRequest() {
   const Case noisy("objects", 0.4, 128);
-  for (const Regularizer regularizer : {Regularizer::View, Regularizer::Rayspace}) {
+  for (const Regularizer regularizer :
+       {Regularizer::View, Regularizer::Rayspace, Regularizer::Wsg13}) {
     std::stop_source stop;
     double asked = 0;
     const Progress progress(stop.get_token(), [&](const ProgressState&) {
