@@ -7,6 +7,7 @@
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
 #include "engine/disparity/layers/layer_range.h"
+#include "engine/disparity/layers/layer_steadiness.h"
 #include "engine/disparity/layers/line_fit.h"
 #include "engine/solvers/simplex/binary_segmentation.h"
 
@@ -26,6 +27,8 @@ constexpr float kNoiseFit = 0.3F;
 constexpr float kOneLayer = 0.02F;
 // Of data, as in EPI_S.
 constexpr float kMinWeight = 0.003F;
+// Of two orientations, which are harder to tell from noise than one.
+constexpr double kCrossScaleOfLayers = 1;
 // The region must be right to a pixel, not to a thousandth.
 constexpr int kRegionIterations = 10;
 constexpr double kRegionGap = 1e-3;
@@ -97,13 +100,16 @@ void ViewSolver::find_region(ViewIndex index, const LayeredView& view) {
   residuals_.begin(index);
   raise_by_line_fit(packed_.pixels.view(index), view.single, strictness(lf_.grid()), residuals_,
                     space_.coherence);
+  const Image<float> steadiness = layer_steadiness(view.near, view.far, view.layers);
   const auto decision = static_cast<float>(parameters_.decision);
   for (std::size_t i = 0; i < space_.data.size(); ++i) {
     const float r = space_.coherence.data()[i];
     const float c = confidence(view, i);
     const float share = single_misfit_share(r, c);
-    const float score =
+    const float doubles =
         share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
+    // What is no surface speaks for one layer.
+    const float score = steadiness.data()[i] * (doubles + 1) - 1;
     const float fit = std::max((std::max(r, c) - kNoiseFit) / (1 - kNoiseFit), 0.0F);
     space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
     space_.weight.data()[i] = fit + kOneLayer;
@@ -302,14 +308,14 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                 ViewSelection views, const Progress& progress) {
   EpiLParameters tensor = parameters.tensor;
-  const TensorScales scales{parameters.double_inner_scale,
-                            parameters.double_outer_scale,
-                            tensor.view_scale,
-                            tensor.cross_scale,
-                            parameters.double_contrast,
-                            tensor.noise};
+  const TensorScales scales{
+      parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
+      kCrossScaleOfLayers,           parameters.double_contrast,    tensor.noise};
   tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1));
-  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.2));
+  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15));
+  tensor.cross_scale = kCrossScaleOfLayers;
+  const ViewStack<float> fit =
+      estimate_orientations(lf, tensor, views, progress.part(0.15, 0.2)).confidence;
   const ViewStack<float>& single = estimate.field.disparity;
   // Cut off at the range itself, noise about its ends would no longer average out.
   constexpr double kOvershoot = 0.3;
@@ -321,7 +327,6 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
-  const ViewStack<float> fit = estimate.confidence.clone();
   const PackedViews packed = pack_views(lf, progress.part(0.4, 0.42));
   check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
   solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98));
@@ -338,7 +343,7 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 5},
+       .revision = 6},
       epi_two_layer_schema(), estimate_epi_two_layer);
 }
 

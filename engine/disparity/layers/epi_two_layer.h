@@ -22,7 +22,7 @@ struct EpiTwoLayerParameters {
   double double_contrast = 10;
   StopParameters stop{.max_iterations = 30};
   LineCheck line_check = {};
-  EpiLParameters tensor = {};
+  EpiLParameters tensor{.cross_scale = kCrossScaleOfDenoised};
 };
 
 [[nodiscard]] Schema<EpiTwoLayerParameters> epi_two_layer_schema();
@@ -36,7 +36,9 @@ struct EpiTwoLayerParameters {
 ///    Single or double: the misfit of one orientation as share of both misfits,
 ///    e = `single_misfit_share(r, c)`, with r the best within 2 px before that check and at least
 ///    the fit of lines of one disparity (raise_by_line_fit), so that silhouettes are not taken for
-///    two layers. e above `decision` speaks for two.
+///    two layers. e above `decision` speaks for two. Where the two are no surfaces
+///    (layer_steadiness), one layer is taken, however badly its lines fit: noise and crossing
+///    silhouettes are not two layers, and there the result is that of EPI_S.
 /// 3. The region of two layers in each view by TV segmentation of that score, weighted by max(r, c)
 ///    as far as it is above what noise alone reaches, with one layer where nothing else is seen
 ///    (`segment_binary`): a blank wall in the noise of a camera is not two walls.

@@ -5,6 +5,7 @@
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_decision.h"
+#include "engine/disparity/layers/layer_steadiness.h"
 
 #include <algorithm>
 #include <vector>
@@ -17,7 +18,7 @@ constexpr int kTileStride = 3;
 // Thresholds for an unambiguous pixel, and the fraction of such pixels that is not accidental.
 constexpr float kSureShare = 0.35F;
 constexpr float kSureConfidence = 0.6F;
-constexpr double kEnough = 0.01;
+constexpr double kEnough = 0.03;
 // Share of those pixels that may lie beyond either end, and what is added to both ends.
 constexpr double kTail = 0.01;
 constexpr double kMargin = 0.1;
@@ -43,9 +44,13 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
                             lf.center(), progress.part(0.6, 1));
   Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
   spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
+  const Image<float> steadiness =
+      layer_steadiness(layers.near.view(lf.center()), layers.far.view(lf.center()),
+                       layers.confidence.view(lf.center()));
   std::vector<float> near, far;
   for (std::size_t i = 0; i < layers.near.size(); ++i) {
-    const float confidence = static_cast<float>(layers.confidence.data()[i]) / 255;
+    const float confidence =
+        static_cast<float>(layers.confidence.data()[i]) / 255 * steadiness.data()[i];
     if (confidence < kSureConfidence) continue;
     if (single_misfit_share(coherence.data()[i], confidence) < kSureShare) continue;
     near.push_back(layers.near.data()[i]);

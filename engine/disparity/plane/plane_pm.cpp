@@ -7,6 +7,7 @@
 #include "engine/disparity/plane/carried_sides.h"
 #include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/even_views.h"
+#include "engine/disparity/plane/fine_guide.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 #include <fmt/format.h>
@@ -119,7 +120,8 @@ class Evened {
   }
   void prepare(const StereoCostParameters& matching, const Progress& progress) {
     stereo_ = prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9));
-    set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
+    set_fine_guide(light_field(), progress.part(0.9, 0.95), stereo_);
+    set_local_caps(light_field(), parameters_.visibility, progress.part(0.95, 1), stereo_);
   }
 
   const LightField& lf_;
@@ -223,7 +225,7 @@ Estimator plane_pm_estimator() {
        .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
-       .revision = 3},
+       .revision = 4},
       plane_pm_schema(), estimate_planes);
 }
 

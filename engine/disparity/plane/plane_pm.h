@@ -21,9 +21,9 @@ struct PlaneParameters {
 
 /// Disparity from all views in which a point is visible.
 ///
-/// 1. Matching costs of all views as in ST_AV_G, but every pixel has a cap of its own and costs
-///    count in units of it (visible_costs.h); labels under a truncated smoothness
-///    (jump_labeling.h).
+/// 1. Matching costs of all views as in ST_AV_G, but gathered from neighbours by a guide that keeps
+///    whatever contrast is not noise (fine_guide.h), and on demand with a cap for every pixel
+///    (visible_costs.h); labels under a truncated smoothness (jump_labeling.h).
 /// 2. `rounds` times: views in which a sure surface of the map shows something nearer do not count
 ///    for a point (surfaces_in_views.h); labeling again. Before the first, differences in
 ///    brightness between the views are found and taken away, if there are any (even_views.h).

@@ -12,12 +12,12 @@ struct VisibilityParameters {
   double tolerance = 0.2;    ///< Occluders::tolerance, px.
   double least_trust = 0.1;  ///< Of surfaces that occlude, mean over their surroundings.
   double cap_share = 0.7;    ///< Of StereoCosts' ε that is the least cap of a pixel.
-  double cap_offset = 0.03;  ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.
+  double cap_offset = 0;     ///< LocalCapOptions::offset, px; 0 = one cap for all pixels.
 };
 [[nodiscard]] Schema<VisibilityParameters> visibility_schema();
 
-/// Gives every pixel a cap of its own (local_caps.h), at least a share of the ε found for the
-/// whole view. Throws Cancelled.
+/// Unless `cap_offset` is 0, gives every pixel a cap of its own (local_caps.h), at least a share of
+/// the ε found for the whole view. Throws Cancelled.
 void set_local_caps(const LightField& light_field, const VisibilityParameters& parameters,
                     const Progress& progress, StereoCosts& costs);
 
@@ -32,9 +32,9 @@ void set_occluders(const LightField& light_field, ImageView<const float> dispari
                    ImageView<const float> confidence, const VisibilityParameters& parameters,
                    const Progress& progress, StereoCosts& costs);
 
-/// The costs of all rows (stereo_volume), divided by the cap of their pixel and times the mean cap:
-/// a smooth region whose noise is low then says as much as one of strong contrast, and is not
-/// overruled by the smoothness. Throws Cancelled.
+/// The costs of all rows (stereo_volume); with caps of single pixels divided by that of their pixel
+/// and times the mean cap: a smooth region whose noise is low then says as much as one of strong
+/// contrast, and is not overruled by the smoothness. Throws Cancelled.
 [[nodiscard]] Volume<float> visible_costs(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
 

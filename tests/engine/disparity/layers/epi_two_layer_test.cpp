@@ -5,6 +5,7 @@
 #include "engine/disparity/epi/epi_s.h"
 #include "engine/disparity/layers/layer_range.h"
 #include "engine/scenes/recipes/sensor_noise.h"
+#include "engine/scenes/request.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
 
@@ -57,6 +58,8 @@ class EpiTwoLayerTest : public QObject {
   void opaqueScenes_haveOneLayer_data();
   void opaqueScenes_haveOneLayer();
   void noisyWall_hasOneLayer();
+  void darkAndPeriodicScenes_areNotTwoLayers_data();
+  void darkAndPeriodicScenes_areNotTwoLayers();
   void layers_areOrderedAndAgreeOutside();
   void layers_areExactWithinTheirRegion();
   void surfaceSmoothness_concernsTheForegroundAlone();
@@ -126,6 +129,23 @@ void EpiTwoLayerTest::noisyWall_hasOneLayer() {
   parameters.tensor.range = Interval{-1.5, 1.5};
   const Estimate estimate =
       estimate_epi_two_layer(wall, parameters, ViewSelection::Center, Progress());
+  const auto& layers = estimate.layered.layers;
+  QCOMPARE(std::count(layers.data(), layers.data() + layers.size(), 2), 0);
+}
+
+void EpiTwoLayerTest::darkAndPeriodicScenes_areNotTwoLayers_data() {
+  QTest::addColumn<QString>("id");
+  QTest::newRow("dark") << "random?seed=5&kind=dark&size=96";
+  QTest::newRow("periodic") << "random?seed=51&kind=periodic&size=96";
+  QTest::newRow("noisy") << "random?seed=13&size=128";
+}
+
+// Opaque scenes in which no line fits well, which came out as two layers throughout.
+void EpiTwoLayerTest::darkAndPeriodicScenes_areNotTwoLayers() {
+  QFETCH(QString, id);
+  const auto [name, options] = scenes::read_request(id.toStdString());
+  const Scene scene = scenes::render_builtin(name, options, Progress());
+  const Estimate estimate = run(scene, ViewSelection::Center);
   const auto& layers = estimate.layered.layers;
   QCOMPARE(std::count(layers.data(), layers.data() + layers.size(), 2), 0);
 }
