@@ -3,6 +3,7 @@
 
 #include "app/gui/annotate/annotate.h"
 #include "app/gui/browse/browse.h"
+#include "app/gui/capture/capture.h"
 #include "app/gui/cloud/cloud.h"
 #include "app/gui/collection/collection.h"
 #include "app/gui/compare/compare.h"
@@ -20,6 +21,7 @@ std::span<const Feature> features() {
       {"browse", add_browsing},       {"estimate", add_estimating},
       {"compare", add_comparing},     {"annotate", add_annotating},
       {"segment", add_segmenting},    {"cloud", add_cloud},
+      {"capture", add_capture},
       {"collection", add_collection}, {"help", add_help}};
   return kFeatures;
 }

@@ -115,6 +115,6 @@ episcope_forbid(episcope-cli ${ui})
 episcope_floors(engine/core . array,hash,parallel,text parameter light_field)
 episcope_floors(engine/disparity tensor common epi,stereo cuts,layers,plane)
 episcope_floors(engine/capture camera,mesh calibrate,depth,pose rectify demo)
-episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare)
+episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare capture)
 episcope_floors(app/gui frame document,stage opening bench
-                annotate,browse,cloud,collection,compare,estimate,files,help,project,segment)
+                annotate,browse,capture,cloud,collection,compare,estimate,files,help,project,segment)

@@ -36,6 +36,24 @@ namespace {
 
 constexpr double kPickReach = 5;  // logical pixels
 
+vtkNew<vtkCellArray> all_points(vtkIdType count) {
+  vtkNew<vtkCellArray> cells;
+  cells->InsertNextCell(static_cast<int>(count));
+  for (vtkIdType i = 0; i < count; ++i) cells->InsertCellPoint(i);
+  return cells;
+}
+
+vtkNew<vtkCellArray> cells_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  vtkNew<vtkCellArray> cells;
+  const auto count = static_cast<vtkIdType>(triangles.size());
+  cells->AllocateExact(count, 3 * count);
+  for (const auto& [a, b, c] : triangles) {
+    cells->InsertNextCell(
+        {static_cast<vtkIdType>(a), static_cast<vtkIdType>(b), static_cast<vtkIdType>(c)});
+  }
+  return cells;
+}
+
 }  // namespace
 
 template <class Subject>
@@ -160,18 +178,19 @@ void CloudScene::setCloud(const PointCloud& cloud) {
   vtkNew<vtkUnsignedCharArray> colors;
   colors->SetNumberOfComponents(3);
   colors->SetNumberOfTuples(count);
-  vtkNew<vtkCellArray> cells;
   if (count > 0) {
     std::copy_n(cloud.positions.front().data(), 3 * count, coordinates->GetPointer(0));
     std::copy_n(cloud.colors.front().data(), 3 * count, colors->GetPointer(0));
-    cells->InsertNextCell(static_cast<int>(count));
-    for (vtkIdType i = 0; i < count; ++i) cells->InsertCellPoint(i);
   }
   vtkNew<vtkPoints> positions;
   positions->SetData(coordinates);
   points_->Initialize();
   points_->SetPoints(positions);
-  points_->SetVerts(cells);
+  if (cloud.triangles.empty()) {
+    points_->SetVerts(all_points(count));
+  } else {
+    points_->SetPolys(cells_of(cloud.triangles));
+  }
   points_->GetPointData()->SetScalars(colors);
   points_->Modified();
   box_ = robust_bounds(cloud);

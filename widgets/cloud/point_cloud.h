@@ -15,6 +15,8 @@ struct PointCloud {
   std::vector<std::array<float, 3>> positions;
   std::vector<std::array<std::uint8_t, 3>> colors;  ///< One a position.
   std::vector<PixelIndex> pixels{};  ///< Where each is from, one a position; may be empty.
+  /// Of positions; empty: the points alone are drawn.
+  std::vector<std::array<std::uint32_t, 3>> triangles{};
   bool is_metric = false;            ///< Positions are in scene units, not in stretched disparity.
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/mesh/mesh_file.h"
 
+#include "engine/capture/mesh/ply_header.h"
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/atomic_file.h"
@@ -51,21 +52,39 @@ void append_vertices(const std::filesystem::path& path, const aiMesh& part, Tria
   }
 }
 
-void append_faces(const std::filesystem::path& path, const aiMesh& part, std::uint32_t first,
-                  TriangleMesh& mesh) {
+void require_valid(const std::filesystem::path& path, const aiFace& face, std::size_t number,
+                   unsigned vertices) {
+  for (unsigned k = 0; k < face.mNumIndices; ++k) {
+    if (face.mIndices[k] < vertices) continue;
+    throw IoError(path, "face " + std::to_string(number) + " refers to vertex " +
+                            std::to_string(face.mIndices[k]) + " of " + std::to_string(vertices) +
+                            "; repair the mesh");
+  }
+}
+
+// Points and lines are left out; polygons that were not cut into triangles become fans.
+void append_faces(const aiMesh& part, std::uint32_t first, TriangleMesh& mesh) {
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
     const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // Points and lines.
-    for (int k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) {
-        throw IoError(path, "face " + std::to_string(mesh.faces.size()) + " refers to vertex " +
-                                std::to_string(face.mIndices[k]) + " of " +
-                                std::to_string(part.mNumVertices) + "; repair the mesh");
-      }
+    for (unsigned k = 2; k < face.mNumIndices; ++k) {
+      mesh.faces.push_back(
+          {first + face.mIndices[0], first + face.mIndices[k - 1], first + face.mIndices[k]});
     }
-    mesh.faces.push_back(
-        {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
   }
+}
+
+// assimp's triangulation stops the program at faces that are none, so it sees whole polygons alone.
+bool needs_triangulation(const std::filesystem::path& path, const aiScene& scene) {
+  bool has_polygon = false, has_less = false;
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      require_valid(path, part.mFaces[i], i, part.mNumVertices);
+      has_polygon |= part.mFaces[i].mNumIndices > 3;
+      has_less |= part.mFaces[i].mNumIndices < 3;
+    }
+  }
+  return has_polygon && !has_less;
 }
 
 TriangleMesh mesh_of(const std::filesystem::path& path, const aiScene& scene,
@@ -88,7 +107,7 @@ TriangleMesh mesh_of(const std::filesystem::path& path, const aiScene& scene,
     progress.check();
     const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
     append_vertices(path, *scene.mMeshes[i], mesh);
-    append_faces(path, *scene.mMeshes[i], first, mesh);
+    append_faces(*scene.mMeshes[i], first, mesh);
   }
   return mesh;
 }
@@ -99,11 +118,15 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progre
   require_readable(path);
   progress.step("reading " + path.filename().string());
   progress.check();
+  if (suffix_of(path) == ".ply") require_whole_ply(path);
   Assimp::Importer importer;
   importer.SetProgressHandler(new StopHandler(progress));  // owned by the importer
   const aiScene* scene = nullptr;
   try {
-    scene = importer.ReadFile(path.string(), aiProcess_Triangulate);
+    scene = importer.ReadFile(path.string(), 0);
+    if (scene != nullptr && needs_triangulation(path, *scene)) {
+      scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    }
   } catch (const std::bad_alloc&) {
     throw IoError(path, "not enough memory for this mesh; reduce it");
   }

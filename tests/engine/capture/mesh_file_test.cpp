@@ -78,8 +78,31 @@ class MeshFileTest : public QObject {
                     "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float "
                     "y\nproperty float z\nend_header\n0 0 1\n")
                 .contains("points.ply"));
+    QVERIFY(problem("few.ply", kPly + "0 0 1\n1 0 2\n0 1 3\n1 1 4\n3 0 2 1\n")
+                .contains("ends in the middle"));
+    QVERIFY(problem("header.ply", "ply\nformat ascii 1.0\n").contains("no end"));
     QVERIFY(problem("mesh.xyz", "0 0 0").contains(".ply, .obj or .stl"));
     QVERIFY_EXCEPTION_THROWN((void)read_mesh("/nowhere/a.ply", Progress(1)), IoError);
+  }
+
+  void cutBinaryPly_getsASentenceWhereverItIsCut() {
+    TriangleMesh mesh;
+    mesh.vertices = {{0, 0, 1}, {1, 0, 2}, {0, 1, 3.5F}, {1, 1, -4}};
+    mesh.faces = {{0, 2, 1}, {1, 2, 3}};
+    const std::filesystem::path path = folder_.filePath("whole.ply").toStdString();
+    write_mesh(path, mesh);
+    std::ifstream whole(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(whole)), {});
+    for (std::size_t length = 0; length < bytes.size(); ++length) {
+      QVERIFY2(problem("cut.ply", bytes.substr(0, length)).contains("cut.ply"),
+               qPrintable(QString::number(length)));
+    }
+  }
+
+  void linesBetweenPolygons_areLeftOut() {
+    const TriangleMesh mesh = read_mesh(
+        file("lines.obj", "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nf 1 2 3 4\nl 1 2\n"), Progress(1));
+    QCOMPARE(mesh.faces.size(), std::size_t{2});
   }
 };
 

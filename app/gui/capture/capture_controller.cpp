@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/capture/capture_controller.h"
+
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/frame.h"
+#include "app/gui/frame/messages.h"
+#include "app/session/capture/mesh_truth.h"
+#include "app/session/scene/scene_range.h"
+#include "app/session/session.h"
+#include "engine/capture/mesh/mesh_file.h"
+#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/pose/pose_file.h"
+#include "engine/core/error.h"
+#include "engine/io/archive/write_scene.h"
+#include "widgets/capture/capture_panel.h"
+#include "widgets/capture/mesh_cloud.h"
+#include "widgets/style/number_text.h"
+
+#include <QFileInfo>
+#include <QLocale>
+#include <QVBoxLayout>
+
+#include <cmath>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+QString place_text(const capture::Point3& p) {
+  return with_minus(
+      QString("%1, %2, %3").arg(p.x, 0, 'g', 5).arg(p.y, 0, 'g', 5).arg(p.z, 0, 'g', 5));
+}
+
+fs::path path_of(const QString& path) {
+  return path.toStdString();
+}
+
+}  // namespace
+
+// What a worker makes of a file.
+struct CaptureController::Loaded {
+  std::shared_ptr<const capture::TriangleMesh> mesh;
+  std::shared_ptr<const PointCloud> cloud;
+};
+
+CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
+    : QObject(&bench.owner), bench_(bench), tab_(tab) {
+  connect(&bench.frame, &Frame::tabShown, this, [this] {
+    if (bench_.frame.shownTab() == "capture") makePanel();
+  });
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has(Part::Scene) && scene_ != bench_.session.generation()) {
+      scene_ = bench_.session.generation();
+      pairs_.clear();
+      result_ = 0;
+      changed();
+    }
+    if (parts.has_any(Part::View | Part::CrossHair)) showNext();
+  });
+}
+
+void CaptureController::makePanel() {
+  if (panel_) return;
+  // As in the 3D tab: the first OpenGL widget has the native window recreated.
+  bench_.window.move(bench_.window.pos());
+  panel_ = new CapturePanel(tab_);
+  auto* layout = new QVBoxLayout(tab_);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(panel_);
+  connectPanel();
+  changed();
+}
+
+void CaptureController::connectPanel() {
+  const auto ask = [this](const char* name, const QString& title, const QString& filter,
+                          void (CaptureController::*answer)(const QString&), bool saves,
+                          const QString& proposal = {}) {
+    const FileQuestion question{
+        .name = name, .title = title, .filter = filter, .proposal = proposal};
+    const auto to = [this, answer](const QString& path) { (this->*answer)(path); };
+    return saves ? ask_where_to_save(&bench_.window, question, to)
+                 : ask_for_file(&bench_.window, question, to);
+  };
+  connect(panel_, &CapturePanel::openRequested, this, [=, this] {
+    ask("open_mesh", tr("Open a mesh"), tr("Meshes (*.ply *.obj *.stl)"),
+        &CaptureController::openMesh, false);
+  });
+  connect(panel_, &CapturePanel::importRequested, this, [=, this] {
+    ask("import_pairs", tr("Import pairs"), tr("Pairs (*.csv)"), &CaptureController::importPairs,
+        false);
+  });
+  connect(panel_, &CapturePanel::exportRequested, this, [=, this] {
+    ask("export_pairs", tr("Export pairs"), tr("Pairs (*.csv)"), &CaptureController::exportPairs,
+        true, "pairs.csv");
+  });
+  connect(panel_, &CapturePanel::savePoseRequested, this, [=, this] {
+    ask("save_pose", tr("Save the pose"), tr("Pose (*.json)"), &CaptureController::savePose, true,
+        "pose.json");
+  });
+  connect(panel_, &CapturePanel::writeTruthRequested, this, [=, this] {
+    ask("write_truth", tr("Write the light field with its ground truth"), tr("Light field (*.h5)"),
+        &CaptureController::writeTruth, true, "lf.h5");
+  });
+  connect(panel_, &CapturePanel::addRequested, this, &CaptureController::addPair);
+  connect(panel_, &CapturePanel::vertexPicked, this, &CaptureController::pickVertex);
+  connect(panel_, &CapturePanel::showRequested, this, &CaptureController::showOverView);
+  connect(panel_, &CapturePanel::removeRequested, this, [this] {
+    pairs_.remove(panel_->selectedRows());
+    changed();
+  });
+  connect(panel_, &CapturePanel::undoRequested, this, [this] {
+    pairs_.undo();
+    changed();
+  });
+  connect(panel_, &CapturePanel::renamed, this, [this](int row, const QString& name) {
+    pairs_.rename(row, name.toStdString());
+    changed();
+  });
+  connect(panel_, &CapturePanel::rowChosen, this, [this](int row) {
+    const capture::PointPair& pair = pairs_.all()[row];
+    bench_.session.set_view(bench_.session.light_field()->center());
+    bench_.session.set_cross_hair(
+        {static_cast<int>(std::lround(pair.x_px)), static_cast<int>(std::lround(pair.y_px))});
+  });
+}
+
+void CaptureController::openMesh(const QString& path) {
+  bench_.jobs.start<Loaded>(
+      Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
+      [file = path_of(path)](const Progress& progress) {
+        Loaded loaded;
+        loaded.mesh = std::make_shared<const capture::TriangleMesh>(
+            capture::read_mesh(file, progress.part(0, 0.8)));
+        loaded.cloud = std::make_shared<const PointCloud>(
+            make_mesh_cloud(loaded.mesh->vertices, loaded.mesh->faces));
+        return loaded;
+      },
+      [this, path](const Loaded& loaded) {
+        mesh_ = loaded.mesh;
+        cloud_ = loaded.cloud;
+        mesh_file_ = path_of(path);
+        vertex_.reset();
+        bench_.frame.showTab("capture");
+        makePanel();
+        panel_->setMesh(tr("%1 · %2 faces")
+                            .arg(QFileInfo(path).fileName(),
+                                 QLocale().toString(static_cast<qulonglong>(mesh_->faces.size()))),
+                        *cloud_);
+        changed();
+      });
+}
+
+void CaptureController::importPairs(const QString& path) {
+  try {
+    pairs_.add(capture::read_pairs(path_of(path)));
+    changed();
+  } catch (const Error& error) {
+    bench_.messages.fail(QString::fromUtf8(error.what()));
+  }
+}
+
+void CaptureController::exportPairs(const QString& path) {
+  if (!has_suffix(path, {"csv"}, bench_.messages)) return;
+  write_in_background(bench_.jobs, bench_.messages, path,
+                      [file = path_of(path), pairs = pairs_.all()](const Progress&) {
+                        capture::write_pairs(file, pairs);
+                      });
+}
+
+void CaptureController::savePose(const QString& path) {
+  if (!pose_ || !has_suffix(path, {"json"}, bench_.messages)) return;
+  capture::PoseStory story{mesh_file_, bench_.session.input(),
+                           bench_.session.light_field()->info().camera, pairs_.all(), *pose_};
+  write_in_background(
+      bench_.jobs, bench_.messages, path,
+      [file = path_of(path), story](const Progress&) { capture::write_pose(file, story); });
+}
+
+void CaptureController::writeTruth(const QString& path) {
+  if (!pose_ || !mesh_ || !has_suffix(path, {"h5"}, bench_.messages)) return;
+  if (fs::exists(path_of(path))) {
+    bench_.messages.fail(
+        tr("%1 is there already; name a new file, so that no light field is lost").arg(path));
+    return;
+  }
+  write_in_background(bench_.jobs, bench_.messages, path,
+                      [file = path_of(path), mesh = mesh_, pose = pose_->pose,
+                       scene = bench_.session.scene()](const Progress& progress) {
+                        const Scene made =
+                            with_mesh_truth(*mesh, pose, *scene, progress.part(0, 0.9));
+                        io::write_archive(file, made, progress.part(0.9, 1));
+                      });
+}
+
+void CaptureController::pickVertex(std::size_t vertex) {
+  if (!mesh_ || vertex >= mesh_->vertices.size()) return;
+  vertex_ = vertex;
+  showNext();
+}
+
+void CaptureController::addPair() {
+  if (!vertex_ || !obstacle().isEmpty()) return;
+  const PixelIndex pixel = bench_.session.cross_hair();
+  const auto& [x, y, z] = mesh_->vertices[*vertex_];
+  pairs_.add({{"", static_cast<double>(pixel.x), static_cast<double>(pixel.y), {x, y, z}}});
+  vertex_.reset();
+  changed();
+}
+
+void CaptureController::showOverView() {
+  if (!pose_ || !mesh_) return;
+  bench_.jobs.start<EstimatePtr>(
+      Lane::Estimate, tr("Depth of the mesh"),
+      [mesh = mesh_, pose = pose_->pose, scene = bench_.session.scene()](const Progress& progress) {
+        return std::make_shared<const Estimate>(mesh_estimate(*mesh, pose, *scene, progress));
+      },
+      [this, scene = bench_.session.generation()](const EstimatePtr& estimate) {
+        if (scene == bench_.session.generation()) bench_.session.remove_estimate(result_);
+        result_ = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
+      });
+}
+
+void CaptureController::changed() {
+  solve();
+  showPairs();
+  showNext();
+}
+
+void CaptureController::solve() {
+  pose_.reset();
+  problem_.clear();
+  if (!mesh_ || !obstacle().isEmpty() || pairs_.all().size() < 4) return;
+  try {
+    pose_ = capture::solve_pose(pairs_.all(), bench_.session.light_field()->info().camera);
+  } catch (const InvalidInput& error) {
+    problem_ = QString::fromUtf8(error.what());
+  }
+}
+
+QString CaptureController::obstacle() const {
+  if (!bench_.session.scene()) return tr("Open a light field first.");
+  if (!bench_.session.light_field()->info().camera.pinhole) {
+    return tr(
+        "This light field does not tell its focal length and centre in pixels, which a pose "
+        "needs; make it with “episcope-cli rectify”.");
+  }
+  return {};
+}
+
+void CaptureController::showNext() {
+  if (!panel_) return;
+  const bool is_here =
+      obstacle().isEmpty() && bench_.session.view() == bench_.session.light_field()->center();
+  const PixelIndex pixel = bench_.session.cross_hair();
+  QString point;
+  if (mesh_ && vertex_) {
+    const auto& [x, y, z] = mesh_->vertices[*vertex_];
+    point = place_text({x, y, z});
+  }
+  panel_->setNext(
+      is_here ? QString("%1, %2").arg(pixel.x).arg(pixel.y) : tr("go to the centre view (Home)"),
+      point, is_here && !point.isEmpty());
+}
+
+void CaptureController::showPairs() {
+  if (!panel_) return;
+  std::vector<CaptureRow> rows;
+  for (std::size_t i = 0; i < pairs_.all().size(); ++i) {
+    const capture::PointPair& pair = pairs_.all()[i];
+    CaptureRow row{QString::fromStdString(pair.name),
+                   {pair.x_px, pair.y_px},
+                   {pair.point.x, pair.point.y, pair.point.z}};
+    if (pose_) {
+      row.off_px = pose_->pairs[i].residual_px;
+      row.is_outlier = pose_->pairs[i].is_outlier;
+    }
+    rows.push_back(std::move(row));
+  }
+  panel_->setRows(rows);
+  panel_->setUndoable(pairs_.is_undoable());
+  panel_->setPose(poseText(), pose_.has_value());
+}
+
+QString CaptureController::poseText() const {
+  const QString missing = obstacle();
+  if (!missing.isEmpty()) return missing;
+  if (!problem_.isEmpty()) return problem_;
+  const auto count = static_cast<int>(pairs_.all().size());
+  if (!pose_) return tr("%1 of at least 4 pairs; 10 are better.").arg(count);
+  QString text = tr("Mean reprojection error %1 px; depth to ± %2 (unit of the mesh)")
+                     .arg(pose_->reprojection_error_px, 0, 'f', 2)
+                     .arg(pose_->delta_tz, 0, 'g', 3);
+  if (std::isfinite(pose_->delta_tz_px)) {
+    text += tr(", ± %1 px of disparity").arg(pose_->delta_tz_px, 0, 'f', 4);
+  }
+  return text + '.';
+}
+
+}  // namespace episcope
+
+#include "moc_capture_controller.cpp"

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/gui/capture/picked_pairs.h"
+#include "app/gui/frame/jobs.h"
+#include "app/session/parts.h"
+#include "engine/capture/mesh/triangle_mesh.h"
+#include "engine/capture/pose/solve_pose.h"
+
+#include <QObject>
+#include <QString>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+namespace episcope {
+
+class CapturePanel;
+struct PointCloud;
+
+/// From a mesh and pairs of points to a pose, a result and ground truth, of the open light field.
+class CaptureController : public QObject {
+  Q_OBJECT
+
+ public:
+  CaptureController(const Workbench& bench, QWidget* tab);
+
+  void openMesh(const QString& path);
+  void importPairs(const QString& path);
+  void exportPairs(const QString& path);
+  void savePose(const QString& path);
+  void writeTruth(const QString& path);
+  /// Marks a point of the mesh for the next pair.
+  void pickVertex(std::size_t vertex);
+
+  [[nodiscard]] const PickedPairs& pairs() const { return pairs_; }
+  [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const { return pose_; }
+
+ private:
+  struct Loaded;
+
+  void makePanel();
+  void connectPanel();
+  void addPair();
+  void showOverView();
+  void changed();
+  void solve();
+  void showNext();
+  void showPairs();
+  [[nodiscard]] QString poseText() const;
+  /// Why pairs cannot be used; empty = they can.
+  [[nodiscard]] QString obstacle() const;
+
+  Workbench bench_;
+  QWidget* tab_;
+  CapturePanel* panel_ = nullptr;
+  std::filesystem::path mesh_file_;
+  std::shared_ptr<const capture::TriangleMesh> mesh_;
+  std::shared_ptr<const PointCloud> cloud_;
+  std::optional<std::size_t> vertex_;
+  PickedPairs pairs_;
+  std::optional<capture::SolvedPose> pose_;
+  QString problem_;  // why there is no pose
+  std::uint64_t scene_ = 0;
+  int result_ = 0;  // of the mesh
+};
+
+}  // namespace episcope

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/capture/capture_controller.h"
+#include "app/session/session.h"
+#include "engine/capture/demo/scan_mesh.h"
+#include "engine/capture/mesh/mesh_file.h"
+#include "engine/capture/pose/pairs_file.h"
+#include "engine/capture/pose/pose_file.h"
+#include "engine/io/open/open.h"
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/controls/message_bar.h"
+
+#include <QFile>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
+
+#include <array>
+#include <cmath>
+
+namespace episcope::in_capture_test {
+
+namespace {
+
+constexpr Pinhole kPinhole{120, 47.5, 47.5};
+
+// Turned by 0.1 about y, 900 mm away.
+capture::RigidPose true_pose() {
+  const double c = std::cos(0.1), s = std::sin(0.1);
+  return {{c, 0, s, 0, 1, 0, -s, 0, c}, {5, -8, 900}};
+}
+
+capture::PointPair pair_of(const std::string& name, const capture::Vertex& vertex) {
+  const capture::Point3 on_mesh{vertex[0], vertex[1], vertex[2]};
+  const capture::Point3 p = true_pose().apply(on_mesh);
+  return {name, kPinhole.focal_px * p.x / p.z + kPinhole.center_x,
+          kPinhole.focal_px * p.y / p.z + kPinhole.center_y, on_mesh};
+}
+
+/// The window on a light field that knows its pinhole, or does not.
+class Capturing : public WindowFixture {
+ public:
+  explicit Capturing(bool has_pinhole = true) : mesh(capture::scan_mesh(12)) {
+    capture::write_mesh(file("scan.ply"), mesh);
+    Scene scene = scenes::render_builtin("edge", smallOptions(), Progress());
+    LightFieldInfo info = scene.light_field->info();
+    info.camera = {.baseline = 10, .focal_length = kPinhole.focal_px, .shift = 10 * 120.0 / 900};
+    if (has_pinhole) info.camera.pinhole = kPinhole;
+    const auto& samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    scene.light_field = std::make_shared<LightField>(samples.clone(), info);
+    window.bench().session.open(std::make_shared<const Scene>(std::move(scene)), "edge");
+    trigger("tab.capture");
+  }
+
+  [[nodiscard]] std::filesystem::path file(const char* name) const {
+    return path(name).toStdString();
+  }
+  CaptureController& capture() { return find<CaptureController>(window); }
+  [[nodiscard]] QString text(const char* label) const {
+    return window.findChild<QLabel*>(label)->text();
+  }
+  void openMesh() {
+    capture().openMesh(path("scan.ply"));
+    QTRY_VERIFY2_WITH_TIMEOUT(text("capture.mesh").startsWith("scan.ply"),
+                              qPrintable(text("capture.mesh")), kPatience);
+  }
+  /// Exact pairs of vertices far apart.
+  void importPairs(std::size_t count) {
+    std::vector<capture::PointPair> pairs;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t vertex = (i * 7919) % mesh.vertices.size();
+      pairs.push_back(pair_of("p" + std::to_string(i + 1), mesh.vertices[vertex]));
+    }
+    capture::write_pairs(file("pairs.csv"), pairs);
+    capture().importPairs(path("pairs.csv"));
+  }
+
+  capture::TriangleMesh mesh;
+};
+
+}  // namespace
+
+class CaptureTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void picks_becomePairsAndAPose() {
+    Capturing f;
+    f.openMesh();
+    auto* add = f.window.findChild<QPushButton*>("capture.add");
+    auto* table = f.window.findChild<QTableWidget*>("capture.pairs");
+    QVERIFY(!add->isEnabled());
+    int picked = 0;
+    for (std::size_t i = 0; i < f.mesh.vertices.size() && picked < 6; i += 131) {
+      const capture::PointPair pair = pair_of("", f.mesh.vertices[i]);
+      const PixelIndex pixel{static_cast<int>(std::lround(pair.x_px)),
+                             static_cast<int>(std::lround(pair.y_px))};
+      if (pixel.x < 2 || pixel.y < 2 || pixel.x > 93 || pixel.y > 93) continue;
+      QTest::mouseClick(f.canvas(), Qt::LeftButton, {}, f.at(pixel));
+      QCOMPARE(f.window.bench().session.cross_hair(), pixel);
+      f.capture().pickVertex(i);
+      QVERIFY(add->isEnabled());
+      f.click("capture.add");
+      QCOMPARE(table->rowCount(), ++picked);
+      QVERIFY(!add->isEnabled());  // a pair needs a new point
+    }
+    QCOMPARE(picked, 6);
+    QVERIFY(f.capture().pose());
+    QVERIFY(f.capture().pose()->reprojection_error_px < 1);  // whole pixels were picked
+    QVERIFY2(f.text("capture.pose").contains("px"), qPrintable(f.text("capture.pose")));
+
+    table->selectRow(0);
+    f.click("capture.remove");
+    QCOMPARE(table->rowCount(), 5);
+    f.click("capture.undo");
+    QCOMPARE(table->rowCount(), 6);
+  }
+
+  void exactPairs_giveTheExactDepth() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(12);
+    QVERIFY(f.capture().pose());
+    QVERIFY(std::abs(f.capture().pose()->pose.translation[2] - 900) < 1e-4);
+
+    f.click("capture.show");
+    const Session& session = f.window.bench().session;
+    QTRY_VERIFY_WITH_TIMEOUT(session.shown() != nullptr, kPatience);
+    QCOMPARE(QString::fromStdString(session.shown()->estimate->method), QString("mesh"));
+    f.click("capture.show");
+    QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+    QCOMPARE(session.estimates().size(), std::size_t{1});  // in place of the former
+
+    f.capture().writeTruth(f.path("made.h5"));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("made.h5")), kPatience);
+    QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+    const Scene made = io::open_scene(f.path("made.h5").toStdString(), {}, Progress());
+    QCOMPARE(made.truth->field.disparity.grid().count(), 81);
+    const ImageView<const float> shown = session.shown()->estimate->field.disparity.view({4, 4});
+    double worst = 0;
+    int judged = 0;
+    for (int y = 0; y < 96; ++y) {
+      for (int x = 0; x < 96; ++x) {
+        if (made.truth->field.valid.view({4, 4}).at(y, x) == 0) continue;
+        worst = std::max<double>(
+            worst, std::abs(made.truth->field.disparity.view({4, 4}).at(y, x) - shown.at(y, x)));
+        ++judged;
+      }
+    }
+    QVERIFY(judged > 1000);
+    QVERIFY(worst < 1e-4);
+  }
+
+  void wrongPick_isNamed() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(11);
+    capture::PointPair wrong = pair_of("wrong", f.mesh.vertices[40]);
+    wrong.x_px += 30;
+    capture::write_pairs(f.file("wrong.csv"), std::vector{wrong});
+    f.capture().importPairs(f.path("wrong.csv"));
+
+    const auto* table = f.window.findChild<QTableWidget*>("capture.pairs");
+    QCOMPARE(table->rowCount(), 12);
+    QVERIFY2(table->item(11, 3)->text().contains("wrong?"), qPrintable(table->item(11, 3)->text()));
+    QVERIFY(!table->item(0, 3)->text().contains("wrong?"));
+  }
+
+  void pose_isSavedWithItsStory() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(8);
+    f.capture().savePose(f.path("pose.json"));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("pose.json")), kPatience);
+
+    const capture::PoseStory story = capture::read_pose(f.file("pose.json"));
+    QFile json(f.path("pose.json"));
+    QVERIFY(json.open(QIODevice::ReadOnly) && json.readAll().contains("\"p8\""));
+    QVERIFY(std::filesystem::equivalent(story.mesh, f.file("scan.ply")));
+    QVERIFY(std::abs(story.solved.pose.translation[2] - 900) < 1e-4);
+  }
+
+  void lightFieldWithoutPinhole_isTold() {
+    Capturing f(false);
+    f.openMesh();
+    f.importPairs(8);
+    QVERIFY(!f.capture().pose());
+    QVERIFY2(f.text("capture.pose").contains("rectify"), qPrintable(f.text("capture.pose")));
+    QVERIFY(!f.window.findChild<QPushButton*>("capture.writeTruth")->isEnabled());
+  }
+
+  void brokenFiles_areTold() {
+    Capturing f;
+    QFile broken(f.path("broken.ply"));
+    QVERIFY(broken.open(QIODevice::WriteOnly));
+    broken.write("ply\nformat ascii 1.0\n");
+    broken.close();
+    f.capture().openMesh(f.path("broken.ply"));
+    const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+    QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("broken.ply"), kPatience);
+    QCOMPARE(f.text("capture.mesh"), QString("No mesh"));
+    f.capture().importPairs(f.path("nowhere.csv"));
+    QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("nowhere.csv"), kPatience);
+  }
+};
+
+}  // namespace episcope::in_capture_test
+
+EPISCOPE_WINDOW_TEST(capture_test, CaptureTest)
+#include "capture_test.moc"

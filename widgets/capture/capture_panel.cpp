@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/capture/capture_panel.h"
+
+#include "widgets/cloud/point_cloud_view.h"
+#include "widgets/controls/elided_label.h"
+#include "widgets/style/number_text.h"
+#include "widgets/style/theme.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QStackedLayout>
+#include <QTableWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+enum Column { Name, Pixel, Point, Off };
+
+QPushButton* make_button(QWidget* parent, const char* name, const QString& text,
+                         const QString& tip) {
+  auto* button = new QPushButton(text, parent);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  return button;
+}
+
+QLabel* make_text(QWidget* parent, const char* name) {
+  auto* label = new QLabel(parent);
+  label->setObjectName(name);
+  label->setWordWrap(true);
+  return label;
+}
+
+QTableWidgetItem* make_cell(const QString& text, bool is_editable) {
+  auto* item = new QTableWidgetItem(text);
+  if (!is_editable) item->setFlags(item->flags() & ~Qt::ItemIsEditable);
+  item->setToolTip(text);
+  return item;
+}
+
+}  // namespace
+
+CapturePanel::CapturePanel(QWidget* parent)
+    : QWidget(parent),
+      mesh_(make_text(this, "capture.mesh")),
+      hint_(make_text(this, "capture.hint")),
+      next_(make_text(this, "capture.next")),
+      pose_(make_text(this, "capture.pose")),
+      add_(make_button(this, "capture.add", tr("Add pair"),
+                       tr("The cross-hair and the marked point of the mesh are the same point"))),
+      undo_(make_button(this, "capture.undo", tr("Undo"), tr("Takes back the last change"))),
+      table_(new QTableWidget(this)),
+      stack_(new QStackedLayout) {
+  setObjectName("capturePanel");
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  layout->addWidget(makeView(), 3);
+  layout->addWidget(makePairs(), 2);
+  layout->addWidget(makeResults());
+  setMesh({}, {});
+  setRows({});
+  setNext({}, {}, false);
+  setPose({}, false);
+  setUndoable(false);
+}
+
+QWidget* CapturePanel::makeView() {
+  auto* part = new QWidget(this);
+  auto* open = make_button(part, "capture.open", tr("Open mesh…"),
+                           tr("A scan of what the light field shows: PLY, OBJ or STL"));
+  auto* row = new QHBoxLayout;
+  row->addWidget(mesh_, 1);
+  row->addWidget(open);
+  hint_->setText(
+      tr("Open a mesh of what the light field shows. Then set the cross-hair in the "
+         "centre view, click the same point of the mesh here, and add the pair. Four "
+         "pairs give its pose."));
+  hint_->setAlignment(Qt::AlignCenter);
+  QWidget* made = make_point_cloud_view(part);
+  view_ = qobject_cast<PointCloudView*>(made);
+  if (view_) connect(view_, &PointCloudView::pointPicked, this, &CapturePanel::vertexPicked);
+  stack_->addWidget(hint_);
+  stack_->addWidget(made);
+  auto* layout = new QVBoxLayout(part);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addLayout(row);
+  layout->addLayout(stack_, 1);
+  connect(open, &QPushButton::clicked, this, &CapturePanel::openRequested);
+  return part;
+}
+
+QWidget* CapturePanel::makePairs() {
+  auto* part = new QWidget(this);
+  table_->setObjectName("capture.pairs");
+  table_->setColumnCount(4);
+  table_->setHorizontalHeaderLabels({tr("Pair"), tr("View"), tr("Mesh"), tr("Off by")});
+  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table_->horizontalHeader()->setSectionResizeMode(Point, QHeaderView::Stretch);
+  table_->verticalHeader()->hide();
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  connect(table_, &QTableWidget::cellChanged, this, &CapturePanel::rename);
+  connect(table_, &QTableWidget::cellDoubleClicked, this, [this](int row, int column) {
+    if (column != Name) emit rowChosen(row);
+  });
+  auto* remove = make_button(part, "capture.remove", tr("Remove"), tr("Removes the chosen pairs"));
+  auto* import = make_button(part, "capture.import", tr("Import…"), tr("Adds pairs from CSV"));
+  auto* save = make_button(part, "capture.export", tr("Export…"), tr("Writes all pairs as CSV"));
+  auto* buttons = new QHBoxLayout;
+  for (QPushButton* each : {remove, undo_, import, save}) buttons->addWidget(each);
+  auto* next = new QHBoxLayout;
+  next->addWidget(next_, 1);
+  next->addWidget(add_);
+  auto* layout = new QVBoxLayout(part);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addLayout(next);
+  layout->addWidget(table_, 1);
+  layout->addLayout(buttons);
+  connect(add_, &QPushButton::clicked, this, &CapturePanel::addRequested);
+  connect(remove, &QPushButton::clicked, this, &CapturePanel::removeRequested);
+  connect(undo_, &QPushButton::clicked, this, &CapturePanel::undoRequested);
+  connect(import, &QPushButton::clicked, this, &CapturePanel::importRequested);
+  connect(save, &QPushButton::clicked, this, &CapturePanel::exportRequested);
+  return part;
+}
+
+QWidget* CapturePanel::makeResults() {
+  auto* part = new QWidget(this);
+  auto* show = make_button(part, "capture.show", tr("Show over view"),
+                           tr("Adds the disparity of the mesh to the results, to be drawn over the "
+                              "view, wiped and compared"));
+  auto* save = make_button(part, "capture.savePose", tr("Save pose…"),
+                           tr("Writes pose, pairs and errors as JSON"));
+  auto* truth = make_button(part, "capture.writeTruth", tr("Write ground truth…"),
+                            tr("Writes the light field with the depth of the mesh in all views"));
+  of_pose_ = {show, save, truth};
+  auto* buttons = new QHBoxLayout;
+  for (QPushButton* each : of_pose_) buttons->addWidget(each);
+  auto* layout = new QVBoxLayout(part);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(pose_);
+  layout->addLayout(buttons);
+  connect(show, &QPushButton::clicked, this, &CapturePanel::showRequested);
+  connect(save, &QPushButton::clicked, this, &CapturePanel::savePoseRequested);
+  connect(truth, &QPushButton::clicked, this, &CapturePanel::writeTruthRequested);
+  return part;
+}
+
+void CapturePanel::setMesh(const QString& title, const PointCloud& cloud) {
+  mesh_->setText(title.isEmpty() ? tr("No mesh") : title);
+  stack_->setCurrentIndex(cloud.positions.empty() ? 0 : 1);
+  if (!view_ || cloud.positions.empty()) return;
+  view_->setCloud(cloud);
+  view_->showPreset(CloudPreset::Front);
+}
+
+void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
+  const QSignalBlocker blocker(table_);
+  table_->setRowCount(static_cast<int>(rows.size()));
+  for (int i = 0; i < table_->rowCount(); ++i) {
+    const CaptureRow& row = rows[i];
+    const auto& [x, y, z] = row.point;
+    table_->setItem(i, Name, make_cell(row.name, true));
+    table_->setItem(
+        i, Pixel,
+        make_cell(
+            with_minus(
+                QString("%1, %2").arg(row.pixel.x(), 0, 'f', 1).arg(row.pixel.y(), 0, 'f', 1)),
+            false));
+    table_->setItem(
+        i, Point,
+        make_cell(
+            with_minus(QString("%1, %2, %3").arg(x, 0, 'g', 5).arg(y, 0, 'g', 5).arg(z, 0, 'g', 5)),
+            false));
+    const QString off = row.off_px ? tr("%1 px").arg(*row.off_px, 0, 'f', 2) : QString();
+    table_->setItem(i, Off, make_cell(row.is_outlier ? tr("%1, wrong?").arg(off) : off, false));
+  }
+}
+
+void CapturePanel::setNext(const QString& pixel, const QString& point, bool is_complete) {
+  next_->setText(
+      tr("View %1 · mesh %2")
+          .arg(pixel.isEmpty() ? tr("–") : pixel, point.isEmpty() ? tr("click a point") : point));
+  add_->setEnabled(is_complete);
+}
+
+void CapturePanel::setPose(const QString& text, bool is_known) {
+  pose_->setText(text);
+  for (QPushButton* each : of_pose_) each->setEnabled(is_known);
+}
+
+void CapturePanel::setUndoable(bool is_undoable) {
+  undo_->setEnabled(is_undoable);
+}
+
+std::vector<int> CapturePanel::selectedRows() const {
+  std::vector<int> rows;
+  for (const QModelIndex& index : table_->selectionModel()->selectedRows()) {
+    rows.push_back(index.row());
+  }
+  std::ranges::sort(rows);
+  return rows;
+}
+
+void CapturePanel::rename(int row, int column) {
+  if (column == Name) emit renamed(row, table_->item(row, column)->text());
+}
+
+}  // namespace episcope
+
+#include "moc_capture_panel.cpp"
