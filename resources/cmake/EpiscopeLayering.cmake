@@ -114,4 +114,4 @@ episcope_floors(engine/core . array,hash,parallel,text parameter light_field)
 episcope_floors(engine/disparity tensor common epi,stereo cuts,layers,plane)
 episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare)
 episcope_floors(app/gui frame document,stage opening bench
-                annotate,browse,cloud,collection,compare,estimate,files,help,project,segment)
+                annotate,browse,cloud,collection,compare,estimate,files,help,project,review,segment)

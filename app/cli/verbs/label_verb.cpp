@@ -10,6 +10,7 @@
 #include "app/session/labels/judge_labeling.h"
 #include "app/session/labels/label_archive.h"
 #include "app/session/labels/labeling_inputs.h"
+#include "app/session/labels/save_masks.h"
 #include "app/session/labels/save_segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
@@ -28,7 +29,8 @@ struct Request {
   std::string scribbles;
   std::string disparity;
   std::string given;    // Probabilities to begin with.
-  std::string archive;  // Folder to write.
+  std::string archive;  // Folder to write,
+  std::string masks;    // likewise.
   bool is_json = false;
   StoredProbabilities probabilities = StoredProbabilities::All;
   LabelerParameters parameters;
@@ -55,6 +57,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--write-archive", request.archive, text_value("DIR"),
                 "Also write edge_weights.h5 and the label probabilities of all sets of features "
                 "into this folder, under the archive's names");
+  parser.option("--write-masks", request.masks, text_value("DIR"),
+                "Also write a black and white PNG of every label in every view into this folder");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels only; probabilities take four bytes per ray and label");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
@@ -199,6 +203,10 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
   write_archive(scene, scribbles, request, disparity, job);
+  if (!request.masks.empty()) {
+    const int count = write_label_masks(request.masks, segmentation, progress.part(1, 1));
+    job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
+  }
   const LabelingScores scores =
       judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                      *scene.truth, disparity.field.get(), progress.part(1, 1));

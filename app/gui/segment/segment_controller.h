@@ -43,6 +43,8 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isSegmentingAll() const { return jobs_.count(Lane::Label) > 0; }
   /// Labels that cover the current view, as files hold them; nothing without.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
+  /// Boundaries of all labels; one step of the history.
+  void smoothBoundaries(double smoothing_px);
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;
   [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
@@ -54,12 +56,14 @@ class SegmentController : public QObject, public MapProvider {
   void addCommands();
   void addRunCommands();
   void addOverlayCommands();
+  void addSmoothingCommands();
   void connectDocument();
   void connectPanel();
   struct Scored {
     LabelingPtr labeling;
     TrueLabelsPtr truth;
     ViewIndex view;
+    LabelFinish finish;
     friend bool operator==(const Scored&, const Scored&) = default;
   };
   struct State {
@@ -80,6 +84,8 @@ class SegmentController : public QObject, public MapProvider {
   void showLabels();
   void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
+  [[nodiscard]] LabelFinish finish() const;
+  [[nodiscard]] double smoothing() const;
   [[nodiscard]] QString missing() const;
 
   Workbench bench_;

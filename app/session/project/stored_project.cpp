@@ -2,6 +2,7 @@
 #include "app/session/project/stored_project.h"
 
 #include "app/session/project/project_file.h"
+#include "app/session/save/file_name.h"
 #include "app/session/save/save_result.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
@@ -15,15 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStrokes = ".strokes";
-
-// A name that any file system takes.
-std::string file_name_of(std::string name) {
-  constexpr std::size_t longest = 80;
-  std::ranges::replace_if(
-      name, [](char each) { return std::string("/\\:*?\"<>|").find(each) != std::string::npos; },
-      '_');
-  return name.substr(0, longest);
-}
 
 fs::path unused_file(const fs::path& folder, const std::string& stem, const std::string& suffix) {
   fs::path path = folder / (stem + suffix);
