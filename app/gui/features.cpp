@@ -17,10 +17,10 @@ namespace episcope {
 
 std::span<const Feature> features() {
   static constexpr Feature kFeatures[] = {
-      {"files", add_files},           {"project", add_project},   {"browse", add_browsing},
-      {"estimate", add_estimating},   {"compare", add_comparing}, {"annotate", add_annotating},
-      {"segment", add_segmenting},    {"review", add_reviewing},  {"cloud", add_cloud},
-      {"collection", add_collection}, {"help", add_help}};
+      {"files", add_files},         {"project", add_project},   {"browse", add_browsing},
+      {"estimate", add_estimating}, {"compare", add_comparing}, {"annotate", add_annotating},
+      {"segment", add_segmenting},  {"cloud", add_cloud},       {"collection", add_collection},
+      {"review", add_reviewing},    {"help", add_help}};
   return kFeatures;
 }
 

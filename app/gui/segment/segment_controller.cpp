@@ -89,7 +89,9 @@ bool SegmentController::has_map(render::Quantity quantity) const {
 }
 
 bool SegmentController::awaits_map(render::Quantity quantity) const {
-  return live_.has_input() && (quantity != render::Quantity::WrongLabels || session_.true_labels());
+  // Kept labels come once there is a document.
+  return (live_.has_input() || !session_.labels().empty()) &&
+         (quantity != render::Quantity::WrongLabels || session_.true_labels());
 }
 
 QString SegmentController::title(render::Quantity quantity) const {
@@ -171,6 +173,7 @@ void SegmentController::noteInput() {
     input.edges = edges_.edges();
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
     live_.set_input(std::move(input));
+    restore();
     if (is_live_ || is_wanted_) begin();
   }
   publish();
@@ -233,6 +236,7 @@ void SegmentController::segmentAllViews() {
 
 void SegmentController::finishAll(const LabelingPtr& labeling,
                                   const std::shared_ptr<const LabelingInput>& input) {
+  if (input->light_field == session_.light_field()) keep(labeling, *input);
   live_.take(labeling, input);
   seconds_ = labeling->seconds;
   publish();
@@ -245,6 +249,7 @@ void SegmentController::followLabeler() {
   endWish();
   publish();
   const bool is_done = live_.state() == LiveState::Idle && live_.is_up_to_date(session_.view());
+  if (is_done) keep(labeling, *live_.input());
   if (is_live_ && is_done && panel_->keepsAllViews() && tried_all_ != live_.input() &&
       labeling->labels.grid().count() == 1) {
     segmentAllViews();

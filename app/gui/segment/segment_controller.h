@@ -78,6 +78,9 @@ class SegmentController : public QObject, public MapProvider {
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
   void followLabeler();
   void publish();
+  void keep(const LabelingPtr& labeling, const LabelingInput& input);
+  void restore();
+  void adopt(const KeptLabels& kept);
   [[nodiscard]] State state() const;
   void showState();
   void score();
@@ -104,6 +107,7 @@ class SegmentController : public QObject, public MapProvider {
   Scored scored_;
   LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
+  std::uint64_t restored_ = 0;  // scene whose kept labels were brought back
   LatestJob score_job_;
   LiveLabeler live_;
 };

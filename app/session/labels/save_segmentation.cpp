@@ -37,7 +37,7 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
   stored.reading = segmentation.reading;
   stored.seconds = labeling.seconds;
   io::ViewProbabilities of_view;
-  if (probabilities == StoredProbabilities::All) {
+  if (probabilities == StoredProbabilities::All && !labeling.probabilities.empty()) {
     of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
   }
   io::write_segmentation(path, stored, of_view, progress.part(0.1, 1));

@@ -48,6 +48,7 @@ std::set<fs::path> files_in(const Project& project, const fs::path& folder) {
   };
   for (const ProjectScene& scene : project.scenes) {
     add(scene.strokes);
+    add(scene.labels.file);
     for (const ProjectResult& result : scene.results) add(result.file);
   }
   return files;
@@ -78,6 +79,18 @@ void store_results(ProjectScene& scene, const fs::path& folder, const Progress& 
   }
 }
 
+void store_scene_labels(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
+  KeptLabels& labels = scene.labels;
+  if (labels.empty() || labels.file.parent_path() == folder) return;
+  if (labels.labeling) {
+    labels.file = store_labels(folder, scene, progress);
+    return;
+  }
+  const fs::path target = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
+  copy_to(labels.file, target);
+  labels.file = target;
+}
+
 // What was painted may have gone on since it was stored last: always a new file.
 void store_strokes(ProjectScene& scene, const fs::path& folder) {
   if (scene.strokes.empty()) return;
@@ -106,6 +119,13 @@ fs::path store_result(const fs::path& folder, const std::string& scene, const Pr
   return file;
 }
 
+fs::path store_labels(const fs::path& folder, const ProjectScene& scene, const Progress& progress) {
+  make_folder(folder);
+  const fs::path file = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
+  write_kept_labels(file, scene.labels, scene.input, progress);
+  return file;
+}
+
 Project store_project(const fs::path& path, Project project, const Progress& progress) {
   const fs::path folder = files_of_project(path);
   const std::set<fs::path> former = files_of_former(path, folder);
@@ -115,6 +135,7 @@ Project store_project(const fs::path& path, Project project, const Progress& pro
     const double next = done + 1.0 / static_cast<double>(project.scenes.size());
     store_results(scene, folder, progress.part(done, std::min(next, 1.0)));
     store_strokes(scene, folder);
+    store_scene_labels(scene, folder, progress.part(done, std::min(next, 1.0)));
     done = std::min(next, 1.0);
   }
   write_project(path, project);
