@@ -124,6 +124,12 @@ void write_archive(const Scene& scene, const Scribbles& scribbles, const Request
   }
 }
 
+void write_masks(const Segmentation& segmentation, const Request& request, Job& job) {
+  if (request.masks.empty()) return;
+  const int count = write_label_masks(request.masks, segmentation, job.progress().part(1, 1));
+  job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
+}
+
 void print_json_answer(const Request& request, const Labeling& labeling,
                        const LabelingScores& scores, double seconds) {
   Json json;
@@ -203,10 +209,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
   write_archive(scene, scribbles, request, disparity, job);
-  if (!request.masks.empty()) {
-    const int count = write_label_masks(request.masks, segmentation, progress.part(1, 1));
-    job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
-  }
+  write_masks(segmentation, request, job);
   const LabelingScores scores =
       judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                      *scene.truth, disparity.field.get(), progress.part(1, 1));

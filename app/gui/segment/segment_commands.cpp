@@ -48,6 +48,9 @@ void SegmentController::addRunCommands() {
                        .run = [this] { segmentAllViews(); },
                        .section = kRun,
                        .enabled = has_input});
+}
+
+void SegmentController::addExportCommands() {
   bench_.commands.add(
       {.id = "segment.export",
        .menu = Menu::Segmentation,
@@ -122,6 +125,7 @@ void SegmentController::addOverlayCommands() {
 
 void SegmentController::addCommands() {
   addRunCommands();
+  addExportCommands();
   addSmoothingCommands();
   addOverlayCommands();
   for (const char* id : {"segment.live", "segment.update", "segment.all", "segment.export"}) {

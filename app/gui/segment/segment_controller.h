@@ -57,6 +57,7 @@ class SegmentController : public QObject, public MapProvider {
   void addRunCommands();
   void addOverlayCommands();
   void addSmoothingCommands();
+  void addExportCommands();
   void connectDocument();
   void connectPanel();
   struct Scored {
