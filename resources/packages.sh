@@ -3,7 +3,8 @@
 
 ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-core-dev
   libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libcli11-dev
-  libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev"
+  libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev
+  pkg-config libavfilter-dev libavformat-dev libavcodec-dev"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
 TEST_PACKAGES="ccache libbenchmark-dev xvfb xauth"

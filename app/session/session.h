@@ -147,7 +147,7 @@ class Session {
   void changed(Parts parts);
   void deliver();
   void show_nothing();
-  [[nodiscard]] OpenScene* open_scene(std::uint64_t id);
+  [[nodiscard]] OpenScene* open_scene(std::uint64_t id) const;
   [[nodiscard]] EstimateEntry* entry_of(int id);
 
   JobRunner::Post post_;

@@ -63,14 +63,13 @@ std::vector<const OpenScene*> Session::scenes() const {
   return all;
 }
 
-OpenScene* Session::open_scene(std::uint64_t id) {
+OpenScene* Session::open_scene(std::uint64_t id) const {
   const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
   return found == scenes_.end() ? nullptr : found->get();
 }
 
 const OpenScene* Session::find_scene(std::uint64_t id) const {
-  const auto found = std::ranges::find(scenes_, id, &OpenScene::id);
-  return found == scenes_.end() ? nullptr : found->get();
+  return open_scene(id);
 }
 
 std::uint64_t Session::scene_of(const std::string& input) const {

@@ -9,6 +9,8 @@ find_package(nlohmann_json REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(Boost REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(FFMPEG REQUIRED IMPORTED_TARGET libavfilter libavformat libavcodec libswscale libavutil)
 
 if(EPISCOPE_GUI)
   find_package(Qt6 REQUIRED COMPONENTS Widgets OpenGLWidgets Svg)

@@ -379,20 +379,6 @@ class SidePanelsTest : public QObject {
                  QString("%1 > %2").arg(warning->minimumSizeHint().width()).arg(warning->width())));
     QTRY_VERIFY(warning->height() > 2.5 * warning->fontMetrics().height());
   }
-
-  void elidedLabel_showsAllWhenThereIsRoom() {
-    ElidedLabel label;
-    label.setFullText("a name of some length");
-    label.resize(label.sizeHint());
-    label.show();
-    QCOMPARE(label.text(), QString("a name of some length"));
-    QVERIFY(label.toolTip().isEmpty());
-
-    label.resize(40, 20);
-
-    QVERIFY(label.text() != label.fullText());
-    QCOMPARE(label.toolTip(), label.fullText());
-  }
 };
 
 }  // namespace episcope::in_side_panels_test

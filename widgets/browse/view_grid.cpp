@@ -18,6 +18,8 @@
 namespace episcope {
 namespace {
 
+using render::CameraPath;
+
 constexpr int kPlayInterval = 90;  // ms a view: eleven a second show parallax smoothly.
 
 }  // namespace
@@ -35,8 +37,9 @@ ViewGrid::ViewGrid(QWidget* parent)
   play_->setIcon(themed_icon("play"));
   play_->setToolTip(tr("Plays the views one after the other"));
   path_->setObjectName("viewGrid.path");
-  path_->addItem(tr("circle"), static_cast<int>(PlayPath::Circle));
-  path_->addItem(tr("snake"), static_cast<int>(PlayPath::Snake));
+  path_->addItem(tr("circle"), static_cast<int>(CameraPath::Circle));
+  path_->addItem(tr("swing"), static_cast<int>(CameraPath::Swing));
+  path_->addItem(tr("snake"), static_cast<int>(CameraPath::Snake));
   path_->setToolTip(tr("Order in which the views are played"));
   position_->setObjectName("viewGrid.position");
   position_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
@@ -56,7 +59,7 @@ ViewGrid::ViewGrid(QWidget* parent)
   connect(cells_, &ViewGridCells::viewClicked, this, &ViewGrid::select);
   connect(play_, &QToolButton::toggled, this, &ViewGrid::setPlaying);
   connect(path_, &QComboBox::currentIndexChanged, this, [this] {
-    loop_ = play_path(grid(), static_cast<PlayPath>(path_->currentData().toInt()));
+    loop_ = render::camera_path(grid(), static_cast<CameraPath>(path_->currentData().toInt()));
   });
   connect(&timer_, &QTimer::timeout, this, &ViewGrid::playNext);
   setGrid({});
@@ -65,7 +68,7 @@ ViewGrid::ViewGrid(QWidget* parent)
 void ViewGrid::setGrid(GridShape grid) {
   setPlaying(false);
   cells_->setGrid(grid);
-  loop_ = play_path(grid, static_cast<PlayPath>(path_->currentData().toInt()));
+  loop_ = render::camera_path(grid, static_cast<CameraPath>(path_->currentData().toInt()));
   play_->setEnabled(grid.count() > 1);
   path_->setEnabled(grid.count() > 1);
   setCurrent(grid.center());
@@ -121,7 +124,7 @@ void ViewGrid::setPlaying(bool playing) {
   emit playingChanged(playing);
 }
 
-void ViewGrid::setPlayPath(PlayPath path) {
+void ViewGrid::setPlayPath(CameraPath path) {
   path_->setCurrentIndex(path_->findData(static_cast<int>(path)));
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/array/indices.h"
-#include "widgets/browse/play_path.h"
+#include "engine/render/camera_path.h"
 
 #include <QImage>
 #include <QTimer>
@@ -47,7 +47,7 @@ class ViewGrid : public QWidget {
 
  public slots:
   void setPlaying(bool playing);
-  void setPlayPath(episcope::PlayPath path);
+  void setPlayPath(episcope::render::CameraPath path);
 
  signals:
   /// The user, or the player, wants to see this view.

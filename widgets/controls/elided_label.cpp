@@ -24,9 +24,13 @@ QSize ElidedLabel::minimumSizeHint() const {
   return {24, fontMetrics().height()};
 }
 
+QString ElidedLabel::shortened(int room) const {
+  return fontMetrics().elidedText(full_text_, mode_, room);
+}
+
 void ElidedLabel::elide() {
-  const QString shown = fontMetrics().elidedText(full_text_, mode_, contentsRect().width());
-  setToolTip(shown == full_text_ ? QString() : full_text_);
+  const QString shown = shortened(contentsRect().width());
+  setToolTip(shown == full_text_ ? QString() : tip());
   if (shown != text()) setText(shown);
 }
 

@@ -24,6 +24,10 @@ class ElidedLabel : public QLabel {
   void changeEvent(QEvent* event) override;
 
  private:
+  /// What is shown of the text in `room` pixels.
+  [[nodiscard]] virtual QString shortened(int room) const;
+  /// The tool tip while not all is shown.
+  [[nodiscard]] virtual QString tip() const { return full_text_; }
   void elide();
 
   Qt::TextElideMode mode_;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/controls/parts_label.h"
 
-#include <QEvent>
-
 namespace episcope {
 namespace {
 
@@ -10,20 +8,10 @@ const QString kBetween = QStringLiteral(" · ");
 
 }  // namespace
 
-PartsLabel::PartsLabel(QWidget* parent) : QLabel(parent) {
-  setTextFormat(Qt::PlainText);
-  setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
-}
-
 void PartsLabel::setParts(const QStringList& parts) {
   if (parts == parts_) return;
   parts_ = parts;
-  updateGeometry();
-  fit();
-}
-
-QString PartsLabel::fullText() const {
-  return parts_.join(kBetween);
+  setFullText(parts_.join(kBetween));
 }
 
 QString PartsLabel::textOf(qsizetype count) const {
@@ -32,31 +20,14 @@ QString PartsLabel::textOf(qsizetype count) const {
   return shown.join(kBetween);
 }
 
-QSize PartsLabel::sizeHint() const {
-  return {fontMetrics().horizontalAdvance(fullText()) + 2, fontMetrics().height()};
-}
-
-QSize PartsLabel::minimumSizeHint() const {
-  return {24, fontMetrics().height()};
-}
-
-void PartsLabel::fit() {
-  const int room = contentsRect().width();
+QString PartsLabel::shortened(int room) const {
   qsizetype count = parts_.size();
   while (count > 1 && fontMetrics().horizontalAdvance(textOf(count)) > room) --count;
-  const QString shown = fontMetrics().elidedText(textOf(count), Qt::ElideRight, room);
-  setToolTip(shown == fullText() ? QString() : parts_.join('\n'));
-  if (shown != text()) setText(shown);
+  return fontMetrics().elidedText(textOf(count), Qt::ElideRight, room);
 }
 
-void PartsLabel::resizeEvent(QResizeEvent* event) {
-  QLabel::resizeEvent(event);
-  fit();
-}
-
-void PartsLabel::changeEvent(QEvent* event) {
-  QLabel::changeEvent(event);
-  if (event->type() == QEvent::FontChange) fit();
+QString PartsLabel::tip() const {
+  return parts_.join('\n');
 }
 
 }  // namespace episcope

@@ -12,6 +12,7 @@
 #include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
 #include "engine/evaluation/tables/parameter_search.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/io/maps/result_file.h"
 
 #include <fmt/format.h>
@@ -185,7 +186,7 @@ class Runner {
     open.name = unused_name(open.scene.light_field->info().name, taken);
     open.fingerprint = scene_fingerprint(open.scene);
     open.range = known_disparity_range(open.scene);
-    fs::create_directories(options_.folder / "scenes" / open.name);
+    io::make_folder(options_.folder / "scenes" / open.name);
     const bool has_truth = write_scene_pictures(options_.folder, open.name, open.scene, open.range);
     report_.scenes.push_back(
         {open.name, input, shape_text(*open.scene.light_field), open.range, has_truth, {}});
@@ -306,12 +307,7 @@ BenchmarkReport run_benchmark(const BenchmarkOptions& options, const SceneLoader
                               const Progress& progress) {
   check_benchmark_folder(options.folder);
   for (const fs::path& folder : options.submissions) check_submission(folder);
-  std::error_code failure;
-  fs::create_directories(options.folder, failure);
-  if (failure) {
-    throw IoError(options.folder,
-                  "the folder cannot be created (" + failure.message() + "); choose another one");
-  }
+  io::make_folder(options.folder);
   return Runner(options, load, progress).run();
 }
 

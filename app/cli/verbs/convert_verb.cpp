@@ -12,6 +12,7 @@
 #include "app/session/run/result_source.h"
 #include "app/session/save/save_result.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/io/write/writer.h"
 
 #include <iostream>
@@ -205,14 +206,14 @@ std::string place_in(const Request& request, const std::string& name) {
   const std::filesystem::path place = std::filesystem::path(request.output) / name;
   const io::Writer& writer = *io::writer_named(request.form);
   if (writer.writes_folder()) {
-    std::filesystem::create_directories(place.parent_path());
+    io::make_folder(place.parent_path());
     return place.string();
   }
   const bool is_archive = request.form == "archive";
   const std::filesystem::path file =
       is_archive ? place / "lf.h5"
                  : std::filesystem::path(place.string() + writer.suffixes.front());
-  std::filesystem::create_directories(file.parent_path());
+  io::make_folder(file.parent_path());
   return file.string();
 }
 

@@ -14,6 +14,7 @@
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/io/maps/submission_folder.h"
 
 #include <algorithm>
@@ -271,15 +272,6 @@ void estimate_one(const Request& request, Runner& runner) {
   }
 }
 
-/// Throws IoError if the folder cannot be made.
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder)) {
-    throw IoError(folder, "this folder cannot be made; choose another one");
-  }
-}
-
 /// Reads what was submitted back, and says which scenes of the benchmark it lacks.
 void check_submitted(const Request& request, Runner& runner, Failures& failures) {
   for (const auto& problem : io::submission_problems(request.output, runner.submitted())) {
@@ -297,7 +289,7 @@ void check_submitted(const Request& request, Runner& runner, Failures& failures)
 }
 
 void estimate_many(const Request& request, const std::vector<SceneInput>& scenes, Runner& runner) {
-  make_folder(request.output);
+  io::make_folder(request.output);
   Json results = Json::array();
   Failures failures;
   const auto fail = [&](const SceneInput& scene, const std::string& sentence) {

@@ -3,12 +3,16 @@
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/input/shown_map.h"
 #include "app/cli/output/output_file.h"
+#include "app/cli/verbs/show_movie.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/picture/picture.h"
 #include "app/session/run/read_result.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/labels/segmentation_file.h"
+#include "engine/io/movie/movie_file.h"
+
+#include <fmt/format.h>
 
 #include <iostream>
 #include <limits>
@@ -16,6 +20,7 @@
 namespace episcope::cli {
 namespace {
 
+using render::MovieKind;
 using render::Quantity;
 
 constexpr int kMost = std::numeric_limits<int>::max();
@@ -25,6 +30,7 @@ struct What {
   std::string id;  ///< As typed.
   bool is_epi = false;
   Quantity quantity = Quantity::View;
+  std::optional<MovieKind> movie{};  ///< Of the view.
 };
 
 enum class Layer { Foreground, Background };
@@ -37,6 +43,7 @@ struct Request {
   std::optional<int> row;
   std::optional<int> column;
   ShadingChoice shading;
+  MovieRequest movie;
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
   JobOptions job;
   ReadOptions read;
@@ -69,21 +76,42 @@ OptionValue<int> index_value(const std::string& name) {
 }
 
 OptionValue<What> what_value() {
-  std::vector<Named<What>> choices{{{"epi", true, Quantity::View}, "epi"}};
+  std::vector<Named<What>> choices{
+      {{"epi", true, Quantity::View}, "epi"},
+      {{"parallax", false, Quantity::View, MovieKind::Parallax}, "parallax"},
+      {{"refocus", false, Quantity::View, MovieKind::Refocus}, "refocus"}};
   for (const auto& info : render::quantities()) {
     choices.push_back({{info.id, false, info.quantity}, info.id});
   }
   return choice_of(choices);
 }
 
+/// Whether the output is a movie; throws UsageError if what is asked for does not fit its name.
+bool is_movie(const Request& request) {
+  const bool is_asked = request.movie.kind.has_value();
+  if (suffix_of(request.output) == ".png") {
+    if (!is_asked) return false;
+    throw UsageError(
+        "a movie cannot be written as PNG; name the output OUT.mp4, OUT.webm or "
+        "OUT.gif, or a folder for many PNG images");
+  }
+  const bool is_folder = suffix_of(request.output).empty();
+  if (io::is_movie_path(request.output) && (is_asked || !is_folder)) {
+    if (!request.what.is_epi) return true;
+    throw UsageError("an EPI holds all views of its line, so there is no movie of it");
+  }
+  throw UsageError("show writes PNG and movies (.mp4, .webm, .gif), but the output is " +
+                   request.output + "; name it OUT.png");
+}
+
 /// What follows from the options.
 void complete(Request& request) {
-  if (suffix_of(request.output) != ".png") {
-    throw UsageError("show writes PNG, but the output is " + request.output + "; name it OUT.png");
-  }
+  if (request.what.movie) request.movie.kind = request.what.movie;
+  if (is_movie(request) && !request.movie.kind) request.movie.kind = MovieKind::Parallax;
   request.map.needs_light_field = request.opacity.has_value();
   request.map.kind = kind_of(request);
   request.map.quantity = quantity_of(request);
+  if (request.movie.kind == MovieKind::Flip) request.map.quantity = Quantity::Difference;
   if (request.what.id.empty()) {
     const bool is_of_labels = request.map.kind == ShownKind::Labels;
     request.what.id =
@@ -96,7 +124,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
                             "shows it.",
                             "episcope-cli show demo.h5 -o error.png --what error"});
   parser.positional("INPUT|RESULT", request.map.subject, "A light field, a result, or labels");
-  parser.required_option("-o,--output", request.output, text_value("OUT.png"), "Picture to write");
+  parser.required_option("-o,--output", request.output, text_value("OUT.png"),
+                         "Picture to write; a movie as .mp4, .webm or .gif");
   parser.option("--what", request.what, what_value(),
                 "By default the view of an INPUT, the disparity of a RESULT, the labels of a file "
                 "of labels");
@@ -118,9 +147,10 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--label", request.map.label, integer_value("N", 1, kMost),
                 "Label whose probability is shown (default 1)");
   parser.option("--minus", request.map.minus, text_value("RESULT"),
-                "For a difference: the result to subtract");
+                "For a difference: the result to subtract; for a flip: the other result");
   parser.option("--over-view", request.opacity, real_value("OPACITY", 0, 1),
                 "Overlay the map on the view, with an opacity from 0 to 1");
+  declare_movie_options(parser, request.movie);
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   complete(request);
   return true;
@@ -131,11 +161,8 @@ RgbaImage epi_picture(const Request& request, const LightField& light_field, Vie
   return horizontal_epi_picture(light_field, view, request.row.value_or(light_field.height() / 2));
 }
 
-RgbaImage make_picture(const Request& request, Job& job) {
-  const LoadedMap loaded = load_map(request.map, request.read, job);
-  const MapSource& source = loaded.source;
-  job.progress().check();
-  if (request.what.is_epi) return epi_picture(request, *source.light_field, source.view);
+/// The source in the colours that were asked for.
+RgbaImage picture_of(const Request& request, const LoadedMap& loaded, const MapSource& source) {
   if (source.quantity == Quantity::View) {
     return render::shade_view(*source.light_field, source.view);
   }
@@ -144,6 +171,25 @@ RgbaImage make_picture(const Request& request, Job& job) {
   if (!request.opacity) return map_picture(*map, shading);
   return blended(render::shade_view(*source.light_field, source.view),
                  overlay_picture(*map, shading), *request.opacity);
+}
+
+/// What was written, for the user.
+std::string write_picture(const Request& request, const LoadedMap& loaded, Job& job) {
+  const RgbaImage picture =
+      request.what.is_epi ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
+                          : picture_of(request, loaded, loaded.source);
+  job.progress().check();
+  io::write_png(request.output, picture.view());
+  return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());
+}
+
+std::string write_movie_of(const Request& request, const LoadedMap& loaded, Job& job) {
+  const Movie movie = movie_of(request.movie, loaded, [&](const MapSource& source) {
+    return picture_of(request, loaded, source);
+  });
+  write_movie(request.output, movie, request.movie.choice.width_px, job.progress());
+  const std::string what = request.movie.kind == MovieKind::Flip ? "flip" : request.what.id;
+  return fmt::format("{}, {} pictures in {:.1f} s", what, movie.count, movie.count / movie.rate);
 }
 
 }  // namespace
@@ -157,12 +203,12 @@ void run_show(const VerbArguments& arguments, std::stop_token stop) {
   }
 
   Job job(std::move(stop), request.job);
-  const RgbaImage picture = make_picture(request, job);
+  const LoadedMap loaded = load_map(request.map, request.read, job);
   job.progress().check();
-  io::write_png(request.output, picture.view());
+  const std::string written = request.movie.kind ? write_movie_of(request, loaded, job)
+                                                 : write_picture(request, loaded, job);
   job.finish();
-  std::cout << request.output << ": " << request.what.id << ", " << picture.width() << "×"
-            << picture.height() << " px\n";
+  std::cout << request.output << ": " << written << "\n";
 }
 
 }  // namespace episcope::cli

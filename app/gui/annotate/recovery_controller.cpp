@@ -2,6 +2,7 @@
 #include "app/gui/annotate/recovery_controller.h"
 
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/file_time.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
@@ -10,22 +11,12 @@
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
 
-#include <QDateTime>
-#include <QLocale>
-
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <utility>
 
 namespace episcope {
 namespace {
-
-QString time_of(const LeftJournal& journal) {
-  const auto time = std::chrono::file_clock::to_sys(journal.last_change);
-  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
-  return QLocale().toString(QDateTime::fromMSecsSinceEpoch(ms.count()), QLocale::ShortFormat);
-}
 
 QString name_of(const LeftJournal& journal) {
   return QString::fromStdString(journal.owner.name);
@@ -81,7 +72,7 @@ void RecoveryController::offerNext() {
   bar_->showMessage(Severity::Warning,
                     tr("Episcope ended unexpectedly while “%1” was being annotated (%2). Your work "
                        "can be recovered.")
-                        .arg(name_of(journal), time_of(journal)),
+                        .arg(name_of(journal), short_text(journal.last_change)),
                     {tr("Recover"), [this, journal] { recover(journal); }},
                     {tr("Discard"), [this, journal] { discard(journal); }});
 }

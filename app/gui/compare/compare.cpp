@@ -3,6 +3,7 @@
 
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/compare/metric_controller.h"
+#include "app/gui/compare/movie_export.h"
 #include "app/gui/compare/picture_export.h"
 #include "app/gui/compare/statistics_controller.h"
 #include "app/gui/frame/commands.h"
@@ -36,6 +37,7 @@ void add_comparing(const Workbench& bench) {
   new StatisticsController(bench, statistics);
   new MetricController(bench, metrics);
   add_picture_export(bench);
+  new MovieExport(bench);
 }
 
 }  // namespace episcope

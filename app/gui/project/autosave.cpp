@@ -98,6 +98,7 @@ void Autosave::write() {
 
 Autosave::Kept Autosave::write_all(Project project, const fs::path& folder, const fs::path& file,
                                    const Progress& progress) {
+  write_project(file, written_part(project));  // results may take long
   Kept kept;
   for (ProjectScene& scene : project.scenes) {
     for (ProjectResult& result : scene.results) {
@@ -111,8 +112,8 @@ Autosave::Kept Autosave::write_all(Project project, const fs::path& folder, cons
     if (!scene.labels.labeling || !scene.labels.file.empty()) continue;
     scene.labels.file = store_labels(folder, scene, progress);
     kept.labels.push_back({scene.id, scene.labels.labeling, scene.labels.file});
+    write_project(file, written_part(project));
   }
-  write_project(file, written_part(project));
   return kept;
 }
 

@@ -2,6 +2,7 @@
 #include "app/gui/project/session_recovery.h"
 
 #include "app/gui/document/document_controller.h"
+#include "app/gui/frame/file_time.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
@@ -10,22 +11,12 @@
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
 
-#include <QDateTime>
-#include <QLocale>
-
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <utility>
 
 namespace episcope {
 namespace {
-
-QString time_of(const LeftWorkspace& left) {
-  const auto time = std::chrono::file_clock::to_sys(left.last_change);
-  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(time.time_since_epoch());
-  return QLocale().toString(QDateTime::fromMSecsSinceEpoch(ms.count()), QLocale::ShortFormat);
-}
 
 std::size_t result_count(const Project& project) {
   std::size_t count = 0;
@@ -79,7 +70,7 @@ void SessionRecovery::offerNext() {
       Severity::Warning,
       tr("Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, "
          "results: %3.")
-          .arg(time_of(left))
+          .arg(short_text(left.last_change))
           .arg(left.project.scenes.size())
           .arg(result_count(left.project)),
       {tr("Recover"), [this, left] { recover(left); }}, {tr("Discard"), [this, left] {

@@ -3,6 +3,7 @@
 
 #include "app/session/document/journal_records.h"
 #include "engine/core/error.h"
+#include "engine/io/durable/make_folder.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -24,22 +25,14 @@ fs::path new_path(const fs::path& folder, const std::string& name) {
   return folder / ((stem.empty() ? "session" : stem) + suffix + kSuffix);
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw IoError(folder, "the folder cannot be created (" + error.message() +
-                              "), so nothing painted could be recovered after a crash; create it "
-                              "or make its parent writable");
-  }
-}
-
 }  // namespace
 
 AnnotationJournal::AnnotationJournal(const fs::path& folder, JournalOwner owner,
                                      AnnotationDocument& document)
     : path_(new_path(folder, owner.name)), owner_(std::move(owner)), document_(&document) {
-  make_folder(folder);
+  io::make_folder(folder,
+                  ", so nothing painted could be recovered after a crash; create it or make its "
+                  "parent writable");
   rewrite();
   document.set_observer([this](const DocumentEvent& event) { record(event); });
 }

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/archive/companions.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/labeling/labeler.h"
 #include "engine/labeling/rays/edge_probability.h"
 
@@ -69,7 +70,7 @@ std::vector<std::string> write_label_archive(const std::filesystem::path& folder
                                              const LabelerParameters& parameters,
                                              const LabelingDisparity& estimate,
                                              const Progress& progress) {
-  std::filesystem::create_directories(folder);
+  io::make_folder(folder);
   std::vector<std::string> written;
   const auto path_of = [&](CompanionKind kind) {
     return folder / written.emplace_back(io::companion_file(kind));

@@ -2,8 +2,8 @@
 #include "app/session/labels/save_masks.h"
 
 #include "app/session/save/file_name.h"
-#include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/io/grid/image_file.h"
 
 #include <fmt/format.h>
@@ -15,12 +15,6 @@ namespace episcope {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(folder, "the folder cannot be created (" + error.message() + ")");
-}
 
 fs::path folder_of(const LabelInfo& label, const fs::path& folder) {
   return folder / file_name_of(fmt::format("{:02}_{}", label.id, label.name));
@@ -46,8 +40,8 @@ int write_label_masks(const fs::path& folder, const Segmentation& segmentation,
                       const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
   const std::vector<LabelInfo> infos = infos_of(labeling.probabilities.ids, segmentation.labels);
-  make_folder(folder);
-  for (const LabelInfo& label : infos) make_folder(folder_of(label, folder));
+  io::make_folder(folder);
+  for (const LabelInfo& label : infos) io::make_folder(folder_of(label, folder));
   write_list(folder, infos);
   const GridShape grid = labeling.labels.grid();
   int written = 0;

@@ -6,6 +6,7 @@
 #include "app/session/save/save_result.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/make_folder.h"
 
 #include <algorithm>
 #include <set>
@@ -23,12 +24,6 @@ fs::path unused_file(const fs::path& folder, const std::string& stem, const std:
     path = folder / (stem + "_" + std::to_string(number) + suffix);
   }
   return path;
-}
-
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw IoError(folder, "the folder cannot be created (" + error.message() + ")");
 }
 
 void copy_to(const fs::path& from, const fs::path& to) {
@@ -113,14 +108,14 @@ fs::path files_of_project(const fs::path& project) {
 
 fs::path store_result(const fs::path& folder, const std::string& scene, const ProjectResult& result,
                       const std::string& input, const Progress& progress) {
-  make_folder(folder);
+  io::make_folder(folder);
   const fs::path file = unused_file(folder, file_name_of(scene + "_" + result.name), ".h5");
   save_result(file, *result.estimate, input, progress);
   return file;
 }
 
 fs::path store_labels(const fs::path& folder, const ProjectScene& scene, const Progress& progress) {
-  make_folder(folder);
+  io::make_folder(folder);
   const fs::path file = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
   write_kept_labels(file, scene.labels, scene.input, progress);
   return file;
@@ -129,7 +124,7 @@ fs::path store_labels(const fs::path& folder, const ProjectScene& scene, const P
 Project store_project(const fs::path& path, Project project, const Progress& progress) {
   const fs::path folder = files_of_project(path);
   const std::set<fs::path> former = files_of_former(path, folder);
-  make_folder(folder);
+  io::make_folder(folder);
   double done = 0;
   for (ProjectScene& scene : project.scenes) {
     const double next = done + 1.0 / static_cast<double>(project.scenes.size());

@@ -3,6 +3,7 @@
 
 #include "app/session/project/project_file.h"
 #include "engine/core/error.h"
+#include "engine/io/durable/make_folder.h"
 
 #include <fmt/format.h>
 
@@ -21,22 +22,18 @@ fs::path project_in(const fs::path& folder) {
   return folder / (std::string("session") + kProjectSuffix);
 }
 
-fs::path make_folder(const fs::path& root) {
+fs::path new_folder(const fs::path& root) {
   std::random_device random;
-  const fs::path folder = root / fmt::format("{:08x}", random());
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw IoError(root, "the folder cannot be created (" + error.message() +
-                            "), so results could not be recovered after a crash; create it or "
-                            "make its parent writable");
-  }
+  fs::path folder = root / fmt::format("{:08x}", random());
+  io::make_folder(folder,
+                  ", so results could not be recovered after a crash; create it or make its parent "
+                  "writable");
   return folder;
 }
 
 }  // namespace
 
-Workspace::Workspace(const fs::path& root) : Workspace(Existing{make_folder(root)}) {}
+Workspace::Workspace(const fs::path& root) : Workspace(Existing{new_folder(root)}) {}
 
 Workspace::Workspace(Existing existing)
     : folder_(std::move(existing.folder)),

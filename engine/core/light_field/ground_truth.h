@@ -21,7 +21,7 @@ struct GroundTruth {
   /// Region masks by name ("discontinuities", "planes", …), centre view, non-zero = inside; those
   /// whose parts are numbered (`is_numbered_region`) hold the numbers.
   std::map<std::string, Image<std::uint8_t>> regions;
-  HighResTruthPtr high_res;  ///< Of the centre view; null = there is none.
+  HighResTruthPtr high_res{};  ///< Of the centre view; null = there is none.
   /// Which scene of the 2016 benchmark this is, as far as its files say so.
   StratifiedScene stratified = StratifiedScene::None;
 

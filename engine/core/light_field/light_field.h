@@ -7,6 +7,7 @@
 #include "engine/core/light_field/camera_grid.h"
 #include "engine/core/light_field/reading.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -37,6 +38,11 @@ struct LightFieldInfo {
   std::vector<CameraPosition> positions{};
   std::string position_unit{};  ///< "mm"; empty = unknown.
 };
+
+/// A sample in [0, 1] as uint16 of 65535, rounded to the nearest; others are clamped.
+[[nodiscard]] inline std::uint16_t to_word_sample(float sample) {
+  return static_cast<std::uint16_t>(std::clamp(sample, 0.0F, 1.0F) * 65535 + 0.5F);
+}
 
 /// A 4D light field: equally sized views on a regular camera grid, `[v][u][y][x][c]`, immutable.
 /// Samples stay in the type they were stored in; a view is borrowed, never copied. `c` is 1 (grey)

@@ -9,17 +9,18 @@
 namespace episcope {
 namespace {
 
-constexpr std::uint32_t kInvalid = 1U << 30;
+constexpr std::uint32_t kInvalid = 1U << kPackedInvalidBit;
 
 std::uint32_t quantised(float sample) {
-  return static_cast<std::uint32_t>(std::clamp(sample, 0.0F, 1.0F) * 1023 + 0.5F);
+  return static_cast<std::uint32_t>(std::clamp(sample, 0.0F, 1.0F) * kPackedMost + 0.5F);
 }
 
 void pack_row(const float* samples, int width, int channels, std::uint32_t* out) {
   const int second = channels == 3 ? 1 : 0;
   for (int x = 0; x < width; ++x) {
     const float* const s = samples + static_cast<std::ptrdiff_t>(x) * channels;
-    out[x] = quantised(s[0]) | quantised(s[second]) << 10 | quantised(s[2 * second]) << 20;
+    out[x] = quantised(s[0]) | quantised(s[second]) << kPackedBits |
+             quantised(s[2 * second]) << (2 * kPackedBits);
   }
 }
 

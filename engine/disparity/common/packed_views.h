@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/disparity/common/packed_pixel.h"
 
 #include <cstdint>
 
@@ -22,12 +23,12 @@ struct PackedViews {
 
 /// Channel `c` of a packed pixel, in units of 1/1023.
 [[nodiscard]] inline int packed_channel(std::uint32_t packed, int c) {
-  return static_cast<int>(packed >> (10 * c)) & 1023;
+  return static_cast<int>(packed >> (kPackedBits * c)) & kPackedMost;
 }
 
 /// The same in [0, 1].
 [[nodiscard]] inline float packed_sample(std::uint32_t packed, int c) {
-  return static_cast<float>(packed_channel(packed, c)) / 1023;
+  return static_cast<float>(packed_channel(packed, c)) / kPackedMost;
 }
 
 }  // namespace episcope

@@ -11,7 +11,6 @@ namespace episcope {
 namespace {
 
 constexpr float kDark = 0.02F;
-constexpr float kUnit = 65535;
 
 // Sums over windows of one view, `values` and how many pixels count, from running sums.
 class WindowMeans {
@@ -74,7 +73,7 @@ void make_relative(const LightField& lf, ViewIndex view, int radius, ImageView<s
     std::uint16_t* const to = out.row(y);
     for (std::size_t i = 0; i < row.size(); ++i) {
       const float relative = 0.5F * row[i] / std::max(means[i], kDark);
-      to[i] = static_cast<std::uint16_t>(std::clamp(relative, 0.0F, 1.0F) * kUnit + 0.5F);
+      to[i] = to_word_sample(relative);
     }
   }
 }
@@ -87,8 +86,7 @@ LightField relative_samples(const LightField& lf, int radius, const Progress& pr
     const ViewIndex view = lf.grid().view_at(i);
     make_relative(lf, view, radius, samples.view(view));
   });
-  return {std::move(samples), lf.info(),
-          lf.valid().empty() ? ViewStack<std::uint8_t>{} : lf.valid().clone()};
+  return {std::move(samples), lf.info(), lf.valid().clone()};
 }
 
 }  // namespace episcope

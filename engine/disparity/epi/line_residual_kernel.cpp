@@ -3,13 +3,12 @@
 #include "engine/disparity/epi/line_residual_kernel.h"
 
 #include "engine/core/parallel/simd.h"
+#include "engine/disparity/common/packed_pixel.h"
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-constexpr int kBits = 10;
-constexpr int kMask = (1 << kBits) - 1;
-constexpr float kUnit = 1.0F / static_cast<float>(kMask);
+constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
 
 struct Colour {
   Vec channel[3];
@@ -18,7 +17,7 @@ struct Colour {
 inline Colour unpack(IntVec packed) {
   Colour colour;
   for (int c = 0; c < 3; ++c) {
-    colour.channel[c] = convert<float>((packed >> (kBits * c)) & kMask);
+    colour.channel[c] = convert<float>((packed >> (kPackedBits * c)) & kPackedMost);
   }
   return colour;
 }
@@ -30,7 +29,7 @@ inline IntVec gather(const std::uint32_t* from, IntVec index) {
 }
 
 inline IntVec is_valid(IntVec packed) {
-  return (packed >> (3 * kBits) & 1) == 0;
+  return (packed >> kPackedInvalidBit & 1) == 0;
 }
 
 // The least number of all lanes in each of them.

@@ -3,13 +3,12 @@
 #include "engine/disparity/epi/line_trust_kernel.h"
 
 #include "engine/core/parallel/simd.h"
+#include "engine/disparity/common/packed_pixel.h"
 
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 
-constexpr int kBits = 10;
-constexpr int kMask = (1 << kBits) - 1;
-constexpr float kUnit = 1.0F / static_cast<float>(kMask);
+constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
 
 struct Colour {
   IntVec channel[3];
@@ -18,7 +17,8 @@ struct Colour {
 inline Colour load_colour(const std::uint32_t* from) {
   IntVec packed;
   __builtin_memcpy(&packed, from, sizeof packed);
-  return {{packed & kMask, (packed >> kBits) & kMask, (packed >> (2 * kBits)) & kMask}};
+  return {{packed & kPackedMost, (packed >> kPackedBits) & kPackedMost,
+           (packed >> (2 * kPackedBits)) & kPackedMost}};
 }
 
 inline Vec squared_difference(const Colour& a, const Colour& b) {

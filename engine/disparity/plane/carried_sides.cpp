@@ -163,11 +163,7 @@ void choose_carried_sides(const PackedViews& views, float cap, Estimate& estimat
                           const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
   const GridShape grid = disparity.grid();
-  ViewStack<float> before(grid, disparity.height(), disparity.width(), 1, disparity.first());
-  for (int i = 0; i < grid.count(); ++i) {
-    const ImageView<float> from = disparity.view(grid.view_at(i));
-    std::copy_n(from.data, from.size(), before.view(grid.view_at(i)).data);
-  }
+  const ViewStack<float> before = disparity.clone();
   const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view = grid.view_at(i);

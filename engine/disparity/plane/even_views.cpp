@@ -12,7 +12,6 @@
 namespace episcope {
 namespace {
 
-constexpr float kUnit = 65535;
 constexpr double kWorthwhileGain = 0.005;
 constexpr double kWorthwhileFallOff = 0.1;
 constexpr double kUnlikelyMeans = 0.005;
@@ -265,14 +264,12 @@ LightField even_views(const LightField& lf, const Brightness& brightness,
         const double light = 1 - brightness.fall_off * radius.squared(y, x);
         for (int c = 0; c < lf.channels(); ++c, ++k) {
           const auto factor = static_cast<float>(1 / (light * brightness.gains[i][c]));
-          out.row(y)[k] =
-              static_cast<std::uint16_t>(std::clamp(row[k] * factor, 0.0F, 1.0F) * kUnit + 0.5F);
+          out.row(y)[k] = to_word_sample(row[k] * factor);
         }
       }
     }
   });
-  return {std::move(samples), lf.info(),
-          lf.valid().empty() ? ViewStack<std::uint8_t>{} : lf.valid().clone()};
+  return {std::move(samples), lf.info(), lf.valid().clone()};
 }
 
 }  // namespace episcope

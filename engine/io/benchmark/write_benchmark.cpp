@@ -22,9 +22,7 @@ namespace fs = std::filesystem;
 /// PNG has no float samples: those become 16 bit, clamped to [0, 1].
 Image<std::uint16_t> to_16_bit(ImageView<const float> view) {
   Image<std::uint16_t> image(view.height, view.width, view.channels);
-  std::transform(view.data, view.data + view.size(), image.begin(), [](float sample) {
-    return static_cast<std::uint16_t>(std::lround(65535 * std::clamp(sample, 0.0F, 1.0F)));
-  });
+  std::transform(view.data, view.data + view.size(), image.begin(), to_word_sample);
   return image;
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/durable/make_folder.h"
 #include "engine/io/maps/parse_number.h"
 #include "engine/io/maps/pfm.h"
 
@@ -182,11 +183,7 @@ std::size_t write_submitted_scene(const fs::path& folder, const std::string& sce
   }
   std::size_t gaps = 0;
   const Image<float> whole = filled(map, gaps);
-  for (const char* part : {kMaps, kRuntimes}) {
-    std::error_code error;
-    fs::create_directories(folder / part, error);
-    if (error) throw IoError(folder / part, "this folder cannot be made; choose another one");
-  }
+  for (const char* part : {kMaps, kRuntimes}) make_folder(folder / part);
   write_pfm(submitted_map_file(folder, scene), whole.view());
   const std::string text = fmt::format("{:.10f}\n", seconds);
   write_atomically(submitted_runtime_file(folder, scene),

@@ -2,7 +2,6 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/controls/elided_label.h"
-#include "widgets/controls/parts_label.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
@@ -107,8 +106,6 @@ void see_widget(Walk& walk, const QWidget& widget) {
   if (widget.isWindow()) walk.see(name + " (title)", widget.windowTitle());
   if (const auto* label = qobject_cast<const ElidedLabel*>(&widget)) {
     walk.see(name, label->fullText());
-  } else if (const auto* parts = qobject_cast<const PartsLabel*>(&widget)) {
-    walk.see(name, parts->fullText());
   } else if (const auto* text = qobject_cast<const QLabel*>(&widget)) {
     walk.see(name, text->text());
   }

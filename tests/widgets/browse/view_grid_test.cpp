@@ -2,7 +2,6 @@
 #include "widgets/browse/view_grid.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
-#include "widgets/browse/play_path.h"
 #include "widgets/browse/view_grid_cells.h"
 #include "widgets/style/theme.h"
 
@@ -11,7 +10,6 @@
 #include <QToolButton>
 
 #include <cstdlib>
-#include <set>
 
 Q_DECLARE_METATYPE(episcope::ViewIndex)
 
@@ -97,37 +95,10 @@ class ViewGridTest : public QObject {
     QCOMPARE(cells.grab().toImage(), before);
   }
 
-  void playPath_isALoopOfNeighbours_data() {
-    QTest::addColumn<int>("v");
-    QTest::addColumn<int>("u");
-    for (const auto& [v, u] : {std::pair(3, 3), {9, 9}, {17, 17}, {4, 6}, {1, 9}, {5, 1}}) {
-      QTest::addRow("%dx%d", v, u) << v << u;
-    }
-  }
-
-  void playPath_isALoopOfNeighbours() {
-    QFETCH(int, v);
-    QFETCH(int, u);
-    for (const auto path : {PlayPath::Circle, PlayPath::Snake}) {
-      const auto views = play_path({v, u}, path);
-
-      std::set<std::pair<int, int>> seen;
-      for (std::size_t i = 0; i < views.size(); ++i) {
-        const auto& here = views[i];
-        const auto& next = views[(i + 1) % views.size()];
-        QVERIFY((GridShape{v, u}).contains(here));
-        QVERIFY(std::abs(here.v - next.v) <= 1 && std::abs(here.u - next.u) <= 1);
-        QVERIFY(!(here == next));
-        seen.insert({here.v, here.u});
-      }
-      if (path == PlayPath::Snake) QCOMPARE(int(seen.size()), v * u);
-    }
-  }
-
   void play_passesEveryViewOfTheSnake() {
     ViewGrid grid;
     grid.setGrid({3, 3});
-    grid.setPlayPath(PlayPath::Snake);
+    grid.setPlayPath(render::CameraPath::Snake);
     connect(&grid, &ViewGrid::viewSelected, &grid, &ViewGrid::setCurrent);
     std::vector<ViewIndex> played;
     connect(&grid, &ViewGrid::viewSelected, &grid, [&](ViewIndex view) { played.push_back(view); });

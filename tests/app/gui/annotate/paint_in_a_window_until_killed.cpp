@@ -8,11 +8,10 @@
 #include "app/gui/main_window.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/project/autosave.h"
-#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "tests/app/gui/annotate/document_digest.h"
+#include "tests/app/gui/paint_stroke.h"
 #include "tests/patience.h"
-#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 #include <QApplication>
@@ -26,20 +25,12 @@ using namespace episcope;
 namespace {
 
 void paint(MainWindow& window, int number) {
-  ViewCanvas* canvas = window.bench().stage.canvas();
-  const auto at = [&](int i) {
-    return canvas->positionOf({10 + (number * 13 + i * 5) % 70, 10 + (number * 29 + i * 7) % 70})
-        .toPoint();
-  };
   if (number % 7 == 0) window.bench().commands.find("annotate.add_label")->trigger();
   if (number % 5 == 0) {
     window.bench().session.set_view({number % 9, number % 4});
     QCoreApplication::processEvents();
   }
-  const auto button = number % 4 == 3 ? Qt::RightButton : Qt::LeftButton;
-  QTest::mousePress(canvas, button, {}, at(0));
-  for (int i = 1; i < 6; ++i) QTest::mouseMove(canvas, at(i));
-  QTest::mouseRelease(canvas, button, {}, at(6));
+  paint_stroke(window, number, number % 4 == 3 ? Qt::RightButton : Qt::LeftButton);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ void CommandsTest::listOfKeys_isSearched_data() {
   QTest::addColumn<QString>("word");
   QTest::addColumn<int>("least");
   QTest::addColumn<int>("most");
-  QTest::newRow("a gesture") << "parallax" << 1 << 1;
+  QTest::newRow("a gesture") << "parallax" << 2 << 2;
   QTest::newRow("a name") << "wipe" << 1 << 3;
   QTest::newRow("a short name") << "fit" << 1 << 3;
   QTest::newRow("a menu") << "Annotate" << 10 << 60;

@@ -11,10 +11,9 @@
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/autosave.h"
-#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
+#include "tests/app/gui/paint_stroke.h"
 #include "tests/patience.h"
-#include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
 #include <QApplication>
@@ -29,17 +28,6 @@
 using namespace episcope;
 
 namespace {
-
-void paint(MainWindow& window, int number) {
-  ViewCanvas* canvas = window.bench().stage.canvas();
-  const auto at = [&](int i) {
-    return canvas->positionOf({10 + (number * 13 + i * 5) % 70, 10 + (number * 29 + i * 7) % 70})
-        .toPoint();
-  };
-  QTest::mousePress(canvas, Qt::LeftButton, {}, at(0));
-  for (int i = 1; i < 6; ++i) QTest::mouseMove(canvas, at(i));
-  QTest::mouseRelease(canvas, Qt::LeftButton, {}, at(6));
-}
 
 void show_any(MainWindow& window, std::mt19937& random) {
   const auto scenes = window.bench().session.scenes();
@@ -111,7 +99,7 @@ int main(int argc, char** argv) {
         // What changes no pixel is no step.
         const History<Edit>& history = window.bench().document.document()->history();
         const std::size_t before = history.applied_count();
-        paint(window, number);
+        paint_stroke(window, number);
         if (history.applied_count() > before) ++strokes;
       }
     }
