@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace episcope {
 namespace {
@@ -36,8 +37,11 @@ AnnotationDocument::AnnotationDocument(GridShape grid, int height, int width,
     : AnnotationDocument(LabelSet(), ScribbleLayer(grid, height, width), history_bytes) {}
 
 AnnotationDocument::AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
-                                       std::size_t history_bytes)
-    : labels_(std::move(labels)), scribbles_(std::move(scribbles)), history_(history_bytes) {}
+                                       std::size_t history_bytes, double smoothing_px)
+    : labels_(std::move(labels)),
+      scribbles_(std::move(scribbles)),
+      boundary_smoothing_px_(smoothing_px),
+      history_(history_bytes) {}
 
 template <class Change>
 void AnnotationDocument::edit_labels(EditKind kind, const Change& change) {
@@ -71,6 +75,15 @@ void AnnotationDocument::remove_label(int id) {
   }
   edit.set_labels(std::move(changed));
   edit.commit();
+}
+
+void AnnotationDocument::set_boundary_smoothing(double smoothing_px) {
+  require_idle();
+  const double rounded = std::round(std::clamp(smoothing_px, 0.0, kMaxSmoothing_px) * 100) / 100;
+  if (rounded == boundary_smoothing_px_) return;
+  Edit edit{EditKind::SmoothBoundaries, {}, {}, SmoothingEdit{boundary_smoothing_px_, rounded}};
+  put(edit, EditSide::After);
+  keep(std::move(edit));
 }
 
 DocumentChange AnnotationDocument::undo() {
@@ -135,6 +148,11 @@ DocumentChange AnnotationDocument::put(const Edit& edit, EditSide side) {
   if (edit.labels) {
     labels_ = side == EditSide::After ? edit.labels->after : edit.labels->before;
     change.has_new_labels = true;
+  }
+  if (edit.smoothing) {
+    boundary_smoothing_px_ =
+        side == EditSide::After ? edit.smoothing->after : edit.smoothing->before;
+    change.has_new_smoothing = true;
   }
   return change;
 }

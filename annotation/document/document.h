@@ -21,7 +21,10 @@ struct DocumentChange {
   };
   std::vector<Part> views;  ///< In the order of the grid.
   bool has_new_labels = false;
-  [[nodiscard]] bool empty() const { return views.empty() && !has_new_labels; }
+  bool has_new_smoothing = false;
+  [[nodiscard]] bool empty() const {
+    return views.empty() && !has_new_labels && !has_new_smoothing;
+  }
 };
 
 /// What happened to the document. `edit` is the one made, undone or redone.
@@ -38,12 +41,19 @@ class AnnotationDocument {
  public:
   static constexpr std::size_t kHistoryBytes = std::size_t{64} << 20;
 
+  static constexpr double kMaxSmoothing_px = 10;
+
   /// Throws InvalidInput as ScribbleLayer does.
   AnnotationDocument(GridShape grid, int height, int width,
                      std::size_t history_bytes = kHistoryBytes);
   /// A document with initial content, as read from a file; that cannot be undone.
   AnnotationDocument(LabelSet labels, ScribbleLayer scribbles,
-                     std::size_t history_bytes = kHistoryBytes);
+                     std::size_t history_bytes = kHistoryBytes, double smoothing_px = 0);
+
+  /// How far the boundaries of segments learnt from it are smoothed (smooth_boundaries), in px.
+  [[nodiscard]] double boundary_smoothing_px() const { return boundary_smoothing_px_; }
+  /// One edit, as those below; rounded to 0.01 px and clamped to [0, kMaxSmoothing_px].
+  void set_boundary_smoothing(double smoothing_px);
 
   [[nodiscard]] const LabelSet& labels() const { return labels_; }
   [[nodiscard]] const ScribbleLayer& scribbles() const { return scribbles_; }
@@ -91,6 +101,7 @@ class AnnotationDocument {
 
   LabelSet labels_;
   ScribbleLayer scribbles_;
+  double boundary_smoothing_px_ = 0;
   History<Edit> history_;
   std::uint64_t saved_state_ = 0;
   bool is_editing_ = false;

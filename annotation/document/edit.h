@@ -20,7 +20,8 @@ enum class EditKind : std::uint8_t {
   RenameLabel,
   RecolorLabel,
   RemoveLabel,
-  Import
+  Import,
+  SmoothBoundaries
 };
 
 /// Consecutive pixels of a row that had the same label and got the same label.
@@ -48,13 +49,22 @@ struct LabelSetEdit {
   friend bool operator==(const LabelSetEdit&, const LabelSetEdit&) = default;
 };
 
-/// One step of the user: a stroke, a fill or a change of labels, on one or several views.
+/// How far boundaries between segments are smoothed, in px (AnnotationDocument).
+struct SmoothingEdit {
+  double before = 0;
+  double after = 0;
+  friend bool operator==(const SmoothingEdit&, const SmoothingEdit&) = default;
+};
+
+/// One step of the user: a stroke, a fill or a change of labels, on one or several views, or of the
+/// smoothing.
 struct Edit {
   EditKind kind = EditKind::Paint;
   std::vector<ViewEdit> views;
   std::optional<LabelSetEdit> labels;
+  std::optional<SmoothingEdit> smoothing{};
 
-  [[nodiscard]] bool empty() const { return views.empty() && !labels; }
+  [[nodiscard]] bool empty() const { return views.empty() && !labels && !smoothing; }
   /// Memory used, in bytes.
   [[nodiscard]] std::size_t byte_size() const;
   friend bool operator==(const Edit&, const Edit&) = default;

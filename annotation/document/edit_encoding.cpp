@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "annotation/document/edit_encoding.h"
 
+#include "annotation/document/document.h"
 #include "engine/core/error.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace episcope {
 namespace {
 
 constexpr auto kMaxPlace = std::uint64_t{ScribbleLayer::kMaxExtent};
+constexpr std::uint8_t kHasLabels = 1;
+constexpr std::uint8_t kHasSmoothing = 2;
 constexpr auto kMaxView = std::uint64_t{std::numeric_limits<int>::max()};
 
 void write_labels(const LabelSet& labels, ByteWriter& out) {
@@ -71,29 +75,50 @@ ViewEdit read_view(ByteReader& in) {
   return edit;
 }
 
+// In hundredths of a pixel.
+void write_smoothing(double smoothing_px, ByteWriter& out) {
+  out.number(static_cast<std::uint64_t>(std::lround(smoothing_px * 100)));
+}
+
+double read_smoothing(ByteReader& in) {
+  constexpr auto kMost = static_cast<std::uint64_t>(AnnotationDocument::kMaxSmoothing_px * 100);
+  return static_cast<double>(in.number(kMost)) / 100;
+}
+
 }  // namespace
 
 void write_edit(const Edit& edit, ByteWriter& out) {
   out.byte(static_cast<std::uint8_t>(edit.kind));
   out.number(edit.views.size());
   for (const ViewEdit& view : edit.views) write_view(view, out);
-  out.byte(edit.labels ? 1 : 0);
-  if (!edit.labels) return;
-  write_labels(edit.labels->before, out);
-  write_labels(edit.labels->after, out);
+  out.byte(static_cast<std::uint8_t>((edit.labels ? kHasLabels : 0) |
+                                     (edit.smoothing ? kHasSmoothing : 0)));
+  if (edit.labels) {
+    write_labels(edit.labels->before, out);
+    write_labels(edit.labels->after, out);
+  }
+  if (edit.smoothing) {
+    write_smoothing(edit.smoothing->before, out);
+    write_smoothing(edit.smoothing->after, out);
+  }
 }
 
 Edit read_edit(ByteReader& in) {
   Edit edit;
   const std::uint8_t kind = in.byte();
-  if (kind > static_cast<std::uint8_t>(EditKind::Import)) {
+  if (kind > static_cast<std::uint8_t>(EditKind::SmoothBoundaries)) {
     throw InvalidInput(fmt::format("there is no edit of kind {}", kind));
   }
   edit.kind = static_cast<EditKind>(kind);
   for (auto left = in.number(in.rest()); left > 0; --left) edit.views.push_back(read_view(in));
-  if (in.byte() != 0) {
+  const std::uint8_t parts = in.byte();
+  if ((parts & kHasLabels) != 0) {
     LabelSet before = read_labels(in);
     edit.labels = LabelSetEdit{std::move(before), read_labels(in)};
+  }
+  if ((parts & kHasSmoothing) != 0) {
+    const double before = read_smoothing(in);
+    edit.smoothing = SmoothingEdit{before, read_smoothing(in)};
   }
   return edit;
 }

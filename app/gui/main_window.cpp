@@ -90,6 +90,7 @@ MainWindow::MainWindow(QWidget* parent)
   });
   for (const Feature& feature : features()) feature.add(bench);
   addTabCommands();
+  addLayoutCommands();
   connect(&bench.frame, &Frame::tabShown, &core_->keyboard, &KeyboardHome::goHomeFromControls);
   buildBars();
   bench.session.on_changed([&commands = bench.commands](Parts parts) {
@@ -122,6 +123,35 @@ void MainWindow::addTabCommands() {
                          .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); },
                          .section = section::kTabs});
   }
+}
+
+void MainWindow::addLayoutCommands() {
+  core_->commands.add({.id = "view.full_screen",
+                       .menu = Menu::View,
+                       .text = tr("Full screen"),
+                       .tip = tr("Fills the screen with the window, or gives it back"),
+                       .keys = {Qt::Key_F11},
+                       .run =
+                           [this] {
+                             setWindowState(windowState() ^ Qt::WindowFullScreen);
+                             core_->commands.refresh();
+                           },
+                       .section = section::kTabs,
+                       .checked = [this] { return isFullScreen(); }});
+  core_->commands.add({.id = "view.panels",
+                       .menu = Menu::View,
+                       .text = tr("Side panels"),
+                       .tip = tr("Shows the views at the left and the tabs at the right; without "
+                                 "them, the view has all the room"),
+                       .keys = {tr("Shift+F11")},
+                       .run =
+                           [this] {
+                             Frame& frame = *core_->frame;
+                             frame.setPanelsShown(!frame.arePanelsShown());
+                             core_->commands.refresh();
+                           },
+                       .section = section::kTabs,
+                       .checked = [this] { return core_->frame->arePanelsShown(); }});
 }
 
 void MainWindow::buildBars() {

@@ -30,6 +30,7 @@ class MainWindow : public QMainWindow {
   struct Core;
 
   void addTabCommands();
+  void addLayoutCommands();
   void buildBars();
   void restoreLayout();
 

@@ -26,6 +26,12 @@ std::size_t byte_size(const OpenScene& scene) {
     if (each.estimate)
       bytes += bytes_of(each.estimate->field) + bytes_of(each.estimate->confidence);
   }
+  if (scene.labels.labeling) {
+    bytes += bytes_of(scene.labels.labeling->labels);
+    for (const ProbabilityMap& map : scene.labels.labeling->probabilities.views) {
+      bytes += map.view().size();
+    }
+  }
   return bytes;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/labels/kept_labels.h"
 #include "app/session/picture/map_source.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/render/quantity.h"
@@ -24,6 +25,23 @@ struct EstimateEntry {
   Interval display_range;  ///< Disparities that most pixels of the estimate lie in.
   bool is_saved = false;   ///< A file of the user's holds it.
   std::filesystem::path kept{};  ///< The file that keeps it for the project; empty = none yet.
+  std::string note{};            ///< What the user wrote about it; may have several lines.
+};
+
+/// How results are arranged for comparison.
+enum class CompareMode {
+  Single,  ///< One picture: A, or B while flipped.
+  Wipe,    ///< A left and B right of a divider.
+  Sides,   ///< A and B side by side.
+  Wall     ///< The view, the truth and every result.
+};
+
+/// A comparison that is on screen.
+struct Comparison {
+  CompareMode mode = CompareMode::Single;
+  double wipe_position = 0.5;     ///< Of the divider, as part of the width.
+  bool shows_difference = false;  ///< A − B instead of the quantity.
+  friend bool operator==(const Comparison&, const Comparison&) = default;
 };
 
 /// Where one looks in a scene, and how.
@@ -35,6 +53,7 @@ struct ScenePlace {
   std::optional<render::Quantity> quantity;
   std::map<render::Quantity, Interval> ranges;  ///< Colour ranges that were edited.
   render::Tone tone{};                          ///< How its views are brightened.
+  Comparison comparison{};
   friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
 };
 
@@ -52,6 +71,7 @@ struct OpenScene {
   int compared = 0;
   bool is_compared_chosen = false;
   TrueLabelsPtr true_labels;
+  KeptLabels labels;
   ScenePlace place;
   std::uint64_t last_used = 0;  ///< Larger = later.
 };

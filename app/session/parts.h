@@ -16,6 +16,7 @@ enum class Part : unsigned {
   Scenes = 256,      ///< The list of open scenes, or what is in memory of those set aside.
   Display = 512,     ///< What is drawn over the view, and its colour ranges.
   Tone = 1024,       ///< How views are brightened.
+  Labels = 2048,     ///< The segmentation that is kept.
 };
 
 /// A set of parts.

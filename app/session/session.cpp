@@ -113,6 +113,13 @@ void Session::rename_estimate(int id, const std::string& name) {
   changed(Part::Estimates);
 }
 
+void Session::set_note(int id, const std::string& note) {
+  EstimateEntry* entry = entry_of(id);
+  if (!entry || note == entry->note) return;
+  entry->note = note;
+  changed(Part::Estimates);
+}
+
 void Session::mark_saved(int id) {
   for (const auto& scene : scenes_) {
     const auto found = std::ranges::find(scene->estimates, id, &EstimateEntry::id);
@@ -218,6 +225,12 @@ void Session::set_display(render::Quantity quantity, std::map<render::Quantity, 
   place.ranges = std::move(ranges);
   if (place == now_->place) return;
   now_->place = std::move(place);
+  changed(Part::Display);
+}
+
+void Session::set_comparison(const Comparison& comparison) {
+  if (!now_->scene || comparison == now_->place.comparison) return;
+  now_->place.comparison = comparison;
   changed(Part::Display);
 }
 

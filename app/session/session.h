@@ -80,6 +80,8 @@ class Session {
   void restore_estimate(EstimateEntry entry, std::size_t place);
   /// Unknown ids and empty names are ignored; a name that is taken gets a number.
   void rename_estimate(int id, const std::string& name);
+  /// What the user writes about an estimate. Unknown ids are ignored.
+  void set_note(int id, const std::string& note);
   /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }
@@ -128,9 +130,18 @@ class Session {
   [[nodiscard]] double focus_px() const { return now_->place.focus_px; }
   /// What is drawn over the view and in which colour ranges, to come back with the scene.
   void set_display(render::Quantity quantity, std::map<render::Quantity, Interval> ranges);
+  /// The same of comparisons.
+  void set_comparison(const Comparison& comparison);
   /// How views are brightened for display.
   void set_tone(const render::Tone& tone);
   [[nodiscard]] const ScenePlace& place() const { return now_->place; }
+
+  /// Keeps a segmentation with an open scene, in the place of another. Unknown scenes are ignored.
+  void set_labels(std::uint64_t scene, KeptLabels labels);
+  /// A file keeps it for the project; ignored if another one is kept meanwhile.
+  void set_labels_file(std::uint64_t scene, const LabelingPtr& labeling,
+                       const std::filesystem::path& file);
+  [[nodiscard]] const KeptLabels& labels() const { return now_->labels; }
 
  private:
   void changed(Parts parts);

@@ -108,6 +108,7 @@ void Session::unload(std::uint64_t id) {
     evaluations_.forget(entry.id);
     entry.estimate.reset();
   }
+  if (!scene->labels.file.empty()) scene->labels.labeling.reset();
   changed(Part::Scenes);
 }
 
@@ -156,6 +157,21 @@ void Session::set_kept(int estimate, const std::filesystem::path& file) {
     found->kept = file;
     changed(Part::Scenes);
   }
+}
+
+void Session::set_labels(std::uint64_t id, KeptLabels labels) {
+  OpenScene* scene = open_scene(id);
+  if (!scene) return;
+  scene->labels = std::move(labels);
+  changed(Part::Labels);
+}
+
+void Session::set_labels_file(std::uint64_t id, const LabelingPtr& labeling,
+                              const std::filesystem::path& file) {
+  OpenScene* scene = open_scene(id);
+  if (!scene || scene->labels.labeling != labeling) return;
+  scene->labels.file = file;
+  changed(Part::Scenes);
 }
 
 }  // namespace episcope

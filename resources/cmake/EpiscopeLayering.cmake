@@ -117,4 +117,4 @@ episcope_floors(engine/disparity tensor common epi,stereo cuts,layers,plane)
 episcope_floors(engine/capture camera,mesh calibrate,depth,pose rectify demo)
 episcope_floors(widgets style controls canvas,estimate annotate,browse,cloud,collection,compare capture)
 episcope_floors(app/gui frame document,stage opening bench
-                annotate,browse,capture,cloud,collection,compare,estimate,files,help,project,segment)
+                annotate,browse,capture,cloud,collection,compare,estimate,files,help,project,review,segment)

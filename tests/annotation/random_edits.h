@@ -24,6 +24,7 @@ class RandomEdits {
     if (dice == 1) return document.rename_label(id, "name " + std::to_string(below(1000)));
     if (dice == 2) return document.recolor_label(id, label_color(below(500)));
     if (dice == 3 && labels.size() > 2) return document.remove_label(id);
+    if (dice == 18) return document.set_boundary_smoothing(0.25 * below(12));
     const PaintStyle style{dice < 8 ? PaintTool::Eraser : PaintTool::Brush, id, 1.0 + below(30),
                            below(2) == 0};
     if (dice == 19) {

@@ -3,6 +3,7 @@
 
 #include "widgets/controls/tool_button.h"
 #include "widgets/style/icon.h"
+#include "widgets/style/swatch.h"
 #include "widgets/style/theme.h"
 
 #include <QAction>
@@ -11,7 +12,6 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMouseEvent>
-#include <QPainter>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QTreeWidget>
@@ -21,27 +21,11 @@ namespace episcope {
 namespace {
 
 constexpr int kRowPadding = 8;
-constexpr int kSwatch = 16;
 
 enum Column { kColor, kId, kName, kColumnCount };
 
 int id_of(const QTreeWidgetItem* item) {
   return item->data(kColor, Qt::UserRole).toInt();
-}
-
-QIcon swatch(const Rgb& rgb, const QPalette& palette) {
-  QPixmap pixmap(2 * kSwatch, 2 * kSwatch);
-  pixmap.setDevicePixelRatio(2);
-  pixmap.fill(Qt::transparent);
-  QPainter painter(&pixmap);
-  painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(theme::blend(palette.color(QPalette::Base), palette.color(QPalette::Text), 0.5));
-  painter.setBrush(QColor(rgb[0], rgb[1], rgb[2]));
-  painter.drawRoundedRect(QRectF(1.5, 1.5, kSwatch - 3, kSwatch - 3), 3, 3);
-  painter.end();
-  QIcon icon(pixmap);
-  icon.addPixmap(pixmap, QIcon::Selected);
-  return icon;
 }
 
 }  // namespace
@@ -86,7 +70,7 @@ void LabelPalette::setUpTree() {
   tree_->setRootIsDecorated(false);
   tree_->setUniformRowHeights(true);
   tree_->setTextElideMode(Qt::ElideMiddle);  // long names often differ at their end
-  tree_->setIconSize({kSwatch, kSwatch});
+  tree_->setIconSize({kSwatchSize, kSwatchSize});
   tree_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);

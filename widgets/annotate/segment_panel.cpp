@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/annotate/segment_panel.h"
 
+#include "annotation/document/document.h"
+#include "widgets/controls/number_spin.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/estimate/parameter_form.h"
 #include "widgets/style/theme.h"
@@ -35,6 +37,7 @@ SegmentPanel::SegmentPanel(QWidget* parent)
       settings_(new QScrollArea(this)),
       source_(new QComboBox(this)),
       all_views_(new QCheckBox(tr("All views after each stroke"), this)),
+      smoothing_(new NumberSpin(this)),
       form_(new ParameterForm(this)) {
   setObjectName("segmentPanel");
   chip_->setObjectName("segment.state");
@@ -91,6 +94,7 @@ QWidget* SegmentPanel::makeSettings() {
   layout->setContentsMargins(0, 0, theme::kSpacing, 0);
   layout->setSpacing(theme::kSpacing);
   layout->addLayout(row);
+  layout->addWidget(makeSmoothing());
   layout->addWidget(form_);
   layout->addWidget(all_views_);
   layout->addStretch(1);
@@ -101,6 +105,36 @@ QWidget* SegmentPanel::makeSettings() {
   settings_->setFixedHeight(kSettingsHeight);
   settings_->setWidget(content);
   return settings_;
+}
+
+QWidget* SegmentPanel::makeSmoothing() {
+  const QString tip =
+      tr("Smooths the boundaries of all labels; 0 shows them as they were computed. Can be undone");
+  smoothing_->setObjectName("segment.smoothing");
+  smoothing_->setRange(0, AnnotationDocument::kMaxSmoothing_px);
+  smoothing_->setDecimals(2);
+  smoothing_->setLeastDecimals(1);
+  smoothing_->setSingleStep(0.5);
+  smoothing_->setKeyboardTracking(false);
+  smoothing_->setSuffix(tr(" px"));
+  smoothing_->setToolTip(tip);
+  auto* row = new QWidget(this);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(theme::kSpacing);
+  auto* label = new QLabel(tr("Smooth boundaries by"), row);
+  label->setBuddy(smoothing_);
+  label->setToolTip(tip);
+  layout->addWidget(label);
+  layout->addWidget(smoothing_);
+  layout->addStretch(1);
+  connect(smoothing_, &NumberSpin::valueChanged, this, &SegmentPanel::smoothingEdited);
+  return row;
+}
+
+void SegmentPanel::setSmoothing(double smoothing_px) {
+  const QSignalBlocker blocker(smoothing_);
+  smoothing_->setValue(smoothing_px);
 }
 
 void SegmentPanel::addAction(QAction* action, const QString& object_name) {

@@ -18,6 +18,7 @@ class QToolButton;
 
 namespace episcope {
 
+class NumberSpin;
 class ParameterForm;
 
 /// What the state chip is coloured by.
@@ -48,6 +49,7 @@ class SegmentPanel : public QWidget {
   void setParameters(const std::vector<ParameterDescription>& parameters);
   void setSources(const std::vector<Source>& sources, int current);
   void setSettingsVisible(bool are_visible);
+  void setSmoothing(double smoothing_px);
 
   [[nodiscard]] ParameterSet parameters() const;
   /// Id of the disparity that was chosen.
@@ -61,12 +63,14 @@ class SegmentPanel : public QWidget {
   void parametersEdited();
   void sourceEdited();
   void keepsAllViewsEdited();
+  void smoothingEdited(double smoothing_px);
 
  protected:
   void changeEvent(QEvent* event) override;
 
  private:
   QWidget* makeSettings();
+  QWidget* makeSmoothing();
   void showMood();
 
   QLabel* chip_;
@@ -78,6 +82,7 @@ class SegmentPanel : public QWidget {
   QScrollArea* settings_;
   QComboBox* source_;
   QCheckBox* all_views_;
+  NumberSpin* smoothing_;
   ParameterForm* form_;
 };
 

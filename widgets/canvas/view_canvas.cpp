@@ -85,6 +85,11 @@ bool ViewCanvas::isOnDivider(QPointF position) const {
   return wipe_position_ && std::abs(position.x() - dividerX()) <= kReach;
 }
 
+void ViewCanvas::setOutline(PixelEdges outline) {
+  outline_ = std::move(outline);
+  update();
+}
+
 void ViewCanvas::setParallaxEnabled(bool enabled) {
   parallax_enabled_ = enabled;
 }
@@ -114,6 +119,7 @@ void ViewCanvas::showMessage(State state, const QString& text) {
   overlay_ = {};
   scribbles_ = {};
   cross_hair_ = std::nullopt;
+  outline_.clear();
   endTool();
   gesture_ = Gesture::None;
   if (hovered_) emit cursorMoved(hovered_ = std::nullopt);

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/indices.h"
 #include "widgets/canvas/canvas_transform.h"
+#include "widgets/canvas/outline.h"
 #include "widgets/style/side.h"
 
 #include <QImage>
@@ -56,6 +57,8 @@ class ViewCanvas : public QWidget {
   /// Replaces a rectangle of the scribbles and redraws no more than that.
   void patchScribbles(QPoint at, const QImage& patch);
   void setScribbleOpacity(double opacity);
+  /// Draws a line around what is to be looked at; empty = nothing.
+  void setOutline(PixelEdges outline);
   /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
   void setTool(CanvasTool* tool);
   /// Whether a left drag is parallax (default). Off: it pans.
@@ -74,6 +77,7 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] const QImage& picture() const { return picture_; }
   [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
   [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
+  [[nodiscard]] const PixelEdges& outline() const { return outline_; }
   [[nodiscard]] CanvasTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
@@ -160,6 +164,7 @@ class ViewCanvas : public QWidget {
   void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
   void paintCrossHair(QPainter& painter) const;
+  void paintOutline(QPainter& painter) const;
   void paintMark(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
   void paintMessage(QPainter& painter) const;
@@ -179,6 +184,7 @@ class ViewCanvas : public QWidget {
   double overlay_opacity_ = 0.7;
   QImage scribbles_;
   double scribble_opacity_ = 0.7;
+  PixelEdges outline_;
   std::optional<PixelIndex> cross_hair_;
   PixelText pixel_text_;
   CanvasTransform transform_;

@@ -38,6 +38,7 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
     if (wipe_position_) left.setRight(std::min(left.right(), static_cast<int>(dividerX())));
     if (!left.isEmpty()) paintPicture(painter, left, overlay_);
     if (wipe_position_) paintWipe(painter, event->rect());
+    paintOutline(painter);
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
     paintMark(painter);
@@ -150,6 +151,19 @@ void ViewCanvas::paintCrossHair(QPainter& painter) const {
     painter.setPen(QPen(theme::kCrossHair, 1));
     painter.drawRect(QRectF(at.x() - half, at.y() - half, 2 * half, 2 * half));
   }
+}
+
+void ViewCanvas::paintOutline(QPainter& painter) const {
+  if (outline_.empty()) return;
+  QList<QLineF> lines;
+  for (const QLine& edge : outline_) {
+    lines << QLineF(transform_.to_widget(QPointF(edge.p1()), size()),
+                    transform_.to_widget(QPointF(edge.p2()), size()));
+  }
+  painter.setPen(QPen(QColor(0, 0, 0, 200), 4, Qt::SolidLine, Qt::SquareCap));
+  painter.drawLines(lines);
+  painter.setPen(QPen(Qt::white, 2, Qt::SolidLine, Qt::SquareCap));
+  painter.drawLines(lines);
 }
 
 void ViewCanvas::paintCaption(QPainter& painter) const {

@@ -138,10 +138,14 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     item->setText(kMethod, result.method);
     item->setText(kMse, result.mse_100 ? number_text(*result.mse_100, 2) : "–");
     item->setText(kSeconds, seconds_text(result.seconds));
-    item->setText(kParameters, result.parameters);
+    // Of a note, the first line.
+    item->setText(kParameters,
+                  result.note.isEmpty()
+                      ? result.parameters
+                      : tr("“%1” · %2").arg(result.note.section('\n', 0, 0), result.parameters));
     item->setTextAlignment(kMse, Qt::AlignRight | Qt::AlignVCenter);
     item->setTextAlignment(kSeconds, Qt::AlignRight | Qt::AlignVCenter);
-    QStringList tip{result.method, result.parameters, result.detail};
+    QStringList tip{result.method, result.note, result.parameters, result.detail};
     tip.removeAll({});
     for (int column = 0; column < kColumnCount; ++column) {
       item->setToolTip(column, tip.join('\n'));
@@ -259,6 +263,7 @@ void ResultList::showMenu(const QPoint& position) {
   add("copy", tr("Copy as command"), &ResultList::copyCommandRequested);
   menu->addSeparator();
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
+  add("brush", tr("Note…"), &ResultList::noteRequested);
   add("export", tr("Export…"), &ResultList::exportRequested);
   add("trash", tr("Remove"), &ResultList::removeRequested);
   menu->popup(tree_->viewport()->mapToGlobal(position));

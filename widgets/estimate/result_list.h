@@ -21,6 +21,7 @@ struct ResultRow {
   double seconds = 0;  ///< 0 = unknown.
   std::optional<double> mse_100;
   QString detail;  ///< Further tool tip: source, notes.
+  QString note;    ///< What the user wrote.
 };
 
 /// Results of this light field, newest last, with the shown one (A) and the compared one (B)
@@ -50,6 +51,7 @@ class ResultList : public QWidget {
   void copyCommandRequested(quint64 id);
   /// Bring its parameters back into the form.
   void reuseRequested(quint64 id);
+  void noteRequested(quint64 id);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -10,6 +10,7 @@
 #include "app/session/labels/judge_labeling.h"
 #include "app/session/labels/label_archive.h"
 #include "app/session/labels/labeling_inputs.h"
+#include "app/session/labels/save_masks.h"
 #include "app/session/labels/save_segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
@@ -28,7 +29,8 @@ struct Request {
   std::string scribbles;
   std::string disparity;
   std::string given;    // Probabilities to begin with.
-  std::string archive;  // Folder to write.
+  std::string archive;  // Folder to write,
+  std::string masks;    // likewise.
   bool is_json = false;
   StoredProbabilities probabilities = StoredProbabilities::All;
   LabelerParameters parameters;
@@ -55,6 +57,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
   parser.option("--write-archive", request.archive, text_value("DIR"),
                 "Also write edge_weights.h5 and the label probabilities of all sets of features "
                 "into this folder, under the archive's names");
+  parser.option("--write-masks", request.masks, text_value("DIR"),
+                "Also write a black and white PNG of every label in every view into this folder");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels only; probabilities take four bytes per ray and label");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
@@ -118,6 +122,12 @@ void write_archive(const Scene& scene, const Scribbles& scribbles, const Request
                            job.progress().part(1, 1))) {
     job.note("wrote " + request.archive + "/" + file);
   }
+}
+
+void write_masks(const Segmentation& segmentation, const Request& request, Job& job) {
+  if (request.masks.empty()) return;
+  const int count = write_label_masks(request.masks, segmentation, job.progress().part(1, 1));
+  job.note("wrote " + std::to_string(count) + " masks to " + request.masks);
 }
 
 void print_json_answer(const Request& request, const Labeling& labeling,
@@ -199,6 +209,7 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   write_segmentation(request.output, segmentation, request.input, request.probabilities,
                      progress.part(0.95, 1));
   write_archive(scene, scribbles, request, disparity, job);
+  write_masks(segmentation, request, job);
   const LabelingScores scores =
       judge_labeling(labeling->labels, scene.light_field->center(), scene.truth->labels,
                      *scene.truth, disparity.field.get(), progress.part(1, 1));

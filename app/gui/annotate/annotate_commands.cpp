@@ -29,6 +29,8 @@ QString edit_text(EditKind kind) {
       return AnnotateController::tr("label removal");
     case EditKind::Import:
       return AnnotateController::tr("import");
+    case EditKind::SmoothBoundaries:
+      return AnnotateController::tr("smooth boundaries");
   }
   return {};
 }

@@ -110,7 +110,7 @@ void AnnotateController::showSizeKeys() {
 }
 
 void AnnotateController::setAnnotating(bool is_annotating) {
-  if (is_annotating) bench_.frame.showTab("annotate");
+  if (is_annotating && !isTabShown()) bench_.frame.showTab("annotate");
   if (std::exchange(is_annotating_, is_annotating) == is_annotating) return;
   if (is_annotating) {
     document_.keepJournal();
@@ -120,7 +120,9 @@ void AnnotateController::setAnnotating(bool is_annotating) {
 }
 
 bool AnnotateController::isTabShown() const {
-  return bench_.frame.shownTab() == "annotate";
+  // What is checked is corrected at once.
+  const QString tab = bench_.frame.shownTab();
+  return tab == "annotate" || tab == "check";
 }
 
 bool AnnotateController::hasDocument() const {
@@ -198,7 +200,9 @@ PixelRegion AnnotateController::regionAt(PixelIndex seed) const {
   const ViewIndex view = session_.view();
   if (panel_->fillBound() == FillBound::Segmentation) {
     const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
-    if (source) return region_of_segment(source->labeling->labels.view(view), seed);
+    if (source) {
+      return region_of_segment(finished_labels(*source->labeling, source->finish, view), seed);
+    }
   }
   constexpr double kGreyLevels = 255;
   return region_within_edges(session_.light_field()->view_as_float(view).view(), seed,

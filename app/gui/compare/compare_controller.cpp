@@ -52,10 +52,13 @@ CompareController::CompareController(const Workbench& bench, CompareBar* bar)
   connect(bench.stage.overlayBar(), &OverlayBar::opacityChanged, this,
           &CompareController::showMode);
   connect(&bench.stage, &Stage::singleViewRequested, this, &CompareController::leave);
-  connect(&bench.stage, &Stage::previewChanged, this, &CompareController::leave);
+  connect(&bench.stage, &Stage::previewChanged, this, [this](bool is_previewing) {
+    is_previewing ? showComparison(CompareMode::Single) : restore();
+  });
   connect(canvas_, &ViewCanvas::wipeMoved, this, [this](double position) {
     wipe_position_ = position;
     showWipe();
+    keep();
   });
   connect(bar_, &CompareBar::aChosen, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
@@ -85,8 +88,10 @@ void CompareController::connectWall() {
 }
 
 void CompareController::update(Parts parts) {
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown) && !isAvailable(mode_)) {
-    setMode(CompareMode::Single);
+  if (parts.has(Part::Scene) && session_.scene()) {
+    restore();
+  } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown) && !isAvailable(mode_)) {
+    showComparison(CompareMode::Single);
   }
   if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown | Part::Tone)) showMode();
   if (parts.has(Part::CrossHair) && session_.scene()) {
@@ -117,6 +122,23 @@ void CompareController::toggleMode(CompareMode mode) {
 }
 
 void CompareController::setMode(CompareMode mode) {
+  showComparison(mode);
+  keep();
+}
+
+// A scene is compared as it was left.
+void CompareController::restore() {
+  const Comparison& kept = session_.place().comparison;
+  wipe_position_ = kept.wipe_position;
+  showComparison(isAvailable(kept.mode) ? kept.mode : CompareMode::Single);
+}
+
+// It comes back with the scene and the project.
+void CompareController::keep() {
+  session_.set_comparison({mode_, wipe_position_, session_.place().comparison.shows_difference});
+}
+
+void CompareController::showComparison(CompareMode mode) {
   if (mode == mode_ || !isAvailable(mode)) return;
   mode_ = mode;
   const bool has_wall = mode == CompareMode::Sides || mode == CompareMode::Wall;

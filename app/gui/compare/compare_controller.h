@@ -4,6 +4,7 @@
 #include "app/gui/bench/workbench.h"
 #include "app/gui/compare/tile_pictures.h"
 #include "app/gui/frame/jobs.h"
+#include "app/session/open_scene.h"
 #include "app/session/session.h"
 #include "widgets/style/side.h"
 
@@ -16,14 +17,6 @@ namespace episcope {
 class CompareBar;
 class TileWall;
 class ViewCanvas;
-
-/// How results are arranged for comparison.
-enum class CompareMode {
-  Single,  ///< One picture: A, or B while flipped.
-  Wipe,    ///< A left and B right of a divider.
-  Sides,   ///< A and B side by side.
-  Wall     ///< The view, the truth and every result.
-};
 
 /// Arranges results for comparison: wipe, side by side, or a wall of all.
 class CompareController : public QObject {
@@ -52,6 +45,9 @@ class CompareController : public QObject {
     TilePicture picture;
   };
 
+  void showComparison(CompareMode mode);
+  void keep();
+  void restore();
   void addCommands();
   void addOverlayCommands();
   void addChoiceCommands();

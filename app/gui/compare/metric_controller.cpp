@@ -107,6 +107,7 @@ void MetricController::fillTable() {
   add_text("method_id", tr("Method"));
   add_text("parameters", tr("Parameters"));
   add_text("ended_early", tr("Ended early"));
+  add_text("note", tr("Note"));
   std::vector<MetricRow> rows;
   for (const Judged& each : judged) {
     rows.push_back(row_of(each, places));
@@ -125,7 +126,7 @@ QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
   }
   return {QString::fromStdString(session_.light_field()->info().name),
           QString::fromStdString(estimate.method), parameters.join(' '),
-          was_taken_early(estimate) ? tr("yes") : tr("no")};
+          was_taken_early(estimate) ? tr("yes") : tr("no"), QString::fromStdString(entry.note)};
 }
 
 std::vector<Judged> MetricController::judgeAll() {

@@ -331,7 +331,7 @@ void DocumentController::cancelStroke() {
 
 DocumentChange DocumentController::everything() const {
   DocumentChange change;
-  change.has_new_labels = true;
+  change.has_new_labels = change.has_new_smoothing = true;
   const ScribbleLayer& layer = now_.annotation->document().scribbles();
   for (const ViewIndex view : layer.painted_views()) {
     change.views.push_back({view, {0, 0, layer.height(), layer.width()}});

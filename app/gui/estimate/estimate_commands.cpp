@@ -54,6 +54,18 @@ void EstimateController::addCommands() {
        .enabled = has_scene});
   method_->followTips(cancel, copy);
   addResultCommands();
+  addNoteCommand();
+}
+
+void EstimateController::addNoteCommand() {
+  bench_.commands.add({.id = "estimate.note",
+                       .menu = Menu::Estimate,
+                       .text = tr("Note on result…"),
+                       .tip = tr("Writes a note on the shown result, kept with the project"),
+                       .keys = {tr("Ctrl+Alt+N")},
+                       .run = [this] { askForNote(*session_.shown()); },
+                       .section = kResults,
+                       .enabled = [this] { return session_.shown() != nullptr; }});
 }
 
 void EstimateController::addResultCommands() {

@@ -17,6 +17,7 @@
 #include <QAbstractItemView>
 #include <QClipboard>
 #include <QGuiApplication>
+#include <QInputDialog>
 
 #include <algorithm>
 
@@ -119,8 +120,25 @@ void EstimateController::connectResults() {
           with_entry([this](const EstimateEntry& entry) { ask_to_export(bench_, entry); }));
   connect(results_, &ResultList::copyCommandRequested, this,
           with_entry([this](const EstimateEntry& entry) { copyCommandOf(entry); }));
+  connect(results_, &ResultList::noteRequested, this,
+          with_entry([this](const EstimateEntry& entry) { askForNote(entry); }));
   connect(results_, &ResultList::reuseRequested, this,
           with_entry([this](const EstimateEntry& entry) { reuse(entry); }));
+}
+
+void EstimateController::askForNote(const EstimateEntry& entry) {
+  auto* dialog = new QInputDialog(&bench_.window);
+  dialog->setObjectName("result_note");
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  dialog->setWindowTitle(tr("Note"));
+  dialog->setLabelText(tr("Note on %1:").arg(QString::fromStdString(entry.name)));
+  dialog->setOption(QInputDialog::UsePlainTextEditForTextInput);
+  dialog->setTextValue(QString::fromStdString(entry.note));
+  connect(dialog, &QInputDialog::textValueSelected, this,
+          [this, id = entry.id](const QString& text) {
+            session_.set_note(id, text.trimmed().toStdString());
+          });
+  dialog->open();
 }
 
 void EstimateController::run() {
@@ -212,6 +230,7 @@ void EstimateController::listResults() {
     row.parameters = parameter_text(estimate);
     row.seconds = estimate.seconds;
     row.detail = detail_text(estimate);
+    row.note = QString::fromStdString(entry.note);
     const EvaluationKey key{entry.id, judged_view(*session_.scene()), Protocol::Vmv2013};
     if (const auto evaluation = session_.evaluation(key)) {
       row.mse_100 = find_metric(evaluation->metrics, "mse_100");

@@ -35,6 +35,8 @@ class EstimateController : public QObject {
   /// The line for what the form says.
   void copyCommand();
   void showNeighbour(int step);
+  /// Asks what is to be kept in mind about a result.
+  void askForNote(const EstimateEntry& entry);
 
  private:
   struct Removed {
@@ -47,6 +49,7 @@ class EstimateController : public QObject {
   void addTab();
   void addCommands();
   void addResultCommands();
+  void addNoteCommand();
   void connectResults();
   void update(Parts parts);
   void showChoice();

@@ -12,6 +12,7 @@ enum class CancelRank {
   LiveSegmentation,
   Browsing,  ///< Playing, a line drawn in an EPI.
   Comparing,
+  Mark,  ///< What is outlined on the view.
   Job,
   Message
 };

@@ -33,17 +33,17 @@ Frame::Frame(QWidget* parent)
   viewer_layout->setContentsMargins(0, 0, 0, 0);
   viewer_layout->addWidget(browser_);
 
-  auto* right = new QWidget(this);
-  book_ = new QTabWidget(right);
+  side_ = new QWidget(this);
+  book_ = new QTabWidget(side_);
   book_->setObjectName("tabs");
   book_->setDocumentMode(true);
-  right_ = new QVBoxLayout(right);
+  right_ = new QVBoxLayout(side_);
   right_->setContentsMargins(0, 0, theme::kSpacing, 0);
   right_->addWidget(book_, 1);
 
   auto* split = new QSplitter(Qt::Horizontal, this);
   split->addWidget(viewer_);
-  split->addWidget(right);
+  split->addWidget(side_);
   split->setStretchFactor(0, 1);
   split->setStretchFactor(1, 0);
   split->setSizes({kColumnWidth + kStageWidth, kTabsWidth});
@@ -93,7 +93,18 @@ void Frame::addFloating(QWidget* widget) {
   floating_->add(widget);
 }
 
+void Frame::setPanelsShown(bool are_shown) {
+  column_->setVisible(are_shown);
+  side_->setVisible(are_shown);
+}
+
+bool Frame::arePanelsShown() const {
+  return !side_->isHidden();
+}
+
+// Who asks for a tab wants to see it.
 void Frame::showTab(const QString& id) {
+  setPanelsShown(true);
   const auto found = std::ranges::find(tabs_, id, &Tab::id);
   if (found != tabs_.end()) book_->setCurrentWidget(found->widget);
 }

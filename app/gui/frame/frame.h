@@ -52,6 +52,10 @@ class Frame : public QWidget {
   /// Over the stage: what comes and goes without moving anything.
   void addFloating(QWidget* widget);
 
+  /// The column at the left and the tabs at the right: without them, all room is the stage's.
+  void setPanelsShown(bool are_shown);
+  [[nodiscard]] bool arePanelsShown() const;
+
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
   /// Id of the tab that is shown.
@@ -77,6 +81,7 @@ class Frame : public QWidget {
   QSplitter* browser_;
   Floating* floating_;  // over the stage
   QTabWidget* book_;
+  QWidget* side_;  // of the tabs
   QVBoxLayout* right_;
   QVBoxLayout* rows_;
   std::map<Line, QWidget*> lines_;

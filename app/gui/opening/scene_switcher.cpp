@@ -31,7 +31,9 @@ bool is_there(const std::string& input) {
 }
 
 bool is_kept(const OpenScene& scene) {
-  return std::ranges::none_of(scene.estimates,
+  const bool has_labels_in_memory = scene.labels.labeling && scene.labels.file.empty();
+  return !has_labels_in_memory &&
+         std::ranges::none_of(scene.estimates,
                               [](const EstimateEntry& each) { return each.kept.empty(); });
 }
 

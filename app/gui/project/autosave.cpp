@@ -23,8 +23,9 @@ constexpr int kLater_ms = 1500;
 // A light field that was merely opened is opened again as quickly.
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 ||
-         std::ranges::any_of(project.scenes,
-                             [](const ProjectScene& scene) { return !scene.results.empty(); });
+         std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
+           return !scene.results.empty() || scene.labels.covers_many();
+         });
 }
 
 // As far as files hold it.
@@ -88,27 +89,49 @@ void Autosave::write() {
   is_writing_ = true;
   runner_->start<Kept>(
       [project, folder = workspace_->folder(),
-       file = workspace_->project_file()](const Progress& progress) mutable {
+       file = workspace_->project_file()](const Progress& progress) {
         lower_thread_priority();
-        write_project(file, written_part(project));  // results may take long
-        Kept kept;
-        for (ProjectScene& scene : project.scenes) {
-          for (ProjectResult& result : scene.results) {
-            if (is_in_file(result)) continue;
-            result.file = store_result(folder, scene.name, result, scene.input, progress);
-            kept.emplace_back(result.id, result.file);
-            write_project(file, written_part(project));
-          }
-        }
-        return kept;
+        return write_all(project, folder, file, progress);
       },
       [this](const Outcome<Kept>& outcome) { finish(outcome); });
+}
+
+Autosave::Kept Autosave::write_all(Project project, const fs::path& folder, const fs::path& file,
+                                   const Progress& progress) {
+  write_project(file, written_part(project));  // results may take long
+  Kept kept;
+  for (ProjectScene& scene : project.scenes) {
+    for (ProjectResult& result : scene.results) {
+      if (is_in_file(result)) continue;
+      result.file = store_result(folder, scene.name, result, scene.input, progress);
+      kept.results.emplace_back(result.id, result.file);
+      write_project(file, written_part(project));
+    }
+  }
+  for (ProjectScene& scene : project.scenes) {
+    if (!scene.labels.labeling || !scene.labels.file.empty()) continue;
+    scene.labels.file = store_labels(folder, scene, progress);
+    kept.labels.push_back({scene.id, scene.labels.labeling, scene.labels.file});
+    write_project(file, written_part(project));
+  }
+  return kept;
+}
+
+// The file of labels that are out of date goes once the project names the new one.
+void Autosave::keepLabels(const Kept::Labels& kept) {
+  const fs::path former = std::exchange(label_files_[kept.scene], kept.file);
+  std::error_code ignored;
+  if (!former.empty()) fs::remove(former, ignored);
+  bench_.session.set_labels_file(kept.scene, kept.labeling, kept.file);
 }
 
 void Autosave::finish(const Outcome<Kept>& outcome) {
   is_writing_ = false;
   if (outcome.value) {
-    for (const auto& [estimate, file] : *outcome.value) bench_.session.set_kept(estimate, file);
+    for (const auto& [estimate, file] : outcome.value->results) {
+      bench_.session.set_kept(estimate, file);
+    }
+    for (const Kept::Labels& each : outcome.value->labels) keepLabels(each);
   } else if (outcome.failure && !std::exchange(has_failed_, true)) {
     bench_.messages.warn(
         tr("Results cannot be kept for a crash: %1").arg(failure_sentence(outcome.failure)));

@@ -10,6 +10,7 @@
 #include <QTimer>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -38,7 +39,19 @@ class Autosave : public QObject {
   [[nodiscard]] bool isIdle() const { return !is_writing_ && !is_due_; }
 
  private:
-  using Kept = std::vector<std::pair<int, std::filesystem::path>>;  ///< Estimates and their files.
+  /// What was written.
+  struct Kept {
+    std::vector<std::pair<int, std::filesystem::path>> results;  ///< Estimates and their files.
+    struct Labels {
+      std::uint64_t scene = 0;
+      LabelingPtr labeling;
+      std::filesystem::path file;
+    };
+    std::vector<Labels> labels;
+  };
+  [[nodiscard]] static Kept write_all(Project project, const std::filesystem::path& folder,
+                                      const std::filesystem::path& file, const Progress& progress);
+  void keepLabels(const Kept::Labels& kept);
 
   void follow(Parts parts);
   void schedule();
@@ -50,6 +63,7 @@ class Autosave : public QObject {
   std::filesystem::path root_;
   std::filesystem::path project_file_;
   std::unique_ptr<Workspace> workspace_;
+  std::map<std::uint64_t, std::filesystem::path> label_files_;  // of scenes, written here
   bool is_writing_ = false;
   bool is_due_ = false;
   bool is_over_ = false;  // the window was closed

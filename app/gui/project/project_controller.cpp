@@ -80,8 +80,9 @@ std::string ProjectController::content() const {
   for (const OpenScene* scene : bench_.session.scenes()) {
     text += scene->input + '\n';
     for (const EstimateEntry& entry : scene->estimates) {
-      text += std::to_string(entry.id) + ' ' + entry.name + '\n';
+      text += std::to_string(entry.id) + ' ' + entry.name + ' ' + entry.note + '\n';
     }
+    if (scene->labels.covers_many()) text += std::to_string(scene->labels.strokes) + '\n';
   }
   return text;
 }
@@ -164,6 +165,7 @@ void ProjectController::write(const QString& path, std::function<void()> then) {
 
 void ProjectController::noteSaved(const QString& path, const Project& written) {
   for (const ProjectScene& scene : written.scenes) {
+    bench_.session.set_labels_file(scene.id, scene.labels.labeling, scene.labels.file);
     for (const ProjectResult& result : scene.results) {
       bench_.session.set_kept(result.id, result.file);
       bench_.session.mark_saved(result.id);

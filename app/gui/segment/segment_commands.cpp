@@ -48,6 +48,9 @@ void SegmentController::addRunCommands() {
                        .run = [this] { segmentAllViews(); },
                        .section = kRun,
                        .enabled = has_input});
+}
+
+void SegmentController::addExportCommands() {
   bench_.commands.add(
       {.id = "segment.export",
        .menu = Menu::Segmentation,
@@ -57,6 +60,35 @@ void SegmentController::addRunCommands() {
        .run = [this] { ask_to_export_segmentation(bench_, *this); },
        .section = kRun,
        .enabled = [this] { return segmentation().has_value(); }});
+  bench_.commands.add(
+      {.id = "segment.export_masks",
+       .menu = Menu::Segmentation,
+       .text = tr("Export masks…"),
+       .tip = tr("Writes a black and white PNG of every label in every segmented view to a folder"),
+       .icon = "export",
+       .run = [this] { ask_to_export_masks(bench_, *this); },
+       .section = kRun,
+       .enabled = [this] { return segmentation().has_value(); }});
+}
+
+void SegmentController::addSmoothingCommands() {
+  constexpr double kStep_px = 0.5;
+  bench_.commands.add(
+      {.id = "segment.smoother",
+       .menu = Menu::Segmentation,
+       .text = tr("Smoother boundaries"),
+       .tip = tr("Smooths the boundaries of all labels by half a pixel more; can be undone"),
+       .keys = {tr("Shift+S")},
+       .run = [this] { smoothBoundaries(smoothing() + kStep_px); },
+       .section = kRun,
+       .enabled = [this] { return live_.has_input(); }});
+  bench_.commands.add({.id = "segment.less_smooth",
+                       .menu = Menu::Segmentation,
+                       .text = tr("Less smooth boundaries"),
+                       .tip = tr("Smooths the boundaries of all labels by half a pixel less"),
+                       .run = [this] { smoothBoundaries(smoothing() - kStep_px); },
+                       .section = kRun,
+                       .enabled = [this] { return smoothing() > 0; }});
 }
 
 void SegmentController::addOverlayCommands() {
@@ -93,6 +125,8 @@ void SegmentController::addOverlayCommands() {
 
 void SegmentController::addCommands() {
   addRunCommands();
+  addExportCommands();
+  addSmoothingCommands();
   addOverlayCommands();
   for (const char* id : {"segment.live", "segment.update", "segment.all", "segment.export"}) {
     panel_->addAction(bench_.commands.find(id), QString("button.%1").arg(id));

@@ -68,6 +68,7 @@ void SegmentController::connectPanel() {
   panel_->setSources(source_.sources(), source_.choice());
   connect(panel_, &SegmentPanel::sourceEdited, this, [this] { source_.choose(panel_->source()); });
   connect(panel_, &SegmentPanel::parametersEdited, this, &SegmentController::noteInput);
+  connect(panel_, &SegmentPanel::smoothingEdited, this, &SegmentController::smoothBoundaries);
   connect(panel_, &SegmentPanel::keepsAllViewsEdited, this, &SegmentController::followLabeler);
 }
 
@@ -77,7 +78,7 @@ std::optional<Segmentation> SegmentController::segmentation() const {
   if (!labeling || !document || !live_.has_input()) return std::nullopt;
   return Segmentation{std::move(labeling), document->labels().labels(),
                       labeler_schema().values(possible_parameters(*live_.input())),
-                      live_.input()->light_field->info().reading};
+                      live_.input()->light_field->info().reading, finish()};
 }
 
 bool SegmentController::has_map(render::Quantity quantity) const {
@@ -88,7 +89,9 @@ bool SegmentController::has_map(render::Quantity quantity) const {
 }
 
 bool SegmentController::awaits_map(render::Quantity quantity) const {
-  return live_.has_input() && (quantity != render::Quantity::WrongLabels || session_.true_labels());
+  // Kept labels come once there is a document.
+  return (live_.has_input() || !session_.labels().empty()) &&
+         (quantity != render::Quantity::WrongLabels || session_.true_labels());
 }
 
 QString SegmentController::title(render::Quantity quantity) const {
@@ -113,10 +116,30 @@ std::optional<MapSource> SegmentController::map_source(render::Quantity quantity
   }
   source.labeling = live_.labeling(view);
   if (quantity == render::Quantity::Segmentation) source.label_infos = document->labels().labels();
+  if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
+    source.finish = finish();
+  }
   if (quantity == render::Quantity::Probability) source.label = bench_.labels.current();
   if (quantity == render::Quantity::WrongLabels) source.true_labels = session_.true_labels();
   if (!reason_against(source).empty()) return std::nullopt;
   return source;
+}
+
+double SegmentController::smoothing() const {
+  const AnnotationDocument* document = std::as_const(document_).document();
+  return document ? document->boundary_smoothing_px() : 0;
+}
+
+LabelFinish SegmentController::finish() const {
+  // Without smoothing nothing else matters: nothing is made again after a stroke.
+  if (smoothing() == 0 || !live_.has_input()) return {};
+  return {smoothing(), live_.input()->scribbles};
+}
+
+void SegmentController::smoothBoundaries(double smoothing_px) {
+  document_.edit([smoothing_px](AnnotationDocument& document) {
+    document.set_boundary_smoothing(smoothing_px);
+  });
 }
 
 LabelerParameters SegmentController::parameters() const {
@@ -150,6 +173,7 @@ void SegmentController::noteInput() {
     input.edges = edges_.edges();
     input.scribbles = std::make_shared<const ScribbleLayer>(document->scribbles());
     live_.set_input(std::move(input));
+    restore();
     if (is_live_ || is_wanted_) begin();
   }
   publish();
@@ -212,6 +236,7 @@ void SegmentController::segmentAllViews() {
 
 void SegmentController::finishAll(const LabelingPtr& labeling,
                                   const std::shared_ptr<const LabelingInput>& input) {
+  if (input->light_field == session_.light_field()) keep(labeling, *input);
   live_.take(labeling, input);
   seconds_ = labeling->seconds;
   publish();
@@ -224,6 +249,7 @@ void SegmentController::followLabeler() {
   endWish();
   publish();
   const bool is_done = live_.state() == LiveState::Idle && live_.is_up_to_date(session_.view());
+  if (is_done) keep(labeling, *live_.input());
   if (is_live_ && is_done && panel_->keepsAllViews() && tried_all_ != live_.input() &&
       labeling->labels.grid().count() == 1) {
     segmentAllViews();
@@ -290,13 +316,15 @@ void SegmentController::showState() {
   panel_->setState(
       shown.text, shown.mood,
       tr("State of the segmentation of this view, and how long it took.") + '\n' + edges_.origin());
+  panel_->setSmoothing(smoothing());
   const QString sentence = missing();
   panel_->setNote(sentence.isEmpty() ? scores_ : sentence);
   bench_.commands.refresh();
 }
 
 void SegmentController::score() {
-  const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view()};
+  const Scored now{live_.labeling(session_.view()), session_.true_labels(), session_.view(),
+                   finish()};
   if (now == scored_) return;
   scored_ = now;
   scores_.clear();
@@ -306,8 +334,9 @@ void SegmentController::score() {
       [now, scene = session_.scene(),
        disparity = live_.input()->disparity](const Progress& progress) {
         static const ViewStack<std::int32_t> kNone;
-        return judge_labeling(now.labeling->labels, now.view, now.truth ? *now.truth : kNone,
-                              *scene->truth, disparity.get(), progress);
+        return judge_labeling(finished_labels(*now.labeling, now.finish, progress.part(0, 0.3)),
+                              now.view, now.truth ? *now.truth : kNone, *scene->truth,
+                              disparity.get(), progress.part(0.3, 1));
       },
       [this](const LabelingScores& scores) { showScores(scores); });
 }

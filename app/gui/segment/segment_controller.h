@@ -43,6 +43,8 @@ class SegmentController : public QObject, public MapProvider {
   [[nodiscard]] bool isSegmentingAll() const { return jobs_.count(Lane::Label) > 0; }
   /// Labels that cover the current view, as files hold them; nothing without.
   [[nodiscard]] std::optional<Segmentation> segmentation() const;
+  /// Boundaries of all labels; one step of the history.
+  void smoothBoundaries(double smoothing_px);
 
   [[nodiscard]] bool has_map(render::Quantity quantity) const override;
   [[nodiscard]] bool awaits_map(render::Quantity quantity) const override;
@@ -54,12 +56,15 @@ class SegmentController : public QObject, public MapProvider {
   void addCommands();
   void addRunCommands();
   void addOverlayCommands();
+  void addSmoothingCommands();
+  void addExportCommands();
   void connectDocument();
   void connectPanel();
   struct Scored {
     LabelingPtr labeling;
     TrueLabelsPtr truth;
     ViewIndex view;
+    LabelFinish finish;
     friend bool operator==(const Scored&, const Scored&) = default;
   };
   struct State {
@@ -74,12 +79,17 @@ class SegmentController : public QObject, public MapProvider {
   void finishAll(const LabelingPtr& labeling, const std::shared_ptr<const LabelingInput>& input);
   void followLabeler();
   void publish();
+  void keep(const LabelingPtr& labeling, const LabelingInput& input);
+  void restore();
+  void adopt(const KeptLabels& kept);
   [[nodiscard]] State state() const;
   void showState();
   void score();
   void showLabels();
   void showScores(const LabelingScores& scores);
   [[nodiscard]] LabelerParameters parameters() const;
+  [[nodiscard]] LabelFinish finish() const;
+  [[nodiscard]] double smoothing() const;
   [[nodiscard]] QString missing() const;
 
   Workbench bench_;
@@ -98,6 +108,7 @@ class SegmentController : public QObject, public MapProvider {
   Scored scored_;
   LabelingPtr shown_labeling_;
   std::shared_ptr<const LabelingInput> tried_all_;
+  std::uint64_t restored_ = 0;  // scene whose kept labels were brought back
   LatestJob score_job_;
   LiveLabeler live_;
 };

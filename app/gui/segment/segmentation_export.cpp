@@ -4,6 +4,7 @@
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/segment/segment_controller.h"
+#include "app/session/labels/save_masks.h"
 #include "app/session/labels/save_segmentation.h"
 #include "app/session/picture/picture.h"
 #include "engine/io/grid/image_file.h"
@@ -59,6 +60,29 @@ void export_segmentation(const Workbench& bench, const SegmentController& segmen
   write_in_background(bench.jobs, bench.messages, path, [file, source = *source](const Progress&) {
     io::write_png(file, map_picture(*make_map(source), {}).view());
   });
+}
+
+void ask_to_export_masks(const Workbench& bench, const SegmentController& segment) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) return;
+  const bool has_all = segmentation->labeling->labels.grid().count() > 1;
+  ask_for_folder(
+      &bench.window,
+      {.name = "export_masks",
+       .title = has_all ? Text::tr("Folder for the masks of all views")
+                        : Text::tr("Folder for the masks of this view; segment all "
+                                   "views first to have those of all")},
+      [bench, &segment](const QString& folder) { export_masks(bench, segment, folder); });
+}
+
+void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder) {
+  const auto segmentation = segment.segmentation();
+  if (!segmentation) return;
+  write_in_background(
+      bench.jobs, bench.messages, folder,
+      [path = std::filesystem::path(folder.toStdString()), segmentation](const Progress& progress) {
+        write_label_masks(path, *segmentation, progress);
+      });
 }
 
 }  // namespace episcope

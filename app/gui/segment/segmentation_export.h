@@ -17,4 +17,9 @@ void ask_to_export_segmentation(const Workbench& bench, const SegmentController&
 void export_segmentation(const Workbench& bench, const SegmentController& segment,
                          const QString& path);
 
+/// Asks for a folder and writes masks of every label there: of all views once they are segmented,
+/// else of this one.
+void ask_to_export_masks(const Workbench& bench, const SegmentController& segment);
+void export_masks(const Workbench& bench, const SegmentController& segment, const QString& folder);
+
 }  // namespace episcope

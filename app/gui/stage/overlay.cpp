@@ -114,6 +114,7 @@ void Overlay::beginScene() {
   if (!stage_.colorBar()->isRangeLocked()) edited_ranges_ = place.ranges;
   if (!place.quantity) return;
   quantity_ = *place.quantity;
+  shows_difference_ = place.comparison.shows_difference && session_.compared();
   known_estimates_ = session_.estimates().size();
 }
 
@@ -200,6 +201,9 @@ void Overlay::draw() {
   if (session_.scene()) showCaption(drawn_choice);
   if (session_.scene() && scene_ == session_.generation()) {
     session_.set_display(quantity_, edited_ranges_);
+    Comparison comparison = session_.place().comparison;
+    comparison.shows_difference = shows_difference_;
+    session_.set_comparison(comparison);
   }
   emit drawn();
 }

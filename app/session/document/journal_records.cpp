@@ -18,8 +18,9 @@ PixelRect whole(const ScribbleLayer& layer) {
 }
 
 /// The edit that makes a document from an empty one.
-Edit base_edit(const LabelSet& labels, const ScribbleLayer& layer) {
+Edit base_edit(const LabelSet& labels, const ScribbleLayer& layer, double smoothing_px) {
   Edit edit{EditKind::Import, {}, LabelSetEdit{{}, labels}};
+  if (smoothing_px > 0) edit.smoothing = SmoothingEdit{0, smoothing_px};
   for (const ViewIndex view : layer.painted_views()) {
     edit.views.push_back(difference(view, {}, layer.view(view), whole(layer)));
   }
@@ -29,16 +30,18 @@ Edit base_edit(const LabelSet& labels, const ScribbleLayer& layer) {
 /// The document before the oldest edit that its history keeps.
 Edit base_of(const AnnotationDocument& document) {
   if (document.history().applied_count() == 0) {
-    return base_edit(document.labels(), document.scribbles());
+    return base_edit(document.labels(), document.scribbles(), document.boundary_smoothing_px());
   }
   LabelSet labels = document.labels();
   ScribbleLayer layer = document.scribbles();
+  double smoothing_px = document.boundary_smoothing_px();
   for (std::size_t i = document.history().applied_count(); i-- > 0;) {
     const Edit& edit = document.history().edit(i);
     for (const ViewEdit& part : edit.views) put_labels(part, EditSide::Before, layer);
     if (edit.labels) labels = edit.labels->before;
+    if (edit.smoothing) smoothing_px = edit.smoothing->before;
   }
-  return base_edit(labels, layer);
+  return base_edit(labels, layer, smoothing_px);
 }
 
 io::LogRecord head_record(const JournalOwner& owner, const AnnotationDocument& document) {
@@ -96,7 +99,8 @@ AnnotationDocument read_base(const Head& head, const io::LogRecord& record) {
   // Applied to a document of its own first, which checks that it fits.
   AnnotationDocument base(head.grid, head.height, head.width, 0);
   base.apply(read_edit(in));
-  AnnotationDocument document(base.labels(), base.scribbles(), head.history_bytes);
+  AnnotationDocument document(base.labels(), base.scribbles(), head.history_bytes,
+                              base.boundary_smoothing_px());
   if (!is_saved) document.forget_saved();
   return document;
 }

@@ -12,19 +12,6 @@
 namespace episcope {
 namespace {
 
-/// Labels of `ids` with names and colours as far as they are known, else defaults.
-std::vector<LabelInfo> infos_of(const std::vector<std::int32_t>& ids,
-                                const std::vector<LabelInfo>& known) {
-  std::vector<LabelInfo> infos;
-  for (const std::int32_t id : ids) {
-    const auto found = std::ranges::find(known, id, &LabelInfo::id);
-    infos.push_back(found != known.end()
-                        ? *found
-                        : LabelInfo{id, "label " + std::to_string(id), label_color(id)});
-  }
-  return infos;
-}
-
 ViewIndex checked_view(const io::SegmentationFile& file, const std::string& name,
                        std::optional<ViewIndex> asked) {
   const ViewIndex middle = file.grid().center();
@@ -43,17 +30,17 @@ void write_segmentation(const std::filesystem::path& path, const Segmentation& s
                         const Progress& progress) {
   const Labeling& labeling = *segmentation.labeling;
   io::StoredSegmentation stored;
-  stored.labels = labeling.labels.clone();
+  stored.labels = finished_labels(labeling, segmentation.finish, progress.part(0, 0.1));
   stored.infos = infos_of(labeling.probabilities.ids, segmentation.labels);
   stored.parameters = segmentation.parameters;
   stored.source = source_text(input, path);
   stored.reading = segmentation.reading;
   stored.seconds = labeling.seconds;
   io::ViewProbabilities of_view;
-  if (probabilities == StoredProbabilities::All) {
+  if (probabilities == StoredProbabilities::All && !labeling.probabilities.empty()) {
     of_view = [&labeling](ViewIndex view) { return labeling.probabilities.view(view).view(); };
   }
-  io::write_segmentation(path, stored, of_view, progress);
+  io::write_segmentation(path, stored, of_view, progress.part(0.1, 1));
 }
 
 Segmentation read_segmentation(const std::filesystem::path& path, std::optional<ViewIndex> asked) {

@@ -15,7 +15,8 @@ namespace episcope {
 enum class StoredProbabilities { None, All };
 
 /// Writes labels with their names and colours, and probabilities, as `io::write_segmentation` does.
-/// `input` is what opens the light field. Throws IoError, Cancelled.
+/// `input` is what opens the light field. A labeling without probabilities is written without.
+/// Throws IoError, Cancelled.
 void write_segmentation(const std::filesystem::path& path, const Segmentation& segmentation,
                         const std::string& input, StoredProbabilities probabilities,
                         const Progress& progress);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/session/judge/judge.h"
-#include "app/session/labels/live_labeling.h"
+#include "app/session/labels/segmentation.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/ground_truth.h"
 #include "engine/core/light_field/label_info.h"
@@ -35,6 +35,7 @@ struct MapSource {
   EvaluationPtr evaluation{};                       ///< Of `estimate` in `view`.
   double bad_threshold_px = kBadPixelThreshold_px;  ///< For BadPixels.
   LabelingPtr labeling{};                ///< For what is of a segmentation, but for Edges.
+  LabelFinish finish{};                  ///< Of its labels.
   std::vector<LabelInfo> label_infos{};  ///< Colours of its labels; others have the default ones.
   int label = 0;                         ///< Whose probability.
   /// For Edges: EDGE_WEIGHTS of a file, else computed from the image and, if it is known,

@@ -24,6 +24,7 @@ struct QuantityMap {
   Image<float> computed;
   Image<float> computed_measured;
   Image<std::uint8_t> computed_valid;
+  Image<std::int32_t> computed_labels;
   std::shared_ptr<const void> owner;
 
   /// The numbers of the map: `measured` where there are such.

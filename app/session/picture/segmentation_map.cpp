@@ -57,12 +57,14 @@ std::shared_ptr<QuantityMap> make_segmentation_map(const MapSource& source) {
   }
   const Labeling& labeling = *source.labeling;
   if (source.quantity == Quantity::Segmentation) {
-    made->labels = labeling.labels.view(source.view);
+    made->computed_labels = finished_labels(labeling, source.finish, source.view);
+    made->labels = made->computed_labels;
     made->label_infos = source.label_infos;
     return made;
   }
   if (source.quantity == Quantity::WrongLabels) {
-    fill_wrong(labeling.labels.view(source.view), source.true_labels->view(source.view), *made);
+    fill_wrong(finished_labels(labeling, source.finish, source.view),
+               source.true_labels->view(source.view), *made);
   } else if (source.quantity == Quantity::Probability) {
     made->computed = probability_of(source.label, labeling.probabilities.view(source.view).view(),
                                     labeling.probabilities.ids);

@@ -17,7 +17,8 @@ struct ProjectResult {
   Interval display_range{};    ///< EstimateEntry::display_range.
   bool is_shown = false;
   bool is_compared = false;
-  int id = 0;  ///< EstimateEntry::id. Not part of a project file, as what follows.
+  std::string note{};  ///< EstimateEntry::note.
+  int id = 0;          ///< EstimateEntry::id. Not part of a project file, as what follows.
   /// In memory; null if it is in its file only.
   EstimatePtr estimate{};
 };
@@ -32,6 +33,7 @@ struct ProjectScene {
   std::uint64_t id = 0;  ///< OpenScene::id. Not part of a project file.
   std::vector<ProjectResult> results;
   std::filesystem::path strokes;  ///< Journal of what was painted; empty = nothing was.
+  KeptLabels labels{};            ///< In memory only while the program runs.
 };
 
 /// What a project file holds.

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <span>
@@ -33,6 +35,23 @@ Interval interval_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>()};
 }
 
+constexpr std::array<const char*, 4> kCompareModes{"single", "wipe", "sides", "tiles"};
+
+Json comparison_json(const Comparison& comparison) {
+  return {{"mode", kCompareModes[static_cast<std::size_t>(comparison.mode)]},
+          {"wipe", comparison.wipe_position},
+          {"difference", comparison.shows_difference}};
+}
+
+// A mode of a later program is left out.
+Comparison comparison_of(const Json& json) {
+  const auto found = std::ranges::find(kCompareModes, json.at("mode").get<std::string>());
+  const auto mode = found == kCompareModes.end()
+                        ? CompareMode::Single
+                        : static_cast<CompareMode>(found - kCompareModes.begin());
+  return {mode, json.at("wipe"), json.at("difference")};
+}
+
 Json place_json(const ScenePlace& place) {
   Json ranges = Json::object();
   for (const auto& [quantity, range] : place.ranges) {
@@ -47,6 +66,7 @@ Json place_json(const ScenePlace& place) {
                     {"exposure", place.tone.exposure},
                     {"gamma", place.tone.gamma}};
   }
+  if (place.comparison != Comparison{}) json["comparison"] = comparison_json(place.comparison);
   if (place.quantity) json["quantity"] = render::info_of(*place.quantity).id;
   return json;
 }
@@ -63,6 +83,7 @@ ScenePlace place_of(const Json& json) {
     const Json& tone = json.at("tone");
     place.tone = {tone.at("black"), tone.at("exposure"), tone.at("gamma")};
   }
+  if (json.contains("comparison")) place.comparison = comparison_of(json.at("comparison"));
   for (const auto& [id, range] : json.at("ranges").items()) {
     if (const auto* known = render::find_quantity(id)) {
       place.ranges[known->quantity] = interval_of(range);
@@ -72,11 +93,13 @@ ScenePlace place_of(const Json& json) {
 }
 
 Json result_json(const ProjectResult& result, const fs::path& project) {
-  return {{"name", result.name},
-          {"file", source_text(result.file.string(), project)},
-          {"display_range", interval_json(result.display_range)},
-          {"shown", result.is_shown},
-          {"compared", result.is_compared}};
+  Json json{{"name", result.name},
+            {"file", source_text(result.file.string(), project)},
+            {"display_range", interval_json(result.display_range)},
+            {"shown", result.is_shown},
+            {"compared", result.is_compared}};
+  if (!result.note.empty()) json["note"] = result.note;
+  return json;
 }
 
 Json scene_json(const ProjectScene& scene, const fs::path& project) {
@@ -90,6 +113,10 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
     json["results"].push_back(result_json(each, project));
   }
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
+  if (!scene.labels.file.empty()) {
+    json["labels"] = {{"file", source_text(scene.labels.file.string(), project)},
+                      {"strokes_hash", fmt::format("{:016x}", scene.labels.strokes)}};
+  }
   return json;
 }
 
@@ -102,7 +129,8 @@ ProjectResult result_of(const Json& json, const fs::path& project) {
           .file = absolute_path(json.at("file"), project),
           .display_range = interval_of(json.at("display_range")),
           .is_shown = json.at("shown"),
-          .is_compared = json.at("compared")};
+          .is_compared = json.at("compared"),
+          .note = json.value("note", "")};
 }
 
 std::uint64_t hash_of(const std::string& text) {
@@ -121,6 +149,10 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
+  if (json.contains("labels")) {
+    scene.labels.file = absolute_path(json.at("labels").at("file"), project);
+    scene.labels.strokes = hash_of(json.at("labels").at("strokes_hash").get<std::string>());
+  }
   return scene;
 }
 

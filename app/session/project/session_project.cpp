@@ -12,13 +12,15 @@ ProjectScene project_scene_of(const OpenScene& open) {
                      .place = open.place,
                      .id = open.id,
                      .results = {},
-                     .strokes = {}};
+                     .strokes = {},
+                     .labels = open.labels};
   for (const EstimateEntry& entry : open.estimates) {
     scene.results.push_back({.name = entry.name,
                              .file = entry.kept,
                              .display_range = entry.display_range,
                              .is_shown = entry.id == open.shown,
                              .is_compared = entry.id == open.compared && open.is_compared_chosen,
+                             .note = entry.note,
                              .id = entry.id,
                              .estimate = entry.estimate});
   }
@@ -44,6 +46,7 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
   open.reading = scene.reading;
   open.sample_hash = scene.sample_hash;
   open.place = scene.place;
+  open.labels = scene.labels;
   int id = 0;
   for (const ProjectResult& result : scene.results) {
     open.estimates.push_back({.id = ++id,
@@ -51,7 +54,8 @@ OpenScene scene_of(const ProjectScene& scene, bool is_saved) {
                               .estimate = nullptr,
                               .display_range = result.display_range,
                               .is_saved = is_saved,
-                              .kept = result.file});
+                              .kept = result.file,
+                              .note = result.note});
     if (result.is_shown) open.shown = id;
     if (result.is_compared) {
       open.compared = id;

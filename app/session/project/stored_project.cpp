@@ -2,6 +2,7 @@
 #include "app/session/project/stored_project.h"
 
 #include "app/session/project/project_file.h"
+#include "app/session/save/file_name.h"
 #include "app/session/save/save_result.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
@@ -16,15 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kStrokes = ".strokes";
-
-// A name that any file system takes.
-std::string file_name_of(std::string name) {
-  constexpr std::size_t longest = 80;
-  std::ranges::replace_if(
-      name, [](char each) { return std::string("/\\:*?\"<>|").find(each) != std::string::npos; },
-      '_');
-  return name.substr(0, longest);
-}
 
 fs::path unused_file(const fs::path& folder, const std::string& stem, const std::string& suffix) {
   fs::path path = folder / (stem + suffix);
@@ -51,6 +43,7 @@ std::set<fs::path> files_in(const Project& project, const fs::path& folder) {
   };
   for (const ProjectScene& scene : project.scenes) {
     add(scene.strokes);
+    add(scene.labels.file);
     for (const ProjectResult& result : scene.results) add(result.file);
   }
   return files;
@@ -81,6 +74,18 @@ void store_results(ProjectScene& scene, const fs::path& folder, const Progress& 
   }
 }
 
+void store_scene_labels(ProjectScene& scene, const fs::path& folder, const Progress& progress) {
+  KeptLabels& labels = scene.labels;
+  if (labels.empty() || labels.file.parent_path() == folder) return;
+  if (labels.labeling) {
+    labels.file = store_labels(folder, scene, progress);
+    return;
+  }
+  const fs::path target = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
+  copy_to(labels.file, target);
+  labels.file = target;
+}
+
 // What was painted may have gone on since it was stored last: always a new file.
 void store_strokes(ProjectScene& scene, const fs::path& folder) {
   if (scene.strokes.empty()) return;
@@ -109,6 +114,13 @@ fs::path store_result(const fs::path& folder, const std::string& scene, const Pr
   return file;
 }
 
+fs::path store_labels(const fs::path& folder, const ProjectScene& scene, const Progress& progress) {
+  io::make_folder(folder);
+  const fs::path file = unused_file(folder, file_name_of(scene.name + "_labels"), ".h5");
+  write_kept_labels(file, scene.labels, scene.input, progress);
+  return file;
+}
+
 Project store_project(const fs::path& path, Project project, const Progress& progress) {
   const fs::path folder = files_of_project(path);
   const std::set<fs::path> former = files_of_former(path, folder);
@@ -118,6 +130,7 @@ Project store_project(const fs::path& path, Project project, const Progress& pro
     const double next = done + 1.0 / static_cast<double>(project.scenes.size());
     store_results(scene, folder, progress.part(done, std::min(next, 1.0)));
     store_strokes(scene, folder);
+    store_scene_labels(scene, folder, progress.part(done, std::min(next, 1.0)));
     done = std::min(next, 1.0);
   }
   write_project(path, project);

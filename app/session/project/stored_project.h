@@ -22,9 +22,14 @@ namespace episcope {
                                                  const std::string& input,
                                                  const Progress& progress);
 
-/// Writes a project file with all that it names beside it: results and strokes that lie elsewhere
-/// are copied. The old file stays until everything is there; then what only the old one named is
-/// removed. Returns the project with the places of its files. Throws IoError, Cancelled.
+/// The same of the labels of a scene.
+[[nodiscard]] std::filesystem::path store_labels(const std::filesystem::path& folder,
+                                                 const ProjectScene& scene,
+                                                 const Progress& progress);
+
+/// Writes a project file with all that it names beside it: results, labels and strokes that lie
+/// elsewhere are copied. The old file stays until everything is there; then what only the old one
+/// named is removed. Returns the project with the places of its files. Throws IoError, Cancelled.
 [[nodiscard]] Project store_project(const std::filesystem::path& path, Project project,
                                     const Progress& progress);
 

@@ -8,6 +8,7 @@
 #include "widgets/controls/job_panel.h"
 #include "widgets/controls/message_bar.h"
 
+#include <QAction>
 #include <QDialog>
 #include <QPointer>
 #include <QScreen>
@@ -42,6 +43,8 @@ class LayoutTest : public QObject {
   void longMessage_isSeenWhole();
   void firstWindow_fitsTheScreen();
   void dialogs_closeWithTheWindow();
+  void panels_canBeHidden_andTheViewGetsTheirRoom();
+  void fullScreen_isEnteredAndLeft();
 };
 
 void LayoutTest::message_movesNothing() {
@@ -54,6 +57,36 @@ void LayoutTest::message_movesNothing() {
 
   QVERIFY(f.window.findChild<MessageBar*>("messageBar")->isVisible());
   QCOMPARE(place_of(*f.canvas(), f.window), before);
+}
+
+void LayoutTest::panels_canBeHidden_andTheViewGetsTheirRoom() {
+  WindowFixture f;
+  f.openSmall();
+  const auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  const int width = f.canvas()->width();
+
+  f.key(Qt::Key_F11, Qt::ShiftModifier);
+  QVERIFY(!tabs->isVisible());
+  QTRY_VERIFY(f.canvas()->width() > width + 300);
+  f.key(Qt::Key_Left);  // keys work as before
+  QTRY_VERIFY((f.view() == ViewIndex{4, 3}));
+
+  f.trigger("tab.compare");  // who asks for a tab wants to see it
+  QVERIFY(tabs->isVisible());
+  f.key(Qt::Key_F11, Qt::ShiftModifier);
+  f.key(Qt::Key_F11, Qt::ShiftModifier);
+  QVERIFY(tabs->isVisible());
+  QTRY_COMPARE(f.canvas()->width(), width);
+}
+
+void LayoutTest::fullScreen_isEnteredAndLeft() {
+  WindowFixture f;
+  f.openSmall();
+  f.key(Qt::Key_F11);
+  QVERIFY(f.window.isFullScreen());
+  QVERIFY(f.window.bench().commands.find("view.full_screen")->isChecked());
+  f.key(Qt::Key_F11);
+  QVERIFY(!f.window.isFullScreen());
 }
 
 void LayoutTest::jobs_moveNothing() {

@@ -27,6 +27,7 @@ bool same(const AnnotationDocument& a, const AnnotationDocument& b) {
   const History<Edit>& ours = a.history();
   const History<Edit>& theirs = b.history();
   if (!(a.labels() == b.labels()) || !(a.scribbles() == b.scribbles())) return false;
+  if (a.boundary_smoothing_px() != b.boundary_smoothing_px()) return false;
   if (a.has_unsaved_changes() != b.has_unsaved_changes()) return false;
   if (ours.count() != theirs.count() || ours.applied_count() != theirs.applied_count()) {
     return false;

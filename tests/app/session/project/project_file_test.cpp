@@ -27,12 +27,16 @@ Project sample(const std::filesystem::path& folder) {
                  -0.25,
                  render::Quantity::SignedError,
                  {{render::Quantity::SignedError, {-0.5, 0.5}}},
-                 {0.05, 2, 1.5}};
+                 {0.05, 2, 1.5},
+                 {CompareMode::Wipe, 0.3, true}};
   scene.results = {{.name = "mine",
                     .file = folder / "work_files/a.h5",
                     .display_range = {-1, 2},
-                    .is_shown = true}};
+                    .is_shown = true,
+                    .note = "too smooth\nat “edges”"}};
   scene.strokes = folder / "work_files/edge.strokes";
+  scene.labels.file = folder / "work_files/edge_labels.h5";
+  scene.labels.strokes = 0x123456789abcdef0;
   ProjectScene demo;
   demo.name = demo.input = "demo";
   return {{scene, demo}, 1, 0.1, {}};
@@ -78,7 +82,10 @@ void ProjectFileTest::project_readsBack() {
   QVERIFY(scene.reading == before.reading);
   QVERIFY(scene.place == before.place);
   QVERIFY(scene.strokes == before.strokes);
+  QVERIFY(scene.labels.file == before.labels.file);
+  QCOMPARE(scene.labels.strokes, before.labels.strokes);
   QCOMPARE(scene.results.at(0).name, std::string("mine"));
+  QCOMPARE(scene.results[0].note, before.results[0].note);
   QVERIFY(scene.results[0].file == before.results[0].file);
   QCOMPARE(scene.results[0].display_range, (Interval{-1, 2}));
   QVERIFY(scene.results[0].is_shown && !scene.results[0].is_compared);

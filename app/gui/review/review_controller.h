@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/gui/frame/jobs.h"
+#include "app/session/labels/view_review.h"
+#include "app/session/session.h"
+
+#include <QObject>
+
+#include <memory>
+#include <optional>
+
+namespace episcope {
+
+class CheckPanel;
+
+/// Goes to the places of a view where a stroke would help most, and to the islands and holes of the
+/// current label; shows them on the view.
+class ReviewController : public QObject {
+  Q_OBJECT
+
+ public:
+  ReviewController(const Workbench& bench, CheckPanel* panel);
+
+  /// The region in doubt with the next smaller gain (`step` 1) or the next larger one (−1).
+  void step(int step);
+  /// What is to be checked in this view; null while that is not known.
+  [[nodiscard]] const std::shared_ptr<const ViewReview>& review() const { return review_; }
+
+ private:
+  /// What a review is made of.
+  struct Subject {
+    std::uint64_t scene = 0;
+    ViewIndex view;
+    LabelingPtr labeling;
+    LabelFinish finish;
+    std::uint64_t document = 0;  ///< AnnotationDocument::state.
+    std::shared_ptr<const DisparityField> disparity;
+    friend bool operator==(const Subject&, const Subject&) = default;
+  };
+
+  void addCommands();
+  [[nodiscard]] std::optional<Subject> subject() const;
+  [[nodiscard]] std::shared_ptr<const DisparityField> disparity() const;
+  void look();
+  void begin(const Subject& subject);
+  void take(ViewReview review);
+  void show();
+  void showPieces();
+  [[nodiscard]] LabelInfo infoOf(int id) const;
+  void goTo(int doubt);
+  void goToPiece(int index);
+  void mark(const Blob& blob);
+
+  Workbench bench_;
+  CheckPanel* panel_;
+  std::optional<Subject> subject_;  // of the review, or of the one that is being made
+  std::shared_ptr<const ViewReview> review_;
+  int doubt_ = -1;   // that is marked
+  int awaited_ = 0;  // a step that was asked for before the review was there
+  LatestJob job_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/annotate/check_panel.h"
+
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/swatch.h"
+#include "widgets/style/theme.h"
+
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QLocale>
+#include <QSignalBlocker>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+namespace episcope {
+namespace {
+
+QString name_of(const LabelInfo& label) {
+  return QString::fromStdString(label.name);
+}
+
+QString count_text(int count) {
+  return QLocale::c().toString(count);
+}
+
+QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts) {
+  auto* item = new QTreeWidgetItem(list, texts);
+  for (int column = 1; column < texts.size(); ++column) {
+    item->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
+  }
+  item->setToolTip(0, texts.front());
+  return item;
+}
+
+}  // namespace
+
+CheckPanel::CheckPanel(QWidget* parent)
+    : QWidget(parent),
+      actions_(new QHBoxLayout),
+      note_(new QLabel(this)),
+      pieces_title_(new QLabel(this)),
+      doubts_(makeList("check.doubts", tr("Regions in doubt"),
+                       {tr("Label"), tr("or perhaps"), tr("Pixels")})),
+      labels_(makeList("check.labels", tr("Labels of this view"),
+                       {tr("Label"), tr("Share"), tr("Disparity"), tr("Islands"), tr("Holes")})),
+      pieces_(makeList("check.pieces", tr("Islands and holes"),
+                       {tr("Kind"), tr("Label"), tr("Pixels")})) {
+  setObjectName("checkPanel");
+  note_->setObjectName("check.note");
+  note_->setTextFormat(Qt::PlainText);
+  note_->setWordWrap(true);
+  pieces_title_->setObjectName("check.piecesTitle");
+  pieces_title_->setTextFormat(Qt::PlainText);
+  actions_->setSpacing(2);
+  actions_->addStretch(1);
+  doubts_->headerItem()->setTextAlignment(1, Qt::AlignRight);
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, theme::kSpacing, 0, 0);
+  layout->setSpacing(4);
+  layout->addLayout(actions_);
+  layout->addWidget(note_);
+  layout->addWidget(new QLabel(tr("Where a stroke would help most"), this));
+  layout->addWidget(doubts_, 2);
+  layout->addWidget(new QLabel(tr("Labels of this view"), this));
+  layout->addWidget(labels_, 3);
+  layout->addWidget(pieces_title_);
+  layout->addWidget(pieces_, 2);
+  const auto row_of = [](QTreeWidget* list, QTreeWidgetItem* item) {
+    return list->indexOfTopLevelItem(item);
+  };
+  connect(doubts_, &QTreeWidget::itemClicked, this,
+          [this, row_of](QTreeWidgetItem* item) { emit doubtChosen(row_of(doubts_, item)); });
+  connect(pieces_, &QTreeWidget::itemClicked, this,
+          [this, row_of](QTreeWidgetItem* item) { emit pieceChosen(row_of(pieces_, item)); });
+  connect(labels_, &QTreeWidget::itemClicked, this, [this](const QTreeWidgetItem* item) {
+    emit labelChosen(item->data(0, Qt::UserRole).toInt());
+  });
+}
+
+QTreeWidget* CheckPanel::makeList(const QString& name, const QString& title,
+                                  const QStringList& columns) {
+  auto* list = new QTreeWidget(this);
+  list->setObjectName(name);
+  list->setAccessibleName(title);
+  list->setHeaderLabels(columns);
+  list->setRootIsDecorated(false);
+  list->setUniformRowHeights(true);
+  list->setIconSize({kSwatchSize, kSwatchSize});
+  list->setTextElideMode(Qt::ElideMiddle);
+  list->setMinimumHeight(60);
+  list->header()->setStretchLastSection(false);
+  list->header()->setMinimumSectionSize(30);
+  list->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+  // Enter on a row does what a click does.
+  connect(list, &QTreeWidget::itemActivated, list, &QTreeWidget::itemClicked);
+  return list;
+}
+
+void CheckPanel::addAction(QAction* action, const QString& object_name) {
+  actions_->insertWidget(actions_->count() - 1, make_action_button(action, object_name, this));
+}
+
+void CheckPanel::setNote(const QString& sentence) {
+  note_->setText(sentence);
+  note_->setVisible(!sentence.isEmpty());
+}
+
+void CheckPanel::setDoubts(const std::vector<Doubt>& doubts) {
+  doubts_->clear();
+  for (const Doubt& doubt : doubts) {
+    auto* item =
+        add_row(doubts_, {name_of(doubt.label), name_of(doubt.rival), count_text(doubt.pixels)});
+    item->setIcon(0, swatch(doubt.label.color, palette()));
+    item->setIcon(1, swatch(doubt.rival.color, palette()));
+  }
+}
+
+void CheckPanel::setCurrentDoubt(int index) {
+  const QSignalBlocker blocker(doubts_);
+  doubts_->setCurrentItem(index < 0 ? nullptr : doubts_->topLevelItem(index));
+}
+
+void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
+  const QSignalBlocker blocker(labels_);
+  labels_->clear();
+  for (const Row& row : rows) {
+    auto* item = add_row(labels_, {name_of(row.label), row.share, row.disparity,
+                                   count_text(row.islands), count_text(row.holes)});
+    item->setIcon(0, swatch(row.label.color, palette()));
+    item->setData(0, Qt::UserRole, row.label.id);
+    item->setToolTip(2, row.tip);
+    if (row.label.id == current_label) labels_->setCurrentItem(item);
+  }
+}
+
+void CheckPanel::setPieces(const QString& title, const std::vector<Piece>& pieces) {
+  pieces_title_->setText(title);
+  pieces_->clear();
+  for (const Piece& piece : pieces) {
+    auto* item = add_row(pieces_, {piece.kind, name_of(piece.label), count_text(piece.pixels)});
+    item->setIcon(1, swatch(piece.label.color, palette()));
+  }
+}
+
+QString CheckPanel::note() const {
+  return note_->text();
+}
+
+}  // namespace episcope
+
+#include "moc_check_panel.cpp"

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/label_info.h"
+
+#include <QString>
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QHBoxLayout;
+class QLabel;
+class QTreeWidget;
+
+namespace episcope {
+
+/// What there is to check in the labels of a view: where a stroke would help, how much of each
+/// label there is, its islands and holes. Setters never emit; a click on a row is a signal.
+class CheckPanel : public QWidget {
+  Q_OBJECT
+
+ public:
+  /// A region in doubt.
+  struct Doubt {
+    LabelInfo label;
+    LabelInfo rival;
+    int pixels = 0;
+  };
+  /// A label of the view, as text.
+  struct Row {
+    LabelInfo label;
+    QString share;      ///< "12.4 %"
+    QString disparity;  ///< "0.42 ± 0.03"; may be empty.
+    int islands = 0;
+    int holes = 0;
+    QString tip;
+  };
+  /// An island or hole of the current label.
+  struct Piece {
+    QString kind;     ///< "hole"
+    LabelInfo label;  ///< It has.
+    int pixels = 0;
+  };
+
+  explicit CheckPanel(QWidget* parent = nullptr);
+
+  /// Buttons above the lists, in order of the calls.
+  void addAction(QAction* action, const QString& object_name);
+  /// What is said above the lists; empty = nothing.
+  void setNote(const QString& sentence);
+  void setDoubts(const std::vector<Doubt>& doubts);
+  /// −1 = none.
+  void setCurrentDoubt(int index);
+  void setRows(const std::vector<Row>& rows, int current_label);
+  void setPieces(const QString& title, const std::vector<Piece>& pieces);
+  [[nodiscard]] QString note() const;
+
+ signals:
+  void doubtChosen(int index);
+  void labelChosen(int id);
+  void pieceChosen(int index);
+
+ private:
+  [[nodiscard]] QTreeWidget* makeList(const QString& name, const QString& title,
+                                      const QStringList& columns);
+
+  QHBoxLayout* actions_;
+  QLabel* note_;
+  QLabel* pieces_title_;
+  QTreeWidget* doubts_;
+  QTreeWidget* labels_;
+  QTreeWidget* pieces_;
+};
+
+}  // namespace episcope
