@@ -104,6 +104,7 @@ QWidget* CapturePanel::makePairs() {
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(Point, QHeaderView::Stretch);
   table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * theme::kSpacing);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   connect(table_, &QTableWidget::cellChanged, this, &CapturePanel::rename);
   connect(table_, &QTableWidget::cellDoubleClicked, this, [this](int row, int column) {
@@ -186,7 +187,7 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
 void CapturePanel::setNext(const QString& pixel, const QString& point, bool is_complete) {
   next_->setText(
       tr("View %1 · mesh %2")
-          .arg(pixel.isEmpty() ? tr("–") : pixel, point.isEmpty() ? tr("click a point") : point));
+          .arg(pixel.isEmpty() ? tr("–") : pixel, point.isEmpty() ? tr("(click a point)") : point));
   add_->setEnabled(is_complete);
 }
 

@@ -7,6 +7,11 @@
 #include <QStyleOption>
 
 namespace episcope {
+namespace {
+
+constexpr int kTabSpace = 12;  // Left and right of the text together.
+
+}  // namespace
 
 OutlinedStyle::OutlinedStyle() : QProxyStyle("Fusion") {}
 
@@ -22,6 +27,12 @@ void OutlinedStyle::drawPrimitive(PrimitiveElement element, const QStyleOption* 
   painter->setRenderHint(QPainter::Antialiasing);
   painter->drawRect(QRectF(option->rect).adjusted(0.5, 0.5, -0.5, -0.5));
   painter->restore();
+}
+
+int OutlinedStyle::pixelMetric(PixelMetric metric, const QStyleOption* option,
+                               const QWidget* widget) const {
+  if (metric == PM_TabBarTabHSpace) return kTabSpace;
+  return QProxyStyle::pixelMetric(metric, option, widget);
 }
 
 }  // namespace episcope

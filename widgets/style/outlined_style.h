@@ -6,7 +6,7 @@
 namespace episcope {
 
 /// The Fusion style, with frames of check boxes that are seen in a dark theme as well: Fusion draws
-/// them darker than the window, whatever that is.
+/// them darker than the window, whatever that is. Tabs stand closer together.
 class OutlinedStyle : public QProxyStyle {
   Q_OBJECT
 
@@ -15,6 +15,8 @@ class OutlinedStyle : public QProxyStyle {
 
   void drawPrimitive(PrimitiveElement element, const QStyleOption* option, QPainter* painter,
                      const QWidget* widget = nullptr) const override;
+  int pixelMetric(PixelMetric metric, const QStyleOption* option = nullptr,
+                  const QWidget* widget = nullptr) const override;
 };
 
 }  // namespace episcope

@@ -14,7 +14,8 @@ void add_capture(const Workbench& bench) {
                       .title = CaptureController::tr("Capture"),
                       .command_text = CaptureController::tr("Capture tab"),
                       .command_tip = CaptureController::tr("Makes ground truth from a mesh"),
-                      .widget = tab});
+                      .widget = tab,
+                      .waits = true});
   new CaptureController(bench, tab);
 }
 

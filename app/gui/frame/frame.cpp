@@ -71,7 +71,8 @@ void Frame::setStage(QWidget* stage) {
 
 void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
-  book_->addTab(tab.widget, tab.title);
+  const int place = book_->addTab(tab.widget, tab.title);
+  if (tab.waits) book_->setTabVisible(place, false);
 }
 
 void Frame::addToTab(const QString& id, QWidget* widget) {
@@ -106,7 +107,9 @@ bool Frame::arePanelsShown() const {
 void Frame::showTab(const QString& id) {
   setPanelsShown(true);
   const auto found = std::ranges::find(tabs_, id, &Tab::id);
-  if (found != tabs_.end()) book_->setCurrentWidget(found->widget);
+  if (found == tabs_.end()) return;
+  book_->setTabVisible(book_->indexOf(found->widget), true);
+  book_->setCurrentWidget(found->widget);
 }
 
 QString Frame::shownTab() const {

@@ -25,6 +25,7 @@ struct Tab {
   QString icon{};
   QWidget* widget = nullptr;
   QBoxLayout* room = nullptr;  ///< Where other features may add to it; may be null.
+  bool waits = false;          ///< It is not among the tabs until it is asked for.
 };
 
 /// Lines under everything else, in their order.
