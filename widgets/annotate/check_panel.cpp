@@ -5,7 +5,7 @@
 #include "widgets/style/swatch.h"
 #include "widgets/style/theme.h"
 
-#include <QHBoxLayout>
+#include <QGridLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLocale>
@@ -16,6 +16,8 @@
 
 namespace episcope {
 namespace {
+
+constexpr int kActionColumns = 2;  // Their texts are long.
 
 QString name_of(const LabelInfo& label) {
   return QString::fromStdString(label.name);
@@ -38,7 +40,7 @@ QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts) {
 
 CheckPanel::CheckPanel(QWidget* parent)
     : QWidget(parent),
-      actions_(new QHBoxLayout),
+      actions_(new QGridLayout),
       note_(new QLabel(this)),
       pieces_title_(new QLabel(this)),
       doubts_(makeList("check.doubts", tr("Regions in doubt"),
@@ -54,7 +56,7 @@ CheckPanel::CheckPanel(QWidget* parent)
   pieces_title_->setObjectName("check.piecesTitle");
   pieces_title_->setTextFormat(Qt::PlainText);
   actions_->setSpacing(2);
-  actions_->addStretch(1);
+  actions_->setColumnStretch(kActionColumns, 1);
   doubts_->headerItem()->setTextAlignment(1, Qt::AlignRight);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, theme::kSpacing, 0, 0);
@@ -100,7 +102,9 @@ QTreeWidget* CheckPanel::makeList(const QString& name, const QString& title,
 }
 
 void CheckPanel::addAction(QAction* action, const QString& object_name) {
-  actions_->insertWidget(actions_->count() - 1, make_action_button(action, object_name, this));
+  const int place = actions_->count();
+  actions_->addWidget(make_action_button(action, object_name, this), place / kActionColumns,
+                      place % kActionColumns, Qt::AlignLeft);
 }
 
 void CheckPanel::setNote(const QString& sentence) {

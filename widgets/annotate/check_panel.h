@@ -9,7 +9,7 @@
 #include <vector>
 
 class QAction;
-class QHBoxLayout;
+class QGridLayout;
 class QLabel;
 class QTreeWidget;
 
@@ -65,7 +65,7 @@ class CheckPanel : public QWidget {
   [[nodiscard]] QTreeWidget* makeList(const QString& name, const QString& title,
                                       const QStringList& columns);
 
-  QHBoxLayout* actions_;
+  QGridLayout* actions_;
   QLabel* note_;
   QLabel* pieces_title_;
   QTreeWidget* doubts_;

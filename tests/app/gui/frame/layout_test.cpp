@@ -45,6 +45,7 @@ class LayoutTest : public QObject {
   void dialogs_closeWithTheWindow();
   void panels_canBeHidden_andTheViewGetsTheirRoom();
   void fullScreen_isEnteredAndLeft();
+  void everyTab_fitsTheSideOfASmallScreen();
 };
 
 void LayoutTest::message_movesNothing() {
@@ -87,6 +88,17 @@ void LayoutTest::fullScreen_isEnteredAndLeft() {
   QVERIFY(f.window.bench().commands.find("view.full_screen")->isChecked());
   f.key(Qt::Key_F11);
   QVERIFY(!f.window.isFullScreen());
+}
+
+void LayoutTest::everyTab_fitsTheSideOfASmallScreen() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("tab.capture");  // is not among the tabs before
+  const auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  for (int i = 0; i < tabs->count(); ++i) {
+    const int least = tabs->widget(i)->minimumSizeHint().width();
+    QVERIFY2(least <= 380, qPrintable(QString("%1: %2").arg(tabs->tabText(i)).arg(least)));
+  }
 }
 
 void LayoutTest::jobs_moveNothing() {
