@@ -51,12 +51,8 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
     if (bench_.frame.shownTab() == "capture") makePanel();
   });
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has(Part::Scene) && scene_ != bench_.session.generation()) {
-      scene_ = bench_.session.generation();
-      pairs_.clear();
-      result_ = 0;
-      changed();
-    }
+    OfScene* shown = &of_scenes_[bench_.session.generation()];
+    if (parts.has(Part::Scene) && std::exchange(now_, shown) != shown) changed();
     if (parts.has_any(Part::View | Part::CrossHair)) showNext();
   });
 }
@@ -107,19 +103,19 @@ void CaptureController::connectPanel() {
   connect(panel_, &CapturePanel::vertexPicked, this, &CaptureController::pickVertex);
   connect(panel_, &CapturePanel::showRequested, this, &CaptureController::showOverView);
   connect(panel_, &CapturePanel::removeRequested, this, [this] {
-    pairs_.remove(panel_->selectedRows());
+    now_->pairs.remove(panel_->selectedRows());
     changed();
   });
   connect(panel_, &CapturePanel::undoRequested, this, [this] {
-    pairs_.undo();
+    now_->pairs.undo();
     changed();
   });
   connect(panel_, &CapturePanel::renamed, this, [this](int row, const QString& name) {
-    pairs_.rename(row, name.toStdString());
+    now_->pairs.rename(row, name.toStdString());
     changed();
   });
   connect(panel_, &CapturePanel::rowChosen, this, [this](int row) {
-    const capture::PointPair& pair = pairs_.all()[row];
+    const capture::PointPair& pair = now_->pairs.all()[row];
     bench_.session.set_view(bench_.session.light_field()->center());
     bench_.session.set_cross_hair(
         {static_cast<int>(std::lround(pair.x_px)), static_cast<int>(std::lround(pair.y_px))});
@@ -154,7 +150,7 @@ void CaptureController::openMesh(const QString& path) {
 
 void CaptureController::importPairs(const QString& path) {
   try {
-    pairs_.add(capture::read_pairs(path_of(path)));
+    now_->pairs.add(capture::read_pairs(path_of(path)));
     changed();
   } catch (const Error& error) {
     bench_.messages.fail(QString::fromUtf8(error.what()));
@@ -164,7 +160,7 @@ void CaptureController::importPairs(const QString& path) {
 void CaptureController::exportPairs(const QString& path) {
   if (!has_suffix(path, {"csv"}, bench_.messages)) return;
   write_in_background(bench_.jobs, bench_.messages, path,
-                      [file = path_of(path), pairs = pairs_.all()](const Progress&) {
+                      [file = path_of(path), pairs = now_->pairs.all()](const Progress&) {
                         capture::write_pairs(file, pairs);
                       });
 }
@@ -172,7 +168,7 @@ void CaptureController::exportPairs(const QString& path) {
 void CaptureController::savePose(const QString& path) {
   if (!pose_ || !has_suffix(path, {"json"}, bench_.messages)) return;
   capture::PoseStory story{mesh_file_, bench_.session.input(),
-                           bench_.session.light_field()->info().camera, pairs_.all(), *pose_};
+                           bench_.session.light_field()->info().camera, now_->pairs.all(), *pose_};
   write_in_background(
       bench_.jobs, bench_.messages, path,
       [file = path_of(path), story](const Progress&) { capture::write_pose(file, story); });
@@ -204,7 +200,7 @@ void CaptureController::addPair() {
   if (!vertex_ || !obstacle().isEmpty()) return;
   const PixelIndex pixel = bench_.session.cross_hair();
   const auto& [x, y, z] = mesh_->vertices[*vertex_];
-  pairs_.add({{"", static_cast<double>(pixel.x), static_cast<double>(pixel.y), {x, y, z}}});
+  now_->pairs.add({{"", static_cast<double>(pixel.x), static_cast<double>(pixel.y), {x, y, z}}});
   vertex_.reset();
   changed();
 }
@@ -217,8 +213,9 @@ void CaptureController::showOverView() {
         return std::make_shared<const Estimate>(mesh_estimate(*mesh, pose, *scene, progress));
       },
       [this, scene = bench_.session.generation()](const EstimatePtr& estimate) {
-        if (scene == bench_.session.generation()) bench_.session.remove_estimate(result_);
-        result_ = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
+        OfScene& of_scene = of_scenes_[scene];
+        if (scene == bench_.session.generation()) bench_.session.remove_estimate(of_scene.result);
+        of_scene.result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
       });
 }
 
@@ -231,9 +228,9 @@ void CaptureController::changed() {
 void CaptureController::solve() {
   pose_.reset();
   problem_.clear();
-  if (!mesh_ || !obstacle().isEmpty() || pairs_.all().size() < 4) return;
+  if (!mesh_ || !obstacle().isEmpty() || now_->pairs.all().size() < 4) return;
   try {
-    pose_ = capture::solve_pose(pairs_.all(), bench_.session.light_field()->info().camera);
+    pose_ = capture::solve_pose(now_->pairs.all(), bench_.session.light_field()->info().camera);
   } catch (const InvalidInput& error) {
     problem_ = QString::fromUtf8(error.what());
   }
@@ -267,8 +264,8 @@ void CaptureController::showNext() {
 void CaptureController::showPairs() {
   if (!panel_) return;
   std::vector<CaptureRow> rows;
-  for (std::size_t i = 0; i < pairs_.all().size(); ++i) {
-    const capture::PointPair& pair = pairs_.all()[i];
+  for (std::size_t i = 0; i < now_->pairs.all().size(); ++i) {
+    const capture::PointPair& pair = now_->pairs.all()[i];
     CaptureRow row{QString::fromStdString(pair.name),
                    {pair.x_px, pair.y_px},
                    {pair.point.x, pair.point.y, pair.point.z}};
@@ -279,7 +276,7 @@ void CaptureController::showPairs() {
     rows.push_back(std::move(row));
   }
   panel_->setRows(rows);
-  panel_->setUndoable(pairs_.is_undoable());
+  panel_->setUndoable(now_->pairs.is_undoable());
   panel_->setPose(poseText(), pose_.has_value());
 }
 
@@ -287,7 +284,7 @@ QString CaptureController::poseText() const {
   const QString missing = obstacle();
   if (!missing.isEmpty()) return missing;
   if (!problem_.isEmpty()) return problem_;
-  const auto count = static_cast<int>(pairs_.all().size());
+  const auto count = static_cast<int>(now_->pairs.all().size());
   if (!pose_) return tr("%1 of at least 4 pairs; 10 are better.").arg(count);
   QString text = tr("Mean reprojection error %1 px; depth to ± %2 (unit of the mesh)")
                      .arg(pose_->reprojection_error_px, 0, 'f', 2)

@@ -12,7 +12,9 @@
 #include <QString>
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -36,11 +38,17 @@ class CaptureController : public QObject {
   /// Marks a point of the mesh for the next pair.
   void pickVertex(std::size_t vertex);
 
-  [[nodiscard]] const PickedPairs& pairs() const { return pairs_; }
+  /// Of the light field that is shown.
+  [[nodiscard]] const PickedPairs& pairs() const { return now_->pairs; }
   [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const { return pose_; }
 
  private:
   struct Loaded;
+  /// What belongs to one of the open light fields.
+  struct OfScene {
+    PickedPairs pairs;
+    int result = 0;  ///< Of the mesh.
+  };
 
   void makePanel();
   void connectPanel();
@@ -61,11 +69,10 @@ class CaptureController : public QObject {
   std::shared_ptr<const capture::TriangleMesh> mesh_;
   std::shared_ptr<const PointCloud> cloud_;
   std::optional<std::size_t> vertex_;
-  PickedPairs pairs_;
   std::optional<capture::SolvedPose> pose_;
   QString problem_;  // why there is no pose
-  std::uint64_t scene_ = 0;
-  int result_ = 0;  // of the mesh
+  std::map<std::uint64_t, OfScene> of_scenes_;
+  OfScene* now_ = &of_scenes_[0];
 };
 
 }  // namespace episcope

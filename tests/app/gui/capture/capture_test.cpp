@@ -151,6 +151,20 @@ class CaptureTest : public QObject {
     QVERIFY(worst < 1e-4);
   }
 
+  void pairs_waitForTheirLightField() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(8);
+    Session& session = f.window.bench().session;
+    const std::uint64_t scene = session.generation();
+    session.add(session.scene(), "the same again");
+    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{0});
+    QVERIFY(!f.capture().pose());
+    session.choose(scene);
+    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{8});
+    QVERIFY(f.capture().pose());
+  }
+
   void wrongPick_isNamed() {
     Capturing f;
     f.openMesh();
