@@ -147,10 +147,12 @@ void ResultList::setResults(const std::vector<ResultRow>& results) {
     item->setTextAlignment(kSeconds, Qt::AlignRight | Qt::AlignVCenter);
     QStringList tip{result.method, result.note, result.parameters, result.detail};
     tip.removeAll({});
+    // Any change of the name's cell, its tip too, would undo what is typed there.
+    const bool is_edited = tree_->isPersistentEditorOpen(item, kMethod);
     for (int column = 0; column < kColumnCount; ++column) {
-      item->setToolTip(column, tip.join('\n'));
+      if (!is_edited || column != kMethod) item->setToolTip(column, tip.join('\n'));
     }
-    if (kept == result.id) tree_->setCurrentItem(item);
+    if (kept == result.id && tree_->currentItem() != item) tree_->setCurrentItem(item);
   }
   fitMethods();
   tree_->setVisible(!results.empty());
