@@ -44,6 +44,11 @@ QTableWidgetItem* make_cell(const QString& text, bool is_editable) {
   return item;
 }
 
+QString point_text(const std::array<double, 3>& point) {
+  const auto& [x, y, z] = point;
+  return with_minus(QString("%1, %2, %3").arg(x, 0, 'g', 5).arg(y, 0, 'g', 5).arg(z, 0, 'g', 5));
+}
+
 }  // namespace
 
 CapturePanel::CapturePanel(QWidget* parent)
@@ -66,7 +71,7 @@ CapturePanel::CapturePanel(QWidget* parent)
   layout->addWidget(makeResults());
   setMesh({}, {});
   setRows({});
-  setNext({}, {}, false);
+  setNext({}, std::nullopt, false);
   setPose({}, false);
   setUndoable(false);
 }
@@ -166,7 +171,6 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
   table_->setRowCount(static_cast<int>(rows.size()));
   for (int i = 0; i < table_->rowCount(); ++i) {
     const CaptureRow& row = rows[i];
-    const auto& [x, y, z] = row.point;
     table_->setItem(i, Name, make_cell(row.name, true));
     table_->setItem(
         i, Pixel,
@@ -174,20 +178,17 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
             with_minus(
                 QString("%1, %2").arg(row.pixel.x(), 0, 'f', 1).arg(row.pixel.y(), 0, 'f', 1)),
             false));
-    table_->setItem(
-        i, Point,
-        make_cell(
-            with_minus(QString("%1, %2, %3").arg(x, 0, 'g', 5).arg(y, 0, 'g', 5).arg(z, 0, 'g', 5)),
-            false));
+    table_->setItem(i, Point, make_cell(point_text(row.point), false));
     const QString off = row.off_px ? tr("%1 px").arg(*row.off_px, 0, 'f', 2) : QString();
     table_->setItem(i, Off, make_cell(row.is_outlier ? tr("%1, wrong?").arg(off) : off, false));
   }
 }
 
-void CapturePanel::setNext(const QString& pixel, const QString& point, bool is_complete) {
-  next_->setText(
-      tr("View %1 · mesh %2")
-          .arg(pixel.isEmpty() ? tr("–") : pixel, point.isEmpty() ? tr("(click a point)") : point));
+void CapturePanel::setNext(const QString& pixel, const std::optional<std::array<double, 3>>& point,
+                           bool is_complete) {
+  next_->setText(tr("View %1 · mesh %2")
+                     .arg(pixel.isEmpty() ? tr("–") : pixel,
+                          point ? point_text(*point) : tr("(click a point)")));
   add_->setEnabled(is_complete);
 }
 

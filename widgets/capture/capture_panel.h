@@ -39,8 +39,10 @@ class CapturePanel : public QWidget {
   /// `title`: what is known of the mesh, or why there is none.
   void setMesh(const QString& title, const PointCloud& cloud);
   void setRows(const std::vector<CaptureRow>& rows);
-  /// What the next pair would be: texts of its pixel and of its point, and whether both are there.
-  void setNext(const QString& pixel, const QString& point, bool is_complete);
+  /// What the next pair would be: the text of its pixel, its point if one is marked, and whether
+  /// both are there.
+  void setNext(const QString& pixel, const std::optional<std::array<double, 3>>& point,
+               bool is_complete);
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);

@@ -63,8 +63,7 @@ GroundTruth truth_of(const Request& request, Scene& scene, const Progress& progr
     placed.push_back({&meshes.back(), story.solved.pose});
   }
   const LightField& field = *scene.light_field;
-  capture::DepthGrid grid{field.grid(), field.height(), field.width(), field.info().camera};
-  if (request.step) grid.camera.baseline = *request.step;
+  const capture::DepthGrid grid{field.grid(), field.height(), field.width(), field.info().camera};
   return capture::visible_depth(placed, grid, request.depth, progress.part(0.1, 1));
 }
 
@@ -116,9 +115,9 @@ void run_ground_truth(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.05));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
+  if (request.step) scene.light_field = with_step(scene.light_field, *request.step);
   scene.truth =
       std::make_shared<GroundTruth>(truth_of(request, scene, job.progress().part(0.05, 0.9)));
-  if (request.step) scene.light_field = with_step(scene.light_field, *request.step);
   io::write_archive(request.output, scene, job.progress().part(0.9, 1));
   job.finish();
   print(request, scene);

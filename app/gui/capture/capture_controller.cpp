@@ -14,12 +14,12 @@
 #include "engine/io/archive/write_scene.h"
 #include "widgets/capture/capture_panel.h"
 #include "widgets/capture/mesh_cloud.h"
-#include "widgets/style/number_text.h"
 
 #include <QFileInfo>
 #include <QLocale>
 #include <QVBoxLayout>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -27,11 +27,6 @@ namespace episcope {
 namespace {
 
 namespace fs = std::filesystem;
-
-QString place_text(const capture::Point3& p) {
-  return with_minus(
-      QString("%1, %2, %3").arg(p.x, 0, 'g', 5).arg(p.y, 0, 'g', 5).arg(p.z, 0, 'g', 5));
-}
 
 fs::path path_of(const QString& path) {
   return path.toStdString();
@@ -135,7 +130,6 @@ void CaptureController::openMesh(const QString& path) {
       },
       [this, path](const Loaded& loaded) {
         mesh_ = loaded.mesh;
-        cloud_ = loaded.cloud;
         mesh_file_ = path_of(path);
         vertex_.reset();
         bench_.frame.showTab("capture");
@@ -143,7 +137,7 @@ void CaptureController::openMesh(const QString& path) {
         panel_->setMesh(tr("%1 · %2 faces")
                             .arg(QFileInfo(path).fileName(),
                                  QLocale().toString(static_cast<qulonglong>(mesh_->faces.size()))),
-                        *cloud_);
+                        *loaded.cloud);
         changed();
       });
 }
@@ -251,14 +245,14 @@ void CaptureController::showNext() {
   const bool is_here =
       obstacle().isEmpty() && bench_.session.view() == bench_.session.light_field()->center();
   const PixelIndex pixel = bench_.session.cross_hair();
-  QString point;
+  std::optional<std::array<double, 3>> point;
   if (mesh_ && vertex_) {
     const auto& [x, y, z] = mesh_->vertices[*vertex_];
-    point = place_text({x, y, z});
+    point = {x, y, z};
   }
   panel_->setNext(
       is_here ? QString("%1, %2").arg(pixel.x).arg(pixel.y) : tr("go to the centre view (Home)"),
-      point, is_here && !point.isEmpty());
+      point, is_here && point);
 }
 
 void CaptureController::showPairs() {

@@ -21,7 +21,6 @@
 namespace episcope {
 
 class CapturePanel;
-struct PointCloud;
 
 /// From a mesh and pairs of points to a pose, a result and ground truth, of the open light field.
 class CaptureController : public QObject {
@@ -67,7 +66,6 @@ class CaptureController : public QObject {
   CapturePanel* panel_ = nullptr;
   std::filesystem::path mesh_file_;
   std::shared_ptr<const capture::TriangleMesh> mesh_;
-  std::shared_ptr<const PointCloud> cloud_;
   std::optional<std::size_t> vertex_;
   std::optional<capture::SolvedPose> pose_;
   QString problem_;  // why there is no pose

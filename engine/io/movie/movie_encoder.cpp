@@ -40,11 +40,16 @@ constexpr Form kForms[] = {
      "split[a][b];[a]palettegen[palette];[b][palette]paletteuse=dither=sierra2_4a", false},
 };
 
-const Form& form_of(const std::filesystem::path& path) {
+const Form* find_form(const std::filesystem::path& path) {
   const std::string suffix = suffix_of(path);
   for (const Form& form : kForms) {
-    if (suffix == form.suffix) return form;
+    if (suffix == form.suffix) return &form;
   }
+  return nullptr;
+}
+
+const Form& form_of(const std::filesystem::path& path) {
+  if (const Form* form = find_form(path)) return *form;
   throw InvalidInput(path.string() + " names no movie; use .mp4, .webm or .gif");
 }
 
@@ -64,6 +69,10 @@ std::string filters_of(const Form& form, const MovieShape& shape) {
 }
 
 }  // namespace
+
+bool is_encoded_form(const std::filesystem::path& path) {
+  return find_form(path) != nullptr;
+}
 
 void MovieEncoder::Free::operator()(AVFilterGraph* graph) const {
   avfilter_graph_free(&graph);

@@ -17,6 +17,9 @@ struct AVPacket;
 
 namespace episcope::io {
 
+/// Whether the suffix of a path is one of the forms that MovieEncoder writes.
+[[nodiscard]] bool is_encoded_form(const std::filesystem::path& path);
+
 /// FFmpeg's filters, encoder and container for one file; the only code that uses FFmpeg.
 class MovieEncoder {
  public:

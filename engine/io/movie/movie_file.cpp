@@ -10,14 +10,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
-#include <string_view>
-
 namespace episcope::io {
 namespace {
 
-constexpr std::array<std::string_view, 3> kSuffixes{".mp4", ".webm", ".gif"};
 constexpr double kSlowest = 0.1, kFastest = 120;
 
 void check(const std::filesystem::path& path, const MovieShape& shape) {
@@ -88,8 +83,7 @@ class MovieFile::Numbered : public Sink {
 };
 
 bool is_movie_path(const std::filesystem::path& path) {
-  const std::string suffix = suffix_of(path);
-  return suffix.empty() || std::ranges::find(kSuffixes, suffix) != kSuffixes.end();
+  return suffix_of(path).empty() || is_encoded_form(path);
 }
 
 std::unique_ptr<MovieFile::Sink> MovieFile::sink_for(const std::filesystem::path& path,
