@@ -1,8 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# ./test.sh [--all] [--sanitize]: builds everything and runs every test; one that passed before and
+# ./test.sh [--all] [--sanitize] [--packages] [--reproducible]: builds everything and runs every test; one that passed before and
 # of which nothing has changed since, not a byte, is left out unless --all is given. With --sanitize
-# also under AddressSanitizer, UndefinedBehaviorSanitizer and ThreadSanitizer.
+# also under AddressSanitizer, UndefinedBehaviorSanitizer and ThreadSanitizer; with --packages makes
+# packages and tries them in a fresh Debian (as root); with --reproducible builds the command line
+# twice and compares the bytes.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here"
@@ -32,14 +34,27 @@ check_preset() {
   fi
 }
 
+# note PART COMMAND…: notes a failure of the part and goes on.
+note() {
+  part=$1
+  shift
+  echo
+  echo "== $part =="
+  "$@" || failed="$failed $part"
+}
+
 all=""
 sanitize=""
+packages=""
+reproducible=""
 for option in "$@"; do
   case "$option" in
     --all) all=1 ;;
     --sanitize) sanitize=1 ;;
+    --packages) packages=1 ;;
+    --reproducible) reproducible=1 ;;
     *)
-      echo "usage: ./test.sh [--all] [--sanitize]" >&2
+      echo "usage: ./test.sh [--all] [--sanitize] [--packages] [--reproducible]" >&2
       exit 2
       ;;
   esac
@@ -47,13 +62,20 @@ done
 
 started=$(date +%s)
 # shellcheck disable=SC2086 # One word a package.
-install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES
+install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PACKAGING_PACKAGES}
 # run.sh leaves the tests out of a build that it configures.
 check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON
 check_preset headless -DEPISCOPE_TESTS=ON
 if [ -n "$sanitize" ]; then
   check_preset dev
   check_preset tsan
+fi
+if [ -n "$packages" ]; then
+  note packages cmake --build --preset release --target packages
+  note fresh_debian tests/packaging/fresh_debian.sh build/release/packages
+fi
+if [ -n "$reproducible" ]; then
+  note reproducible tests/packaging/reproducible.sh
 fi
 minutes=$((($(date +%s) - started + 59) / 60))
 

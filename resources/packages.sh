@@ -1,14 +1,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # The Debian packages that Episcope needs, in one place. Sourced by run.sh and test.sh.
 
-ENGINE_PACKAGES="g++ cmake ninja-build libhdf5-dev libopencv-core-dev
+# What programs need that link the engine, too: the package libepiscope-dev depends on it.
+LIBRARY_PACKAGES="libhdf5-dev libopencv-core-dev
   libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libopencv-calib3d-dev
-  libopencv-features2d-dev libeigen3-dev libassimp-dev libcli11-dev
+  libopencv-features2d-dev libeigen3-dev libassimp-dev
   libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev
   pkg-config libavfilter-dev libavformat-dev libavcodec-dev"
+ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
 TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth"
+# What making and trying packages takes.
+PACKAGING_PACKAGES="dpkg-dev librsvg2-bin lintian mmdebstrap desktop-file-utils appstream
+  shared-mime-info man-db"
 
 # install_missing PACKAGE…: installs those that are not installed yet; asks nothing and touches
 # nothing if all are.

@@ -21,8 +21,13 @@ enum class EditKind : std::uint8_t {
   RecolorLabel,
   RemoveLabel,
   Import,
-  SmoothBoundaries
+  SmoothBoundaries,
+  Polygon,
+  Lasso
 };
+
+/// The last of them: journals keep their numbers, so that new ones come after it.
+inline constexpr EditKind kLastEditKind = EditKind::Lasso;
 
 /// Consecutive pixels of a row that had the same label and got the same label.
 struct LabelRun {

@@ -106,7 +106,7 @@ void write_edit(const Edit& edit, ByteWriter& out) {
 Edit read_edit(ByteReader& in) {
   Edit edit;
   const std::uint8_t kind = in.byte();
-  if (kind > static_cast<std::uint8_t>(EditKind::SmoothBoundaries)) {
+  if (kind > static_cast<std::uint8_t>(kLastEditKind)) {
     throw InvalidInput(fmt::format("there is no edit of kind {}", kind));
   }
   edit.kind = static_cast<EditKind>(kind);

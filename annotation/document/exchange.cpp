@@ -95,7 +95,7 @@ bool import_scribbles(AnnotationDocument& document, const Scribbles& scribbles) 
   edit.set_labels(std::move(labels));
   for (const ViewIndex view : other.scribbles().painted_views()) {
     for (const auto& [label, region] : regions_of(other.scribbles().view(view))) {
-      edit.paint(view, region, {label, 0});
+      edit.paint(view, region, {label, all_labels_but(0)});
     }
   }
   return edit.commit();

@@ -43,10 +43,11 @@ PixelRect PendingEdit::paint(ViewIndex view, const PixelRegion& region, const In
   Touched& touched = touch(view);
   for (const PixelSpan& span : region) {
     std::uint8_t* row = image.row(span.y);
-    if (ink.only_over) {
-      std::replace(row + span.x0, row + span.x1, *ink.only_over, ink.label);
-    } else {
+    if (ink.kept.none()) {
       std::fill(row + span.x0, row + span.x1, ink.label);
+    } else {
+      const auto may_change = [&ink](std::uint8_t label) { return !ink.kept[label]; };
+      std::replace_if(row + span.x0, row + span.x1, may_change, ink.label);
     }
     dirty.include(span.rect());
   }

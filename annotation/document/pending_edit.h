@@ -3,17 +3,25 @@
 
 #include "annotation/document/document.h"
 
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <optional>
 
 namespace episcope {
 
+/// A set of ids of labels; 0 stands for unpainted pixels.
+using LabelIds = std::bitset<LabelSet::kMaxId + 1>;
+
+/// All ids but one.
+[[nodiscard]] inline LabelIds all_labels_but(std::uint8_t id) {
+  return LabelIds().set().reset(id);
+}
+
 /// The label to paint, and which pixels it may change.
 struct Ink {
   std::uint8_t label = 0;  ///< 0 erases.
-  /// Only pixels that have this label are changed; none = all.
-  std::optional<std::uint8_t> only_over;
+  LabelIds kept{};         ///< Pixels that have one of these stay as they are.
 };
 
 /// An edit in progress: what it paints appears in the document at once, and is reverted if the edit

@@ -16,12 +16,12 @@ Ink ink_of(const PaintStyle& style) {
   }
   const auto label = static_cast<std::uint8_t>(style.label);
   Ink ink;
-  if (style.tool == PaintTool::Brush) {
-    ink.label = label;
-    if (style.protects_others) ink.only_over = 0;
-  } else if (style.protects_others) {
-    ink.only_over = label;
+  if (style.tool == PaintTool::Brush) ink.label = label;
+  if (style.protects_others) {
+    ink.kept = all_labels_but(style.tool == PaintTool::Brush ? 0 : label);
   }
+  ink.kept |= style.locked;
+  if (ink.label != 0 && style.locked[label]) ink.kept.set();
   return ink;
 }
 
@@ -46,8 +46,8 @@ PixelRect Stroke::extend(StrokePoint point) {
 }
 
 bool fill_region(AnnotationDocument& document, ViewIndex view, const PixelRegion& region,
-                 const PaintStyle& style) {
-  PendingEdit edit(document, EditKind::Fill);
+                 const PaintStyle& style, EditKind kind) {
+  PendingEdit edit(document, kind);
   edit.paint(view, region, ink_of(style));
   return edit.commit();
 }

@@ -16,6 +16,8 @@ struct PaintStyle {
   /// If set, a brush paints over unpainted pixels only, and an eraser erases the current label
   /// only.
   bool protects_others = false;
+  /// Labels that are neither painted nor painted over.
+  LabelIds locked{};
 };
 
 /// Ink and menu entry for these settings; also for fills. Throws InvalidInput for a label outside 1
@@ -47,9 +49,9 @@ class Stroke {
   std::optional<StrokePoint> last_;
 };
 
-/// Paints or erases a region within the view, as one edit. Returns whether that changed anything.
-/// Throws InvalidInput as Stroke does.
+/// Paints or erases a region within the view, as one edit: a fill, or what was drawn around.
+/// Returns whether that changed anything. Throws InvalidInput as Stroke does.
 bool fill_region(AnnotationDocument& document, ViewIndex view, const PixelRegion& region,
-                 const PaintStyle& style);
+                 const PaintStyle& style, EditKind kind = EditKind::Fill);
 
 }  // namespace episcope

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/about/version_text.h"
 #include "app/cli/arguments/usage_error.h"
 #include "app/cli/exit_code.h"
 #include "app/cli/interrupt.h"
+#include "app/cli/verbs/program_help.h"
 #include "app/cli/verbs/verbs.h"
-#include "engine/core/version.h"
 
 #include <exception>
 #include <iostream>
@@ -13,21 +14,6 @@ namespace {
 
 using namespace episcope;
 using namespace episcope::cli;
-
-void print_help(std::ostream& out) {
-  out << "Estimates and evaluates disparity in 4D light fields.\n"
-         "Usage: episcope-cli VERB ...\n\n"
-         "INPUT is an lf.h5, a scene folder of the 2013 archive, a folder of the 2016 benchmark,\n"
-         "a folder of images on a grid, demo, or demo:<scene> for a built-in scene.\n\nVerbs:\n";
-  for (const Verb& verb : verbs()) {
-    out << "  " << verb.name << std::string(12 - std::string(verb.name).size(), ' ') << verb.summary
-        << '\n';
-  }
-  out << "\nOptions:\n  -h,--help   Print this help, or after a verb its help, and exit\n"
-         "  --version   Print the version and exit\n\n"
-         "Example:\n  episcope-cli estimate epi_s demo -o demo.h5\n"
-         "  episcope-cli evaluate demo.h5 --truth demo\n";
-}
 
 void run_verb(const std::string& name, const VerbArguments& arguments, std::stop_token stop) {
   std::vector<std::string> names;
@@ -40,14 +26,14 @@ void run_verb(const std::string& name, const VerbArguments& arguments, std::stop
 
 void run(const std::vector<std::string>& arguments) {
   if (arguments.empty()) {
-    print_help(std::cerr);
+    std::cerr << program_help();
     throw UsageError("no verb was given; begin with 'episcope-cli info demo'");
   }
   const std::string& first = arguments.front();
   if (first == "--version") {
-    std::cout << "episcope-cli " << kVersion << '\n';
+    std::cout << version_text("episcope-cli", {});
   } else if (first == "-h" || first == "--help" || first == "help") {
-    print_help(std::cout);
+    std::cout << program_help();
   } else {
     const Interrupt interrupt;
     run_verb(first, {arguments.begin() + 1, arguments.end()}, interrupt.token());

@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/about/version_text.h"
 #include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/version.h"
+#include "widgets/cloud/vtk_version.h"
+#include "widgets/style/icon.h"
 
 #include <QApplication>
 #include <QCommandLineParser>
 
+#include <algorithm>
 #include <cstdio>
+#include <memory>
+#include <string_view>
 
 namespace {
 
+constexpr int kFailure = 1;
 constexpr int kUsageError = 2;
 
 int fail(const QString& sentence) {
@@ -26,13 +33,33 @@ QString no_option(const QString& name) {
                                      : QString("did you mean '--%1'?").arg(nearest.c_str()));
 }
 
+/// Whether only text is asked for, which needs no display.
+bool asks_for_text(int argc, char** argv) {
+  char** const end = std::find(argv + 1, argv + argc, std::string_view("--"));
+  return std::any_of(argv + 1, end, [](std::string_view argument) {
+    return argument == "-h" || argument == "--help" || argument == "--help-all" ||
+           argument == "-v" || argument == "--version";
+  });
+}
+
+std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
+  if (asks_for_text(argc, argv)) return std::make_unique<QCoreApplication>(argc, argv);
+  return std::make_unique<QApplication>(argc, argv);
+}
+
+int show_version() {
+  const std::string text =
+      episcope::version_text("episcope", {{"Qt", qVersion()}, {"VTK", episcope::vtk_version()}});
+  return std::fputs(text.c_str(), stdout) < 0 ? kFailure : 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  QApplication application(argc, argv);
-  QApplication::setApplicationName("episcope");
-  QApplication::setOrganizationName("episcope");
-  QApplication::setApplicationVersion(episcope::kVersion);
+  QCoreApplication::setApplicationName("episcope");
+  QCoreApplication::setOrganizationName("episcope");
+  QCoreApplication::setApplicationVersion(episcope::kVersion);
+  const std::unique_ptr<QCoreApplication> application = make_application(argc, argv);
 
   QCommandLineParser parser;
   parser.setApplicationDescription(
@@ -46,18 +73,20 @@ int main(int argc, char** argv) {
   const QCommandLineOption theme("theme", "Colours: light, dark or those of the desktop.",
                                  "light|dark|system", episcope::remembered_theme());
   parser.addOption(theme);
-  if (!parser.parse(application.arguments())) {
+  if (!parser.parse(QCoreApplication::arguments())) {
     const QStringList unknown = parser.unknownOptionNames();
     return fail(unknown.isEmpty() ? parser.errorText() : no_option(unknown.front()));
   }
   if (parser.isSet(help)) parser.showHelp();
-  if (parser.isSet(version)) parser.showVersion();
+  if (parser.isSet(version)) return show_version();
   const QStringList inputs = parser.positionalArguments();
   if (!episcope::apply_theme(parser.value(theme)) || inputs.size() > 1) {
     return fail(inputs.size() > 1 ? "give one INPUT; a project (*.episcope) holds several"
                                   : "--theme must be light, dark or system");
   }
 
+  QGuiApplication::setDesktopFileName("episcope");
+  QApplication::setWindowIcon(episcope::program_icon());
   episcope::MainWindow window;
   window.show();
   window.start(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());

@@ -13,6 +13,7 @@
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
+#include "app/gui/layout.h"
 #include "app/gui/opening/result_opener.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/opening/scene_switcher.h"
@@ -46,7 +47,7 @@ struct MainWindow::Core {
         messages(*frame),
         stage(new Stage(frame)),
         commands(&window, frame->viewer()),
-        keyboard(window, [this] { return stage->activeCanvas(); }),
+        keyboard(window, [this] { return stage->keyboardHome(); }),
         overlay(session, *stage, nullptr),
         document(session, nullptr),
         labels(document, nullptr),
@@ -90,8 +91,8 @@ MainWindow::MainWindow(QWidget* parent)
   });
   for (const Feature& feature : features()) feature.add(bench);
   addTabCommands();
-  addLayoutCommands();
   connect(&bench.frame, &Frame::tabShown, &core_->keyboard, &KeyboardHome::goHomeFromControls);
+  layout_ = std::make_unique<Layout>(bench, *this);
   buildBars();
   bench.session.on_changed([&commands = bench.commands](Parts parts) {
     if (parts != Part::CrossHair) commands.refresh();
@@ -119,39 +120,10 @@ void MainWindow::addTabCommands() {
                          .text = tab.command_text,
                          .tip = tab.command_tip,
                          .icon = tab.icon,
-                         .keys = {tr("Ctrl+%1").arg(++number)},
+                         .keys = {tab.key.isEmpty() ? tr("Ctrl+%1").arg(++number) : tab.key},
                          .run = [frame = core_->frame, id = tab.id] { frame->showTab(id); },
                          .section = section::kTabs});
   }
-}
-
-void MainWindow::addLayoutCommands() {
-  core_->commands.add({.id = "view.full_screen",
-                       .menu = Menu::View,
-                       .text = tr("Full screen"),
-                       .tip = tr("Fills the screen with the window, or gives it back"),
-                       .keys = {Qt::Key_F11},
-                       .run =
-                           [this] {
-                             setWindowState(windowState() ^ Qt::WindowFullScreen);
-                             core_->commands.refresh();
-                           },
-                       .section = section::kTabs,
-                       .checked = [this] { return isFullScreen(); }});
-  core_->commands.add({.id = "view.panels",
-                       .menu = Menu::View,
-                       .text = tr("Side panels"),
-                       .tip = tr("Shows the views at the left and the tabs at the right; without "
-                                 "them, the view has all the room"),
-                       .keys = {tr("Shift+F11")},
-                       .run =
-                           [this] {
-                             Frame& frame = *core_->frame;
-                             frame.setPanelsShown(!frame.arePanelsShown());
-                             core_->commands.refresh();
-                           },
-                       .section = section::kTabs,
-                       .checked = [this] { return core_->frame->arePanelsShown(); }});
 }
 
 void MainWindow::buildBars() {
@@ -170,6 +142,7 @@ void MainWindow::restoreLayout() {
     // The title bar, which the desktop adds, needs its room too.
     resize(kFirstSize.boundedTo(screen()->availableSize() - kDecorations));
   }
+  layout_->restoreSizes();
   core_->stage->canvas()->setFocus();
 }
 
@@ -180,6 +153,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     return;
   }
   QSettings().setValue("geometry", saveGeometry());
+  layout_->save();
   for (auto* dialog : findChildren<QDialog*>()) dialog->close();
   core_->frame->end();
   event->accept();

@@ -9,6 +9,8 @@
 
 namespace episcope {
 
+class Layout;
+
 /// Joins the session, the places of the window and the features; does nothing itself.
 class MainWindow : public QMainWindow {
   Q_OBJECT
@@ -30,11 +32,11 @@ class MainWindow : public QMainWindow {
   struct Core;
 
   void addTabCommands();
-  void addLayoutCommands();
   void buildBars();
   void restoreLayout();
 
   std::unique_ptr<Core> core_;
+  std::unique_ptr<Layout> layout_;
 };
 
 }  // namespace episcope

@@ -15,6 +15,12 @@ std::size_t bytes_of(const DisparityField& field) {
 
 }  // namespace
 
+std::size_t byte_size(const Estimate& estimate) {
+  const LayeredDisparity& layered = estimate.layered;
+  return bytes_of(estimate.field) + bytes_of(estimate.confidence) + bytes_of(layered.foreground) +
+         bytes_of(layered.background) + bytes_of(layered.layers);
+}
+
 std::size_t byte_size(const OpenScene& scene) {
   std::size_t bytes = 0;
   if (scene.scene) {
@@ -23,8 +29,7 @@ std::size_t byte_size(const OpenScene& scene) {
              bytes_of(truth.foreground) + bytes_of(truth.background) + bytes_of(truth.labels);
   }
   for (const EstimateEntry& each : scene.estimates) {
-    if (each.estimate)
-      bytes += bytes_of(each.estimate->field) + bytes_of(each.estimate->confidence);
+    if (each.estimate) bytes += byte_size(*each.estimate);
   }
   if (scene.labels.labeling) {
     bytes += bytes_of(scene.labels.labeling->labels);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/capture/capture_work.h"
 #include "app/session/labels/kept_labels.h"
 #include "app/session/picture/map_source.h"
+#include "app/session/scene/epi_measurement.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/render/quantity.h"
 #include "engine/render/tone.h"
@@ -12,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,6 +47,13 @@ struct Comparison {
   friend bool operator==(const Comparison&, const Comparison&) = default;
 };
 
+/// What the user set for single labels, by id.
+struct LabelMarks {
+  std::set<std::int32_t> hidden;  ///< Neither drawn nor painted over.
+  std::set<std::int32_t> locked;  ///< Neither painted nor painted over.
+  friend bool operator==(const LabelMarks&, const LabelMarks&) = default;
+};
+
 /// Where one looks in a scene, and how.
 struct ScenePlace {
   ViewIndex view;
@@ -54,6 +64,9 @@ struct ScenePlace {
   std::map<render::Quantity, Interval> ranges;  ///< Colour ranges that were edited.
   render::Tone tone{};                          ///< How its views are brightened.
   Comparison comparison{};
+  LabelMarks label_marks{};
+  Measurements measured{};
+  CaptureWork capture{};
   friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
 };
 
@@ -76,6 +89,8 @@ struct OpenScene {
   std::uint64_t last_used = 0;  ///< Larger = later.
 };
 
+/// Bytes of memory that the maps of an estimate take.
+[[nodiscard]] std::size_t byte_size(const Estimate& estimate);
 /// Bytes of memory that the samples, the truth and the estimates of a scene take, about.
 [[nodiscard]] std::size_t byte_size(const OpenScene& scene);
 

@@ -17,6 +17,9 @@ enum class Part : unsigned {
   Display = 512,     ///< What is drawn over the view, and its colour ranges.
   Tone = 1024,       ///< How views are brightened.
   Labels = 2048,     ///< The segmentation that is kept.
+  LabelLook = 4096,  ///< Which labels are hidden or locked, and how labels are drawn.
+  Measured = 8192,   ///< The disparities measured by hand that are kept.
+  Capture = 16384,   ///< The mesh and the pairs picked on it.
 };
 
 /// A set of parts.

@@ -240,4 +240,41 @@ void Session::set_tone(const render::Tone& tone) {
   changed(Part::Tone);
 }
 
+void Session::set_label_marks(const LabelMarks& marks) {
+  if (!now_->scene || marks == now_->place.label_marks) return;
+  now_->place.label_marks = marks;
+  changed(Part::LabelLook);
+}
+
+void Session::set_label_drawing(render::LabelDrawing drawing) {
+  if (drawing == label_drawing_) return;
+  label_drawing_ = drawing;
+  changed(Part::LabelLook);
+}
+
+void Session::set_measurements(const Measurements& measured) {
+  if (!now_->scene || measured == now_->place.measured) return;
+  now_->place.measured = measured;
+  changed(Part::Measured);
+}
+
+void Session::set_capture(const CaptureWork& work) {
+  if (!now_->scene || work == now_->place.capture) return;
+  now_->place.capture = work;
+  changed(Part::Capture);
+}
+
+render::LabelStyle Session::label_style() const {
+  return {label_drawing_, now_->place.label_marks.hidden};
+}
+
+std::shared_ptr<const DisparityField> Session::known_disparity(ViewIndex view) const {
+  const EstimateEntry* entry = shown();
+  if (entry && entry->estimate->field.contains(view)) {
+    return {entry->estimate, &entry->estimate->field};
+  }
+  if (!now_->scene || !now_->scene->truth->field.contains(view)) return nullptr;
+  return {now_->scene->truth, &now_->scene->truth->field};
+}
+
 }  // namespace episcope

@@ -135,6 +135,21 @@ class Session {
   /// How views are brightened for display.
   void set_tone(const render::Tone& tone);
   [[nodiscard]] const ScenePlace& place() const { return now_->place; }
+  /// Which labels are hidden or locked.
+  void set_label_marks(const LabelMarks& marks);
+  /// How areas of labels are drawn. Kept from scene to scene.
+  void set_label_drawing(render::LabelDrawing drawing);
+  /// The same with the labels that are hidden.
+  [[nodiscard]] render::LabelStyle label_style() const;
+
+  /// What was measured by hand in EPIs.
+  void set_measurements(const Measurements& measured);
+  /// The mesh that is posed before the light field, and the pairs picked on it.
+  void set_capture(const CaptureWork& work);
+
+  /// What is known of the disparity of a view: the shown estimate, which is held, else the truth;
+  /// null if neither has that view.
+  [[nodiscard]] std::shared_ptr<const DisparityField> known_disparity(ViewIndex view) const;
 
   /// Keeps a segmentation with an open scene, in the place of another. Unknown scenes are ignored.
   void set_labels(std::uint64_t scene, KeptLabels labels);
@@ -160,6 +175,7 @@ class Session {
   std::uint64_t uses_ = 0;
   int last_id_ = 0;
   double bad_threshold_px_ = kBadPixelThreshold_px;
+  render::LabelDrawing label_drawing_ = render::LabelDrawing::Fill;
   std::shared_ptr<Session*> alive_;  // posted closures outlive the session harmlessly
   EvaluationCache evaluations_;
 };

@@ -11,7 +11,8 @@ namespace {
 
 Parts everything() {
   return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
-         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone;
+         Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
+         Part::LabelLook | Part::Measured | Part::Capture;
 }
 
 }  // namespace

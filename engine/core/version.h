@@ -3,6 +3,7 @@
 
 namespace episcope {
 
-inline constexpr const char* kVersion = "0.1.0";
+/// "0.1.0": the version that the top CMakeLists.txt gives the project.
+extern const char* const kVersion;
 
 }  // namespace episcope

@@ -14,9 +14,9 @@ namespace {
 constexpr int kRgba = 4;
 constexpr std::uint8_t kOpaque = 255;
 
-void put(std::uint8_t* pixel, const Rgb& color) {
+void put(std::uint8_t* pixel, const Rgb& color, std::uint8_t alpha = kOpaque) {
   std::copy(color.begin(), color.end(), pixel);
-  pixel[3] = kOpaque;
+  pixel[3] = alpha;
 }
 
 /// Samples as they are, each as the nearest byte.
@@ -93,26 +93,30 @@ Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
       light_field.samples());
 }
 
-Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels) {
-  return shade_labels(labels, {});
-}
-
 Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
-                                 const std::vector<LabelInfo>& infos) {
+                                 const std::vector<LabelInfo>& infos, const LabelStyle& style) {
   Image<std::uint8_t> picture(labels.height, labels.width, kRgba);
   std::map<std::int32_t, Rgb> colors;
   for (const LabelInfo& info : infos) colors[info.id] = info.color;
   std::int32_t last = 0;
+  bool is_hidden = false;
   Rgb color{};
+  const bool has_contours = style.drawing != LabelDrawing::Fill;
   for (int y = 0; y < labels.height; ++y) {
     for (int x = 0; x < labels.width; ++x) {
       const std::int32_t id = labels.at(y, x);
       if (id <= 0) continue;
       if (id != last) {
         color = colors.try_emplace(id, label_color(id)).first->second;
+        is_hidden = style.hidden.contains(id);
         last = id;
       }
-      put(&picture.at(y, x), color);
+      if (is_hidden) continue;
+      if (!has_contours || is_on_contour(labels, y, x)) {
+        put(&picture.at(y, x), color);
+      } else if (style.drawing == LabelDrawing::Both) {
+        put(&picture.at(y, x), color, kFaintLabel);
+      }
     }
   }
   return picture;

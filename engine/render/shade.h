@@ -10,6 +10,7 @@
 #include "engine/render/tone.h"
 
 #include <cstdint>
+#include <set>
 #include <vector>
 
 namespace episcope::render {
@@ -38,11 +39,33 @@ struct Shading {
 [[nodiscard]] Image<std::uint8_t> shade_view(const LightField& light_field, ViewIndex view,
                                              const ToneTable* tone = nullptr);
 
-/// RGBA8 picture of label ids: 0 and negative ids transparent, the others in their `label_color`.
-[[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels);
-/// The same in the colours of `infos`, as far as they are known there.
+/// How areas of labels are drawn. Contours: the pixels of an area that touch another at a side.
+/// Both: the areas are drawn fainter within them.
+enum class LabelDrawing : std::uint8_t { Fill, Contours, Both };
+/// Opacity of areas within contours, of 255.
+inline constexpr int kFaintLabel = 90;
+
+struct LabelStyle {
+  LabelDrawing drawing = LabelDrawing::Fill;
+  std::set<std::int32_t> hidden{};  ///< Labels that are not drawn.
+  friend bool operator==(const LabelStyle&, const LabelStyle&) = default;
+};
+
+/// RGBA8 picture of label ids in the colours of `infos`, as far as they are known there, else in
+/// their `label_color`; 0, negative and hidden ids are transparent.
 [[nodiscard]] Image<std::uint8_t> shade_labels(ImageView<const std::int32_t> labels,
-                                               const std::vector<LabelInfo>& infos);
+                                               const std::vector<LabelInfo>& infos = {},
+                                               const LabelStyle& style = {});
+
+/// Whether a pixel with a label belongs to the contour of its area: a neighbour at a side has
+/// another label. Beyond the border of the image lies none.
+template <class Label>
+[[nodiscard]] bool is_on_contour(ImageView<const Label> labels, int y, int x) {
+  const Label own = labels.at(y, x);
+  return (y > 0 && labels.at(y - 1, x) != own) || (x > 0 && labels.at(y, x - 1) != own) ||
+         (y + 1 < labels.height && labels.at(y + 1, x) != own) ||
+         (x + 1 < labels.width && labels.at(y, x + 1) != own);
+}
 
 /// RGBA8 picture of float samples in [0, 1], `[y][x][c]`, c = 1 or 3: an EPI, a refocused view;
 /// brightened if a tone is given.

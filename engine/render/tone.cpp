@@ -70,4 +70,8 @@ ToneTable::ToneTable(const Tone& tone) {
   }
 }
 
+std::shared_ptr<const ToneTable> table_of(const Tone& tone) {
+  return tone.is_plain() ? nullptr : std::make_shared<const ToneTable>(tone);
+}
+
 }  // namespace episcope::render

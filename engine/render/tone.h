@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 
 namespace episcope::render {
 
@@ -47,5 +48,8 @@ class ToneTable {
  private:
   std::array<std::uint8_t, 65536> table_;
 };
+
+/// The table of a tone; null if it is plain: samples as they are.
+[[nodiscard]] std::shared_ptr<const ToneTable> table_of(const Tone& tone);
 
 }  // namespace episcope::render

@@ -7,8 +7,10 @@ endif()
 
 # What every target of ours is compiled with.
 add_library(episcope_options INTERFACE)
-target_compile_options(episcope_options INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
-target_include_directories(episcope_options INTERFACE "${CMAKE_SOURCE_DIR}")
+target_compile_options(episcope_options
+                       INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>)
+target_include_directories(episcope_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
+                                                      $<INSTALL_INTERFACE:include/episcope>)
 if(EPISCOPE_SANITIZE)
   target_compile_options(episcope_options INTERFACE "-fsanitize=${EPISCOPE_SANITIZE}"
                          -fno-omit-frame-pointer -fno-sanitize-recover=all)
@@ -106,7 +108,7 @@ function(episcope_check_headers library)
     target_compile_definitions(${id}_headers PRIVATE EPISCOPE_KERNEL_NAMESPACE=baseline
                                EPISCOPE_VECTOR_BYTES=16)
     # Not -fsyntax-only: without object files they would be compiled anew in every build.
-    target_compile_options(${id}_headers PRIVATE -O0 -g0 -Wno-psabi)
+    target_compile_options(${id}_headers PRIVATE -O0 -g0 -U_FORTIFY_SOURCE -Wno-psabi)
   endif()
 endfunction()
 

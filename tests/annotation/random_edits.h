@@ -28,7 +28,8 @@ class RandomEdits {
     const PaintStyle style{dice < 8 ? PaintTool::Eraser : PaintTool::Brush, id, 1.0 + below(30),
                            below(2) == 0};
     if (dice == 19) {
-      fill_region(document, view(document), {{1, 2, 9}, {2, 2, 9}}, style);
+      fill_region(document, view(document), {{1, 2, 9}, {2, 2, 9}}, style,
+                  below(2) == 0 ? EditKind::Fill : kLastEditKind);
     } else {
       paint(document, style);
     }

@@ -71,6 +71,8 @@ BrushPanel::SizeRow BrushPanel::addSize(QFormLayout& form, const QString& name, 
   const SizeRow row{new QSlider(Qt::Horizontal, this), new QSpinBox(this)};
   row.slider->setObjectName(name + ".slider");
   row.spin->setObjectName(name + ".spin");
+  row.slider->setAccessibleName(text);
+  row.spin->setAccessibleName(text);
   row.slider->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
   row.spin->setRange(static_cast<int>(kMinBrush_px), static_cast<int>(kMaxBrush_px));
   row.spin->setSuffix(tr(" px"));

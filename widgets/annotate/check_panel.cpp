@@ -19,12 +19,15 @@ namespace {
 
 constexpr int kActionColumns = 2;  // Their texts are long.
 
+// Columns of the list of labels that have a tool tip.
+enum { kMean = 3, kMin, kMax };
+
 QString name_of(const LabelInfo& label) {
   return QString::fromStdString(label.name);
 }
 
-QString count_text(int count) {
-  return QLocale::c().toString(count);
+QString count_text(std::int64_t count) {
+  return QLocale::c().toString(static_cast<qlonglong>(count));
 }
 
 QTreeWidgetItem* add_row(QTreeWidget* list, const QStringList& texts) {
@@ -46,7 +49,8 @@ CheckPanel::CheckPanel(QWidget* parent)
       doubts_(makeList("check.doubts", tr("Regions in doubt"),
                        {tr("Label"), tr("or perhaps"), tr("Pixels")})),
       labels_(makeList("check.labels", tr("Labels of this view"),
-                       {tr("Label"), tr("Share"), tr("Disparity"), tr("Islands"), tr("Holes")})),
+                       {tr("Label"), tr("Pixels"), tr("Share"), tr("Mean"), tr("Min"), tr("Max"),
+                        tr("Islands"), tr("Holes")})),
       pieces_(makeList("check.pieces", tr("Islands and holes"),
                        {tr("Kind"), tr("Label"), tr("Pixels")})) {
   setObjectName("checkPanel");
@@ -131,11 +135,12 @@ void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
   const QSignalBlocker blocker(labels_);
   labels_->clear();
   for (const Row& row : rows) {
-    auto* item = add_row(labels_, {name_of(row.label), row.share, row.disparity,
-                                   count_text(row.islands), count_text(row.holes)});
+    auto* item =
+        add_row(labels_, {name_of(row.label), count_text(row.pixels), row.share, row.mean, row.min,
+                          row.max, count_text(row.islands), count_text(row.holes)});
     item->setIcon(0, swatch(row.label.color, palette()));
     item->setData(0, Qt::UserRole, row.label.id);
-    item->setToolTip(2, row.tip);
+    for (const int column : {kMean, kMin, kMax}) item->setToolTip(column, row.tip);
     if (row.label.id == current_label) labels_->setCurrentItem(item);
   }
 }

@@ -6,6 +6,7 @@
 #include <QString>
 #include <QWidget>
 
+#include <cstdint>
 #include <vector>
 
 class QAction;
@@ -30,11 +31,14 @@ class CheckPanel : public QWidget {
   /// A label of the view, as text.
   struct Row {
     LabelInfo label;
-    QString share;      ///< "12.4 %"
-    QString disparity;  ///< "0.42 ± 0.03"; may be empty.
+    std::int64_t pixels = 0;
+    QString share;   ///< "12.4 %"
+    QString mean{};  ///< Of the disparity, as the next two: "0.42"; may be empty.
+    QString min{};
+    QString max{};
     int islands = 0;
     int holes = 0;
-    QString tip;
+    QString tip{};  ///< More on the disparity.
   };
   /// An island or hole of the current label.
   struct Piece {

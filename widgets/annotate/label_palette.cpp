@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kRowPadding = 8;
 
-enum Column { kColor, kId, kName, kColumnCount };
+enum Column { kColor, kId, kName, kAmount, kShown, kLock, kColumnCount };
 
 int id_of(const QTreeWidgetItem* item) {
   return item->data(kColor, Qt::UserRole).toInt();
@@ -75,10 +75,9 @@ void LabelPalette::setUpTree() {
   tree_->setContextMenuPolicy(Qt::CustomContextMenu);
   tree_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   tree_->header()->setMinimumSectionSize(22);
-  tree_->header()->setStretchLastSection(true);
-  for (const int column : {kColor, kId}) {
-    tree_->header()->setSectionResizeMode(column, QHeaderView::ResizeToContents);
-  }
+  tree_->header()->setStretchLastSection(false);
+  tree_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  tree_->header()->setSectionResizeMode(kName, QHeaderView::Stretch);
   connect(tree_, &QTreeWidget::currentItemChanged, this, [this](QTreeWidgetItem* item) {
     if (!item) return;
     current_ = id_of(item);
@@ -122,7 +121,9 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
     item->setTextAlignment(kId, Qt::AlignRight | Qt::AlignVCenter);
     item->setText(kName, name);
     item->setToolTip(kName, name);
+    item->setTextAlignment(kAmount, Qt::AlignRight | Qt::AlignVCenter);
   }
+  showMarks();
   if (has_focus) tree_->setFocus();
   tree_->setVisible(!labels.empty());
   hint_->setVisible(labels.empty());
@@ -132,6 +133,43 @@ void LabelPalette::setLabels(const std::vector<LabelInfo>& labels) {
 void LabelPalette::setCurrent(int id) {
   current_ = id;
   markCurrent();
+}
+
+void LabelPalette::setHidden(const std::set<std::int32_t>& ids) {
+  hidden_ = ids;
+  showMarks();
+}
+
+void LabelPalette::setLocked(const std::set<std::int32_t>& ids) {
+  locked_ = ids;
+  showMarks();
+}
+
+void LabelPalette::setAmounts(const std::map<std::int32_t, Amount>& amounts) {
+  amounts_ = amounts;
+  showMarks();
+}
+
+void LabelPalette::showMarks() {
+  const QSignalBlocker blocker(tree_);
+  for (int i = 0; i < tree_->topLevelItemCount(); ++i) {
+    QTreeWidgetItem* item = tree_->topLevelItem(i);
+    const int id = id_of(item);
+    const bool is_hidden = hidden_.contains(id);
+    const bool is_locked = locked_.contains(id);
+    item->setIcon(kShown, themed_icon(is_hidden ? "eye_off" : "eye"));
+    item->setToolTip(kShown, is_hidden ? tr("Hidden: click to show it") : tr("Click to hide it"));
+    item->setData(kShown, Qt::AccessibleTextRole, is_hidden ? tr("hidden") : tr("shown"));
+    item->setIcon(kLock, themed_icon(is_locked ? "lock" : "unlock"));
+    item->setToolTip(kLock, is_locked
+                                ? tr("Locked: neither painted nor painted over. Click to unlock it")
+                                : tr("Click to lock it: it is then neither painted nor painted "
+                                     "over"));
+    item->setData(kLock, Qt::AccessibleTextRole, is_locked ? tr("locked") : tr("not locked"));
+    const auto amount = amounts_.find(id);
+    item->setText(kAmount, amount == amounts_.end() ? QString() : amount->second.text);
+    item->setToolTip(kAmount, amount == amounts_.end() ? QString() : amount->second.tip);
+  }
 }
 
 void LabelPalette::setHint(const QString& hint) {
@@ -170,6 +208,12 @@ void LabelPalette::editName(int id) {
 }
 
 bool LabelPalette::eventFilter(QObject* watched, QEvent* event) {
+  const bool is_press =
+      event->type() == QEvent::MouseButtonPress || event->type() == QEvent::MouseButtonDblClick;
+  if (watched == tree_->viewport() && is_press) {
+    const auto* mouse = static_cast<QMouseEvent*>(event);
+    if (mouse->button() == Qt::LeftButton && clickMark(mouse->position().toPoint())) return true;
+  }
   if (watched == tree_->viewport() && event->type() == QEvent::MouseButtonRelease) {
     const auto* mouse = static_cast<QMouseEvent*>(event);
     const QPoint position = mouse->position().toPoint();
@@ -178,6 +222,17 @@ bool LabelPalette::eventFilter(QObject* watched, QEvent* event) {
     if (item && is_on_color && mouse->button() == Qt::LeftButton) emit colorRequested(id_of(item));
   }
   return QWidget::eventFilter(watched, event);
+}
+
+// Whoever hides or locks a label does not want to paint it.
+bool LabelPalette::clickMark(QPoint position) {
+  const auto* item = tree_->itemAt(position);
+  if (!item) return false;
+  const int id = id_of(item);
+  const int column = tree_->header()->logicalIndexAt(position.x());
+  if (column == kShown) emit hiddenRequested(id, !hidden_.contains(id));
+  if (column == kLock) emit lockedRequested(id, !locked_.contains(id));
+  return column == kShown || column == kLock;
 }
 
 void LabelPalette::showMenu(const QPoint& position) {
@@ -189,6 +244,14 @@ void LabelPalette::showMenu(const QPoint& position) {
   menu->setAttribute(Qt::WA_DeleteOnClose);
   menu->addAction(themed_icon("rename"), tr("Rename"), this, [this, id] { editName(id); });
   menu->addAction(tr("Change colour…"), this, [this, id] { emit colorRequested(id); });
+  menu->addSeparator();
+  const bool is_hidden = hidden_.contains(id);
+  const bool is_locked = locked_.contains(id);
+  menu->addAction(themed_icon(is_hidden ? "eye" : "eye_off"), is_hidden ? tr("Show") : tr("Hide"),
+                  this, [this, id, is_hidden] { emit hiddenRequested(id, !is_hidden); });
+  menu->addAction(tr("Show only this"), this, [this, id] { emit onlyRequested(id); });
+  menu->addAction(themed_icon(is_locked ? "unlock" : "lock"), is_locked ? tr("Unlock") : tr("Lock"),
+                  this, [this, id, is_locked] { emit lockedRequested(id, !is_locked); });
   menu->addSeparator();
   menu->addAction(themed_icon("trash"), tr("Remove"), this,
                   [this, id] { emit removeRequested(id); });

@@ -69,6 +69,29 @@ void EpiPane::clearMeasurement() {
   update();
 }
 
+QLineF EpiPane::epiLine(double disparity_px) const {
+  const double per_row = -(disparity_px - focus_px_);
+  const double x = *cross_pixel_ + 0.5;
+  const double row = cross_row_ + 0.5;
+  const double end = epi_.height();
+  return {x - per_row * row, 0, x + per_row * (end - row), end};
+}
+
+void EpiPane::showMeasurement(double disparity_px) {
+  if (epi_.isNull() || !cross_pixel_) return;
+  drawn_ = epiLine(disparity_px);
+  measured_px_ = disparity_px;
+  update();
+}
+
+std::optional<int> EpiPane::measuredPixel() const {
+  if (!measured_px_) return std::nullopt;
+  const double rows = cross_row_ + 0.5 - drawn_->y1();
+  const double place = std::floor(drawn_->x1() + rows * drawn_->dx() / drawn_->dy());
+  const bool is_inside = place >= 0 && place < epi_.width();
+  return is_inside ? std::optional(static_cast<int>(place)) : std::nullopt;
+}
+
 double EpiPane::rowExtent() const {
   if (epi_.isNull()) return kRowHint;
   const int across = orientation_ == Qt::Horizontal ? height() : width();

@@ -36,10 +36,14 @@ class EpiPane : public QWidget {
   /// Shear that the host applied to the picture, px per view step.
   void setFocus(double focus_px);
   void clearMeasurement();
+  /// Draws a line of this disparity through the cross-hair, as if it had been drawn by hand.
+  void showMeasurement(double disparity_px);
 
   [[nodiscard]] Qt::Orientation orientation() const { return orientation_; }
   /// The line drawn by hand, if there is one.
   [[nodiscard]] std::optional<double> measuredDisparity() const { return measured_px_; }
+  /// The pixel along the image axis where it meets the current view; none without it, or outside.
+  [[nodiscard]] std::optional<int> measuredPixel() const;
   /// Logical pixels per row.
   [[nodiscard]] double rowExtent() const;
   /// Widget position of a continuous EPI point: `along` the image axis, `row` across.
@@ -69,6 +73,8 @@ class EpiPane : public QWidget {
 
  private:
   [[nodiscard]] QPointF epiAt(QPointF position) const;
+  /// Through the cross-hair, over all rows, in EPI coordinates.
+  [[nodiscard]] QLineF epiLine(double disparity_px) const;
   [[nodiscard]] QLineF slopeLine(double disparity_px) const;
   void paintPicture(QPainter& painter) const;
   void paintLines(QPainter& painter) const;

@@ -77,11 +77,8 @@ void EpiPane::paintPicture(QPainter& painter) const {
 }
 
 QLineF EpiPane::slopeLine(double disparity_px) const {
-  const double per_row = -(disparity_px - focus_px_);
-  const double x = *cross_pixel_ + 0.5;
-  const double row = cross_row_ + 0.5;
-  const double end = epi_.height();
-  return {positionOf(x - per_row * row, 0), positionOf(x + per_row * (end - row), end)};
+  const QLineF line = epiLine(disparity_px);
+  return {positionOf(line.x1(), line.y1()), positionOf(line.x2(), line.y2())};
 }
 
 void EpiPane::paintLines(QPainter& painter) const {

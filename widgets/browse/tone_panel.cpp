@@ -2,6 +2,7 @@
 #include "widgets/browse/tone_panel.h"
 
 #include "widgets/controls/number_spin.h"
+#include "widgets/style/theme.h"
 
 #include <QGridLayout>
 #include <QLabel>
@@ -36,6 +37,7 @@ TonePanel::TonePanel(QWidget* parent) : QWidget(parent) {
                       render::kBlackRange,
                       {}});
   addButtons();
+  addReach();
   setTone({});
 }
 
@@ -85,6 +87,18 @@ void TonePanel::addButtons() {
     setTone({});
     emit toneEdited({});
   });
+}
+
+void TonePanel::addReach() {
+  auto* reach = new QLabel(tr("Brightens what is shown: views, EPIs, tiles, the points of the 3D "
+                              "tab, and pictures and movies, which are saved as shown. Results, "
+                              "labels, PLY files and converted light fields keep the samples."),
+                           this);
+  reach->setObjectName("tone.reach");
+  reach->setTextFormat(Qt::PlainText);
+  reach->setWordWrap(true);
+  reach->setPalette(theme::text_palette(theme::muted_text(palette())));
+  qobject_cast<QGridLayout*>(layout())->addWidget(reach, kButtonRow + 1, 0, 1, 3);
 }
 
 void TonePanel::showRow(const Row& row, double value) {

@@ -43,6 +43,8 @@ class TonePanel : public QWidget {
 
   Row addRow(int place, const Quality& quality);
   void addButtons();
+  /// Says what is brightened and what is not.
+  void addReach();
   void showRow(const Row& row, double value);
 
   Row exposure_;

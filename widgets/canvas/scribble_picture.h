@@ -4,6 +4,7 @@
 #include "annotation/document/label_set.h"
 #include "annotation/paint/pixel_region.h"
 #include "engine/core/array/image.h"
+#include "engine/render/shade.h"
 
 #include <QImage>
 
@@ -18,9 +19,9 @@ struct ScribbleLayers {
 };
 
 /// The pixels of `rect`, in the colours of the labels, on a transparent ground: painted ones
-/// opaque, carried ones as fainter stripes. Unknown labels get their default colour. Linear in the
-/// pixels of `rect`, which lies inside the view.
+/// opaque and in this style, carried ones as fainter stripes. Unknown labels get their default
+/// colour. Linear in the pixels of `rect`, which lies inside the view.
 [[nodiscard]] QImage scribble_picture(const ScribbleLayers& layers, const LabelSet& labels,
-                                      const PixelRect& rect);
+                                      const PixelRect& rect, const render::LabelStyle& style = {});
 
 }  // namespace episcope

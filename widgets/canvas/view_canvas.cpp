@@ -90,6 +90,11 @@ void ViewCanvas::setOutline(PixelEdges outline) {
   update();
 }
 
+void ViewCanvas::setRegion(PixelEdges region) {
+  region_ = std::move(region);
+  update();
+}
+
 void ViewCanvas::setParallaxEnabled(bool enabled) {
   parallax_enabled_ = enabled;
 }

@@ -59,6 +59,8 @@ class ViewCanvas : public QWidget {
   void setScribbleOpacity(double opacity);
   /// Draws a line around what is to be looked at; empty = nothing.
   void setOutline(PixelEdges outline);
+  /// Draws a line around the part of the view that numbers are of; empty = nothing.
+  void setRegion(PixelEdges region);
   /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
   void setTool(CanvasTool* tool);
   /// Whether a left drag is parallax (default). Off: it pans.
@@ -78,6 +80,7 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] double overlayOpacity() const { return overlay_opacity_; }
   [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
   [[nodiscard]] const PixelEdges& outline() const { return outline_; }
+  [[nodiscard]] const PixelEdges& region() const { return region_; }
   [[nodiscard]] CanvasTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
@@ -152,7 +155,7 @@ class ViewCanvas : public QWidget {
   void beginDrag();
   void drag(QPointF position);
   [[nodiscard]] bool pressTool(QPointF position, Qt::MouseButton button,
-                               Qt::KeyboardModifiers modifiers);
+                               Qt::KeyboardModifiers modifiers, bool is_double = false);
   void endTool();
   void updatePixels(const QRect& pixels);
   void updateMark();
@@ -164,8 +167,9 @@ class ViewCanvas : public QWidget {
   void paintWipe(QPainter& painter, const QRect& exposed) const;
   void paintPixelTexts(QPainter& painter, const QRect& exposed) const;
   void paintCrossHair(QPainter& painter) const;
-  void paintOutline(QPainter& painter) const;
+  void paintEdges(QPainter& painter, const PixelEdges& edges, const QPen& pen) const;
   void paintMark(QPainter& painter) const;
+  void paintShape(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
   void paintMessage(QPainter& painter) const;
   void followCursor(std::optional<QPointF> position);
@@ -185,6 +189,7 @@ class ViewCanvas : public QWidget {
   QImage scribbles_;
   double scribble_opacity_ = 0.7;
   PixelEdges outline_;
+  PixelEdges region_;
   std::optional<PixelIndex> cross_hair_;
   PixelText pixel_text_;
   CanvasTransform transform_;

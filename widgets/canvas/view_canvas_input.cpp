@@ -62,7 +62,8 @@ void ViewCanvas::mousePressEvent(QMouseEvent* event) {
   } else if (event->button() == Qt::LeftButton && isOnDivider(event->position())) {
     gesture_ = Gesture::Wipe;
     updateCursorShape();
-  } else if (pressTool(event->position(), event->button(), event->modifiers())) {
+  } else if (pressTool(event->position(), event->button(), event->modifiers(),
+                       event->type() == QEvent::MouseButtonDblClick)) {
     event->accept();
   } else if (event->button() == Qt::LeftButton) {
     gesture_ = Gesture::Press;
@@ -138,6 +139,9 @@ void ViewCanvas::leaveEvent(QEvent*) {
 void ViewCanvas::followCursor(std::optional<QPointF> position) {
   cursor_ = position;
   if (tool_) updateMark();
+  if (tool_ && position && gesture_ == Gesture::None) {
+    tool_->hover(transform_.to_image(*position, size()));
+  }
   const auto pixel = position ? pixelAt(*position) : std::nullopt;
   if (pixel == hovered_) return;
   hovered_ = pixel;

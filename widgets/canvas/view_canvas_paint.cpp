@@ -38,9 +38,11 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
     if (wipe_position_) left.setRight(std::min(left.right(), static_cast<int>(dividerX())));
     if (!left.isEmpty()) paintPicture(painter, left, overlay_);
     if (wipe_position_) paintWipe(painter, event->rect());
-    paintOutline(painter);
+    paintEdges(painter, region_, QPen(theme::kCrossHair, 2, Qt::DashLine, Qt::FlatCap));
+    paintEdges(painter, outline_, QPen(Qt::white, 2, Qt::SolidLine, Qt::SquareCap));
     paintCrossHair(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
+    paintShape(painter);
     paintMark(painter);
     paintCaption(painter);
   } else {
@@ -153,16 +155,16 @@ void ViewCanvas::paintCrossHair(QPainter& painter) const {
   }
 }
 
-void ViewCanvas::paintOutline(QPainter& painter) const {
-  if (outline_.empty()) return;
+void ViewCanvas::paintEdges(QPainter& painter, const PixelEdges& edges, const QPen& pen) const {
+  if (edges.empty()) return;
   QList<QLineF> lines;
-  for (const QLine& edge : outline_) {
+  for (const QLine& edge : edges) {
     lines << QLineF(transform_.to_widget(QPointF(edge.p1()), size()),
                     transform_.to_widget(QPointF(edge.p2()), size()));
   }
   painter.setPen(QPen(QColor(0, 0, 0, 200), 4, Qt::SolidLine, Qt::SquareCap));
   painter.drawLines(lines);
-  painter.setPen(QPen(Qt::white, 2, Qt::SolidLine, Qt::SquareCap));
+  painter.setPen(pen);
   painter.drawLines(lines);
 }
 

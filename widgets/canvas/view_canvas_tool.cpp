@@ -10,7 +10,7 @@ namespace episcope {
 void ViewCanvas::setTool(CanvasTool* tool) {
   if (tool == tool_) return;
   if (tool_) {
-    tool_->end();
+    tool_->putAway();
     tool_->disconnect(this);
   }
   tool_ = tool;
@@ -20,6 +20,7 @@ void ViewCanvas::setTool(CanvasTool* tool) {
       updateCursorShape();
       updateMark();
     });
+    connect(tool_, &CanvasTool::shapeChanged, this, qOverload<>(&ViewCanvas::update));
   }
   updateCursorShape();
   update();
@@ -68,14 +69,22 @@ void ViewCanvas::paintMark(QPainter& painter) const {
   }
 }
 
+void ViewCanvas::paintShape(QPainter& painter) const {
+  if (!tool_) return;
+  const QPointF origin = transform_.to_widget(QPointF(0, 0), size());
+  QTransform widget_from_image = QTransform::fromTranslate(origin.x(), origin.y());
+  widget_from_image.scale(transform_.scale, transform_.scale);
+  tool_->paintShape(painter, widget_from_image);
+}
+
 bool ViewCanvas::pressTool(QPointF position, Qt::MouseButton button,
-                           Qt::KeyboardModifiers modifiers) {
+                           Qt::KeyboardModifiers modifiers, bool is_double) {
   const bool is_painting = tool_ && (button == Qt::LeftButton || button == Qt::RightButton) &&
                            !(modifiers & Qt::ControlModifier);
   if (!is_painting) return false;
   gesture_ = Gesture::Tool;
   gesture_button_ = button;
-  tool_->press({transform_.to_image(position, size()), button, modifiers});
+  tool_->press({transform_.to_image(position, size()), button, modifiers, is_double});
   updateCursorShape();
   return true;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/capture/capture_panel.h"
 
+#include "widgets/capture/photograph_steps.h"
 #include "widgets/cloud/point_cloud_view.h"
 #include "widgets/controls/elided_label.h"
 #include "widgets/style/number_text.h"
@@ -53,6 +54,7 @@ QString point_text(const std::array<double, 3>& point) {
 
 CapturePanel::CapturePanel(QWidget* parent)
     : QWidget(parent),
+      steps_(new PhotographSteps(this)),
       mesh_(make_text(this, "capture.mesh")),
       hint_(make_text(this, "capture.hint")),
       next_(make_text(this, "capture.next")),
@@ -66,6 +68,7 @@ CapturePanel::CapturePanel(QWidget* parent)
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(theme::kSpacing);
+  layout->addWidget(steps_);
   layout->addWidget(makeView(), 3);
   layout->addWidget(makePairs(), 2);
   layout->addWidget(makeResults());
@@ -86,7 +89,7 @@ QWidget* CapturePanel::makeView() {
   hint_->setText(
       tr("Open a mesh of what the light field shows. Then set the cross-hair in the "
          "centre view, click the same point of the mesh here, and add the pair. Four "
-         "pairs give its pose."));
+         "pairs give its pose.\n\nWithout a gantry at hand, “Lens” makes a demo to try it with."));
   hint_->setAlignment(Qt::AlignCenter);
   QWidget* made = make_point_cloud_view(part);
   view_ = qobject_cast<PointCloudView*>(made);
@@ -104,6 +107,7 @@ QWidget* CapturePanel::makeView() {
 QWidget* CapturePanel::makePairs() {
   auto* part = new QWidget(this);
   table_->setObjectName("capture.pairs");
+  table_->setAccessibleName(tr("Picked pairs"));
   table_->setColumnCount(4);
   table_->setHorizontalHeaderLabels({tr("Pair"), tr("View"), tr("Mesh"), tr("Off by")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);

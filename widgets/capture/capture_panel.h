@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/point_cloud.h"
+#include "engine/core/space/point_cloud.h"
 
 #include <QPointF>
 #include <QString>
@@ -18,6 +18,7 @@ class QTableWidget;
 
 namespace episcope {
 
+class PhotographSteps;
 class PointCloudView;
 
 /// A pair as the table shows it.
@@ -46,6 +47,7 @@ class CapturePanel : public QWidget {
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);
+  [[nodiscard]] PhotographSteps* steps() const { return steps_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
 
  signals:
@@ -70,6 +72,7 @@ class CapturePanel : public QWidget {
   QWidget* makeResults();
   void rename(int row, int column);
 
+  PhotographSteps* steps_;
   QLabel* mesh_;
   QLabel* hint_;
   QLabel* next_;

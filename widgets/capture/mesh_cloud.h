@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/point_cloud.h"
+#include "engine/core/space/point_cloud.h"
 
 #include <array>
 #include <cstdint>

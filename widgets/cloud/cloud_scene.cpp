@@ -3,10 +3,8 @@
 
 #include "widgets/style/theme.h"
 
-#include <vtkActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
-#include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkFloatArray.h>
 #include <vtkGenericOpenGLRenderWindow.h>
@@ -14,14 +12,11 @@
 #include <vtkInteractorStyleTrackballCamera.h>
 #include <vtkMath.h>
 #include <vtkOpenGLState.h>
-#include <vtkPointData.h>
-#include <vtkPointPicker.h>
-#include <vtkPoints.h>
+#include <vtkPlane.h>
+#include <vtkPlaneCollection.h>
 #include <vtkPolyData.h>
-#include <vtkPolyDataMapper.h>
-#include <vtkProperty.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
+#include <vtkStaticPointLocator.h>
 
 #include <QMouseEvent>
 #include <QOpenGLContext>
@@ -30,29 +25,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace episcope {
 namespace {
 
-constexpr double kPickReach = 5;  // logical pixels
-
-vtkNew<vtkCellArray> all_points(vtkIdType count) {
-  vtkNew<vtkCellArray> cells;
-  cells->InsertNextCell(static_cast<int>(count));
-  for (vtkIdType i = 0; i < count; ++i) cells->InsertCellPoint(i);
-  return cells;
-}
-
-vtkNew<vtkCellArray> cells_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  vtkNew<vtkCellArray> cells;
-  const auto count = static_cast<vtkIdType>(triangles.size());
-  cells->AllocateExact(count, 3 * count);
-  for (const auto& [a, b, c] : triangles) {
-    cells->InsertNextCell(
-        {static_cast<vtkIdType>(a), static_cast<vtkIdType>(b), static_cast<vtkIdType>(c)});
-  }
-  return cells;
-}
+constexpr int kPickReach = 5;  // logical pixels
+/// Of the depth buffer: nothing is seen.
+constexpr double kNothing = 1;
 
 }  // namespace
 
@@ -73,20 +53,16 @@ void CloudScene::observe(const Subject& subject, unsigned long event,
   subject->AddObserver(event, command);
 }
 
-CloudScene::CloudScene(QOpenGLWidget& view) : view_(view) {
+CloudScene::CloudScene(QOpenGLWidget& view)
+    : view_(view), parts_(std::make_shared<const CloudParts>()), marks_(*renderer_) {
   window_->SetMultiSamples(0);  // With a software renderer, this is most of the time of a frame.
   window_->SetOwnContext(0);
   window_->SetFrameBlitModeToNoBlit();
   window_->AddRenderer(renderer_);
   const QColor background = theme::kCanvas;
   renderer_->SetBackground(background.redF(), background.greenF(), background.blueF());
-  mapper_->SetInputData(points_);
-  mapper_->SetScalarModeToUsePointData();
-  mapper_->SetColorModeToDirectScalars();
-  actor_->SetMapper(mapper_);
-  actor_->GetProperty()->SetPointSize(2);
-  actor_->GetProperty()->LightingOff();
-  renderer_->AddActor(actor_);
+  near_->SetNormal(0, 0, -1);  // the nearer a point, the larger its z
+  far_->SetNormal(0, 0, 1);
   interactor_->SetRenderWindow(window_);
   interactor_->SetInteractorStyle(style_);
   interactor_->EnableRenderOff();
@@ -122,22 +98,28 @@ void CloudScene::resize() {
   window_->SetDPI(static_cast<int>(std::lround(96 * ratio)));
   interactor_->UpdateSize(width, height);
   window_->SetSize(width, height);
-  actor_->GetProperty()->SetPointSize(static_cast<float>(2 * ratio));
+  for (const auto& actor : actors_) actor->setPointSize(look_.point_size * ratio);
+  marks_.setScale(ratio, height);
 }
 
 void CloudScene::paint() {
-  if (wanted_look_) applyLook();
+  if (wanted_direction_) applyDirection();
   auto* state = window_->GetState();
   state->Reset();
   state->Push();
   state->vtkglDepthFunc(GL_LEQUAL);  // Qt leaves GL_LESS.
-  window_->SetReadyForRendering(true);
-  window_->Render();
-  window_->SetReadyForRendering(false);
+  render();
   state->vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, view_.defaultFramebufferObject());
   state->vtkglDisable(GL_SCISSOR_TEST);
   window_->BlitDisplayFramebuffer();
   state->Pop();
+}
+
+void CloudScene::render() {
+  for (const auto& actor : actors_) actor->drawFew(is_moving_);
+  window_->SetReadyForRendering(true);
+  window_->Render();
+  window_->SetReadyForRendering(false);
 }
 
 bool CloudScene::isCurrent() const {
@@ -161,46 +143,96 @@ void CloudScene::askForFrame(void*) {
   view_.update();
 }
 
-void CloudScene::setZStretch(double factor) {
-  actor_->SetScale(1, 1, factor);
-  renderer_->ResetCameraClippingRange();
+void CloudScene::setMoving(bool is_moving) {
+  is_moving_ = is_moving;
+}
+
+void CloudScene::setLook(const CloudLook& look) {
+  look_ = look;
+  applyLook();
 }
 
 std::size_t CloudScene::size() const {
-  return static_cast<std::size_t>(points_->GetNumberOfPoints());
+  std::size_t points = 0;
+  for (const CloudPart& part : *parts_) points += part.all.positions.size();
+  return points;
 }
 
-void CloudScene::setCloud(const PointCloud& cloud) {
-  const auto count = static_cast<vtkIdType>(cloud.positions.size());
-  vtkNew<vtkFloatArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(count);
-  vtkNew<vtkUnsignedCharArray> colors;
-  colors->SetNumberOfComponents(3);
-  colors->SetNumberOfTuples(count);
-  if (count > 0) {
-    std::copy_n(cloud.positions.front().data(), 3 * count, coordinates->GetPointer(0));
-    std::copy_n(cloud.colors.front().data(), 3 * count, colors->GetPointer(0));
+void CloudScene::setParts(CloudPartsPtr parts) {
+  actors_.clear();  // they draw the memory of the former parts
+  locators_.assign(parts->size(), nullptr);
+  parts_ = std::move(parts);
+  box_ = {};
+  bool is_first = true;
+  for (const CloudPart& part : *parts_) {
+    if (part.all.positions.empty()) continue;
+    const Box box = robust_bounds(part.all);
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      const bool is_low = i % 2 == 0;
+      box_[i] = is_first ? box[i] : is_low ? std::min(box_[i], box[i]) : std::max(box_[i], box[i]);
+    }
+    is_first = false;
   }
-  vtkNew<vtkPoints> positions;
-  positions->SetData(coordinates);
-  points_->Initialize();
-  points_->SetPoints(positions);
-  if (cloud.triangles.empty()) {
-    points_->SetVerts(all_points(count));
-  } else {
-    points_->SetPolys(cells_of(cloud.triangles));
+  for (const CloudPart& part : *parts_) {
+    actors_.push_back(std::make_unique<CloudActor>(part, *renderer_));
   }
-  points_->GetPointData()->SetScalars(colors);
-  points_->Modified();
-  box_ = robust_bounds(cloud);
-  // The z-stretch keeps the middle of the cloud where it is.
-  actor_->SetOrigin((box_[0] + box_[1]) / 2, (box_[2] + box_[3]) / 2, (box_[4] + box_[5]) / 2);
-  renderer_->ResetCameraClippingRange();
+  applyLook();
+}
+
+// The z-stretch keeps the middle of the clouds where it is.
+CloudScene::Place CloudScene::middle() const {
+  return {(box_[0] + box_[1]) / 2, (box_[2] + box_[3]) / 2, (box_[4] + box_[5]) / 2};
+}
+
+CloudScene::Box CloudScene::stretched(Box box) const {
+  const double z = middle()[2];
+  for (auto* side : {&box[4], &box[5]}) *side = z + (*side - z) * look_.z_stretch;
+  return box;
 }
 
 void CloudScene::applyLook() {
-  const auto [azimuth, elevation] = *std::exchange(wanted_look_, std::nullopt);
+  const Box box = stretched(box_);
+  clip_->RemoveAllItems();
+  const auto depth = [&box](double part) { return box[5] + part * (box[4] - box[5]); };
+  near_->SetOrigin(0, 0, depth(look_.clip_near));
+  far_->SetOrigin(0, 0, depth(look_.clip_far));
+  if (look_.clip_near > 0) clip_->AddItem(near_);
+  if (look_.clip_far < 1) clip_->AddItem(far_);
+  for (const auto& actor : actors_) {
+    actor->setStretch(look_.z_stretch, middle());
+    actor->setPointSize(look_.point_size * view_.devicePixelRatioF());
+    actor->setShaded(look_.is_shaded);
+    actor->setClip(*clip_);
+  }
+  placeMark();
+  renderer_->ResetCameraClippingRange();
+}
+
+void CloudScene::setMarkedPixel(std::optional<PixelIndex> pixel) {
+  marked_ = pixel;
+  placeMark();
+}
+
+// Pixels of a cloud stand in the order of rows.
+void CloudScene::placeMark() {
+  std::vector<Place> places;
+  const auto before = [](const PixelIndex& a, const PixelIndex& b) {
+    return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+  };
+  for (const CloudPart& part : *parts_) {
+    if (!marked_) break;
+    const auto& pixels = part.all.pixels;
+    const auto found = std::lower_bound(pixels.begin(), pixels.end(), *marked_, before);
+    if (found == pixels.end() || *found != *marked_) continue;
+    const auto& [x, y, z] = part.all.positions[static_cast<std::size_t>(found - pixels.begin())];
+    const double middle_z = middle()[2];
+    places.push_back({x, y, middle_z + (z - middle_z) * look_.z_stretch});
+  }
+  marks_.setCrosses(places);
+}
+
+void CloudScene::applyDirection() {
+  const auto [azimuth, elevation] = *std::exchange(wanted_direction_, std::nullopt);
   auto* camera = renderer_->GetActiveCamera();
   camera->SetViewAngle(30);
   camera->SetFocalPoint(0, 0, 0);
@@ -209,9 +241,7 @@ void CloudScene::applyLook() {
   camera->Azimuth(azimuth);
   camera->Elevation(elevation);
   camera->OrthogonalizeViewUp();
-  auto box = box_;
-  const double middle = (box[4] + box[5]) / 2;
-  for (auto* z : {&box[4], &box[5]}) *z = middle + (*z - middle) * actor_->GetScale()[2];
+  auto box = stretched(box_);
   renderer_->ResetCamera(box.data());
   fillWindow(box);
   renderer_->ResetCameraClippingRange();
@@ -252,13 +282,71 @@ void CloudScene::handle(const QWheelEvent& event) {
                                                       : vtkCommand::MouseWheelBackwardEvent);
 }
 
-std::optional<std::size_t> CloudScene::pick(QPointF at) {
-  const double ratio = view_.devicePixelRatioF();
+// Where the surface or point is that is drawn nearest to a place, in device pixels from below.
+std::optional<CloudScene::Place> CloudScene::seenAt(int x, int y) {
+  const int reach = static_cast<int>(std::lround(kPickReach * view_.devicePixelRatioF()));
   const int* size = window_->GetSize();
-  picker_->SetTolerance(kPickReach * ratio / std::hypot(size[0], size[1]));
-  if (picker_->Pick(at.x() * ratio, size[1] - 1 - at.y() * ratio, 0, renderer_) == 0) return {};
-  const vtkIdType point = picker_->GetPointId();
-  return point < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(point));
+  const int left = std::max(x - reach, 0);
+  const int right = std::min(x + reach, size[0] - 1);
+  const int low = std::max(y - reach, 0);
+  const int high = std::min(y + reach, size[1] - 1);
+  if (left > right || low > high) return std::nullopt;
+  vtkNew<vtkFloatArray> depths;
+  window_->GetZbufferData(left, low, right, high, depths);
+  double nearest = std::numeric_limits<double>::infinity();
+  Place seen{};
+  vtkIdType i = 0;
+  for (int row = low; row <= high; ++row) {
+    for (int column = left; column <= right; ++column, ++i) {
+      const double depth = depths->GetValue(i);
+      const double distance = std::hypot(column - x, row - y);
+      if (depth >= kNothing || distance > reach || distance >= nearest) continue;
+      nearest = distance;
+      seen = {column + 0.5, row + 0.5, depth};
+    }
+  }
+  if (!std::isfinite(nearest)) return std::nullopt;
+  renderer_->SetDisplayPoint(seen.data());
+  renderer_->DisplayToWorld();
+  const double* world = renderer_->GetWorldPoint();
+  return Place{world[0] / world[3], world[1] / world[3], world[2] / world[3]};
+}
+
+vtkStaticPointLocator& CloudScene::locator(std::size_t part) {
+  auto& locator = locators_[part];
+  if (!locator) {
+    locator = vtkSmartPointer<vtkStaticPointLocator>::New();
+    locator->SetDataSet(&actors_[part]->points());
+    locator->BuildLocator();
+  }
+  return *locator;
+}
+
+std::optional<PickedPoint> CloudScene::pick(QPointF at) {
+  if (size() == 0 || !view_.context()) return std::nullopt;
+  view_.makeCurrent();
+  setMoving(false);  // what is picked is among all points
+  render();
+  const QPointF device = at * view_.devicePixelRatioF();
+  auto seen = seenAt(static_cast<int>(device.x()),
+                     window_->GetSize()[1] - 1 - static_cast<int>(device.y()));
+  view_.doneCurrent();
+  if (!seen) return std::nullopt;
+  const double z = middle()[2];
+  (*seen)[2] = z + ((*seen)[2] - z) / look_.z_stretch;
+  std::optional<PickedPoint> picked;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t part = 0; part < parts_->size(); ++part) {
+    const auto& positions = (*parts_)[part].all.positions;
+    if (positions.empty()) continue;
+    const vtkIdType point = locator(part).FindClosestPoint(seen->data());
+    const auto& [px, py, pz] = positions[static_cast<std::size_t>(point)];
+    const double distance = std::hypot(px - (*seen)[0], py - (*seen)[1], pz - (*seen)[2]);
+    if (distance >= least) continue;
+    least = distance;
+    picked = PickedPoint{part, static_cast<std::size_t>(point)};
+  }
+  return picked;
 }
 
 }  // namespace episcope

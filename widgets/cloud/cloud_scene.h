@@ -1,33 +1,37 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/point_cloud.h"
+#include "widgets/cloud/cloud_actor.h"
+#include "widgets/cloud/cloud_look.h"
+#include "widgets/cloud/cloud_marks.h"
 
 #include <vtkNew.h>
+#include <vtkSmartPointer.h>
 
 #include <QPointF>
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
+#include <vector>
 
 class QMouseEvent;
 class QOpenGLWidget;
 class QWheelEvent;
-class vtkActor;
 class vtkGenericOpenGLRenderWindow;
 class vtkGenericRenderWindowInteractor;
 class vtkInteractorStyleTrackballCamera;
-class vtkPointPicker;
-class vtkPolyData;
-class vtkPolyDataMapper;
+class vtkPlane;
+class vtkPlaneCollection;
 class vtkRenderer;
+class vtkStaticPointLocator;
 
 namespace episcope {
 
-/// Everything of VTK in a point cloud view: one render window, one renderer, one actor, never
-/// shared. Drawing needs the OpenGL context of the view to be current.
+/// Everything of VTK in a point cloud view: one render window, one renderer, an actor for each
+/// cloud, never shared. Drawing needs the OpenGL context of the view to be current.
 class CloudScene {
  public:
   /// `view` must outlive this.
@@ -43,20 +47,30 @@ class CloudScene {
   void resize();
   void paint();
 
-  void setCloud(const PointCloud& cloud);
-  void setZStretch(double factor);
+  void setParts(CloudPartsPtr parts);
+  [[nodiscard]] const CloudParts& parts() const { return *parts_; }
+  /// Of all parts.
   [[nodiscard]] std::size_t size() const;
+  void setLook(const CloudLook& look);
+  [[nodiscard]] const CloudLook& look() const { return look_; }
+  /// A cross at the point of this pixel in every part that has one.
+  void setMarkedPixel(std::optional<PixelIndex> pixel);
+  [[nodiscard]] CloudMarks& marks() { return marks_; }
+  /// While it moves, few points are drawn.
+  void setMoving(bool is_moving);
+  [[nodiscard]] bool isMoving() const { return is_moving_; }
   /// From an azimuth and elevation in degrees. Takes effect with the next frame, when the size of
   /// the window is known.
-  void look(double azimuth, double elevation) { wanted_look_ = {azimuth, elevation}; }
+  void lookFrom(double azimuth, double elevation) { wanted_direction_ = {azimuth, elevation}; }
 
   void handle(const QMouseEvent& event, unsigned long vtk_event);
   void handle(const QWheelEvent& event);
-  /// The nearest point under a place of the widget, if there is one.
-  [[nodiscard]] std::optional<std::size_t> pick(QPointF at);
+  /// The point that is seen at a place of the widget, or nearest to it within a few pixels.
+  [[nodiscard]] std::optional<PickedPoint> pick(QPointF at);
 
  private:
   using Box = std::array<double, 6>;  // x0, x1, y0, y1, z0, z1
+  using Place = std::array<double, 3>;
 
   template <class Subject>
   void observe(const Subject& subject, unsigned long event, void (CloudScene::*handler)(void*));
@@ -65,20 +79,33 @@ class CloudScene {
   void tellCurrent(void* data);
   void tellSupported(void* data);
   void askForFrame(void*);
+  void render();
+  void applyDirection();
   void applyLook();
   void fillWindow(const Box& box);
+  [[nodiscard]] Box stretched(Box box) const;
+  [[nodiscard]] Place middle() const;
+  void placeMark();
+  [[nodiscard]] std::optional<Place> seenAt(int x, int y);
+  [[nodiscard]] vtkStaticPointLocator& locator(std::size_t part);
 
   QOpenGLWidget& view_;
-  Box box_{};  // around the cloud, before the z-stretch
-  std::optional<std::pair<double, double>> wanted_look_;
+  CloudPartsPtr parts_;
+  CloudLook look_;
+  Box box_{};  // around the clouds, before the z-stretch
+  std::optional<PixelIndex> marked_;
+  bool is_moving_ = false;
+  std::optional<std::pair<double, double>> wanted_direction_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
   vtkNew<vtkGenericRenderWindowInteractor> interactor_;
   vtkNew<vtkInteractorStyleTrackballCamera> style_;
-  vtkNew<vtkPolyData> points_;
-  vtkNew<vtkPolyDataMapper> mapper_;
-  vtkNew<vtkActor> actor_;
-  vtkNew<vtkPointPicker> picker_;
+  vtkNew<vtkPlane> near_;
+  vtkNew<vtkPlane> far_;
+  vtkNew<vtkPlaneCollection> clip_;
+  std::vector<std::unique_ptr<CloudActor>> actors_;
+  std::vector<vtkSmartPointer<vtkStaticPointLocator>> locators_;  // of parts; null until needed
+  CloudMarks marks_;
 };
 
 }  // namespace episcope

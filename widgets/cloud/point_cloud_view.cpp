@@ -5,6 +5,7 @@
 
 #include <vtkCommand.h>
 
+#include <QElapsedTimer>
 #include <QGuiApplication>
 #include <QLabel>
 #include <QLineF>
@@ -19,15 +20,25 @@ namespace episcope {
 namespace {
 
 constexpr double kClickReach = 3;  // logical pixels; a longer way is a drag
+constexpr int kStillAfter_ms = 250;
+constexpr qint64 kFluent_ms = 30;  // a frame that takes longer is drawn with few points
 
 }  // namespace
 
 PointCloudView::PointCloudView(QWidget* parent)
     : QOpenGLWidget(parent), scene_(std::make_unique<CloudScene>(*this)) {
   setObjectName("pointCloudView");
-  setFocusPolicy(Qt::StrongFocus);
+  setFocusPolicy(Qt::NoFocus);  // the keyboard stays with the light field
   setMouseTracking(true);
   setMinimumSize(120, 90);
+  setAccessibleName(tr("3D view"));
+  still_.setSingleShot(true);
+  still_.setInterval(kStillAfter_ms);
+  connect(&still_, &QTimer::timeout, this, [this] {
+    if (!scene_->isMoving()) return;
+    scene_->setMoving(false);
+    update();
+  });
 }
 
 PointCloudView::~PointCloudView() {
@@ -50,6 +61,8 @@ void PointCloudView::initializeGL() {
 }
 
 void PointCloudView::paintGL() {
+  QElapsedTimer timer;
+  timer.start();
   scene_->paint();
   // What VTK left in alpha would let the window behind shine through.
   auto* gl = context()->functions();
@@ -59,18 +72,41 @@ void PointCloudView::paintGL() {
   gl->glClearColor(0, 0, 0, 1);
   gl->glClear(GL_COLOR_BUFFER_BIT);
   gl->glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  if (scene_->isMoving()) return;
+  gl->glFinish();
+  full_frame_ms_ = timer.elapsed();
 }
 
-void PointCloudView::setCloud(const PointCloud& cloud) {
-  const bool was_empty = scene_->size() == 0;
-  scene_->setCloud(cloud);
-  if (was_empty) resetCamera();
+void PointCloudView::setParts(CloudPartsPtr parts) {
+  // VTK frees what it keeps of the former parts in the context.
+  if (context()) makeCurrent();
+  scene_->setParts(std::move(parts));
+  if (context()) doneCurrent();
+  if (!is_turned_) showPreset(preset_);
   update();
 }
 
-void PointCloudView::setZStretch(double factor) {
-  if (!(factor > 0)) return;
-  scene_->setZStretch(factor);
+void PointCloudView::setCloud(PointCloud cloud) {
+  auto parts = std::make_shared<CloudParts>();
+  parts->push_back({std::move(cloud), {}});
+  setParts(std::move(parts));
+}
+
+void PointCloudView::setLook(const CloudLook& look) {
+  if (!(look.z_stretch > 0) || look == scene_->look()) return;
+  scene_->setLook(look);
+  beginMoving();
+  update();
+}
+
+void PointCloudView::setMarkedPixel(std::optional<PixelIndex> pixel) {
+  scene_->setMarkedPixel(pixel);
+  beginMoving();
+  update();
+}
+
+void PointCloudView::setLegend(const QString& title, const render::Shading& shading) {
+  scene_->marks().setLegend(title, shading);
   update();
 }
 
@@ -78,16 +114,31 @@ std::size_t PointCloudView::pointCount() const {
   return scene_->size();
 }
 
+const CloudLook& PointCloudView::look() const {
+  return scene_->look();
+}
+
+bool PointCloudView::isMoving() const {
+  return scene_->isMoving();
+}
+
+void PointCloudView::beginMoving() {
+  if (full_frame_ms_ > kFluent_ms) scene_->setMoving(true);
+  still_.start();
+}
+
 void PointCloudView::showPreset(CloudPreset preset) {
+  preset_ = preset;
+  is_turned_ = false;
   switch (preset) {
     case CloudPreset::Front:
-      scene_->look(0, 0);
+      scene_->lookFrom(0, 0);
       break;
     case CloudPreset::Tilted:
-      scene_->look(-28, 22);
+      scene_->lookFrom(-28, 22);
       break;
     case CloudPreset::Side:
-      scene_->look(-85, 8);
+      scene_->lookFrom(-85, 8);
       break;
   }
   update();
@@ -120,7 +171,7 @@ bool PointCloudView::handleMouse(const QMouseEvent& event) {
   if (is_press) {
     press_ = event.position();
   } else if (pressed) {
-    if (const auto point = scene_->pick(event.position())) emit pointPicked(*point);
+    if (const auto at = scene_->pick(event.position())) emit pointPicked(at->point, at->part);
   }
   return true;
 }
@@ -134,11 +185,15 @@ bool PointCloudView::event(QEvent* event) {
       return handleMouse(static_cast<const QMouseEvent&>(*event));
     case QEvent::MouseMove: {
       const auto& moved = static_cast<const QMouseEvent&>(*event);
+      if (moved.buttons() != Qt::NoButton) beginMoving();
+      is_turned_ |= moved.buttons() != Qt::NoButton;
       scene_->handle(moved, vtkCommand::MouseMoveEvent);
       if (press_ && QLineF(*press_, moved.position()).length() > kClickReach) press_.reset();
       return true;
     }
     case QEvent::Wheel:
+      beginMoving();
+      is_turned_ = true;
       scene_->handle(static_cast<const QWheelEvent&>(*event));
       return true;
     case QEvent::MouseButtonDblClick:
@@ -147,6 +202,7 @@ bool PointCloudView::event(QEvent* event) {
     case QEvent::Resize: {
       const bool done = QOpenGLWidget::event(event);
       scene_->resize();
+      if (!is_turned_) showPreset(preset_);  // fills the new size
       return done;
     }
     default:

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "widgets/cloud/point_cloud.h"
+#include "engine/render/shade.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QOpenGLWidget>
 #include <QPointF>
 #include <QString>
+#include <QTimer>
 
 #include <cstddef>
 #include <memory>
@@ -19,8 +21,9 @@ class CloudScene;
 
 enum class CloudPreset { Front, Tilted, Side };
 
-/// A point cloud drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click picks a
-/// point. Cannot live on the offscreen platform: use `make_point_cloud_view`.
+/// Point clouds and surfaces drawn by VTK: left drag turns, middle drag pans, wheel zooms, a click
+/// picks a point. While the camera moves, few points are drawn if all take too long. Nothing is
+/// drawn while nothing changes. Cannot live on the offscreen platform: use `make_point_cloud_view`.
 class PointCloudView : public QOpenGLWidget {
   Q_OBJECT
 
@@ -28,18 +31,27 @@ class PointCloudView : public QOpenGLWidget {
   explicit PointCloudView(QWidget* parent = nullptr);
   ~PointCloudView() override;
 
-  /// Keeps the camera unless the view was empty.
-  void setCloud(const PointCloud& cloud);
-  /// Factor on z, > 0.
-  void setZStretch(double factor);
+  /// Keeps the camera if the user turned it. The parts are held, not copied.
+  void setParts(CloudPartsPtr parts);
+  /// One cloud, always with all its points.
+  void setCloud(PointCloud cloud);
+  void setLook(const CloudLook& look);
+  /// The point of this pixel is marked in every part that has one.
+  void setMarkedPixel(std::optional<PixelIndex> pixel);
+  /// A colour bar over the scene; an empty title takes it away.
+  void setLegend(const QString& title, const render::Shading& shading = {});
 
   [[nodiscard]] std::size_t pointCount() const;
+  [[nodiscard]] const CloudLook& look() const;
+  /// Whether the last frame may have been one of few points.
+  [[nodiscard]] bool isMoving() const;
 
  signals:
-  /// Place of the point in the cloud.
-  void pointPicked(std::size_t point);
+  /// Place of the point in its part, and which one that is.
+  void pointPicked(std::size_t point, std::size_t part);
 
  public slots:
+  /// Everything in sight, also after a change of size until the user turns it.
   void showPreset(episcope::CloudPreset preset);
   /// The tilted preset, everything in sight.
   void resetCamera();
@@ -51,10 +63,15 @@ class PointCloudView : public QOpenGLWidget {
 
  private:
   void releaseContext();
+  void beginMoving();
   bool handleMouse(const QMouseEvent& event);
 
   std::unique_ptr<CloudScene> scene_;
   std::optional<QPointF> press_;  // of the left button, until it is dragged
+  CloudPreset preset_ = CloudPreset::Tilted;
+  bool is_turned_ = false;    // since the preset
+  QTimer still_;              // ends when nothing has moved for a while
+  qint64 full_frame_ms_ = 0;  // that the last frame of all points took
 };
 
 /// A PointCloudView, or, where there is no display to draw it, a QLabel saying why.

@@ -71,6 +71,9 @@ ScenePanel::ScenePanel(SceneList* list, QWidget* parent)
   shown_->setSourceModel(list);
   shown_->setDynamicSortFilter(true);
   view_->setObjectName("scenes.list");
+  view_->setAccessibleName(tr("Scenes"));
+  filter_->setAccessibleName(tr("Filter"));
+  order_->setAccessibleName(tr("Order"));
   view_->setModel(shown_);
   view_->setItemDelegate(new SceneDelegate(view_));
   view_->setUniformItemSizes(true);

@@ -107,6 +107,7 @@ MetricTable::MetricTable(QWidget* parent)
 
 void MetricTable::setUpTable() {
   table_->setObjectName("metrics.table");
+  table_->setAccessibleName(tr("Metrics of all results"));
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);

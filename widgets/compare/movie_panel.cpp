@@ -63,6 +63,8 @@ void MoviePanel::addKinds(QFormLayout& form) {
 
 void MoviePanel::addFocus(QFormLayout& form) {
   farthest_->setObjectName("movie.focusFrom");
+  farthest_->setAccessibleName(tr("Focus from"));
+  nearest_->setAccessibleName(tr("Focus to"));
   nearest_->setObjectName("movie.focusTo");
   for (NumberSpin* each : {farthest_, nearest_}) {
     each->setDecimals(2);

@@ -58,6 +58,7 @@ OverlayBar::OverlayBar(QWidget* parent)
          "Ctrl+wheel, "
          "Shift+click)"));
   focus_spin_->setObjectName("overlay.focusSpin");
+  focus_spin_->setAccessibleName(tr("Focus plane"));
   focus_spin_->setDecimals(2);
   focus_spin_->setSingleStep(0.05);
   focus_spin_->setRange(-kFarthestFocus, kFarthestFocus);

@@ -60,6 +60,10 @@ void ParameterForm::addRow(const ParameterDescription& description) {
   label->setObjectName(key + ".label");
   label->setToolTip(tool_tip(description));
   label->setBuddy(editor);
+  // The row has one label for all its controls.
+  for (QWidget* control : editor->findChildren<QWidget*>()) {
+    if (control->accessibleName().isEmpty()) control->setAccessibleName(label->text());
+  }
   label->setWordWrap(true);
   editor->setToolTip(tool_tip(description));
   reset->setIconSize({12, 12});

@@ -81,6 +81,7 @@ ResultList::ResultList(QWidget* parent)
 
 void ResultList::setUpTree() {
   tree_->setObjectName("results.tree");
+  tree_->setAccessibleName(tr("Results"));
   tree_->viewport()->installEventFilter(this);
   tree_->setColumnCount(kColumnCount);
   tree_->setHeaderLabels({"", tr("Method"), tr("MSE×100"), tr("Time"), tr("Parameters")});

@@ -40,13 +40,21 @@ class TintedSvgEngine : public PaintedIconEngine {
   QByteArray svg_;
 };
 
+QIcon drawn_icon(const QString& path) {
+  register_resources();
+  QFile file(":/episcope/" + path);
+  if (!file.open(QIODevice::ReadOnly)) return {};
+  return QIcon(new TintedSvgEngine(file.readAll()));
+}
+
 }  // namespace
 
 QIcon themed_icon(const QString& name) {
-  register_resources();
-  QFile file(":/episcope/icons/" + name + ".svg");
-  if (!file.open(QIODevice::ReadOnly)) return {};
-  return QIcon(new TintedSvgEngine(file.readAll()));
+  return drawn_icon("icons/" + name + ".svg");
+}
+
+QIcon program_icon() {
+  return drawn_icon("episcope.svg");
 }
 
 }  // namespace episcope

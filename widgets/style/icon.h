@@ -10,4 +10,7 @@ namespace episcope {
 /// at hand, so that it follows light and dark themes. An unknown name gives a null icon.
 [[nodiscard]] QIcon themed_icon(const QString& name);
 
+/// The program's own icon, for its windows.
+[[nodiscard]] QIcon program_icon();
+
 }  // namespace episcope

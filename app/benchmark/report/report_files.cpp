@@ -11,13 +11,6 @@
 #include <algorithm>
 
 namespace episcope {
-namespace {
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
-}  // namespace
 
 std::vector<TitledTable> report_tables(const BenchmarkReport& report) {
   std::vector<TitledTable> tables = label_tables(report.results);
@@ -50,11 +43,11 @@ std::string tables_to_latex(const std::vector<TitledTable>& tables) {
 
 void write_report(const std::filesystem::path& folder, const BenchmarkReport& report) {
   const std::vector<TitledTable> tables = report_tables(report);
-  write_text(folder / "tables.csv", tables_to_csv(tables));
-  write_text(folder / "tables.tex", tables_to_latex(tables));
-  write_text(folder / "results.csv", table_to_csv(results_table(report.results)));
-  write_text(folder / "results.json", report_to_json(report));
-  write_text(folder / "index.html", html_page(report, tables));
+  io::write_atomically(folder / "tables.csv", tables_to_csv(tables));
+  io::write_atomically(folder / "tables.tex", tables_to_latex(tables));
+  io::write_atomically(folder / "results.csv", table_to_csv(results_table(report.results)));
+  io::write_atomically(folder / "results.json", report_to_json(report));
+  io::write_atomically(folder / "index.html", html_page(report, tables));
 }
 
 }  // namespace episcope

@@ -8,7 +8,7 @@
 #include "app/benchmark/run/scene_fingerprint.h"
 #include "app/benchmark/run/submission.h"
 #include "app/benchmark/run/workload.h"
-#include "app/session/judge/judge.h"
+#include "app/session/judge/verdict.h"
 #include "app/session/run/run_estimator.h"
 #include "app/session/scene/scene_range.h"
 #include "engine/core/error.h"
@@ -36,34 +36,11 @@ struct OpenScene {
   Interval range;
 };
 
-/// Judges as `options` say. What there is not to judge, or to judge against, is the scene's
-/// problem.
-EvaluationPtr judge_by(const EvaluationOptions& options, const Estimate& estimate,
-                       const Scene& scene, BenchmarkResult& result) {
-  try {
-    auto evaluation = std::make_shared<const Evaluation>(judge(estimate, scene, options));
-    result.notes.insert(result.notes.end(), evaluation->notes.begin(), evaluation->notes.end());
-    return evaluation;
-  } catch (const InvalidInput& error) {
-    result.problem = error.what();
-    return nullptr;
-  }
-}
-
-/// Judges by both protocols; keeps the errors of the first for a picture.
-EvaluationPtr judge_by_both(const Estimate& estimate, const Scene& scene, const Progress& progress,
-                            BenchmarkResult& result) {
-  EvaluationOptions options{.protocol = Protocol::Vmv2013, .progress = progress};
-  const auto evaluation = judge_by(options, estimate, scene, result);
-  if (!evaluation) return evaluation;
-  result.vmv2013 = evaluation->metrics;
-  const LightField& light_field = *scene.light_field;
-  if (std::min(light_field.height(), light_field.width()) > 2 * kBenchmarkBorder) {
-    options.protocol = Protocol::Benchmark2016;
-    const auto inner = judge_by(options, estimate, scene, result);
-    if (inner) result.benchmark2016 = inner->metrics;
-  }
-  return evaluation;
+void take(Verdict verdict, BenchmarkResult& result) {
+  result.vmv2013 = std::move(verdict.vmv2013);
+  result.benchmark2016 = std::move(verdict.benchmark2016);
+  result.notes.insert(result.notes.end(), verdict.notes.begin(), verdict.notes.end());
+  result.problem = std::move(verdict.problem);
 }
 
 std::string shape_text(const LightField& light_field) {
@@ -256,9 +233,7 @@ class Runner {
     result.notes = estimate->notes;
     part.step("evaluating");
     if (record.run.kind == RunKind::Search) {
-      const auto evaluation =
-          judge_by({.protocol = Protocol::Vmv2013}, *estimate, open.scene, result);
-      if (evaluation) result.vmv2013 = evaluation->metrics;
+      take(judge_by_errors(*estimate, open.scene, part), result);
     } else {
       const auto center =
           std::make_shared<const Estimate>(center_of(*estimate, open.scene.light_field->center()));
@@ -283,7 +258,9 @@ class Runner {
 
   std::vector<std::string> judge_and_write(const OpenScene& open, const EstimatePtr& center,
                                            BenchmarkResult& result) {
-    const auto evaluation = judge_by_both(*center, open.scene, progress_, result);
+    Verdict verdict = judge_by_both(*center, open.scene, progress_);
+    const EvaluationPtr evaluation = verdict.evaluation;
+    take(std::move(verdict), result);
     return write_pictures(options_.folder, open.name, center, result.entry, evaluation, open.range);
   }
 

@@ -2,6 +2,7 @@
 #include "app/cli/arguments/arguments.h"
 
 #include "app/cli/arguments/usage_error.h"
+#include "app/cli/output/json.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/text/join.h"
 
@@ -48,20 +49,47 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
+constexpr const char* kHelpAsJson = "--help-json";
+
 }  // namespace
+
+bool asks_for_help(const std::string& argument) {
+  return argument == "-h" || argument == "--help" || argument == kHelpAsJson;
+}
 
 struct Arguments::State {
   State(const std::string& verb_name, const Text& text)
-      : verb(verb_name), app(text.summary, "episcope-cli " + verb_name) {
+      : verb(verb_name), app(text.summary, "episcope-cli " + verb_name), example(text.example) {
     app.footer("Example:\n  " + text.example);
     app.formatter(std::make_shared<HelpFormatter>());
     app.set_help_flag("-h,--help", "Print this help and exit");
     takes_value["-h"] = takes_value["--help"] = false;
   }
 
-  CLI::Option* declare(CLI::Option* added, const std::string& names, bool with_value) {
-    for (const auto& name : CLI::detail::split(names, ',')) takes_value[name] = with_value;
+  CLI::Option* declare(CLI::Option* added, const OptionText& text, bool with_value) {
+    const std::vector<std::string> names = CLI::detail::split(text.names, ',');
+    for (const auto& name : names) takes_value[name] = with_value;
+    options.push_back(Json::object({{"names", names},
+                                    {"value", text.value_name},
+                                    {"choices", text.choices},
+                                    {"help", text.help},
+                                    {"heading", group}}));
     return added->group(group);
+  }
+
+  void declare_positional(CLI::Option* added, bool has_several) {
+    added->required()->option_text(" ");
+    positionals.push_back(Json::object({{"name", added->get_name()},
+                                        {"help", added->get_description()},
+                                        {"several", has_several}}));
+  }
+
+  [[nodiscard]] Json description() const {
+    return Json::object({{"verb", verb},
+                         {"summary", app.get_description()},
+                         {"example", example},
+                         {"positionals", positionals},
+                         {"options", options}});
   }
 
   /// Values are read after all else was found right: whoever asks for help gets it.
@@ -117,7 +145,10 @@ struct Arguments::State {
 
   std::string verb;
   CLI::App app;
+  std::string example;
   std::string group = "Options";
+  std::vector<Json> positionals;
+  std::vector<Json> options;
   std::map<std::string, bool> takes_value;
 
   /// An option with a value, or a flag that stands for one.
@@ -136,27 +167,27 @@ Arguments::Arguments(const std::string& verb, const Text& text)
 Arguments::~Arguments() = default;
 
 void Arguments::positional(const std::string& name, std::string& value, const std::string& help) {
-  state_->app.add_option(name, value, help)->required()->option_text(" ");
+  state_->declare_positional(state_->app.add_option(name, value, help), false);
 }
 
 void Arguments::positionals(const std::string& name, std::vector<std::string>& values,
                             const std::string& help) {
-  state_->app.add_option(name, values, help)->required()->option_text(" ");
+  state_->declare_positional(state_->app.add_option(name, values, help), true);
 }
 
 void Arguments::flag(const std::string& names, bool& value, const std::string& help) {
-  state_->declare(state_->app.add_flag(names, value, help), names, false);
+  state_->declare(state_->app.add_flag(names, value, help), {names, {}, help}, false);
 }
 
 void Arguments::add_flag(const OptionText& text, Assign assign) {
   auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
-  given.option = state_->declare(state_->app.add_flag(text.names, text.help), text.names, false);
+  given.option = state_->declare(state_->app.add_flag(text.names, text.help), text, false);
 }
 
 void Arguments::add_option(const OptionText& text, Assign assign, Need need) {
   auto& given = state_->given.emplace_back(State::Given{.assign = std::move(assign)});
   given.option =
-      state_->declare(state_->app.add_option(text.names, given.text, text.help), text.names, true)
+      state_->declare(state_->app.add_option(text.names, given.text, text.help), text, true)
           ->take_last()
           ->option_text(text.value_name)
           ->required(need == Need::Required);
@@ -164,7 +195,7 @@ void Arguments::add_option(const OptionText& text, Assign assign, Need need) {
 
 void Arguments::list_option(const std::string& names, std::vector<std::string>& values,
                             const std::string& value_name, const std::string& help) {
-  state_->declare(state_->app.add_option(names, values, help), names, true)
+  state_->declare(state_->app.add_option(names, values, help), {names, value_name, help}, true)
       ->option_text(value_name);
 }
 
@@ -177,6 +208,10 @@ void Arguments::heading(const std::string& text) {
 }
 
 bool Arguments::parse(const std::vector<std::string>& arguments) {
+  if (std::ranges::find(arguments, kHelpAsJson) != arguments.end()) {
+    print_json(state_->description());
+    return false;
+  }
   std::vector<std::string> left = state_->checked(arguments);
   std::reverse(left.begin(), left.end());  // as CLI11 wants them
   try {

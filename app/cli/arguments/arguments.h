@@ -10,6 +10,9 @@
 
 namespace episcope::cli {
 
+/// Whether this argument asks for the help of a verb, whatever stands beside it.
+[[nodiscard]] bool asks_for_help(const std::string& argument);
+
 /// The arguments of one verb: declares what there is, then parses. Values land in the variables
 /// given, which must outlive `parse` and keep what they hold where an option is not given. Names
 /// are as typed: "--views", or "-o,--output".
@@ -42,12 +45,14 @@ class Arguments {
   template <class T, class Typed>
   void option(const std::string& names, T& value, const OptionValue<Typed>& typed,
               const std::string& help) {
-    add_option({names, typed.name, help}, assignment(names, value, typed), Need::Optional);
+    add_option({names, typed.name, help, typed.choices}, assignment(names, value, typed),
+               Need::Optional);
   }
   template <class T, class Typed>
   void required_option(const std::string& names, T& value, const OptionValue<Typed>& typed,
                        const std::string& help) {
-    add_option({names, typed.name, help}, assignment(names, value, typed), Need::Required);
+    add_option({names, typed.name, help, typed.choices}, assignment(names, value, typed),
+               Need::Required);
   }
   /// An option with one or more texts, which may be given several times.
   void list_option(const std::string& names, std::vector<std::string>& values,
@@ -58,8 +63,10 @@ class Arguments {
   /// Options declared from here on stand under this heading in the help.
   void heading(const std::string& text);
 
-  /// Returns false if help was asked for and printed. Throws UsageError, naming the nearest option
-  /// for one that does not exist, and for values that `OptionValue::read` refuses.
+  /// Returns false if help was asked for and printed, for `--help-json` as one JSON object, of
+  /// which pages of the manual and completions are made (app/cli/pages). Throws UsageError, naming
+  /// the nearest option for one that does not exist, and for values that `OptionValue::read`
+  /// refuses.
   [[nodiscard]] bool parse(const std::vector<std::string>& arguments);
 
  private:
@@ -68,6 +75,7 @@ class Arguments {
     std::string names;
     std::string value_name;
     std::string help;
+    std::vector<std::string> choices{};
   };
   enum class Need { Optional, Required };
   using Assign = std::function<void(const std::string& text)>;

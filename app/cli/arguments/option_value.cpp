@@ -106,10 +106,12 @@ OptionValue<Extent> extent_value(const std::string& name, int max) {
 }
 
 OptionValue<std::string> one_of(const std::vector<std::string>& names) {
-  return {joined(names, "|"), [names](const std::string& option, const std::string& text) {
+  return {joined(names, "|"),
+          [names](const std::string& option, const std::string& text) {
             if (std::ranges::find(names, text) != names.end()) return text;
             throw unknown_name("value of " + option, text, names);
-          }};
+          },
+          names};
 }
 
 }  // namespace episcope::cli

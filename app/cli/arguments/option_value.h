@@ -16,6 +16,7 @@ struct OptionValue {
   std::string name;  ///< What help calls it: "A,B", "auto|cpu|cuda".
   /// Throws UsageError, naming the option, for a text that is no such value.
   std::function<T(const std::string& option, const std::string& text)> read;
+  std::vector<std::string> choices{};  ///< Where only certain words are values.
 };
 
 /// Any text: the name of a file, of an INPUT.
@@ -44,13 +45,15 @@ template <class T>
   std::vector<std::string> names;
   for (const Named<T>& each : choices) names.emplace_back(each.name);
   const OptionValue<std::string> known = one_of(names);
-  return {known.name, [choices, known](const std::string& option, const std::string& text) {
+  return {known.name,
+          [choices, known](const std::string& option, const std::string& text) {
             const std::string name = known.read(option, text);
             for (const Named<T>& each : choices) {
               if (name == each.name) return each.value;
             }
             return choices.front().value;  // never: `known` has refused other names
-          }};
+          },
+          names};
 }
 template <NamedEnum E>
 [[nodiscard]] OptionValue<E> choice_of() {

@@ -12,14 +12,22 @@ namespace {
 /// Values of this type, read as options of that type are everywhere.
 template <class T>
 OptionValue<ParameterValue> as_parameter(const OptionValue<T>& typed) {
-  return {typed.name, [read = typed.read](const std::string& option, const std::string& text) {
+  return {typed.name,
+          [read = typed.read](const std::string& option, const std::string& text) {
             return ParameterValue(read(option, text));
-          }};
+          },
+          typed.choices};
+}
+
+std::vector<std::string> words_of(const ParameterDescription& parameter) {
+  if (std::holds_alternative<bool>(parameter.default_value)) return {"true", "false"};
+  return {};
 }
 
 /// Values that have a word beside their numbers, such as "auto".
 OptionValue<ParameterValue> described_value(const ParameterDescription& parameter) {
-  return {domain_text(parameter), [parameter](const std::string& option, const std::string& text) {
+  return {domain_text(parameter),
+          [parameter](const std::string& option, const std::string& text) {
             try {
               return parse_parameter(parameter, text);
             } catch (const InvalidInput& error) {
@@ -28,7 +36,8 @@ OptionValue<ParameterValue> described_value(const ParameterDescription& paramete
               if (!sentence.starts_with(subject)) throw UsageError(sentence);
               throw UsageError(option + sentence.substr(subject.size()));
             }
-          }};
+          },
+          words_of(parameter)};
 }
 
 OptionValue<ParameterValue> value_of(const ParameterDescription& parameter) {

@@ -55,9 +55,6 @@ const Estimator* method_among(const VerbArguments& arguments,
 
 /// Without a known method its options cannot be judged: says so first.
 void require_method(const VerbArguments& arguments, const std::vector<Estimator>& estimators) {
-  const auto asks_for_help = [](const std::string& each) {
-    return each == "-h" || each == "--help";
-  };
   if (std::any_of(arguments.begin(), arguments.end(), asks_for_help)) return;
   const auto name = std::find_if(arguments.begin(), arguments.end(),
                                  [](const std::string& each) { return !each.starts_with("-"); });

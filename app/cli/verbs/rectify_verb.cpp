@@ -5,14 +5,14 @@
 #include "app/cli/output/json.h"
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/capture/rectify_photographs.h"
 #include "engine/capture/pose/pairs_file.h"
-#include "engine/capture/rectify/rectify.h"
-#include "engine/io/archive/write_scene.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iostream>
+#include <utility>
 
 namespace episcope::cli {
 namespace {
@@ -116,19 +116,13 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.2));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  const capture::Rectified rectified =
-      capture::rectify(*scene.light_field, camera, {request.step.value_or(1), request.equalise},
-                       job.progress().part(0.2, 0.9));
-  scene.light_field = rectified.light_field;
-  scene.truth = std::make_shared<GroundTruth>();
-  scene.scribbles = {};
-  io::write_archive(request.output, scene, job.progress().part(0.9, 1));
-  for (capture::PointPair& pair : picks) {
-    const capture::PlanePoint place = rectified.center_pixel(camera, {pair.x_px, pair.y_px});
-    pair.x_px = place.x;
-    pair.y_px = place.y;
-  }
-  if (!picks.empty()) capture::write_pairs(request.pairs, picks);
+  const auto [rectified, pairs] = rectify_to_file({std::move(scene),
+                                                   camera,
+                                                   {request.step.value_or(1), request.equalise},
+                                                   request.output,
+                                                   std::move(picks)},
+                                                  job.progress().part(0.2, 1));
+  if (!pairs.empty()) capture::write_pairs(request.pairs, pairs);
   job.finish();
   if (request.is_json) return print_json(answer(rectified, request.output));
   print(rectified, request.output);

@@ -11,6 +11,7 @@
 #include "engine/io/grid/image_file.h"
 #include "engine/io/labels/segmentation_file.h"
 #include "engine/io/movie/movie_file.h"
+#include "engine/render/fit.h"
 
 #include <fmt/format.h>
 
@@ -44,6 +45,7 @@ struct Request {
   std::optional<int> column;
   ShadingChoice shading;
   MovieRequest movie;
+  int longest_px = 0;             ///< Of a picture; 0 = as large as what it shows.
   std::optional<double> opacity;  ///< Over the view; empty = the map by itself.
   JobOptions job;
   ReadOptions read;
@@ -138,6 +140,9 @@ bool parse(const VerbArguments& arguments, Request& request) {
                 "Values at the ends of the colour map");
   parser.option("--colormap", request.shading.color_map, one_of(render::color_map_names()),
                 "Colour map");
+  parser.option("--fit", request.longest_px, index_value("PIXELS"),
+                "Scale a larger picture down until its longer side has so many pixels (default 0: "
+                "as it is)");
   parser.option("--truth", request.map.truth, text_value("INPUT"),
                 "Light field of a RESULT; by default the one named in its file");
   parser.option(
@@ -175,9 +180,10 @@ RgbaImage picture_of(const Request& request, const LoadedMap& loaded, const MapS
 
 /// What was written, for the user.
 std::string write_picture(const Request& request, const LoadedMap& loaded, Job& job) {
-  const RgbaImage picture =
-      request.what.is_epi ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
+  RgbaImage picture = request.what.is_epi
+                          ? epi_picture(request, *loaded.source.light_field, loaded.source.view)
                           : picture_of(request, loaded, loaded.source);
+  if (request.longest_px > 0) picture = render::fitted(picture, request.longest_px);
   job.progress().check();
   io::write_png(request.output, picture.view());
   return fmt::format("{}, {}×{} px", request.what.id, picture.width(), picture.height());

@@ -4,6 +4,7 @@
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/annotate/annotation_files.h"
 #include "app/gui/annotate/label_controller.h"
+#include "app/gui/annotate/label_look_controller.h"
 #include "app/gui/annotate/recovery_controller.h"
 #include "app/gui/annotate/scribble_controller.h"
 #include "app/gui/frame/frame.h"
@@ -35,6 +36,7 @@ void add_annotating(const Workbench& bench) {
                       .room = room});
   new AnnotateController(bench, brush);
   new LabelController(bench, palette);
+  new LabelLookController(bench, palette);
   new ScribbleController(bench, bar);
   new AnnotationFiles(bench, bar);
   new RecoveryController(bench);

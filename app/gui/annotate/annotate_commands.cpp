@@ -3,6 +3,7 @@
 #include "app/gui/annotate/annotate_section.h"
 #include "app/gui/frame/commands.h"
 #include "widgets/annotate/brush_panel.h"
+#include "widgets/canvas/tools/polygon_tool.h"
 
 #include <QAction>
 
@@ -31,6 +32,10 @@ QString edit_text(EditKind kind) {
       return AnnotateController::tr("import");
     case EditKind::SmoothBoundaries:
       return AnnotateController::tr("smooth boundaries");
+    case EditKind::Polygon:
+      return AnnotateController::tr("polygon");
+    case EditKind::Lasso:
+      return AnnotateController::tr("lasso");
   }
   return {};
 }
@@ -99,6 +104,12 @@ void AnnotateController::addToolCommands() {
             Qt::Key_E},
            {AnnotationTool::Fill, "fill", tr("Fill"),
             tr("Fills a region up to its edges; the right button clears it"), Qt::Key_F},
+           {AnnotationTool::Polygon, "polygon", tr("Polygon"),
+            tr("Paints what is inside a polygon: click its corners, then double-click or press "
+               "Return; begun with the right button, it erases"),
+            Qt::Key_O},
+           {AnnotationTool::Lasso, "lasso", tr("Lasso"),
+            tr("Paints what a drag goes around; the right button erases it"), Qt::Key_Q},
            {AnnotationTool::Pick, "pick", tr("Pick label"),
             tr("Selects the label under the cursor"), Qt::Key_I}}) {
     QAction* action =
@@ -114,6 +125,28 @@ void AnnotateController::addToolCommands() {
                              .checked = [this, tool = row.tool] { return tool_ == tool; }});
     panel_->addAction(action, "button.annotate." + row.id);
   }
+}
+
+void AnnotateController::addPolygonCommands() {
+  const auto is_drawing = [this] { return polygon_tool_->isDrawing(); };
+  bench_.commands.add({.id = "annotate.close_polygon",
+                       .menu = Menu::Annotate,
+                       .text = tr("Close the polygon"),
+                       .tip = tr("Paints what is inside the polygon that is being drawn"),
+                       .keys = {Qt::Key_Return, Qt::Key_Enter},
+                       .run = [this] { polygon_tool_->closeUp(); },
+                       .section = annotate_section::kTools,
+                       .scope = KeyScope::Viewer,
+                       .enabled = is_drawing});
+  bench_.commands.add({.id = "annotate.take_corner_back",
+                       .menu = Menu::Annotate,
+                       .text = tr("Take the last corner back"),
+                       .tip = tr("Removes the corner of the polygon that was set last"),
+                       .keys = {Qt::Key_Backspace},
+                       .run = [this] { polygon_tool_->takeBack(); },
+                       .section = annotate_section::kTools,
+                       .scope = KeyScope::Viewer,
+                       .enabled = is_drawing});
 }
 
 void AnnotateController::addSizeCommands() {
@@ -153,6 +186,7 @@ void AnnotateController::addCommands() {
   addModeCommand();
   addHistoryCommands();
   addToolCommands();
+  addPolygonCommands();
   addSizeCommands();
   panel_->addGap();
   for (const char* id : {"annotate.undo", "annotate.redo"}) {

@@ -2,6 +2,7 @@
 #include "app/gui/annotate/annotate_controller.h"
 
 #include "annotation/paint/flood_fill.h"
+#include "annotation/paint/polygon.h"
 #include "app/gui/document/label_choice.h"
 #include "app/gui/frame/cancels.h"
 #include "app/gui/frame/commands.h"
@@ -11,7 +12,9 @@
 #include "app/gui/stage/stage.h"
 #include "widgets/annotate/brush_panel.h"
 #include "widgets/canvas/tools/fill_tool.h"
+#include "widgets/canvas/tools/lasso_tool.h"
 #include "widgets/canvas/tools/point_tool.h"
+#include "widgets/canvas/tools/polygon_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <algorithm>
@@ -49,6 +52,8 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
       panel_(panel),
       stroke_tool_(new StrokeTool(this)),
       fill_tool_(new FillTool(this)),
+      polygon_tool_(new PolygonTool(this)),
+      lasso_tool_(new LassoTool(this)),
       pick_tool_(new PointTool(this)) {
   addCommands();
   connectTools();
@@ -85,6 +90,9 @@ void AnnotateController::connectTools() {
   connect(tool, &StrokeTool::sizeStepped, this, &AnnotateController::stepSize);
   connect(fill_tool_, &FillTool::fillRequested, this, &AnnotateController::fill);
   connect(pick_tool_, &PointTool::pointPicked, this, &AnnotateController::pick);
+  paintOutlined(*polygon_tool_, EditKind::Polygon);
+  paintOutlined(*lasso_tool_, EditKind::Lasso);
+  connect(polygon_tool_, &OutlineTool::cornersChanged, &bench_.commands, &Commands::refresh);
 }
 
 void AnnotateController::connectPanel() {
@@ -136,6 +144,8 @@ void AnnotateController::showScribbles() {
 CanvasTool* AnnotateController::canvasTool() const {
   if (tool_ == AnnotationTool::Fill) return fill_tool_;
   if (tool_ == AnnotationTool::Pick) return pick_tool_;
+  if (tool_ == AnnotationTool::Polygon) return polygon_tool_;
+  if (tool_ == AnnotationTool::Lasso) return lasso_tool_;
   return stroke_tool_;
 }
 
@@ -150,8 +160,10 @@ void AnnotateController::showMode() {
 void AnnotateController::showColor() {
   const LabelInfo* label = bench_.labels.info();
   if (document_.isStroking()) canvasTool()->end();
-  stroke_tool_->setColor(label ? QColor(label->color[0], label->color[1], label->color[2])
-                               : QColor());
+  const QColor color = label ? QColor(label->color[0], label->color[1], label->color[2]) : QColor();
+  stroke_tool_->setColor(color);
+  polygon_tool_->setColor(color);
+  lasso_tool_->setColor(color);
 }
 
 void AnnotateController::setTool(AnnotationTool tool) {
@@ -185,15 +197,43 @@ PaintStyle AnnotateController::styleOf(const StrokeStart& start) const {
   style.label = std::max(1, bench_.labels.current());
   style.diameter_px = start.erases ? stroke_tool_->eraserSize() : stroke_tool_->brushSize();
   style.protects_others = start.protects_others || protects_others_;
+  // What is not seen is not changed.
+  const LabelMarks& marks = session_.place().label_marks;
+  for (const auto* kept : {&marks.hidden, &marks.locked}) {
+    for (const std::int32_t id : *kept) style.locked.set(static_cast<std::size_t>(id));
+  }
   return style;
 }
 
-// Painting without a label creates one.
 bool AnnotateController::requireLabel() {
   if (bench_.labels.current() == 0) {
     document_.edit([](AnnotationDocument& document) { document.add_label(); });
   }
-  return bench_.labels.current() != 0;
+  const LabelInfo* label = bench_.labels.info();
+  if (!label) return false;
+  LabelMarks marks = session_.place().label_marks;
+  if (marks.locked.contains(label->id)) {
+    bench_.messages.hint(tr("“%1” is locked: unlock it to paint it, or choose another label.")
+                             .arg(QString::fromStdString(label->name)));
+    return false;
+  }
+  if (marks.hidden.erase(label->id) > 0) session_.set_label_marks(marks);
+  return true;
+}
+
+void AnnotateController::paintOutlined(const OutlineTool& tool, EditKind kind) {
+  connect(&tool, &OutlineTool::outlined, this,
+          [this, kind](const QPolygonF& corners, const StrokeStart& start) {
+            if (!hasDocument() || (!start.erases && !requireLabel())) return;
+            std::vector<StrokePoint> points;
+            for (const QPointF& each : corners) points.push_back(point_of(each));
+            document_.edit([&](AnnotationDocument& document) {
+              const ScribbleLayer& layer = document.scribbles();
+              fill_region(document, session_.view(),
+                          pixels_in_polygon(points, layer.height(), layer.width()), styleOf(start),
+                          kind);
+            });
+          });
 }
 
 PixelRegion AnnotateController::regionAt(PixelIndex seed) const {

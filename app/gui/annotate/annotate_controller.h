@@ -13,12 +13,15 @@ namespace episcope {
 
 class BrushPanel;
 class FillTool;
+class LassoTool;
+class OutlineTool;
 class PointTool;
+class PolygonTool;
 class ViewCanvas;
 
-enum class AnnotationTool { Brush, Eraser, Fill, Pick };
+enum class AnnotationTool { Brush, Eraser, Fill, Polygon, Lasso, Pick };
 
-/// Painting on the view: browse or annotate, the tool in use, sizes, strokes and fills.
+/// Painting on the view: browse or annotate, the tool in use, sizes, strokes, fills and outlines.
 class AnnotateController : public QObject {
   Q_OBJECT
 
@@ -43,6 +46,7 @@ class AnnotateController : public QObject {
   void addModeCommand();
   void addHistoryCommands();
   void addToolCommands();
+  void addPolygonCommands();
   void addSizeCommands();
   [[nodiscard]] bool hasDocument() const;
   /// Precondition: there is a document.
@@ -59,7 +63,10 @@ class AnnotateController : public QObject {
   [[nodiscard]] bool isTabShown() const;
   [[nodiscard]] CanvasTool* canvasTool() const;
   [[nodiscard]] PaintStyle styleOf(const StrokeStart& start) const;
+  /// Whether the current label can be painted: adds one if there is none, shows a hidden one, and
+  /// says so if it is locked.
   bool requireLabel();
+  void paintOutlined(const OutlineTool& tool, EditKind kind);
   void fill(const StrokeStart& start);
   [[nodiscard]] PixelRegion regionAt(PixelIndex seed) const;
   void pick(QPointF image);
@@ -72,6 +79,8 @@ class AnnotateController : public QObject {
   BrushPanel* panel_;
   StrokeTool* stroke_tool_;
   FillTool* fill_tool_;
+  PolygonTool* polygon_tool_;
+  LassoTool* lasso_tool_;
   PointTool* pick_tool_;
   AnnotationTool tool_ = AnnotationTool::Brush;
   bool protects_others_ = false;

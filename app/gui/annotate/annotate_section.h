@@ -18,6 +18,7 @@ namespace label_section {
 
 inline constexpr int kLabels = 0;
 inline constexpr int kEdit = 1;
+inline constexpr int kLook = 2;
 
 }  // namespace label_section
 

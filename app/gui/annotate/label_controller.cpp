@@ -8,6 +8,7 @@
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/stage/stage.h"
+#include "app/session/session.h"
 #include "widgets/annotate/label_palette.h"
 
 #include <QColorDialog>
@@ -172,6 +173,11 @@ bool LabelController::isPainted(int id) const {
 void LabelController::remove(int id) {
   const LabelInfo* label = find(id);
   if (!label) return;
+  if (bench_.session.place().label_marks.locked.contains(id)) {
+    bench_.messages.hint(
+        tr("“%1” is locked: unlock it to remove it.").arg(QString::fromStdString(label->name)));
+    return;
+  }
   if (!isPainted(id)) {
     removeNow(id);
     return;

@@ -10,6 +10,7 @@
 #include "widgets/canvas/scribble_picture.h"
 #include "widgets/canvas/view_canvas.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -57,7 +58,7 @@ void ScribbleController::update(Parts parts) {
                      session_.scene() && session_.scene()->truth->has_disparity());
     if (field() != carried_by_) carry();
   }
-  if (parts.has(Part::View)) show();
+  if (parts.has_any(Part::View | Part::LabelLook)) show();
 }
 
 QImage ScribbleController::picture(const PixelRect& rect) const {
@@ -65,7 +66,7 @@ QImage ScribbleController::picture(const PixelRect& rect) const {
   const ViewIndex view = session_.view();
   ScribbleLayers layers{document.scribbles().view(view), {}};
   if (carried_) layers.carried = carried_->view(view);
-  return scribble_picture(layers, document.labels(), rect);
+  return scribble_picture(layers, document.labels(), rect, session_.label_style());
 }
 
 void ScribbleController::show() {
@@ -80,7 +81,12 @@ void ScribbleController::show() {
 
 void ScribbleController::showRect(ViewIndex view, const PixelRect& rect) {
   if (view != session_.view() || bench_.stage.isPreviewing()) return;
-  canvas_->patchScribbles({rect.x0, rect.y0}, picture(rect));
+  // What is painted beside a pixel decides whether that is on a contour.
+  const ScribbleLayer& layer = std::as_const(document_).document()->scribbles();
+  const PixelRect wider{std::max(rect.y0 - 1, 0), std::max(rect.x0 - 1, 0),
+                        std::min(rect.y1 + 1, layer.height()),
+                        std::min(rect.x1 + 1, layer.width())};
+  canvas_->patchScribbles({wider.x0, wider.y0}, picture(wider));
 }
 
 void ScribbleController::showChange(const DocumentChange& change) {

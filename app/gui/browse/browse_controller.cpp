@@ -16,7 +16,6 @@
 #include "widgets/browse/view_grid.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/compare/overlay_bar.h"
-#include "widgets/style/number_text.h"
 #include "widgets/style/picture.h"
 #include "widgets/style/theme.h"
 
@@ -82,9 +81,6 @@ void BrowseController::connectEpis() {
   for (EpiPane* pane : {stage_.horizontalEpi(), stage_.verticalEpi()}) {
     connect(stage_.canvas(), &ViewCanvas::transformChanged, pane, &EpiPane::setCanvasTransform);
     connect(pane, &EpiPane::transformChanged, stage_.canvas(), &ViewCanvas::setCanvasTransform);
-    connect(pane, &EpiPane::disparityMeasured, this, [this](double disparity_px) {
-      bench_.messages.hint(tr("Measured disparity: %1 px per view").arg(number_text(disparity_px)));
-    });
   }
   connect(stage_.horizontalEpi(), &EpiPane::positionClicked, this, [this](int x, int u) {
     session_.set_cross_hair({session_.cross_hair().y, x});
@@ -105,7 +101,7 @@ void BrowseController::setPreviewing(bool is_previewing) {
 }
 
 void BrowseController::update(Parts parts) {
-  if (parts.has(Part::Tone)) setTone(session_.place().tone);
+  if (parts.has(Part::Tone)) tone_ = render::table_of(session_.place().tone);
   if (parts.has(Part::Scene)) {
     showScene();
   } else if (parts.has(Part::Tone) && session_.scene()) {
@@ -136,10 +132,6 @@ void BrowseController::showScene() {
   showFocusReach();
   startThumbnails();
   stage_.canvas()->zoomToFit();
-}
-
-void BrowseController::setTone(const render::Tone& tone) {
-  tone_ = tone.is_plain() ? nullptr : std::make_shared<const render::ToneTable>(tone);
 }
 
 void BrowseController::showFocusReach() {

@@ -54,7 +54,6 @@ class BrowseController : public QObject {
   void setPreviewing(bool is_previewing);
   void showScene();
   void showFocusReach();
-  void setTone(const render::Tone& tone);
   void showView();
   void showPicture(const QImage& picture);
   void showEpis();

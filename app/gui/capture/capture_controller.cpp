@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
 
+#include "app/gui/capture/capture_files.h"
+#include "app/gui/capture/photographs.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
@@ -24,15 +26,6 @@
 #include <utility>
 
 namespace episcope {
-namespace {
-
-namespace fs = std::filesystem;
-
-fs::path path_of(const QString& path) {
-  return path.toStdString();
-}
-
-}  // namespace
 
 // What a worker makes of a file.
 struct CaptureController::Loaded {
@@ -41,15 +34,59 @@ struct CaptureController::Loaded {
 };
 
 CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
-    : QObject(&bench.owner), bench_(bench), tab_(tab) {
-  connect(&bench.frame, &Frame::tabShown, this, [this] {
-    if (bench_.frame.shownTab() == "capture") makePanel();
+    : QObject(&bench.owner),
+      bench_(bench),
+      tab_(tab),
+      photographs_(new Photographs(
+          bench, [this] { return now_->pairs.all(); }, this)) {
+  followPhotographs();
+  connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
+    if (id == "capture") makePanel();
   });
   bench.session.on_changed([this](Parts parts) {
-    OfScene* shown = &of_scenes_[bench_.session.generation()];
-    if (parts.has(Part::Scene) && std::exchange(now_, shown) != shown) changed();
+    if (parts.has(Part::Scene)) followScene();
     if (parts.has_any(Part::View | Part::CrossHair)) showNext();
   });
+}
+
+void CaptureController::followScene() {
+  const auto [found, is_new] = of_scenes_.try_emplace(bench_.session.generation());
+  if (is_new) found->second.pairs = PickedPairs(bench_.session.place().capture.pairs);
+  if (std::exchange(now_, &found->second) == &found->second) return;
+  openFormerMesh();
+  changed();
+}
+
+// The mesh that a project names, once it can be seen.
+void CaptureController::openFormerMesh() {
+  const std::string& file = bench_.session.place().capture.mesh;
+  if (panel_ && !file.empty() && file != mesh_file_) loadMesh(QString::fromStdString(file));
+}
+
+// For the project; light fields that are just opened are followed first.
+void CaptureController::keep() {
+  const auto found = of_scenes_.find(bench_.session.generation());
+  if (found == of_scenes_.end() || &found->second != now_) return;
+  std::string mesh = mesh_file_.string();
+  const std::string& former = bench_.session.place().capture.mesh;
+  if (mesh.empty() || now_->pairs.all().empty()) mesh = former;
+  bench_.session.set_capture({mesh, now_->pairs.all()});
+}
+
+// Light fields that it opens are shown already, and not yet told of.
+void CaptureController::followPhotographs() {
+  connect(photographs_, &Photographs::rectified, this,
+          [this](const std::vector<capture::PointPair>& pairs) {
+            followScene();
+            now_->pairs.add(pairs);
+            changed();
+          });
+  connect(photographs_, &Photographs::demoOpened, this,
+          [this](const QString& mesh, const QString& picks) {
+            followScene();
+            importPairs(picks);
+            openMesh(mesh);
+          });
 }
 
 void CaptureController::makePanel() {
@@ -61,6 +98,8 @@ void CaptureController::makePanel() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panel_);
   connectPanel();
+  photographs_->attach(panel_->steps());
+  openFormerMesh();
   changed();
 }
 
@@ -118,6 +157,12 @@ void CaptureController::connectPanel() {
 }
 
 void CaptureController::openMesh(const QString& path) {
+  bench_.frame.showTab("capture");
+  makePanel();
+  loadMesh(path);
+}
+
+void CaptureController::loadMesh(const QString& path) {
   bench_.jobs.start<Loaded>(
       Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
       [file = path_of(path)](const Progress& progress) {
@@ -132,8 +177,6 @@ void CaptureController::openMesh(const QString& path) {
         mesh_ = loaded.mesh;
         mesh_file_ = path_of(path);
         vertex_.reset();
-        bench_.frame.showTab("capture");
-        makePanel();
         panel_->setMesh(tr("%1 · %2 faces")
                             .arg(QFileInfo(path).fileName(),
                                  QLocale().toString(static_cast<qulonglong>(mesh_->faces.size()))),
@@ -169,12 +212,7 @@ void CaptureController::savePose(const QString& path) {
 }
 
 void CaptureController::writeTruth(const QString& path) {
-  if (!pose_ || !mesh_ || !has_suffix(path, {"h5"}, bench_.messages)) return;
-  if (fs::exists(path_of(path))) {
-    bench_.messages.fail(
-        tr("%1 is there already; name a new file, so that no light field is lost").arg(path));
-    return;
-  }
+  if (!pose_ || !mesh_ || !is_new_light_field(path, bench_.messages)) return;
   write_in_background(bench_.jobs, bench_.messages, path,
                       [file = path_of(path), mesh = mesh_, pose = pose_->pose,
                        scene = bench_.session.scene()](const Progress& progress) {
@@ -191,7 +229,7 @@ void CaptureController::pickVertex(std::size_t vertex) {
 }
 
 void CaptureController::addPair() {
-  if (!vertex_ || !obstacle().isEmpty()) return;
+  if (!vertex_ || !bench_.session.scene()) return;
   const PixelIndex pixel = bench_.session.cross_hair();
   const auto& [x, y, z] = mesh_->vertices[*vertex_];
   now_->pairs.add({{"", static_cast<double>(pixel.x), static_cast<double>(pixel.y), {x, y, z}}});
@@ -214,6 +252,7 @@ void CaptureController::showOverView() {
 }
 
 void CaptureController::changed() {
+  keep();
   solve();
   showPairs();
   showNext();
@@ -235,7 +274,7 @@ QString CaptureController::obstacle() const {
   if (!bench_.session.light_field()->info().camera.pinhole) {
     return tr(
         "This light field does not tell its focal length and centre in pixels, which a pose "
-        "needs; make it with “episcope-cli rectify”.");
+        "needs. Rectify photographs with their calibrated lens; pairs are carried over.");
   }
   return {};
 }
@@ -243,16 +282,16 @@ QString CaptureController::obstacle() const {
 void CaptureController::showNext() {
   if (!panel_) return;
   const bool is_here =
-      obstacle().isEmpty() && bench_.session.view() == bench_.session.light_field()->center();
+      bench_.session.scene() && bench_.session.view() == bench_.session.light_field()->center();
   const PixelIndex pixel = bench_.session.cross_hair();
   std::optional<std::array<double, 3>> point;
   if (mesh_ && vertex_) {
     const auto& [x, y, z] = mesh_->vertices[*vertex_];
     point = {x, y, z};
   }
-  panel_->setNext(
-      is_here ? QString("%1, %2").arg(pixel.x).arg(pixel.y) : tr("go to the centre view (Home)"),
-      point, is_here && point);
+  const QString elsewhere = bench_.session.scene() ? tr("go to the centre view (Home)") : QString();
+  panel_->setNext(is_here ? QString("%1, %2").arg(pixel.x).arg(pixel.y) : elsewhere, point,
+                  is_here && point);
 }
 
 void CaptureController::showPairs() {
@@ -260,9 +299,10 @@ void CaptureController::showPairs() {
   std::vector<CaptureRow> rows;
   for (std::size_t i = 0; i < now_->pairs.all().size(); ++i) {
     const capture::PointPair& pair = now_->pairs.all()[i];
-    CaptureRow row{QString::fromStdString(pair.name),
-                   {pair.x_px, pair.y_px},
-                   {pair.point.x, pair.point.y, pair.point.z}};
+    CaptureRow row{.name = QString::fromStdString(pair.name),
+                   .pixel = {pair.x_px, pair.y_px},
+                   .point = {pair.point.x, pair.point.y, pair.point.z},
+                   .off_px = {}};
     if (pose_) {
       row.off_px = pose_->pairs[i].residual_px;
       row.is_outlier = pose_->pairs[i].is_outlier;

@@ -21,6 +21,7 @@
 namespace episcope {
 
 class CapturePanel;
+class Photographs;
 
 /// From a mesh and pairs of points to a pose, a result and ground truth, of the open light field.
 class CaptureController : public QObject {
@@ -37,6 +38,7 @@ class CaptureController : public QObject {
   /// Marks a point of the mesh for the next pair.
   void pickVertex(std::size_t vertex);
 
+  [[nodiscard]] Photographs& photographs() { return *photographs_; }
   /// Of the light field that is shown.
   [[nodiscard]] const PickedPairs& pairs() const { return now_->pairs; }
   [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const { return pose_; }
@@ -51,6 +53,11 @@ class CaptureController : public QObject {
 
   void makePanel();
   void connectPanel();
+  void followScene();
+  void openFormerMesh();
+  void loadMesh(const QString& path);
+  void keep();
+  void followPhotographs();
   void addPair();
   void showOverView();
   void changed();
@@ -58,11 +65,12 @@ class CaptureController : public QObject {
   void showNext();
   void showPairs();
   [[nodiscard]] QString poseText() const;
-  /// Why pairs cannot be used; empty = they can.
+  /// Why there can be no pose; empty = there can.
   [[nodiscard]] QString obstacle() const;
 
   Workbench bench_;
   QWidget* tab_;
+  Photographs* photographs_;
   CapturePanel* panel_ = nullptr;
   std::filesystem::path mesh_file_;
   std::shared_ptr<const capture::TriangleMesh> mesh_;

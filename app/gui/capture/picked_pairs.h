@@ -4,6 +4,7 @@
 #include "engine/capture/pose/point_pair.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -11,6 +12,10 @@ namespace episcope {
 /// Pairs of points that a user picks, with every change undoable.
 class PickedPairs {
  public:
+  PickedPairs() = default;
+  /// As they were when a project was saved.
+  explicit PickedPairs(std::vector<capture::PointPair> pairs) : pairs_(std::move(pairs)) {}
+
   [[nodiscard]] const std::vector<capture::PointPair>& all() const { return pairs_; }
   [[nodiscard]] bool is_undoable() const { return !former_.empty(); }
 

@@ -1,54 +1,59 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/cloud/cloud_controller.h"
 
+#include "app/gui/cloud/cloud_settings.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/stage/overlay.h"
-#include "app/session/picture/picture.h"
 #include "app/session/session.h"
-#include "engine/core/light_field/shown_disparity.h"
 #include "widgets/cloud/point_cloud_panel.h"
-#include "widgets/style/quantity_text.h"
+#include "widgets/controls/tool_button.h"
+#include "widgets/style/number_text.h"
 
+#include <QLocale>
+#include <QToolButton>
 #include <QVBoxLayout>
 
+#include <utility>
+
 namespace episcope {
-namespace {
-
-using render::Quantity;
-
-// A software renderer draws this many points fluently.
-constexpr std::size_t kMostPoints = 400'000;
-
-using CloudPtr = std::shared_ptr<const PointCloud>;
-
-int step_for(std::size_t pixels) {
-  int step = 1;
-  while (pixels / (step * step) > kMostPoints) ++step;
-  return step;
-}
-
-}  // namespace
 
 CloudController::CloudController(const Workbench& bench, QWidget* tab)
-    : QObject(&bench.owner), bench_(bench), session_(bench.session), tab_(tab), job_(this) {
-  connect(&bench.frame, &Frame::tabShown, this, [this] {
-    if (!isOnScreen()) return;
-    makePanel();
-    if (is_stale_) update();
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      requests_(bench),
+      tab_(tab),
+      job_(this) {
+  connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
+    if (id == "cloud") makePanel();
   });
+  connect(&bench.frame, &Frame::started, this, [this] {
+    if (read_cloud_settings().is_large) setLarge(true);
+  });
+  connect(&bench.frame, &Frame::layoutReset, this, [this] { setLarge(false); });
+  connect(&bench.stage, &Stage::guestDismissed, this, [this] { setLarge(false); });
   connect(&bench.overlay, &Overlay::drawn, this, [this] {
-    if (panel_ && isOnScreen() && panel_->coloring() != CloudColoring::Image) update();
+    // Colour ranges and labels may have changed.
+    if (panel_ && panel_->controls().choice().coloring != CloudColoring::Image) refresh();
   });
-  session_.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Shown | Part::View | Part::Evaluations)) {
-      is_stale_ = true;
-      if (isOnScreen()) update();
-    }
-  });
+  session_.on_changed([this](Parts parts) { hear(parts); });
+}
+
+void CloudController::hear(Parts parts) {
+  if (!panel_) return;
+  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::View | Part::Evaluations |
+                    Part::Tone)) {
+    refresh();
+  }
+  if (parts.has(Part::CrossHair) && isOnScreen() && panel_->isAvailable()) {
+    panel_->display().view()->setMarkedPixel(session_.cross_hair());
+  }
 }
 
 bool CloudController::isOnScreen() const {
-  return bench_.frame.shownTab() == "cloud";
+  return panel_ && panel_->display().isVisible();
 }
 
 void CloudController::makePanel() {
@@ -57,73 +62,145 @@ void CloudController::makePanel() {
   // the window fixes its position.
   bench_.window.move(bench_.window.pos());
   panel_ = new PointCloudPanel(tab_);
+  const CloudSettings settings = read_cloud_settings();
+  panel_->controls().setChoice(settings.choice);
+  panel_->controls().setLook(settings.look);
+  for (const char* id : {"cloud.large", "cloud.window"}) {
+    panel_->addButton(make_action_button(bench_.commands.find(id), id, panel_));
+  }
   auto* layout = new QVBoxLayout(tab_);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panel_);
-  connect(panel_, &PointCloudPanel::coloringSelected, this, [this] { update(); });
-  connect(panel_, &PointCloudPanel::pixelPicked, this,
+  connectPanel();
+  if (isOnScreen()) update();
+}
+
+void CloudController::connectPanel() {
+  CloudDisplay& display = panel_->display();
+  connect(&display, &CloudDisplay::shown, this, [this] {
+    if (is_stale_) update();
+  });
+  connect(&display, &CloudDisplay::pixelPicked, this,
           [this](PixelIndex pixel) { session_.set_cross_hair(pixel); });
+  connect(&panel_->controls(), &CloudControls::choiceChanged, this, [this] {
+    remember();
+    refresh();
+  });
+  connect(&panel_->controls(), &CloudControls::lookChanged, this, &CloudController::remember);
+  if (panel_->isAvailable()) display.view()->setLook(panel_->controls().look());
 }
 
-QString CloudController::obstacle() const {
-  if (!session_.scene()) return tr("Open a light field first.");
-  const EstimateEntry* shown = session_.shown();
-  if (!shown) return tr("Run a method: its disparity appears here in 3D.");
-  if (!shown->estimate->contains(session_.view())) {
-    return tr("%1 has no map of this view. Go to the centre view (Home).")
-        .arg(QString::fromStdString(shown->name));
+void CloudController::remember() const {
+  if (!panel_) return;
+  write_cloud_settings({panel_->controls().choice(), panel_->controls().look(), is_large_});
+}
+
+void CloudController::setLarge(bool is_large) {
+  if (is_large == is_large_) return;
+  makePanel();
+  is_large_ = is_large;
+  if (is_large) {
+    panel_->lendDisplay(tr("The 3D view is in the place of the view."));
+    bench_.stage.setGuest(&panel_->display());
+  } else {
+    bench_.stage.releaseGuest();
+    panel_->takeDisplayBack();
   }
-  return {};
+  remember();
+  bench_.commands.refresh();
 }
 
-std::optional<CloudController::Coloring> CloudController::coloring() const {
-  const Quantity quantity =
-      panel_->coloring() == CloudColoring::Error ? Quantity::SignedError : Quantity::Disparity;
-  auto source = map_source(session_, {quantity, session_.shown()->id, 0}, session_.view());
-  if (!source) return std::nullopt;
-  return Coloring{std::move(*source), bench_.overlay.shadingOf(quantity)};
+// What is out of date and not seen takes no memory and no time.
+void CloudController::refresh() {
+  is_stale_ = true;
+  if (isOnScreen()) {
+    update();
+  } else {
+    job_.drop();
+    if (hasScene()) showHint({});
+  }
+}
+
+void CloudController::showHint(const QString& hint) {
+  parts_ = std::make_shared<const CloudParts>();
+  panel_->display().setParts(parts_, hint);
+  panel_->controls().setSummary({});
+  if (panel_->isAvailable()) panel_->display().view()->setLegend({});
+  bench_.commands.refresh();
 }
 
 void CloudController::update() {
-  if (!panel_ || !panel_->isAvailable()) return;
+  if (!panel_->isAvailable()) return;
   is_stale_ = false;
-  const QString hint = obstacle();
-  panel_->setErrorAvailable(session_.has_truth(session_.view()));
-  if (!hint.isEmpty()) {
+  if (const QString hint = requests_.obstacle(); !hint.isEmpty()) {
     job_.drop();
-    panel_->setLegend({});
-    panel_->setCloud({}, hint);
+    showHint(hint);
     return;
   }
-  if (panel_->coloring() == CloudColoring::Image) {
-    startCloud(std::nullopt);
-  } else if (const auto colors = coloring()) {
-    startCloud(colors);
-  }  // else its evaluation tells when it is there
+  panel_->controls().setOffers(requests_.offers());
+  const auto request = requests_.request(panel_->controls().choice());
+  if (request) start(*request);  // else its evaluation tells when it is there
 }
 
-void CloudController::startCloud(const std::optional<Coloring>& coloring) {
-  job_.start<CloudPtr>(
-      [light_field = session_.light_field(), estimate = session_.shown()->estimate,
-       view = session_.view(), coloring](const Progress& progress) {
-        progress.check();
-        const RgbaImage colors = coloring
-                                     ? map_picture(*make_map(coloring->source), coloring->shading)
-                                     : render::shade_view(*light_field, view);
-        progress.check();
-        const ShownDisparity map(estimate->field.view(view), light_field->valid_of(view));
-        return std::make_shared<const PointCloud>(make_point_cloud(
-            map.view(), light_field->info().camera, colors, step_for(map.view().disparity.size())));
+void CloudController::start(const SpaceRequest& request) {
+  if (request.reference) panel_->controls().setSummary(tr("Measuring distances …"));
+  job_.start<std::shared_ptr<const Made>>(
+      [request](const Progress& progress) {
+        SpaceScene scene = make_space_scene(request, progress);
+        return std::make_shared<const Made>(
+            Made{std::make_shared<const CloudParts>(std::move(scene.parts)),
+                 std::move(scene.distance), std::move(scene.shading)});
       },
-      [this, coloring](const CloudPtr& cloud) {
-        if (coloring) {
-          const Quantity quantity = coloring->source.quantity;
-          panel_->setLegend(quantity_label(quantity), coloring->shading);
-        } else {
-          panel_->setLegend({});
-        }
-        panel_->setCloud(*cloud, tr("This result has no valid pixels in this view."));
-      });
+      [this](const std::shared_ptr<const Made>& made) { show(*made); });
+}
+
+void CloudController::show(const Made& made) {
+  const CloudChoice choice = panel_->controls().choice();
+  parts_ = made.parts;
+  panel_->display().setParts(parts_, tr("This result has no valid pixels in this view."));
+  PointCloudView& view = *panel_->display().view();
+  if (made.shading) {
+    view.setLegend(requests_.legend(choice), *made.shading);
+  } else {
+    view.setLegend({});
+  }
+  view.setMarkedPixel(session_.cross_hair());
+  panel_->controls().setSummary(summary(made));
+  bench_.commands.refresh();
+}
+
+QString CloudController::summary(const Made& made) const {
+  const CloudChoice choice = panel_->controls().choice();
+  std::size_t points = 0;
+  for (const CloudPart& part : *made.parts) points += part.all.positions.size();
+  QString text =
+      tr("%1: %2 points")
+          .arg(requests_.title(choice), QLocale().toString(static_cast<quint64>(points)));
+  if (choice.coloring == CloudColoring::Source && made.parts->size() > 1) {
+    text += tr(", in orange and blue");
+  }
+  if (!made.distance) return text;
+  return text + tr(". From its points to the nearest of %1, in units of the scene: mean %2, median "
+                   "%3, 95 % below %4")
+                    .arg(requests_.referenceName(choice), number_text(made.distance->mean, 4),
+                         number_text(made.distance->median, 4),
+                         number_text(made.distance->percentile95, 4));
+}
+
+void CloudController::askToExport() const {
+  const std::string& scene = session_.light_field()->info().name;
+  ask_where_to_save(&bench_.window,
+                    {.name = "export_cloud",
+                     .title = tr("Save what the 3D view shows"),
+                     .filter = tr("Point cloud or surface (*.ply)"),
+                     .proposal = QString::fromStdString(scene + ".ply")},
+                    [this, parts = parts_](const QString& path) {
+                      if (!has_suffix(path, {"ply"}, bench_.messages)) return;
+                      write_in_background(bench_.jobs, bench_.messages, path,
+                                          [parts, file = path.toStdString()](const Progress&) {
+                                            save_space_scene(file, *parts);
+                                          });
+                    });
 }
 
 }  // namespace episcope

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/gui/cloud/cloud_request.h"
 #include "app/gui/frame/jobs.h"
-#include "app/session/picture/map_source.h"
-#include "engine/render/shade.h"
+#include "app/session/parts.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QObject>
+#include <QString>
 
 #include <optional>
 
@@ -14,32 +16,49 @@ namespace episcope {
 
 class PointCloudPanel;
 
-/// The 3D tab: makes it when it is shown first, keeps its cloud up to date while it is on screen,
-/// and moves the cross-hair to points that are clicked.
+/// The 3D view: makes it when it is shown first, keeps its clouds up to date while it is on screen
+/// and lets go of them when they are out of date and it is not; ties its points to the cross-hair;
+/// puts it in the place of the view and back.
 class CloudController : public QObject {
   Q_OBJECT
 
  public:
   CloudController(const Workbench& bench, QWidget* tab);
 
+  /// In the place of the view, else in its tab.
+  void setLarge(bool is_large);
+  [[nodiscard]] bool isLarge() const { return is_large_; }
+  /// Asks for a file and writes what is seen.
+  void askToExport() const;
+  [[nodiscard]] bool hasScene() const { return parts_ && !parts_->empty(); }
+
  private:
-  /// Colours of the points, where they are not those of the image.
-  struct Coloring {
-    MapSource source;
-    render::Shading shading;
+  /// What became of a request.
+  struct Made {
+    CloudPartsPtr parts;
+    std::optional<CloudDistance> distance;
+    std::optional<render::Shading> shading;
   };
 
+  void hear(Parts parts);
   void makePanel();
+  void connectPanel();
+  void remember() const;
+  void refresh();
   void update();
-  void startCloud(const std::optional<Coloring>& coloring);
-  [[nodiscard]] std::optional<Coloring> coloring() const;
+  void showHint(const QString& hint);
+  void start(const SpaceRequest& request);
+  void show(const Made& made);
   [[nodiscard]] bool isOnScreen() const;
-  [[nodiscard]] QString obstacle() const;
+  [[nodiscard]] QString summary(const Made& made) const;
 
   Workbench bench_;
   Session& session_;
+  CloudRequests requests_;
   QWidget* tab_;
   PointCloudPanel* panel_ = nullptr;
+  CloudPartsPtr parts_;
+  bool is_large_ = false;
   bool is_stale_ = true;
   LatestJob job_;
 };

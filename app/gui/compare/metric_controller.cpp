@@ -2,6 +2,7 @@
 #include "app/gui/compare/metric_controller.h"
 
 #include "app/gui/compare/metric_names.h"
+#include "app/gui/compare/region_controller.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/text_file.h"
@@ -51,14 +52,23 @@ MetricRow row_of(const Judged& judged, const std::vector<Place>& places) {
         metrics == judged.metrics.end() ? std::nullopt : find_metric(metrics->second, place.key);
     row.values.push_back(value ? QVariant(*value) : QVariant());
   }
+  for (const auto& [protocol, pixels] : judged.pixels) {
+    row.values.push_back(static_cast<double>(pixels));
+  }
   row.values.push_back(judged.seconds > 0 ? QVariant(judged.seconds) : QVariant());
   return row;
 }
 
 }  // namespace
 
-MetricController::MetricController(const Workbench& bench, MetricTable* table)
-    : QObject(&bench.owner), bench_(bench), session_(bench.session), table_(table) {
+MetricController::MetricController(const Workbench& bench, MetricTable* table,
+                                   const RegionController& region)
+    : QObject(&bench.owner),
+      bench_(bench),
+      session_(bench.session),
+      table_(table),
+      region_(region),
+      part_job_(this) {
   connect(table_, &MetricTable::rowClicked, this,
           [this](quint64 id) { session_.show_estimate(static_cast<int>(id)); });
   connect(table_, &MetricTable::compareRequested, this,
@@ -70,12 +80,19 @@ MetricController::MetricController(const Workbench& bench, MetricTable* table)
                              : tr("Copied the numbers of %1 results as %2").arg(count).arg(form));
   });
   connect(table_, &MetricTable::saveRequested, this, &MetricController::save);
+  connect(&region_, &RegionController::changed, this, [this] {
+    scored_.clear();
+    update(Part::Evaluations);
+  });
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);
 }
 
 void MetricController::update(Parts parts) {
-  if (parts.has(Part::Scene)) told_.clear();
+  if (parts.has(Part::Scene)) {
+    told_.clear();
+    scored_.clear();
+  }
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations)) fillTable();
   if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
     const EstimateEntry* shown = session_.shown();
@@ -99,10 +116,12 @@ void MetricController::fillTable() {
   std::vector<MetricColumn> columns = {
       {"method", tr("Result"), tr("Name of the result"), 0, BestValue::None}};
   for (const Place& place : places) columns.push_back(metric_column(place.protocol, place.key));
+  addPixels(columns);
   columns.push_back({"seconds", tr("Time\ns"), tr("Seconds taken"), 2, BestValue::Least});
   const auto add_text = [&columns](const QString& key, const QString& label) {
     columns.push_back({key, label, {}, 0, BestValue::None, false});
   };
+  add_text("region", tr("Judged"));
   add_text("scene", tr("Scene"));
   add_text("method_id", tr("Method"));
   add_text("parameters", tr("Parameters"));
@@ -118,31 +137,77 @@ void MetricController::fillTable() {
   table_->setTable(columns, rows);
 }
 
+void MetricController::addPixels(std::vector<MetricColumn>& columns) const {
+  if (!region_.region()) return;
+  columns.push_back({"vmv2013.pixels", tr("Pixels"), tr("Pixels of the part that were judged"), 0,
+                     BestValue::None});
+  columns.push_back({"benchmark2016.pixels", tr("Pixels\n2016"),
+                     tr("Those without the border of 15 px that this protocol ignores"), 0,
+                     BestValue::None});
+}
+
 QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
   const Estimate& estimate = *entry.estimate;
   QStringList parameters;
   for (const auto& [key, value] : changed_parameters(estimate.method, estimate.parameters)) {
     parameters << QString::fromStdString(key + "=" + to_text(value));
   }
-  return {QString::fromStdString(session_.light_field()->info().name),
-          QString::fromStdString(estimate.method), parameters.join(' '),
-          was_taken_early(estimate) ? tr("yes") : tr("no"), QString::fromStdString(entry.note)};
+  return {region_.name(),
+          QString::fromStdString(session_.light_field()->info().name),
+          QString::fromStdString(estimate.method),
+          parameters.join(' '),
+          was_taken_early(estimate) ? tr("yes") : tr("no"),
+          QString::fromStdString(entry.note)};
 }
 
 std::vector<Judged> MetricController::judgeAll() {
   std::vector<Judged> judged;
+  std::vector<Scored> wanted;
   for (const EstimateEntry& entry : session_.estimates()) {
     Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
     for (const Protocol protocol : kProtocols) {
       const auto evaluation =
           session_.evaluation({entry.id, judged_view(*session_.scene()), protocol});
+      if (region_.region()) each.pixels[protocol] = 0;
       if (!evaluation) continue;
-      each.metrics[protocol] = evaluation->metrics;
       tell(evaluation->notes);
+      if (!region_.region()) {
+        each.metrics[protocol] = evaluation->metrics;
+      } else if (const PartScore* score = scoreOf(evaluation, protocol)) {
+        each.metrics[protocol] = score->metrics;
+        each.pixels[protocol] = score->pixels;
+      } else {
+        wanted.push_back({evaluation, protocol, {}});
+      }
     }
     judged.push_back(std::move(each));
   }
+  if (!wanted.empty()) score(std::move(wanted));
   return judged;
+}
+
+const PartScore* MetricController::scoreOf(const EvaluationPtr& evaluation,
+                                           Protocol protocol) const {
+  const auto found = std::ranges::find_if(scored_, [&](const Scored& each) {
+    return each.evaluation == evaluation && each.protocol == protocol;
+  });
+  return found == scored_.end() ? nullptr : &found->score;
+}
+
+void MetricController::score(std::vector<Scored> wanted) {
+  part_job_.start<std::vector<Scored>>(
+      [wanted = std::move(wanted), region = region_.region()](const Progress& progress) {
+        std::vector<Scored> scored = wanted;
+        for (Scored& each : scored) {
+          progress.check();
+          each.score = score_part(*each.evaluation, region.get(), each.protocol);
+        }
+        return scored;
+      },
+      [this](const std::vector<Scored>& scored) {
+        scored_.insert(scored_.end(), scored.begin(), scored.end());
+        update(Part::Evaluations);
+      });
 }
 
 void MetricController::tell(const std::vector<std::string>& notes) {

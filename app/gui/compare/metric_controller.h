@@ -2,7 +2,9 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/gui/frame/jobs.h"
 #include "app/session/session.h"
+#include "engine/evaluation/metrics/part_score.h"
 
 #include <QObject>
 
@@ -14,6 +16,8 @@
 namespace episcope {
 
 class MetricTable;
+class RegionController;
+struct MetricColumn;
 
 /// A result with the numbers that are known of it.
 struct Judged {
@@ -21,20 +25,32 @@ struct Judged {
   std::string name;
   double seconds = 0;
   std::map<Protocol, Metrics> metrics;
+  std::map<Protocol, std::size_t> pixels{};  ///< That were judged; empty for the whole view.
 };
 
-/// Fills the table of metrics: every result under both protocols.
+/// Fills the table of metrics: every result under both protocols, in the judged part of the view.
 class MetricController : public QObject {
   Q_OBJECT
 
  public:
-  MetricController(const Workbench& bench, MetricTable* table);
+  MetricController(const Workbench& bench, MetricTable* table, const RegionController& region);
 
  private:
+  /// What a part of an evaluation scored.
+  struct Scored {
+    EvaluationPtr evaluation;
+    Protocol protocol;
+    PartScore score;
+  };
+
   void update(Parts parts);
   void fillTable();
+  void addPixels(std::vector<MetricColumn>& columns) const;
   [[nodiscard]] QStringList provenanceOf(const EstimateEntry& entry) const;
   [[nodiscard]] std::vector<Judged> judgeAll();
+  /// Of the judged part; nothing while it is being scored.
+  [[nodiscard]] const PartScore* scoreOf(const EvaluationPtr& evaluation, Protocol protocol) const;
+  void score(std::vector<Scored> wanted);
   /// Warns of metrics that are missing, once for each light field.
   void tell(const std::vector<std::string>& notes);
   void save(const QString& suffix, const QString& text);
@@ -42,6 +58,9 @@ class MetricController : public QObject {
   Workbench bench_;
   Session& session_;
   MetricTable* table_;
+  const RegionController& region_;
+  LatestJob part_job_;
+  std::vector<Scored> scored_;  // of the present part
   std::set<std::string> told_;
 };
 

@@ -30,7 +30,7 @@ struct Look {
   std::shared_ptr<const Scene> scene;
   std::map<Quantity, render::Shading> shadings;
   double opacity = 1;
-  std::unique_ptr<const render::ToneTable> tone;
+  std::shared_ptr<const render::ToneTable> tone;
 
   [[nodiscard]] RgbaImage draw(const MapSource& source) const {
     RgbaImage view = render::shade_view(*scene->light_field, source.view, tone.get());
@@ -51,8 +51,7 @@ std::shared_ptr<const Look> look_of(const Workbench& bench, const MovieSubject& 
   auto look = std::make_shared<Look>();
   look->scene = bench.session.scene();
   look->opacity = bench.stage.canvas()->overlayOpacity();
-  const render::Tone& tone = bench.session.place().tone;
-  if (!tone.is_plain()) look->tone = std::make_unique<const render::ToneTable>(tone);
+  look->tone = render::table_of(bench.session.place().tone);
   for (const auto* source : {&subject.source, subject.other ? &*subject.other : nullptr}) {
     if (!source || source->quantity == Quantity::View) continue;
     look->shadings.try_emplace(source->quantity, bench.overlay.shadingOf(source->quantity));

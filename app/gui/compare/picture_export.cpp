@@ -73,7 +73,7 @@ void add_picture_export(const Workbench& bench) {
   bench.commands.add({.id = "file.save_picture",
                       .menu = Menu::File,
                       .text = Text::tr("Save picture…"),
-                      .tip = Text::tr("Saves the view with its overlay as PNG"),
+                      .tip = Text::tr("Saves the view as it is shown, with its brightness and overlay, as PNG"),
                       .icon = "save",
                       .keys = {Text::tr("Ctrl+Shift+E")},
                       .run = [bench] { ask_for_picture(bench); },

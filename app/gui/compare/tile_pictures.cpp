@@ -19,9 +19,7 @@ std::vector<TilePicture> make_tile_pictures(const std::vector<TileRequest>& requ
                                             const Progress& progress) {
   std::vector<TilePicture> pictures(requests.size());
   // All tiles are of one scene.
-  const bool is_plain = requests.empty() || requests.front().tone.is_plain();
-  const auto tone =
-      is_plain ? nullptr : std::make_unique<const render::ToneTable>(requests.front().tone);
+  const auto tone = requests.empty() ? nullptr : render::table_of(requests.front().tone);
   parallel_for(static_cast<int>(requests.size()), progress, [&](int i) {
     const TileRequest& request = requests[static_cast<std::size_t>(i)];
     TilePicture& picture = pictures[static_cast<std::size_t>(i)];

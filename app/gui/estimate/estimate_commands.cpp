@@ -4,6 +4,7 @@
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/frame/cancels.h"
 #include "app/gui/frame/commands.h"
+#include "app/gui/frame/frame.h"
 #include "widgets/estimate/method_panel.h"
 
 namespace episcope {
@@ -34,6 +35,12 @@ void EstimateController::addCommands() {
                        .run = [this] { ask_for_batch(bench_, runs_, method_->request()); },
                        .section = kRun,
                        .enabled = has_scene});
+  bench_.commands.add({.id = "estimate.sweep",
+                       .menu = Menu::Estimate,
+                       .text = tr("Sweep parameters…"),
+                       .tip = tr("Runs the method with several values of one or two parameters"),
+                       .run = [this] { bench_.frame.showTab("sweep"); },
+                       .section = kRun});
   QAction* cancel = bench_.commands.add({.id = "estimate.cancel",
                                          .menu = Menu::Estimate,
                                          .text = tr("Cancel"),

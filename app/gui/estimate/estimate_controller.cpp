@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
+#include "app/gui/estimate/measured_range.h"
 #include "app/gui/estimate/result_export.h"
+#include "app/gui/estimate/sweep_controller.h"
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/jobs.h"
@@ -71,7 +73,9 @@ EstimateController::EstimateController(const Workbench& bench)
     : QObject(&bench.owner), bench_(bench), session_(bench.session), runs_(bench) {
   addTab();
   addCommands();
+  add_measured_range(bench_, method_);
   method_->setMethods(described_methods());
+  new SweepController(bench, *method_);
   connect(method_, &MethodPanel::runRequested, this,
           [this](const RunRequest& request) { run(request_of(request)); });
   connect(method_, &MethodPanel::cancelRequested, this, &EstimateController::cancel);

@@ -155,6 +155,12 @@ void Commands::resetAllKeys() {
   emit keysChanged();
 }
 
+void Commands::hearViewerKeys(QWidget* widget) const {
+  for (const Command& each : commands_) {
+    if (each.scope == KeyScope::Viewer) widget->addAction(find(each.id));
+  }
+}
+
 void Commands::hearHeldKeys(QWidget* widget) {
   widget->installEventFilter(this);
 }

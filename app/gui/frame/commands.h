@@ -81,6 +81,8 @@ class Commands : public QObject {
   /// Restores the default keys, except those that another command has now.
   void resetKeys(const QString& id);
   void resetAllKeys();
+  /// Keys of scope Viewer are heard in this widget as well.
+  void hearViewerKeys(QWidget* widget) const;
   /// Keys of scope Held are heard in this widget, which must outlive this.
   void hearHeldKeys(QWidget* widget);
 

@@ -20,7 +20,7 @@ struct Text {
   Q_DECLARE_TR_FUNCTIONS(episcope::Dialogs)
 };
 
-QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
+QFileDialog* make_dialog(QWidget* window, const FileQuestion& question) {
   auto* dialog = new QFileDialog(window, question.title, QString(), question.filter);
   dialog->setObjectName(question.name);
   dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -28,6 +28,11 @@ QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, Answer a
   QObject::connect(dialog, &QFileDialog::fileSelected, dialog, [](const QString& path) {
     QSettings().setValue(kLastFolder, QFileInfo(path).absolutePath());
   });
+  return dialog;
+}
+
+QFileDialog* make_dialog(QWidget* window, const FileQuestion& question, Answer answer) {
+  QFileDialog* dialog = make_dialog(window, question);
   QObject::connect(dialog, &QFileDialog::fileSelected, window, std::move(answer));
   return dialog;
 }
@@ -45,6 +50,14 @@ void follow_filter(QFileDialog* dialog, const QString& chosen) {
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer) {
   QFileDialog* dialog = make_dialog(window, question, std::move(answer));
   dialog->setFileMode(QFileDialog::ExistingFile);
+  dialog->open();
+}
+
+void ask_for_files(QWidget* window, const FileQuestion& question,
+                   std::function<void(const QStringList&)> answer) {
+  QFileDialog* dialog = make_dialog(window, question);
+  QObject::connect(dialog, &QFileDialog::filesSelected, window, std::move(answer));
+  dialog->setFileMode(QFileDialog::ExistingFiles);
   dialog->open();
 }
 

@@ -27,6 +27,9 @@ struct FileQuestion {
 using Answer = std::function<void(const QString& path)>;
 
 void ask_for_file(QWidget* window, const FileQuestion& question, Answer answer);
+/// One file or several.
+void ask_for_files(QWidget* window, const FileQuestion& question,
+                   std::function<void(const QStringList& paths)> answer);
 void ask_for_folder(QWidget* window, const FileQuestion& question, Answer answer);
 void ask_where_to_save(QWidget* window, const FileQuestion& question, Answer answer);
 

@@ -2,9 +2,12 @@
 #include "app/gui/frame/frame.h"
 
 #include "app/gui/frame/floating.h"
+#include "app/gui/frame/panes.h"
 #include "widgets/style/theme.h"
 
+#include <QMenu>
 #include <QSplitter>
+#include <QTabBar>
 #include <QTabWidget>
 #include <QVBoxLayout>
 
@@ -17,6 +20,10 @@ constexpr int kColumnWidth = 205;
 constexpr int kStageWidth = 720;
 constexpr int kTabsWidth = 372;
 
+QString pane_id(const QString& tab) {
+  return "tab." + tab;
+}
+
 }  // namespace
 
 Frame::Frame(QWidget* parent)
@@ -24,9 +31,12 @@ Frame::Frame(QWidget* parent)
       viewer_(new QWidget(this)),
       column_(new QSplitter(Qt::Vertical, viewer_)),
       browser_(new QSplitter(Qt::Horizontal, viewer_)),
-      floating_(new Floating(*viewer_)) {
+      floating_(new Floating(*viewer_)),
+      panes_(new Panes(*this)) {
   viewer_->setObjectName("viewer");
+  column_->setObjectName("split.column");
   column_->setChildrenCollapsible(false);
+  browser_->setObjectName("split.browser");
   browser_->addWidget(column_);
   browser_->setStretchFactor(0, 0);
   auto* viewer_layout = new QVBoxLayout(viewer_);
@@ -42,6 +52,7 @@ Frame::Frame(QWidget* parent)
   right_->addWidget(book_, 1);
 
   auto* split = new QSplitter(Qt::Horizontal, this);
+  split->setObjectName("split.tabs");
   split->addWidget(viewer_);
   split->addWidget(side_);
   split->setStretchFactor(0, 1);
@@ -54,6 +65,26 @@ Frame::Frame(QWidget* parent)
   rows_->setSpacing(2);
   rows_->addWidget(split, 1);
   connect(book_, &QTabWidget::currentChanged, this, [this] { emit tabShown(shownTab()); });
+  connect(panes_, &Panes::changed, this, [this](const QString& id) {
+    for (const Tab& tab : tabs_) {
+      if (pane_id(tab.id) == id && panes_->isTorn(id)) emit tabShown(tab.id);
+    }
+  });
+  book_->tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
+  connect(book_->tabBar(), &QTabBar::customContextMenuRequested, this,
+          [this](QPoint at) { askWhereTabGoes(book_->tabBar()->tabAt(at), at); });
+  connect(book_->tabBar(), &QTabBar::tabBarDoubleClicked, this, [this](int index) {
+    if (const Tab* tab = tabOf(book_->widget(index))) panes_->tear(pane_id(tab->id));
+  });
+}
+
+void Frame::askWhereTabGoes(int index, const QPoint& at) {
+  const Tab* tab = tabOf(book_->widget(index));
+  if (!tab) return;
+  QMenu menu(this);
+  menu.addAction(tr("In a window of its own"), this,
+                 [this, id = pane_id(tab->id)] { panes_->tear(id); });
+  menu.exec(book_->tabBar()->mapToGlobal(at));
 }
 
 void Frame::addToColumn(QWidget* widget, bool stretches) {
@@ -73,6 +104,26 @@ void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
   const int place = book_->addTab(tab.widget, tab.title);
   if (tab.waits) book_->setTabVisible(place, false);
+  addPane(tab);
+}
+
+// A tab comes back at its place among those that are there.
+void Frame::addPane(const Tab& tab) {
+  panes_->add({pane_id(tab.id), tab.title, tab.widget, [this, id = tab.id] {
+                 int place = 0;
+                 for (const Tab& each : tabs_) {
+                   if (each.id == id) {
+                     book_->setCurrentIndex(book_->insertTab(place, each.widget, each.title));
+                     return;
+                   }
+                   if (book_->indexOf(each.widget) >= 0) ++place;
+                 }
+               }});
+}
+
+const Tab* Frame::tabOf(const QWidget* widget) const {
+  const auto found = std::ranges::find(tabs_, widget, &Tab::widget);
+  return widget && found != tabs_.end() ? &*found : nullptr;
 }
 
 void Frame::addToTab(const QString& id, QWidget* widget) {
@@ -105,16 +156,20 @@ bool Frame::arePanelsShown() const {
 
 // Who asks for a tab wants to see it.
 void Frame::showTab(const QString& id) {
-  setPanelsShown(true);
   const auto found = std::ranges::find(tabs_, id, &Tab::id);
+  if (found != tabs_.end() && panes_->isTorn(pane_id(id))) {
+    panes_->tear(pane_id(id));  // raises its window
+    return;
+  }
+  setPanelsShown(true);
   if (found == tabs_.end()) return;
   book_->setTabVisible(book_->indexOf(found->widget), true);
   book_->setCurrentWidget(found->widget);
 }
 
 QString Frame::shownTab() const {
-  const int index = book_->currentIndex();
-  return index >= 0 && index < static_cast<int>(tabs_.size()) ? tabs_[index].id : QString();
+  const Tab* tab = tabOf(book_->currentWidget());
+  return tab ? tab->id : QString();
 }
 
 }  // namespace episcope

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <QKeySequence>
 #include <QString>
 #include <QWidget>
 
@@ -15,6 +16,7 @@ class QVBoxLayout;
 namespace episcope {
 
 class Floating;
+class Panes;
 
 /// A tab at the right.
 struct Tab {
@@ -26,6 +28,7 @@ struct Tab {
   QWidget* widget = nullptr;
   QBoxLayout* room = nullptr;  ///< Where other features may add to it; may be null.
   bool waits = false;          ///< It is not among the tabs until it is asked for.
+  QKeySequence key{};          ///< Of its command; empty = Ctrl and its number among those without.
 };
 
 /// Lines under everything else, in their order.
@@ -59,13 +62,17 @@ class Frame : public QWidget {
 
   [[nodiscard]] const std::vector<Tab>& tabs() const { return tabs_; }
   void showTab(const QString& id);
-  /// Id of the tab that is shown.
+  /// Id of the tab that is shown among the others; empty if all are torn off.
   [[nodiscard]] QString shownTab() const;
+  /// What can be in a window of its own: the tabs (by "tab.ID"), and what others add.
+  [[nodiscard]] Panes& panes() const { return *panes_; }
 
   /// The program has begun: features may offer what is left from before.
   void start() { emit started(); }
   /// It was decided what becomes of an earlier session, if one was left.
   void settle() { emit settled(); }
+  /// Everything as at first: tells those that moved something themselves.
+  void resetLayout() { emit layoutReset(); }
   /// The window is closed, and nothing that the user wants is open any more.
   void end() { emit ended(); }
 
@@ -73,9 +80,16 @@ class Frame : public QWidget {
   void started();
   void settled();
   void ended();
+  /// Among the others, or in a window of its own.
   void tabShown(const QString& id);
+  /// All that can be elsewhere goes back to its first place.
+  void layoutReset();
 
  private:
+  void askWhereTabGoes(int index, const QPoint& at);
+  void addPane(const Tab& tab);
+  [[nodiscard]] const Tab* tabOf(const QWidget* widget) const;
+
   QWidget* viewer_;
   QSplitter* column_;
   int fixed_count_ = 0;  // of widgets in the column that do not stretch; they stand first
@@ -87,6 +101,7 @@ class Frame : public QWidget {
   QVBoxLayout* rows_;
   std::map<Line, QWidget*> lines_;
   std::vector<Tab> tabs_;
+  Panes* panes_;
 };
 
 }  // namespace episcope

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/frame/keyboard_home.h"
 
+#include "app/gui/frame/pane_window.h"
+#include "app/gui/frame/reader_name.h"
+
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
@@ -71,13 +74,15 @@ KeyboardHome::KeyboardHome(QWidget& window, std::function<QWidget*()> home)
 }
 
 bool KeyboardHome::isOfWindow(const QObject* watched) const {
-  return watched->isWidgetType() && static_cast<const QWidget*>(watched)->window() == &window_;
+  return watched->isWidgetType() &&
+         main_window_of(*static_cast<const QWidget*>(watched)) == &window_;
 }
 
 bool KeyboardHome::eventFilter(QObject* watched, QEvent* event) {
   switch (event->type()) {
     case QEvent::Polish:
-      if (isOfWindow(watched)) leaveToKeys(*static_cast<QWidget*>(watched));
+    case QEvent::Show:  // some were polished before they came into the window
+      if (isOfWindow(watched)) greet(*static_cast<QWidget*>(watched));
       return false;
     case QEvent::MouseButtonPress:
       if (isOfWindow(watched)) endTyping(*static_cast<QWidget*>(watched));
@@ -91,7 +96,8 @@ bool KeyboardHome::eventFilter(QObject* watched, QEvent* event) {
   }
 }
 
-void KeyboardHome::leaveToKeys(QWidget& widget) {
+void KeyboardHome::greet(QWidget& widget) {
+  if (is_control(widget) || is_field(widget)) name_for_readers(widget);
   if (is_control(widget) && !is_field(widget) && widget.focusPolicy() != Qt::NoFocus) {
     widget.setFocusPolicy(Qt::TabFocus);
   }
@@ -134,7 +140,12 @@ void KeyboardHome::leave(QWidget& field, int key) {
 }
 
 void KeyboardHome::goHome() {
-  if (QWidget* home = home_()) home->setFocus(Qt::OtherFocusReason);
+  QWidget* home = home_();
+  if (!home) return;
+  // From a pane in a window of its own, the keyboard goes back to the main one.
+  const QWidget* focus = QApplication::focusWidget();
+  if (focus && focus->window() != &window_) window_.activateWindow();
+  home->setFocus(Qt::OtherFocusReason);
 }
 
 void KeyboardHome::goHomeFromControls() {

@@ -29,7 +29,7 @@ class KeyboardHome : public QObject {
 
  private:
   [[nodiscard]] bool isOfWindow(const QObject* watched) const;
-  static void leaveToKeys(QWidget& widget);
+  static void greet(QWidget& widget);
   void endTyping(const QWidget& clicked);
   bool hear(QWidget& widget, QKeyEvent& key);
   [[nodiscard]] static bool belongsTo(const QWidget& widget, const QKeyEvent& key);

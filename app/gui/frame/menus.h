@@ -11,7 +11,8 @@ namespace episcope {
 enum class Menu {
   File,
   View,
-  Colours,  ///< In View.
+  Colours,  ///< In View,
+  Panes,    ///< as is this one.
   Estimate,
   Compare,
   Annotate,

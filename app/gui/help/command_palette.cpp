@@ -37,9 +37,11 @@ CommandPalette::CommandPalette(const Commands& commands, QWidget* parent)
       list_(new QListWidget(this)) {
   setObjectName("command_palette");
   edit_->setObjectName("command_palette.edit");
+  edit_->setAccessibleName(tr("Name of a command"));
   edit_->setPlaceholderText(tr("Type the name of a command"));
   edit_->installEventFilter(this);
   list_->setObjectName("command_palette.list");
+  list_->setAccessibleName(tr("Commands"));
   list_->setFocusPolicy(Qt::NoFocus);
   list_->setItemDelegate(new AsideDelegate(AsideDelegate::Place::End, list_));
   auto* layout = new QVBoxLayout(this);

@@ -24,7 +24,8 @@ constexpr int kLater_ms = 1500;
 bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
-           return !scene.results.empty() || scene.labels.covers_many();
+           return !scene.results.empty() || scene.labels.covers_many() ||
+                  !scene.place.measured.list.empty() || !scene.place.capture.pairs.empty();
          });
 }
 

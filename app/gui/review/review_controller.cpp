@@ -9,7 +9,6 @@
 #include "app/gui/review/review_section.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
-#include "widgets/annotate/check_panel.h"
 #include "widgets/canvas/view_canvas.h"
 #include "widgets/style/number_text.h"
 
@@ -36,6 +35,9 @@ ReviewController::ReviewController(const Workbench& bench, CheckPanel* panel)
   connect(&bench.labels, &LabelChoice::changed, this, &ReviewController::show);
   connect(&bench.overlay, &Overlay::drawn, this, &ReviewController::look);
   connect(&bench.document, &DocumentController::changed, this, &ReviewController::look);
+  bench.session.on_changed([this](Parts parts) {
+    if (parts.has_any(Part::Shown | Part::Estimates)) look();
+  });
   bench.cancels.add(CancelRank::Mark, [this] {
     if (bench_.stage.canvas()->outline().empty()) return false;
     bench_.stage.canvas()->setOutline({});
@@ -73,24 +75,17 @@ void ReviewController::addCommands() {
   }
 }
 
-std::shared_ptr<const DisparityField> ReviewController::disparity() const {
-  const ViewIndex view = bench_.session.view();
-  const EstimateEntry* shown = bench_.session.shown();
-  if (shown && shown->estimate->field.contains(view)) {
-    return {shown->estimate, &shown->estimate->field};
-  }
-  const GroundTruthPtr& truth = bench_.session.scene()->truth;
-  return truth->field.contains(view) ? std::shared_ptr<const DisparityField>(truth, &truth->field)
-                                     : nullptr;
-}
-
 std::optional<ReviewController::Subject> ReviewController::subject() const {
   const AnnotationDocument* document = std::as_const(bench_.document).document();
   if (!document || !bench_.session.scene()) return std::nullopt;
   const auto source = bench_.overlay.sourceOf({render::Quantity::Segmentation});
   if (!source) return std::nullopt;
-  return Subject{bench_.session.generation(), source->view, source->labeling, source->finish,
-                 document->state(),           disparity()};
+  return Subject{bench_.session.generation(),
+                 source->view,
+                 source->labeling,
+                 source->finish,
+                 document->state(),
+                 bench_.session.known_disparity(bench_.session.view())};
 }
 
 void ReviewController::look() {
@@ -133,6 +128,30 @@ LabelInfo ReviewController::infoOf(int id) const {
   return known ? *known : LabelInfo{id, tr("label %1").arg(id).toStdString(), label_color(id)};
 }
 
+std::vector<LabelSummary>::const_iterator ReviewController::summaryOf(int id) const {
+  return std::ranges::find_if(review_->labels,
+                              [id](const LabelSummary& each) { return each.amount.id == id; });
+}
+
+CheckPanel::Row ReviewController::rowOf(const LabelSummary& label, std::int64_t all) const {
+  const double percent = 100.0 * static_cast<double>(label.amount.pixels) /
+                         static_cast<double>(std::max<std::int64_t>(all, 1));
+  CheckPanel::Row row{.label = infoOf(label.amount.id),
+                      .pixels = label.amount.pixels,
+                      .share = tr("%1 %").arg(percent, 0, 'f', 1),
+                      .islands = label.count(PieceKind::Island),
+                      .holes = label.count(PieceKind::Hole)};
+  if (const auto& disparity = label.amount.disparity) {
+    row.mean = number_text(disparity->mean, 2);
+    row.min = number_text(disparity->min, 2);
+    row.max = number_text(disparity->max, 2);
+    row.tip = tr("Disparity in px per view: %1 ± %2 (mean and standard deviation), from %3 to %4")
+                  .arg(number_text(disparity->mean), number_text(disparity->deviation),
+                       number_text(disparity->min), number_text(disparity->max));
+  }
+  return row;
+}
+
 void ReviewController::show() {
   if (!review_) {
     panel_->setNote(subject_ ? QString()
@@ -151,31 +170,16 @@ void ReviewController::show() {
   panel_->setDoubts(doubts);
   panel_->setCurrentDoubt(doubt_);
   std::int64_t all = 0;
-  for (const LabelSummary& each : review_->labels) all += each.pixels;
+  for (const LabelSummary& each : review_->labels) all += each.amount.pixels;
   std::vector<CheckPanel::Row> rows;
-  for (const LabelSummary& each : review_->labels) {
-    const double percent = 100.0 * static_cast<double>(each.pixels) /
-                           static_cast<double>(std::max<std::int64_t>(all, 1));
-    CheckPanel::Row row{infoOf(each.id),
-                        tr("%1 %").arg(percent, 0, 'f', 1),
-                        {},
-                        each.count(PieceKind::Island),
-                        each.count(PieceKind::Hole),
-                        {}};
-    if (each.mean_disparity_px) {
-      row.disparity = tr("%1 ± %2").arg(number_text(*each.mean_disparity_px, 2),
-                                        number_text(*each.disparity_deviation_px, 2));
-      row.tip = tr("Mean and standard deviation of the disparity, px");
-    }
-    rows.push_back(row);
-  }
+  for (const LabelSummary& each : review_->labels) rows.push_back(rowOf(each, all));
   panel_->setRows(rows, bench_.labels.current());
   showPieces();
 }
 
 void ReviewController::showPieces() {
   const int current = bench_.labels.current();
-  const auto found = std::ranges::find(review_->labels, current, &LabelSummary::id);
+  const auto found = summaryOf(current);
   std::vector<CheckPanel::Piece> pieces;
   if (found != review_->labels.end()) {
     for (const LabelPiece& each : found->pieces) {
@@ -222,7 +226,7 @@ void ReviewController::goTo(int index) {
 
 void ReviewController::goToPiece(int index) {
   if (!review_) return;
-  const auto found = std::ranges::find(review_->labels, bench_.labels.current(), &LabelSummary::id);
+  const auto found = summaryOf(bench_.labels.current());
   if (found == review_->labels.end()) return;
   // The main part comes first and is not listed.
   const auto place = static_cast<std::size_t>(index) + 1;

@@ -5,15 +5,15 @@
 #include "app/gui/frame/jobs.h"
 #include "app/session/labels/view_review.h"
 #include "app/session/session.h"
+#include "widgets/annotate/check_panel.h"
 
 #include <QObject>
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 namespace episcope {
-
-class CheckPanel;
 
 /// Goes to the places of a view where a stroke would help most, and to the islands and holes of the
 /// current label; shows them on the view.
@@ -42,13 +42,16 @@ class ReviewController : public QObject {
 
   void addCommands();
   [[nodiscard]] std::optional<Subject> subject() const;
-  [[nodiscard]] std::shared_ptr<const DisparityField> disparity() const;
   void look();
   void begin(const Subject& subject);
   void take(ViewReview review);
   void show();
   void showPieces();
   [[nodiscard]] LabelInfo infoOf(int id) const;
+  /// Of the review, which must be there.
+  [[nodiscard]] std::vector<LabelSummary>::const_iterator summaryOf(int id) const;
+  /// `all`: pixels of all labels.
+  [[nodiscard]] CheckPanel::Row rowOf(const LabelSummary& label, std::int64_t all) const;
   void goTo(int doubt);
   void goToPiece(int index);
   void mark(const Blob& blob);

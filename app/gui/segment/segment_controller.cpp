@@ -115,7 +115,10 @@ std::optional<MapSource> SegmentController::map_source(render::Quantity quantity
     return source;
   }
   source.labeling = live_.labeling(view);
-  if (quantity == render::Quantity::Segmentation) source.label_infos = document->labels().labels();
+  if (quantity == render::Quantity::Segmentation) {
+    source.label_infos = document->labels().labels();
+    source.label_style = session_.label_style();
+  }
   if (quantity == render::Quantity::Segmentation || quantity == render::Quantity::WrongLabels) {
     source.finish = finish();
   }

@@ -99,7 +99,7 @@ void Overlay::update(Parts parts) {
     if (!session_.compared()) shows_difference_ = false;
     showAvailable();
   }
-  if (parts.has_any(of_choice | Part::View | Part::Evaluations)) draw();
+  if (parts.has_any(of_choice | Part::View | Part::Evaluations | Part::LabelLook)) draw();
 }
 
 // A scene that was shown before looks as it did.

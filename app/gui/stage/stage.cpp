@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/stage/stage.h"
 
+#include "app/gui/frame/panes.h"
 #include "widgets/browse/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
@@ -9,7 +10,9 @@
 #include "widgets/style/theme.h"
 
 #include <QApplication>
-#include <QGridLayout>
+#include <QEvent>
+#include <QSplitter>
+#include <QStackedLayout>
 #include <QVBoxLayout>
 
 #include <utility>
@@ -17,7 +20,20 @@
 namespace episcope {
 namespace {
 
-constexpr int kEpiWidth = 145;  // of the vertical EPI and the legend under it
+// Of the view and of the EPIs, until the user drags between them.
+constexpr int kCanvasWidth = 600;
+constexpr int kCanvasHeight = 500;
+constexpr int kEpiWidth = 145;  // and of the legend under it
+constexpr int kEpiHeight = 92;
+
+/// Holds the place of a pane, also while that is elsewhere.
+QWidget* make_place(QWidget* pane) {
+  auto* place = new QWidget;
+  auto* layout = new QVBoxLayout(place);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->addWidget(pane);
+  return place;
+}
 
 QWidget* make_legend(ColorBar* color_bar, QWidget* parent) {
   // Its place is kept while nothing is drawn over the view, so that the view does not jump.
@@ -42,36 +58,118 @@ Stage::Stage(QWidget* parent)
       horizontal_epi_(new EpiPane(Qt::Horizontal, this)),
       vertical_epi_(new EpiPane(Qt::Vertical, this)),
       color_bar_(new ColorBar(this)),
-      overlay_bar_(new OverlayBar(this)) {
-  wall_->hide();
+      overlay_bar_(new OverlayBar(this)),
+      rows_(new QSplitter(Qt::Vertical, this)),
+      upper_(new QSplitter(Qt::Horizontal)),
+      lower_(new QSplitter(Qt::Horizontal)),
+      vertical_place_(make_place(vertical_epi_)),
+      horizontal_place_(make_place(horizontal_epi_)),
+      legend_(make_legend(color_bar_, this)) {
   overlay_bar_->setSelectorVisible(false);  // the tool bar has a button for each
-  auto* layout = new QGridLayout(this);
+  arrange();
+  alignColumns();
+}
+
+void Stage::arrange() {
+  auto* center = new QWidget;
+  center_ = new QStackedLayout(center);
+  center_->addWidget(canvas_);
+  center_->addWidget(wall_);
+  upper_->addWidget(center);
+  upper_->addWidget(vertical_place_);
+  lower_->addWidget(horizontal_place_);
+  lower_->addWidget(legend_);
+  rows_->addWidget(upper_);
+  rows_->addWidget(lower_);
+  rows_->setSizes({kCanvasHeight, kEpiHeight});
+  rows_->setObjectName("split.rows");
+  upper_->setObjectName("split.upper");
+  lower_->setObjectName("split.lower");
+  for (QSplitter* splitter : {rows_, upper_, lower_}) {
+    splitter->setChildrenCollapsible(false);
+    splitter->setHandleWidth(4);
+    splitter->setStretchFactor(0, 1);  // what a larger window gives belongs to the view
+    splitter->setStretchFactor(1, 0);
+    if (splitter != rows_) splitter->setSizes({kCanvasWidth, kEpiWidth});
+  }
+  auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
-  layout->addWidget(canvas_, 0, 0);
-  layout->addWidget(wall_, 0, 0, 1, 2);
-  layout->addWidget(vertical_epi_, 0, 1);
-  layout->addWidget(horizontal_epi_, 1, 0);
-  layout->addWidget(make_legend(color_bar_, this), 1, 1);
-  layout->setColumnMinimumWidth(1, kEpiWidth);
-  layout->setColumnStretch(0, 12);
-  layout->setColumnStretch(1, 1);
-  layout->setRowStretch(0, 12);
-  layout->setRowStretch(1, 1);
+  layout->addWidget(rows_);
+}
+
+void Stage::alignColumns() {
+  connect(lower_, &QSplitter::splitterMoved, this, [this] { upper_->setSizes(lower_->sizes()); });
+  vertical_place_->installEventFilter(this);
+}
+
+// Whatever changed its width, the legend follows.
+bool Stage::eventFilter(QObject* watched, QEvent* event) {
+  const bool is_sized = event->type() == QEvent::Resize || event->type() == QEvent::Show;
+  if (watched == vertical_place_ && is_sized) {
+    const auto align = [this] {
+      if (vertical_place_->isVisible()) lower_->setSizes(upper_->sizes());
+    };
+    QMetaObject::invokeMethod(this, align, Qt::QueuedConnection);
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+void Stage::addPanesTo(Panes& panes) {
+  const auto add = [&panes](const QString& id, EpiPane* pane, QWidget* place) {
+    panes.add(
+        {id, pane->accessibleName(), pane, [pane, place] { place->layout()->addWidget(pane); }});
+  };
+  add("epi.horizontal", horizontal_epi_, horizontal_place_);
+  add("epi.vertical", vertical_epi_, vertical_place_);
+  connect(&panes, &Panes::changed, this, &Stage::fitPlaces);
+}
+
+// The horizontal EPI is as wide as the view: the legend moves below where nothing is above it.
+void Stage::fitPlaces() {
+  const bool has_vertical = vertical_epi_->window() == window();
+  vertical_place_->setVisible(has_vertical && center_->currentWidget() == canvas_);
+  horizontal_place_->setVisible(horizontal_epi_->window() == window());
+  QSplitter* legend_place = has_vertical ? lower_ : rows_;
+  if (legend_->parentWidget() != legend_place) legend_place->addWidget(legend_);
+  lower_->setVisible(has_vertical || !horizontal_place_->isHidden());
+}
+
+void Stage::showInCenter(QWidget* widget) {
+  const bool has_focus = canvas_->hasFocus() || wall_->hasFocus() ||
+                         wall_->isAncestorOf(QApplication::focusWidget()) ||
+                         (guest_ && (guest_ == QApplication::focusWidget() ||
+                                     guest_->isAncestorOf(QApplication::focusWidget())));
+  center_->setCurrentWidget(widget);
+  fitPlaces();
+  if (has_focus) widget->setFocus();
 }
 
 void Stage::setWallShown(bool is_shown) {
-  const bool has_focus =
-      canvas_->hasFocus() || wall_->hasFocus() || wall_->isAncestorOf(QApplication::focusWidget());
-  wall_->setVisible(is_shown);
-  if (has_focus && is_shown) wall_->setFocus();
-  canvas_->setVisible(!is_shown);
-  vertical_epi_->setVisible(!is_shown);
-  if (has_focus && !is_shown) canvas_->setFocus();
+  const bool is_new = !std::exchange(is_wall_shown_, is_shown) && is_shown;
+  if (guest_ && is_new) emit guestDismissed();
+  if (!guest_) showInCenter(is_shown ? static_cast<QWidget*>(wall_) : canvas_);
 }
 
 bool Stage::isWallShown() const {
-  return wall_->isVisibleTo(this);
+  return is_wall_shown_;
+}
+
+void Stage::setGuest(QWidget* guest) {
+  center_->addWidget(guest);
+  guest_ = guest;
+  showInCenter(guest);
+}
+
+void Stage::releaseGuest() {
+  if (!guest_) return;
+  showInCenter(is_wall_shown_ ? static_cast<QWidget*>(wall_) : canvas_);
+  center_->removeWidget(guest_);
+  guest_->hide();
+  guest_ = nullptr;
+}
+
+QWidget* Stage::keyboardHome() const {
+  return guest_ ? guest_.data() : activeCanvas();
 }
 
 ViewCanvas* Stage::activeCanvas() const {

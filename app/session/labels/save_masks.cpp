@@ -5,10 +5,10 @@
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/make_folder.h"
 #include "engine/io/grid/image_file.h"
+#include "engine/labeling/review/label_mask.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <span>
 
 namespace episcope {
@@ -20,18 +20,10 @@ fs::path folder_of(const LabelInfo& label, const fs::path& folder) {
   return folder / file_name_of(fmt::format("{:02}_{}", label.id, label.name));
 }
 
-Image<std::uint8_t> mask_of(const Image<std::int32_t>& labels, std::int32_t id) {
-  Image<std::uint8_t> mask(labels.height(), labels.width());
-  std::transform(labels.begin(), labels.end(), mask.begin(),
-                 [id](std::int32_t label) { return label == id ? 255 : 0; });
-  return mask;
-}
-
 void write_list(const fs::path& folder, const std::vector<LabelInfo>& labels) {
   std::string text;
   for (const LabelInfo& label : labels) text += fmt::format("{}\t{}\n", label.id, label.name);
-  io::write_atomically(folder / "labels.txt",
-                       {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  io::write_atomically(folder / "labels.txt", text);
 }
 
 }  // namespace
@@ -52,7 +44,7 @@ int write_label_masks(const fs::path& folder, const Segmentation& segmentation,
     for (const LabelInfo& label : infos) {
       progress.check();
       io::write_png(folder_of(label, folder) / fmt::format("mask_{:02}_{:02}.png", view.v, view.u),
-                    mask_of(labels, label.id).view());
+                    label_mask(labels, label.id).view());
       ++written;
     }
   }

@@ -1,24 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/labels/label_statistics.h"
 #include "app/session/labels/segmentation.h"
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/labeling/review/label_doubts.h"
 #include "engine/labeling/review/label_pieces.h"
 
-#include <optional>
 #include <vector>
 
 namespace episcope {
 
 /// What a label is in one view.
 struct LabelSummary {
-  std::int32_t id = 0;
-  std::int64_t pixels = 0;
-  /// Of its pixels with a disparity, px; none without such.
-  std::optional<double> mean_disparity_px;
-  std::optional<double> disparity_deviation_px;  ///< Standard deviation.
-  std::vector<LabelPiece> pieces;                ///< As `pieces_of`.
+  LabelAmount amount;
+  std::vector<LabelPiece> pieces;  ///< As `pieces_of`.
 
   [[nodiscard]] int count(PieceKind kind) const;
 };

@@ -3,12 +3,9 @@
 
 #include "app/session/labels/segmentation.h"
 #include "app/session/picture/picture.h"
-#include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/epi.h"
 
 namespace episcope {
-
-/// Along which views EPIs run: those of the row or of the column of the current one.
-enum class EpiDirection { Horizontal, Vertical };
 
 /// An EPI through an object, with its labels.
 struct LabelEpi {

@@ -47,6 +47,7 @@ std::optional<MapSource> map_source(Session& session, const MapChoice& choice, V
   if (subject == Subject::TrueLabels) {
     source.true_labels = session.true_labels();
     source.label_infos = session.scene()->scribbles.labels;
+    source.label_style = session.label_style();
   }
   if (subject == Subject::Result || subject == Subject::Error || subject == Subject::ResultPair) {
     const EstimateEntry* entry = session.find_estimate(choice.estimate);

@@ -9,6 +9,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/evaluation/metrics/error_maps.h"
 #include "engine/render/quantity.h"
+#include "engine/render/shade.h"
 
 #include <cstdint>
 #include <memory>
@@ -37,6 +38,7 @@ struct MapSource {
   LabelingPtr labeling{};                ///< For what is of a segmentation, but for Edges.
   LabelFinish finish{};                  ///< Of its labels.
   std::vector<LabelInfo> label_infos{};  ///< Colours of its labels; others have the default ones.
+  render::LabelStyle label_style{};      ///< How they are drawn.
   int label = 0;                         ///< Whose probability.
   /// For Edges: EDGE_WEIGHTS of a file, else computed from the image and, if it is known,
   /// disparity.

@@ -43,14 +43,18 @@ void change_outside(const QuantityMap& map, RgbaImage& picture, const Change& ch
 }  // namespace
 
 RgbaImage overlay_picture(const QuantityMap& map, const render::Shading& shading) {
-  if (!map.labels.empty()) return render::shade_labels(map.labels, map.label_infos);
+  if (!map.labels.empty()) {
+    return render::shade_labels(map.labels, map.label_infos, map.label_style);
+  }
   RgbaImage picture = render::shade(map.map, map.valid, shading);
   change_outside(map, picture, [](std::uint8_t* pixel) { pixel[kAlpha] = 0; });
   return picture;
 }
 
 RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading) {
-  if (!map.labels.empty()) return render::shade_labels(map.labels, map.label_infos);
+  if (!map.labels.empty()) {
+    return render::shade_labels(map.labels, map.label_infos, map.label_style);
+  }
   RgbaImage picture = render::shade(map.map, map.valid, shading);
   change_outside(map, picture, [&shading](std::uint8_t* pixel) {
     std::copy(shading.map.invalid.begin(), shading.map.invalid.end(), pixel);
@@ -65,7 +69,7 @@ RgbaImage blended(const RgbaImage& under, const RgbaImage& over, double opacity)
     std::uint8_t* below = picture.row(y);
     const std::uint8_t* above = over.row(y);
     for (int x = 0; x < picture.width(); ++x, below += 4, above += 4) {
-      const int part = above[kAlpha] == 0 ? 0 : weight;
+      const int part = above[kAlpha] * weight / 255;
       for (int c = 0; c < kAlpha; ++c) {
         below[c] = static_cast<std::uint8_t>(below[c] + (above[c] - below[c]) * part / 256);
       }

@@ -20,7 +20,7 @@ using RgbaImage = Image<std::uint8_t>;
 /// without a label are transparent.
 [[nodiscard]] RgbaImage map_picture(const QuantityMap& map, const render::Shading& shading);
 
-/// `over` on `under`, both of one size; its opaque pixels count `opacity`, in [0, 1].
+/// `over` on `under`, both of one size; its opaque pixels count `opacity`, in [0, 1], others less.
 [[nodiscard]] RgbaImage blended(const RgbaImage& under, const RgbaImage& over, double opacity);
 
 /// An EPI through a pixel of a view, every row of it `kEpiRowHeight` pixels high. A horizontal one

@@ -68,6 +68,7 @@ Map labels_map(const MapSource& source) {
   auto made = std::make_shared<QuantityMap>();
   made->labels = source.true_labels->view(source.view);
   made->label_infos = source.label_infos;
+  made->label_style = source.label_style;
   made->owner = source.true_labels;
   return made;
 }

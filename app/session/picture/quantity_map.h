@@ -4,6 +4,7 @@
 #include "app/session/picture/map_source.h"
 #include "engine/core/array/image.h"
 #include "engine/core/light_field/label_info.h"
+#include "engine/render/shade.h"
 
 #include <cstdint>
 #include <memory>
@@ -19,6 +20,7 @@ struct QuantityMap {
   /// What is told of a pixel where `map` holds places of colours; empty: what `map` holds.
   ImageView<const float> measured;
   std::vector<LabelInfo> label_infos;    ///< Their colours; others have the default ones.
+  render::LabelStyle label_style{};      ///< How they are drawn.
   ImageView<const std::uint8_t> valid;   ///< 0 = no value; empty = all valid.
   ImageView<const std::uint8_t> inside;  ///< 0 = not judged; empty = all are.
   Image<float> computed;

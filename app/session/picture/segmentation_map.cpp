@@ -60,6 +60,7 @@ std::shared_ptr<QuantityMap> make_segmentation_map(const MapSource& source) {
     made->computed_labels = finished_labels(labeling, source.finish, source.view);
     made->labels = made->computed_labels;
     made->label_infos = source.label_infos;
+    made->label_style = source.label_style;
     return made;
   }
   if (source.quantity == Quantity::WrongLabels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project/project_file.h"
 
+#include "annotation/document/label_set.h"
 #include "app/session/run/result_source.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/core/error.h"
@@ -16,6 +17,7 @@
 #include <array>
 #include <charconv>
 #include <fstream>
+#include <set>
 #include <span>
 
 namespace episcope {
@@ -52,6 +54,35 @@ Comparison comparison_of(const Json& json) {
   return {mode, json.at("wipe"), json.at("difference")};
 }
 
+constexpr const char* kAlongRow = "row";
+
+Json measured_json(const Measurements& measured) {
+  Json list = Json::array();
+  for (const EpiMeasurement& each : measured.list) {
+    const bool is_row = each.direction == EpiDirection::Horizontal;
+    list.push_back({{"name", each.name},
+                    {"along", is_row ? kAlongRow : "column"},
+                    {"view", {each.view.v, each.view.u}},
+                    {"pixel", {each.pixel.y, each.pixel.x}},
+                    {"disparity_px", each.disparity_px}});
+  }
+  return {{"current", measured.current}, {"lines", list}};
+}
+
+Measurements measured_of(const Json& json) {
+  Measurements measured;
+  for (const Json& each : json.at("lines")) {
+    measured.list.push_back(
+        {each.at("name"),
+         each.at("along") == kAlongRow ? EpiDirection::Horizontal : EpiDirection::Vertical,
+         {each.at("view").at(0), each.at("view").at(1)},
+         {each.at("pixel").at(0), each.at("pixel").at(1)},
+         each.at("disparity_px")});
+  }
+  measured.current = json.at("current");
+  return measured;
+}
+
 Json place_json(const ScenePlace& place) {
   Json ranges = Json::object();
   for (const auto& [quantity, range] : place.ranges) {
@@ -66,9 +97,19 @@ Json place_json(const ScenePlace& place) {
                     {"exposure", place.tone.exposure},
                     {"gamma", place.tone.gamma}};
   }
+  if (place.label_marks != LabelMarks{}) {
+    json["labels"] = {{"hidden", place.label_marks.hidden}, {"locked", place.label_marks.locked}};
+  }
+  if (!place.measured.list.empty()) json["measured"] = measured_json(place.measured);
   if (place.comparison != Comparison{}) json["comparison"] = comparison_json(place.comparison);
   if (place.quantity) json["quantity"] = render::info_of(*place.quantity).id;
   return json;
+}
+
+std::set<std::int32_t> label_ids(const Json& json) {
+  std::set<std::int32_t> ids = json;
+  std::erase_if(ids, [](std::int32_t id) { return id < 1 || id > LabelSet::kMaxId; });
+  return ids;
 }
 
 ScenePlace place_of(const Json& json) {
@@ -83,6 +124,11 @@ ScenePlace place_of(const Json& json) {
     const Json& tone = json.at("tone");
     place.tone = {tone.at("black"), tone.at("exposure"), tone.at("gamma")};
   }
+  if (json.contains("labels")) {
+    const Json& labels = json.at("labels");
+    place.label_marks = {label_ids(labels.at("hidden")), label_ids(labels.at("locked"))};
+  }
+  if (json.contains("measured")) place.measured = measured_of(json.at("measured"));
   if (json.contains("comparison")) place.comparison = comparison_of(json.at("comparison"));
   for (const auto& [id, range] : json.at("ranges").items()) {
     if (const auto* known = render::find_quantity(id)) {
@@ -90,6 +136,18 @@ ScenePlace place_of(const Json& json) {
     }
   }
   return place;
+}
+
+Json capture_json(const CaptureWork& work, const fs::path& project) {
+  Json pairs = Json::array();
+  for (const capture::PointPair& each : work.pairs) {
+    pairs.push_back({{"name", each.name},
+                     {"pixel", {each.x_px, each.y_px}},
+                     {"point", {each.point.x, each.point.y, each.point.z}}});
+  }
+  Json json{{"pairs", pairs}};
+  if (!work.mesh.empty()) json["mesh"] = source_text(work.mesh, project);
+  return json;
 }
 
 Json result_json(const ProjectResult& result, const fs::path& project) {
@@ -112,6 +170,8 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
   for (const ProjectResult& each : scene.results) {
     json["results"].push_back(result_json(each, project));
   }
+  const CaptureWork& capture = scene.place.capture;
+  if (!capture.empty()) json["capture"] = capture_json(capture, project);
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
   if (!scene.labels.file.empty()) {
     json["labels"] = {{"file", source_text(scene.labels.file.string(), project)},
@@ -122,6 +182,19 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
 
 std::string absolute_path(const std::string& text, const fs::path& project) {
   return (project.parent_path() / text).lexically_normal().string();
+}
+
+CaptureWork capture_of(const Json& json, const fs::path& project) {
+  CaptureWork work;
+  if (json.contains("mesh")) work.mesh = absolute_path(json.at("mesh"), project);
+  for (const Json& each : json.at("pairs")) {
+    const Json& point = each.at("point");
+    work.pairs.push_back({each.at("name"),
+                          each.at("pixel").at(0),
+                          each.at("pixel").at(1),
+                          {point.at(0), point.at(1), point.at(2)}});
+  }
+  return work;
 }
 
 ProjectResult result_of(const Json& json, const fs::path& project) {
@@ -148,6 +221,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.reading = io::parameters_from_json(json.at("reading").dump());
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
+  if (json.contains("capture")) scene.place.capture = capture_of(json.at("capture"), project);
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
   if (json.contains("labels")) {
     scene.labels.file = absolute_path(json.at("labels").at("file"), project);
@@ -188,7 +262,7 @@ void write_project(const fs::path& path, const Project& project) {
     json["scenes"].push_back(scene_json(each, fs::absolute(path)));
   }
   const std::string text = json.dump(1) + '\n';
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  io::write_atomically(path, text);
 }
 
 Project read_project(const fs::path& path) {

@@ -17,12 +17,19 @@
 namespace episcope {
 namespace {
 
-Image<std::uint8_t> rgb_of(const Image<std::uint8_t>& rgba) {
-  Image<std::uint8_t> rgb(rgba.height(), rgba.width(), 3);
-  for (int y = 0; y < rgb.height(); ++y) {
-    for (int x = 0; x < rgb.width(); ++x) std::copy_n(&rgba.at(y, x), 3, &rgb.at(y, x));
+// Of one px of disparity without a camera: what is seen is a quarter as deep as it is wide.
+double z_per_px(const DisparityView& view) {
+  const auto& map = view.disparity;
+  double min = std::numeric_limits<double>::infinity();
+  double max = -min;
+  for (int y = 0; y < map.height; ++y) {
+    for (int x = 0; x < map.width; ++x) {
+      if (!view.is_valid(y, x)) continue;
+      min = std::min<double>(min, map.at(y, x));
+      max = std::max<double>(max, map.at(y, x));
+    }
   }
-  return rgb;
+  return max > min ? 0.25 * map.width / (max - min) : 1;
 }
 
 }  // namespace
@@ -65,9 +72,10 @@ void save_map(const std::filesystem::path& path, const DisparityView& map) {
 
 void save_point_cloud(const std::filesystem::path& path, const LightField& light_field,
                       ViewIndex view, const DisparityView& map) {
-  const Image<std::uint8_t> rgb = rgb_of(render::shade_view(light_field, view));
   const ShownDisparity shown(map, light_field.valid_of(view));
-  io::write_ply(path, {shown.view(), rgb.view(), light_field.info().camera});
+  io::write_ply(path, make_point_cloud(shown.view(), light_field.info().camera,
+                                       render::shade_view(light_field, view),
+                                       {.z_per_px = z_per_px(shown.view())}));
 }
 
 }  // namespace episcope

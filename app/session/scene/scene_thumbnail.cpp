@@ -6,6 +6,7 @@
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_file.h"
 #include "engine/io/open/open.h"
+#include "engine/render/fit.h"
 
 #include <algorithm>
 #include <optional>
@@ -90,45 +91,13 @@ Picture center_view(const fs::path& path, const Progress& progress) {
   return center;
 }
 
-/// Mean of the samples of `source` in rows [y0, y1) and columns [x0, x1).
-std::uint8_t mean(const Picture& source, int y0, int y1, int x0, int x1, int c) {
-  long sum = 0;
-  for (int y = y0; y < y1; ++y) {
-    for (int x = x0; x < x1; ++x) sum += source.at(y, x, c);
-  }
-  const long count = static_cast<long>(y1 - y0) * (x1 - x0);
-  return static_cast<std::uint8_t>((sum + count / 2) / count);
-}
-
-Picture scaled_down(const Picture& source) {
-  const int longer = std::max(source.height(), source.width());
-  if (longer <= kThumbnailSide) return source;
-  const auto scaled = [&](int length) {
-    return std::max(1, static_cast<int>(static_cast<long>(length) * kThumbnailSide / longer));
-  };
-  Picture small(scaled(source.height()), scaled(source.width()), 3);
-  const auto begin = [](int i, int from, int to) {
-    return static_cast<int>(static_cast<long>(i) * from / to);
-  };
-  for (int y = 0; y < small.height(); ++y) {
-    const int y0 = begin(y, source.height(), small.height());
-    const int y1 = std::max(y0 + 1, begin(y + 1, source.height(), small.height()));
-    for (int x = 0; x < small.width(); ++x) {
-      const int x0 = begin(x, source.width(), small.width());
-      const int x1 = std::max(x0 + 1, begin(x + 1, source.width(), small.width()));
-      for (int c = 0; c < 3; ++c) small.at(y, x, c) = mean(source, y0, y1, x0, x1, c);
-    }
-  }
-  return small;
-}
-
 }  // namespace
 
 Image<std::uint8_t> scene_thumbnail(const io::CollectionEntry& entry, const fs::path& cache_folder,
                                     const Progress& progress) {
   const fs::path file = cache_file(entry, cache_folder);
   if (auto picture = kept(file)) return std::move(*picture);
-  Picture picture = scaled_down(center_view(entry.path, progress));
+  Picture picture = render::fitted(center_view(entry.path, progress), kThumbnailSide);
   keep(file, picture);
   return picture;
 }

@@ -42,6 +42,18 @@ Names<PatternKind> names_of(PatternKind) {
           {PatternKind::Circles, "circles"}};
 }
 
+Schema<Pattern> pattern_schema() {
+  return Schema<Pattern>()
+      .choice("kind", &Pattern::kind, {"Kind", "What the photographs show"})
+      .integer("columns", &Pattern::columns,
+               {"Columns", "Inner corners of a chessboard or ChArUco board, or circles, in a row"},
+               {2, 100})
+      .integer("rows", &Pattern::rows, {"Rows", "The same in a column"}, {2, 100})
+      .real("square", &Pattern::square,
+            {"Distance", "Of neighbouring points, in any unit; the camera does not depend on it"},
+            {1e-3, 1e4, true});
+}
+
 FoundPattern find_pattern(ImageView<const std::uint8_t> grey, const Pattern& pattern) {
   if (pattern.kind == PatternKind::Charuco) return find_charuco(grey, pattern);
   const cv::Size size(pattern.columns, pattern.rows);

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/image.h"
 #include "engine/core/parameter/named.h"
+#include "engine/core/parameter/schema.h"
 
 #include <array>
 #include <cstdint>
@@ -23,6 +24,8 @@ struct Pattern {
   int rows = 6;
   double square = 1;  ///< Distance of neighbouring points, in any unit.
 };
+
+[[nodiscard]] Schema<Pattern> pattern_schema();
 
 /// Where a photograph shows the points of a pattern.
 struct FoundPattern {

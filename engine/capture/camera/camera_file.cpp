@@ -72,7 +72,7 @@ void write_camera(const std::filesystem::path& path, const LensCamera& camera) {
        << matrix << "distortion_coefficients" << distortion << "avg_reprojection_error"
        << camera.rms;
   const std::string text = file.releaseAndGetString();
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  io::write_atomically(path, text);
 }
 
 LensCamera read_camera(const std::filesystem::path& path) {

@@ -10,6 +10,7 @@ struct Point3 {
   double x = 0;
   double y = 0;
   double z = 0;
+  friend bool operator==(const Point3&, const Point3&) = default;
 };
 
 /// Where an object lies: X_camera = R·X_object + t. The frame of the camera has x to the right, y

@@ -54,10 +54,6 @@ void write_pattern(const fs::path& folder, const DemoRig& rig, const Progress& p
   });
 }
 
-void write_text(const fs::path& path, const std::string& text) {
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
 constexpr const char* kReadme =
     "From photographs to a light field with ground truth, in this folder:\n\n"
     "episcope-cli calibrate pattern/*.png --pattern 9x6 --square 25 -o camera.yml\n"
@@ -107,7 +103,7 @@ void write_demo_folder(const fs::path& folder, const DemoOptions& options,
   }
   write_mesh(folder / "mesh.ply", scan_mesh_with_hole(options.detail));
   write_pairs(folder / "picks.csv", demo_picks(rig, mesh, options));
-  write_text(folder / "readme.txt", fmt::format(fmt::runtime(kReadme), rig.step));
+  io::write_atomically(folder / "readme.txt", fmt::format(fmt::runtime(kReadme), rig.step));
   progress.report(1);
 }
 

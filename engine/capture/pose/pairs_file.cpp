@@ -77,7 +77,7 @@ void write_pairs(const std::filesystem::path& path, std::span<const PointPair> p
     text += fmt::format("{},{},{},{},{},{}\n", pair.name, pair.x_px, pair.y_px, pair.point.x,
                         pair.point.y, pair.point.z);
   }
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  io::write_atomically(path, text);
 }
 
 }  // namespace episcope::capture

@@ -13,6 +13,7 @@ struct PointPair {
   double x_px = 0;  ///< Centres of pixels have whole coordinates.
   double y_px = 0;
   Point3 point;  ///< In the frame of the mesh.
+  friend bool operator==(const PointPair&, const PointPair&) = default;
 };
 
 }  // namespace episcope::capture

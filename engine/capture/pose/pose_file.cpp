@@ -75,7 +75,7 @@ std::string pose_json(const PoseStory& story, const std::filesystem::path& path)
 
 void write_pose(const std::filesystem::path& path, const PoseStory& story) {
   const std::string text = pose_json(story, path);
-  io::write_atomically(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  io::write_atomically(path, text);
 }
 
 PoseStory read_pose(const std::filesystem::path& path) {

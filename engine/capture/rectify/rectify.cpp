@@ -119,6 +119,17 @@ PlanePoint Rectified::center_pixel(const LensCamera& camera, const PlanePoint& p
   return map.rectified(grid.center(), photograph);
 }
 
+Schema<RectifyOptions> rectify_schema() {
+  return Schema<RectifyOptions>()
+      .real("step", &RectifyOptions::step,
+            {"Step",
+             "Between neighbouring positions of the gantry, in the unit of the mesh; with 1, depth "
+             "is in steps"},
+            {1e-3, 1e4, true})
+      .flag("even_gain", &RectifyOptions::equalise,
+            {"Even brightness", "Divide each view by its gain, as measured against the centre"});
+}
+
 Rectified rectify(const LightField& photographs, const LensCamera& camera,
                   const RectifyOptions& options, const Progress& progress) {
   require_fitting(photographs, camera);

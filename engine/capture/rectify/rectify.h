@@ -4,6 +4,7 @@
 #include "engine/capture/rectify/alignment.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/core/parameter/schema.h"
 
 #include <cstddef>
 #include <vector>
@@ -14,6 +15,8 @@ struct RectifyOptions {
   double step = 1;        ///< Between neighbouring positions of the gantry, in the mesh's unit.
   bool equalise = false;  ///< Divide each view by its gain.
 };
+
+[[nodiscard]] Schema<RectifyOptions> rectify_schema();
 
 /// Vertical disparity of horizontal neighbours, absolute, in px.
 struct RowErrors {

@@ -12,6 +12,9 @@ namespace episcope {
 /// disparity `focus_px` stands upright. Sheared samples are interpolated linearly, clamped at the
 /// border. Source: Bolles, Baker, Marimont 1987 [BBM87]; refocusing by Ng 2006 [Ng06].
 
+/// Along which views EPIs run: those of the row or of the column of the current one.
+enum class EpiDirection { Horizontal, Vertical };
+
 /// `[u][x][c]` of image row `y` through the views of camera row `view.v`.
 /// Throws InvalidInput if view or row lies outside.
 [[nodiscard]] Image<float> horizontal_epi(const LightField& light_field, ViewIndex view, int y,

@@ -22,11 +22,13 @@ Rgb hue_color(double hue, double brightness) {
 }  // namespace
 
 Rgb label_color(std::int32_t id) {
-  constexpr Rgb palette[] = {{230, 25, 75},  {60, 180, 75},   {0, 130, 200},  {255, 225, 25},
-                             {245, 130, 48}, {145, 30, 180},  {70, 240, 240}, {240, 50, 230},
-                             {210, 245, 60}, {250, 190, 212}, {0, 128, 128},  {220, 190, 255},
-                             {170, 110, 40}, {255, 250, 200}, {128, 0, 0},    {170, 255, 195},
-                             {128, 128, 0},  {255, 215, 180}, {0, 0, 128},    {128, 128, 128}};
+  // Greedily, from a grid of colours: the next one is farthest from all before under normal,
+  // protan, deutan and tritan vision.
+  constexpr Rgb palette[] = {{230, 25, 75},  {0, 0, 255},    {255, 150, 255}, {100, 255, 0},
+                             {150, 0, 100},  {150, 50, 200}, {200, 200, 100}, {255, 100, 150},
+                             {150, 0, 0},    {200, 150, 0},  {100, 200, 200}, {200, 0, 255},
+                             {50, 100, 150}, {200, 50, 100}, {150, 100, 0},   {100, 150, 200},
+                             {50, 255, 255}, {100, 0, 200},  {255, 50, 255},  {255, 200, 150}};
   constexpr std::int32_t fixed = std::size(palette);
   if (id <= 0) return {};
   if (id <= fixed) return palette[id - 1];

@@ -17,8 +17,8 @@ struct LabelInfo {
   friend bool operator==(const LabelInfo&, const LabelInfo&) = default;
 };
 
-/// Default colour of a label id: a fixed palette of well separated colours for 1 … 20, further ones
-/// by hue. Black for 0 and negative ids.
+/// Default colour of a label id: a fixed palette for 1 … 20, well separated also for those who
+/// cannot tell all colours apart, further ones by hue. Black for 0 and negative ids.
 [[nodiscard]] Rgb label_color(std::int32_t id);
 
 }  // namespace episcope

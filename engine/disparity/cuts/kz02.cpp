@@ -206,7 +206,8 @@ Estimator kz02_estimator() {
        .name = "KZ02",
        .summary = "Scene reconstruction from five views by graph cuts, with visibility",
        .reference = "Kolmogorov and Zabih 2002 [KZ02]",
-       .iterative = true},
+       .iterative = true,
+       .revision = 2},
       kz02_schema(),
       [](const LightField& light_field, const Kz02Parameters& parameters, ViewSelection,
          const Progress& progress) { return estimate_kz02(light_field, parameters, progress); });

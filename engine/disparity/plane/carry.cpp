@@ -138,31 +138,38 @@ void fill(const Target& out) {
   }
 }
 
+// Fills `out`, the view `to`, with what the maps show there.
+void carry(const std::vector<Estimate>& maps, ViewIndex to, const Target& out) {
+  const int height = out.disparity.height, width = out.disparity.width;
+  std::fill_n(out.disparity.data, out.disparity.size(), kNothingNear);
+  std::vector<Image<float>> images(2 * maps.size(), Image<float>(height, width));
+  std::vector<Target> shown;
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    shown.push_back({images[2 * k].view(), images[2 * k + 1].view(),
+                     nearness_of(maps[k].field.disparity.first(), to)});
+    cast(maps[k], to, shown.back());
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) vote(shown, y, x, out);
+  }
+  if (to == maps.front().field.disparity.first()) cast(maps.front(), to, out);
+  fill(out);
+}
+
 }  // namespace
 
-CarriedMaps carry_to_views(const std::vector<Estimate>& maps, GridShape grid,
+CarriedMaps carry_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
                            const Progress& progress) {
   if (maps.empty()) throw InvalidInput("there is no map to carry to other views");
-  const int height = maps.front().field.disparity.height();
-  const int width = maps.front().field.disparity.width();
-  CarriedMaps all{ViewStack<float>(grid, height, width), ViewStack<float>(grid, height, width)};
+  const ViewStack<float>& map = maps.front().field.disparity;
+  const auto stack = [&] {
+    return ViewStack<float>(views.grid, map.height(), map.width(), 1, views.first);
+  };
+  CarriedMaps all{stack(), stack()};
   progress.step("carrying to other views");
-  parallel_for(grid.count(), progress, [&](int i) {
-    const ViewIndex view = grid.view_at(i);
-    const Target out{all.disparity.view(view), all.confidence.view(view)};
-    std::fill_n(out.disparity.data, out.disparity.size(), kNothingNear);
-    std::vector<Image<float>> images(2 * maps.size(), Image<float>(height, width));
-    std::vector<Target> shown;
-    for (std::size_t k = 0; k < maps.size(); ++k) {
-      shown.push_back({images[2 * k].view(), images[2 * k + 1].view(),
-                       nearness_of(maps[k].field.disparity.first(), view)});
-      cast(maps[k], view, shown.back());
-    }
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) vote(shown, y, x, out);
-    }
-    if (view == maps.front().field.disparity.first()) cast(maps.front(), view, out);
-    fill(out);
+  parallel_for(views.grid.count(), progress, [&](int i) {
+    const ViewIndex view = views.grid.view_at(i, views.first);
+    carry(maps, view, {all.disparity.view(view), all.confidence.view(view)});
   });
   return all;
 }

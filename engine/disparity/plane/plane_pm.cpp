@@ -7,7 +7,7 @@
 #include "engine/disparity/plane/carried_sides.h"
 #include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/even_views.h"
-#include "engine/disparity/plane/fine_guide.h"
+#include "engine/disparity/plane/silhouette_median.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 #include <fmt/format.h>
@@ -46,7 +46,10 @@ void run_round(const LightField& lf, const PlaneParameters& parameters, const St
   const PlaneRefinementData data{stereo, volume.view(), means, edges, mean_cap(lf, stereo)};
   label_costs(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
-  if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.99), map);
+  if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.98), map);
+  if (is_last && parameters.silhouettes) {
+    place_silhouettes(lf, stereo.view, progress.part(0.98, 0.99), map);
+  }
   estimate.confidence =
       volume_confidence(map, stereo, volume.view(), means, progress.part(0.99, 1));
 }
@@ -64,6 +67,9 @@ Schema<PlaneParameters> plane_pm_schema() {
             {"Even brightness",
              "Correct differences in brightness between the views, and their fall-off to the "
              "corners, where there are any"})
+      .flag("silhouettes", &P::silhouettes,
+            {"Place silhouettes",
+             "Beside jumps, take the median of the surroundings, weighted by likeness of colour"})
       .search("smoothness", {0.75, 1.5, 3})
       .search("rounds", {0, 1, 2});
 }
@@ -74,6 +80,10 @@ namespace {
 constexpr double kLeastSure = 0.1;
 // Between samples of one point without noise.
 constexpr double kSmallDifference = 0.015;
+
+struct MapView {
+  ImageView<const float> disparity, confidence;
+};
 
 // The light field as it is compared, and its data term.
 class Evened {
@@ -93,10 +103,9 @@ class Evened {
   }
 
   // With what the sure part of a map of disparities tells of the brightness of the views.
-  void improve(ImageView<const float> disparity, ImageView<const float> confidence,
-               const Progress& progress) {
+  void improve(const MapView& map, const Progress& progress) {
     const Image<float> sure =
-        sure_surfaces(disparity, confidence, parameters_.visibility.least_trust);
+        sure_surfaces(map.disparity, map.confidence, parameters_.visibility.least_trust);
     const auto known = std::ranges::count_if(sure, [](float d) { return d > kNothingNear; });
     if (!parameters_.even) return;
     Brightness brightness;
@@ -120,8 +129,7 @@ class Evened {
   }
   void prepare(const StereoCostParameters& matching, const Progress& progress) {
     stereo_ = prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9));
-    set_fine_guide(light_field(), progress.part(0.9, 0.95), stereo_);
-    set_local_caps(light_field(), parameters_.visibility, progress.part(0.95, 1), stereo_);
+    set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
   }
 
   const LightField& lf_;
@@ -131,32 +139,46 @@ class Evened {
   std::string note_;
 };
 
-Estimate estimate_one(const LightField& lf, const PlaneParameters& parameters,
+// The map of a view, of which `known` shows what occludes, without data if nothing is known.
+Estimate estimate_one(Evened& data, const PlaneParameters& parameters, const MapView& known,
                       const Progress& progress) {
-  Evened data(lf, parameters);
   data.begin(progress.part(0, 0.06));
   const VisibilityParameters& visibility = parameters.visibility;
   Estimate estimate;
   estimate.range = data.stereo().range;
   const int rounds = visibility.rounds;
   int done = 0;
+  MapView map = known;
   for (; done <= rounds && !(done > 0 && progress.finish_requested()); ++done) {
     const double begin = 0.06 + 0.94 * done / (rounds + 1), length = 0.94 / (rounds + 1);
-    StereoCosts& stereo = data.stereo();
-    if (done > 0) {
-      const ImageView<const float> map = estimate.field.disparity.view(stereo.view);
-      const ImageView<const float> trust = estimate.confidence.view(stereo.view);
-      if (done == 1) data.improve(map, trust, progress.part(begin, begin + 0.02 * length));
-      set_occluders(data.light_field(), map, trust, visibility,
-                    progress.part(begin + 0.02 * length, begin + 0.05 * length), stereo);
+    if (map.disparity.data) {
+      if (done == 1) data.improve(map, progress.part(begin, begin + 0.02 * length));
+      set_occluders(data.light_field(), map.disparity, map.confidence, visibility,
+                    progress.part(begin + 0.02 * length, begin + 0.05 * length), data.stereo());
     }
+    const StereoCosts& stereo = data.stereo();
     run_round(data.light_field(), parameters, stereo, done == rounds, estimate,
               progress.part(begin + 0.05 * length, begin + length));
+    map = {estimate.field.disparity.view(stereo.view), estimate.confidence.view(stereo.view)};
   }
   for (std::string& note : cost_notes(data.stereo())) estimate.notes.push_back(std::move(note));
   if (!data.note().empty()) estimate.notes.push_back(data.note());
   estimate.notes.push_back(fmt::format("visibility: {} of {} rounds", done - 1, rounds));
   return estimate;
+}
+
+// That of another view: what others show of it occludes from the start. `lf`: as it is compared.
+Estimate estimate_next(const LightField& lf, const PlaneParameters& parameters, ViewIndex view,
+                       const std::vector<Estimate>& maps, const Progress& progress) {
+  PlaneParameters own = parameters;
+  own.matching.range = maps.front().range;
+  own.matching.view = view;
+  own.even = false;
+  own.visibility.rounds = 0;
+  const CarriedMaps carried = carry_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
+  Evened data(lf, own);
+  return estimate_one(data, own, {carried.disparity.view(view), carried.confidence.view(view)},
+                      progress.part(0.01, 1));
 }
 
 // The views farthest from `from`, which see most of what it does not.
@@ -189,28 +211,29 @@ float noise_cap(const LightField& lf, ViewIndex view, const Progress& progress) 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
                          ViewSelection views, const Progress& progress) {
   if (views == ViewSelection::Center || lf.grid().count() == 1) {
-    return estimate_one(lf, parameters, progress);
+    Evened data(lf, parameters);
+    return estimate_one(data, parameters, {}, progress);
   }
   const ViewIndex from = parameters.matching.view.value_or(lf.center());
   const std::vector<ViewIndex> corners = outermost(lf.grid(), from);
   const double share = 0.9 / static_cast<double>(corners.size() + 1);
   std::vector<Estimate> maps;
-  maps.push_back(estimate_one(lf, parameters, progress.part(0, share)));
-  PlaneParameters other = parameters;
-  other.matching.range = maps.front().range;
+  Evened data(lf, parameters);
+  maps.push_back(estimate_one(data, parameters, {}, progress.part(0, share)));
   for (std::size_t i = 0; i < corners.size() && !progress.finish_requested(); ++i) {
-    other.matching.view = corners[i];
     const auto done = static_cast<double>(i + 1);
-    maps.push_back(estimate_one(lf, other, progress.part(share * done, share * (done + 1))));
+    maps.push_back(estimate_next(data.light_field(), parameters, corners[i], maps,
+                                 progress.part(share * done, share * (done + 1))));
   }
-  CarriedMaps carried = carry_to_views(maps, lf.grid(), progress.part(0.9, 0.92));
+  CarriedMaps carried = carry_to_views(maps, {{}, lf.grid()}, progress.part(0.9, 0.92));
   const Estimate& first = maps.front();
   Estimate estimate;
   estimate.set_provenance(first.provenance());
   estimate.field.disparity = std::move(carried.disparity);
   estimate.confidence = std::move(carried.confidence);
-  const PackedViews packed = pack_views(lf, progress.part(0.92, 0.93));
-  choose_carried_sides(packed, noise_cap(lf, from, progress.part(0.93, 0.931)), estimate,
+  const LightField& compared = data.light_field();
+  const PackedViews packed = pack_views(compared, progress.part(0.92, 0.93));
+  choose_carried_sides(packed, noise_cap(compared, from, progress.part(0.93, 0.931)), estimate,
                        progress.part(0.931, 1));
   for (const Estimate& map : maps) put_view(map, map.field.disparity.first(), estimate);
   estimate.notes.push_back(fmt::format("carried to all views from {} of them", maps.size()));
@@ -225,7 +248,7 @@ Estimator plane_pm_estimator() {
        .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
-       .revision = 4},
+       .revision = 6},
       plane_pm_schema(), estimate_planes);
 }
 

@@ -16,22 +16,23 @@ struct PlaneParameters {
   StereoCostParameters matching{
       .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
   bool even = true;
+  bool silhouettes = true;
 };
 [[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 
 /// Disparity from all views in which a point is visible.
 ///
-/// 1. Matching costs of all views as in ST_AV_G, but gathered from neighbours by a guide that keeps
-///    whatever contrast is not noise (fine_guide.h), and on demand with a cap for every pixel
+/// 1. Matching costs of all views as in ST_AV_G, but on demand with a cap for every pixel
 ///    (visible_costs.h); labels under a truncated smoothness (jump_labeling.h).
 /// 2. `rounds` times: views in which a sure surface of the map shows something nearer do not count
 ///    for a point (surfaces_in_views.h); labeling again. Before the first, differences in
 ///    brightness between the views are found and taken away, if there are any (even_views.h).
 /// 3. Placed between labels with TGV², and anew where costs leave the labels in doubt
-///    (plane_refinement.h).
-/// 4. For all views, the same from the outermost views; the maps are carried to every view, and
-///    their majority counts (carry.h). Beside jumps the samples of each view decide
-///    (carried_sides.h). Views that were estimated keep their own maps.
+///    (plane_refinement.h). Silhouettes are moved to the edges of the view (silhouette_median.h).
+/// 4. For all views, also from the outermost views, in one round: what the maps made before show
+///    there occludes. The maps are carried to every view, and their majority counts (carry.h).
+///    Beside jumps the samples of each view decide (carried_sides.h). Views that were estimated
+///    keep their own maps.
 ///
 /// Confidence as in ST_AV_G; of carried views, the mean of those that agree. Results do not depend
 /// on the number of threads. At `progress.finish_requested()` the map of the last round that was

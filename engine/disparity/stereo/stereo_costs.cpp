@@ -25,8 +25,10 @@ constexpr double kMinCap = 0.015;
 // The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
 // more for what is not noise in it. One channel leaves half of that.
 constexpr double kResidualOfNoise = 2.8;
-// Of the guided filter, variance of samples in [0, 1].
-constexpr double kRegularization = 1e-3;
+// Regularization of the guided filter, variance of samples in [0, 1], and of their noise variance:
+// whatever contrast is not noise is an edge.
+constexpr double kLeastGuideVariance = 3e-5;
+constexpr double kNoiseInGuide = 8;
 
 // Half the side of the windows that samples are relative to, px: wide, since what an edge adds to
 // them differs from view to view.
@@ -100,6 +102,17 @@ void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& 
   costs.matching.places = nullptr;
   costs.notes.push_back("positions of cameras not used: " + off +
                         ", they match no better than the grid");
+}
+
+std::shared_ptr<const GuideImage> make_guide(const LightField& lf, const StereoCosts& costs,
+                                             int radius, const Progress& progress) {
+  double noise = 0;
+  if (costs.matching.noise) {
+    std::vector<float> variances(costs.matching.noise->begin(), costs.matching.noise->end());
+    noise = quantile(variances, 0.5);
+  }
+  return std::make_shared<GuideImage>(lf, costs.view, radius,
+                                      kLeastGuideVariance + kNoiseInGuide * noise, progress);
 }
 
 std::string cap_note(const StereoCosts& costs) {
@@ -199,8 +212,7 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
     }
   }
   if (parameters.aggregation > 0) {
-    costs.guide = std::make_shared<GuideImage>(lf, costs.view, parameters.aggregation,
-                                               kRegularization, progress.part(0.9, 1));
+    costs.guide = make_guide(lf, costs, parameters.aggregation, progress.part(0.9, 1));
   }
   return costs;
 }

@@ -68,8 +68,10 @@ struct StereoCosts {
 /// each pixel that of its surroundings (local_noise.h), at most what the residual of the best
 /// quarter of the pixels allows. Stated positions of cameras (view_places.h) are used if that
 /// residual is smaller with them than on the regular grid: whatever they say, they do no harm.
-/// Evidence for both: tests/accuracy/tuning.md. Throws InvalidInput
-/// (no such view, a single view), Cancelled.
+/// The guide of the aggregation keeps whatever contrast is not noise: its regularization is
+/// 3·10⁻⁵ + 8σ², σ² the median of that noise over the view (0 without `compensate_noise`). Evidence
+/// for all three: tests/accuracy/tuning.md. Throws InvalidInput (no such view, a single view),
+/// Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,
                                          const Progress& progress);

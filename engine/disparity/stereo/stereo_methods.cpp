@@ -28,7 +28,7 @@ Estimator st_av_l_estimator() {
                            .name = "ST_AV_L",
                            .summary = "Local multi-view stereo over all views",
                            .reference = kReference,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::All, stereo_local_schema, estimate_stereo_local);
 }
 
@@ -37,7 +37,7 @@ Estimator st_ch_l_estimator() {
                            .name = "ST_CH_L",
                            .summary = "Local multi-view stereo over the views of the cross-hair",
                            .reference = kReference,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::CrossHair, stereo_local_schema, estimate_stereo_local);
 }
 
@@ -47,7 +47,7 @@ Estimator st_av_s_estimator() {
                            .summary = "ST_AV_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth);
 }
 
@@ -57,7 +57,7 @@ Estimator st_ch_s_estimator() {
                            .summary = "ST_CH_L, denoised with total variation (TV-L2)",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth);
 }
 
@@ -67,7 +67,7 @@ Estimator st_av_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_AV_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::All, stereo_global_schema, estimate_stereo_global);
 }
 
@@ -77,7 +77,7 @@ Estimator st_ch_g_estimator() {
                            .summary = "Globally optimal labeling of the matching costs of ST_CH_L",
                            .reference = kReference,
                            .iterative = true,
-                           .revision = 4},
+                           .revision = 5},
                           MatchedViews::CrossHair, stereo_global_schema, estimate_stereo_global);
 }
 

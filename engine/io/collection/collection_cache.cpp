@@ -160,7 +160,7 @@ void CollectionCache::save() const {
   fs::create_directories(file_.parent_path(), error);
   if (error || text.size() > kLargestFile) return;
   try {
-    write_atomically(file_, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    write_atomically(file_, text);
   } catch (const IoError&) {
     return;  // a cache is a convenience
   }

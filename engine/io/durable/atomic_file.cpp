@@ -109,4 +109,9 @@ void write_atomically(const fs::path& target, std::span<const std::uint8_t> byte
   file.commit();
 }
 
+void write_atomically(const std::filesystem::path& target, std::string_view text) {
+  write_atomically(target,
+                   std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
 }  // namespace episcope::io

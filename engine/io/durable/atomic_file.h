@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string_view>
 
 namespace episcope::io {
 
@@ -45,5 +46,6 @@ void require_space(const std::filesystem::path& target, const std::filesystem::p
 
 /// Writes a whole file through AtomicFile. Throws IoError.
 void write_atomically(const std::filesystem::path& target, std::span<const std::uint8_t> bytes);
+void write_atomically(const std::filesystem::path& target, std::string_view text);
 
 }  // namespace episcope::io

@@ -137,6 +137,15 @@ bool path_exists(hid_t file, const std::string& name) {
 
 }  // namespace
 
+std::string hdf5_version() {
+  const Hdf5Lock session;
+  unsigned major = 0;
+  unsigned minor = 0;
+  unsigned release = 0;
+  H5get_libversion(&major, &minor, &release);
+  return fmt::format("{}.{}.{}", major, minor, release);
+}
+
 std::string shape_text(const Hdf5Shape& shape) {
   if (shape.empty()) return "a single value";
   return joined(shape, "×", [](std::size_t length) { return std::to_string(length); });

@@ -34,6 +34,9 @@ struct Hdf5Block {
   Hdf5Shape count;
 };
 
+/// Of the library that is loaded: "1.10.8".
+[[nodiscard]] std::string hdf5_version();
+
 /// "9×9×512×512×3".
 [[nodiscard]] std::string shape_text(const Hdf5Shape& shape);
 

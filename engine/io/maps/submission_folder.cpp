@@ -186,8 +186,7 @@ std::size_t write_submitted_scene(const fs::path& folder, const std::string& sce
   for (const char* part : {kMaps, kRuntimes}) make_folder(folder / part);
   write_pfm(submitted_map_file(folder, scene), whole.view());
   const std::string text = fmt::format("{:.10f}\n", seconds);
-  write_atomically(submitted_runtime_file(folder, scene),
-                   {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  write_atomically(submitted_runtime_file(folder, scene), text);
   return gaps;
 }
 

@@ -1,22 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/review/label_pieces.h"
 
+#include "engine/labeling/review/label_mask.h"
+
 #include <algorithm>
 #include <map>
 #include <utility>
 
 namespace episcope {
 namespace {
-
-Image<std::uint8_t> where(ImageView<const std::int32_t> labels, std::int32_t label, bool is_it) {
-  Image<std::uint8_t> mask(labels.height, labels.width);
-  for (int y = 0; y < labels.height; ++y) {
-    const std::int32_t* row = labels.row(y);
-    std::transform(row, row + labels.width, mask.row(y),
-                   [=](std::int32_t each) { return (each == label) == is_it; });
-  }
-  return mask;
-}
 
 bool reaches_border(const Blob& blob, ImageView<const std::int32_t> labels) {
   return blob.bounds.y0 == 0 || blob.bounds.x0 == 0 || blob.bounds.y1 == labels.height ||
@@ -37,11 +29,11 @@ std::int32_t most_frequent(const Blob& blob, ImageView<const std::int32_t> label
 
 std::vector<LabelPiece> pieces_of(ImageView<const std::int32_t> labels, std::int32_t label) {
   std::vector<LabelPiece> pieces;
-  for (Blob& blob : blobs_of(where(labels, label, true), Neighbours::Sides)) {
+  for (Blob& blob : blobs_of(label_mask(labels, label), Neighbours::Sides)) {
     pieces.push_back({PieceKind::Island, label, std::move(blob)});
   }
   if (pieces.empty()) return pieces;
-  for (Blob& blob : blobs_of(where(labels, label, false), Neighbours::Corners)) {
+  for (Blob& blob : blobs_of(label_mask(labels, label, {0, 255}), Neighbours::Corners)) {
     if (reaches_border(blob, labels)) continue;
     const std::int32_t inside = most_frequent(blob, labels);
     pieces.push_back({PieceKind::Hole, inside, std::move(blob)});

@@ -194,6 +194,28 @@ class DocumentTest : public QObject {
     QTEST(document.scribbles().label_at(kView, {3, 25}), "other");
   }
 
+  void lockedLabels_areNeitherPaintedNorPaintedOver() {
+    AnnotationDocument document = document_with_labels(3);
+    fill_region(document, kView, {{3, 10, 20}}, {PaintTool::Brush, 1});
+    fill_region(document, kView, {{3, 20, 30}}, {PaintTool::Brush, 2});
+    LabelIds locked;
+    locked.set(2);
+    const auto label_at = [&](int x) { return document.scribbles().label_at(kView, {3, x}); };
+    const PixelRegion row{{3, 5, 35}};
+
+    QVERIFY(!fill_region(document, kView, row, {PaintTool::Brush, 2, 1, false, locked}));
+    QVERIFY(fill_region(document, kView, row, {PaintTool::Brush, 3, 1, false, locked},
+                        EditKind::Polygon));
+    QCOMPARE(document.history().next_undo()->kind, EditKind::Polygon);
+    QCOMPARE(label_at(7), 3);
+    QCOMPARE(label_at(15), 3);
+    QCOMPARE(label_at(25), 2);
+    QVERIFY(fill_region(document, kView, row, {PaintTool::Eraser, 3, 1, false, locked}));
+    QCOMPARE(label_at(15), 0);
+    QCOMPARE(label_at(25), 2);
+    QVERIFY(!fill_region(document, kView, row, {PaintTool::Eraser, 2, 1, true, locked}));
+  }
+
   void removedLabel_comesBackWithItsPixels() {
     AnnotationDocument document = document_with_labels(3);
     paint(document, kView, {PaintTool::Brush, 2, 5, false}, {5, 5}, {20, 20});

@@ -36,7 +36,7 @@ QString unwrapped(QString text) {
   static const QRegularExpression names(
       "\\b(EPI|ST|PLANE)_[A-Z_]+\\b|\\bKZ02\\b|(/[\\w.-]+)+|\\bedge\\b|Episcope");
   static const QRegularExpression keys(
-      "\\b(Ctrl|Shift|Alt|Return|Enter|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|Left|Right|"
+      "\\b(Ctrl|Shift|Alt|Return|Enter|Backspace|Delete|Del|Esc|Space|Home|PgUp|PgDown|Up|Down|Left|Right|"
       "Tab|"
       "F[0-9]+)\\b");
   return text.remove(tags).remove(names).remove(keys);

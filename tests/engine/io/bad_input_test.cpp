@@ -78,8 +78,8 @@ std::vector<Writer> all_writers() {
     sample = static_cast<std::uint8_t>(noise >> 24);
   }
   const auto write_cloud = [=](const fs::path& path) {
-    const Image<std::uint8_t> grey(200, 200);
-    io::write_ply(path, {{map->view(), {}}, grey.view(), {}, true});
+    const Image<std::uint8_t> grey(200, 200, 4);
+    io::write_ply(path, make_point_cloud({map->view(), {}}, {}, grey));
   };
   std::vector<Writer> all{
       {"PFM", [=](const fs::path& path) { io::write_pfm(path, map->view()); }},

@@ -145,6 +145,26 @@ class ShadeTest : public QObject {
     QCOMPARE(pixel(picture, 0, 2), label_color(1));
   }
 
+  void contours_areThePixelsThatTouchOtherLabels() {
+    Image<std::int32_t> labels(6, 8, 1, 1);
+    for (int y = 0; y < 6; ++y) {
+      for (int x = 4; x < 8; ++x) labels.at(y, x) = 2;
+    }
+    const auto alpha = [&](LabelStyle style, int x) {
+      return int{shade_labels(labels.view(), {}, style).at(3, x, 3)};
+    };
+
+    QCOMPARE(alpha({LabelDrawing::Contours}, 3), 255);
+    QCOMPARE(alpha({LabelDrawing::Contours}, 4), 255);
+    QCOMPARE(alpha({LabelDrawing::Contours}, 2), 0);
+    QCOMPARE(alpha({LabelDrawing::Contours}, 7), 0);  // the border of the image is none
+    QCOMPARE(alpha({LabelDrawing::Both}, 3), 255);
+    QCOMPARE(alpha({LabelDrawing::Both}, 2), kFaintLabel);
+    QCOMPARE(alpha({LabelDrawing::Fill, {2}}, 3), 255);
+    QCOMPARE(alpha({LabelDrawing::Fill, {2}}, 4), 0);
+    QCOMPARE(alpha({LabelDrawing::Contours, {2}}, 3), 255);
+  }
+
   void robustRange_ignoresOutliersAndInvalidPixels() {
     Image<float> map(10, 100);
     for (int i = 0; i < 1000; ++i) map.data()[i] = static_cast<float>(i);

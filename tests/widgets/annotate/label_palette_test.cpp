@@ -90,6 +90,39 @@ class LabelPaletteTest : public QObject {
     QCOMPARE(renamed[0][1].toString(), QString("vase"));
   }
 
+  void clicksOnEyeAndLock_areIntents_andChooseNothing() {
+    palette_->setLabels(labels(3));
+    palette_->setCurrent(2);
+    palette_->setLocked({4});
+    QSignalSpy chosen(palette_.get(), &LabelPalette::currentChosen);
+    QSignalSpy hidden(palette_.get(), &LabelPalette::hiddenRequested);
+    QSignalSpy locked(palette_.get(), &LabelPalette::lockedRequested);
+
+    click(1, 4);
+    click(1, 5);
+    click(2, 5);
+
+    QCOMPARE(hidden.size(), 1);
+    QCOMPARE(hidden[0][0].toInt(), 4);
+    QVERIFY(hidden[0][1].toBool());
+    QCOMPARE(locked.size(), 2);
+    QVERIFY(!locked[0][1].toBool());  // it was locked
+    QCOMPARE(locked[1][0].toInt(), 6);
+    QVERIFY(locked[1][1].toBool());
+    QCOMPARE(chosen.size(), 0);
+    QCOMPARE(palette_->current(), 2);
+  }
+
+  void amounts_standInTheirRows() {
+    palette_->setLabels(labels(2));
+
+    palette_->setAmounts({{4, {"1,234", "1,234 px painted"}}});
+
+    QCOMPARE(tree_->topLevelItem(0)->text(3), QString());
+    QCOMPARE(tree_->topLevelItem(1)->text(3), QString("1,234"));
+    QCOMPARE(tree_->topLevelItem(1)->toolTip(3), QString("1,234 px painted"));
+  }
+
   void deleteKey_removesTheCurrentLabel() {
     palette_->setLabels(labels(3));
     palette_->setCurrent(6);

@@ -4,6 +4,7 @@
 #include "tests/window_test_main.h"
 #include "widgets/canvas/tools/fill_tool.h"
 #include "widgets/canvas/tools/point_tool.h"
+#include "widgets/canvas/tools/rectangle_tool.h"
 #include "widgets/canvas/view_canvas.h"
 
 #include <QSignalSpy>
@@ -54,6 +55,28 @@ class PointToolsTest : public QObject {
     QCOMPARE(first.at, QPointF(40, 30));
     QVERIFY(first.protects_others && !first.erases);
     QVERIFY(second.erases && !second.protects_others);
+  }
+
+  void drag_drawsARectangleOfWholePixels() {
+    RectangleTool tool;
+    canvas_->setTool(&tool);
+    const QSignalSpy dragged(&tool, &RectangleTool::rectangleDragged);
+    const QSignalSpy drawn(&tool, &RectangleTool::rectangleDrawn);
+    const QSignalSpy cancelled(&tool, &RectangleTool::rectangleCancelled);
+
+    QTest::mousePress(canvas_.get(), Qt::LeftButton, {}, {242, 170});  // pixel x 50, y 35
+    QTest::mouseMove(canvas_.get(), {220, 160});
+    QTest::mouseMove(canvas_.get(), {202, 150});
+    QTest::mouseRelease(canvas_.get(), Qt::LeftButton, {}, {202, 150});
+    QTest::mouseClick(canvas_.get(), Qt::LeftButton, {}, {202, 150});
+    canvas_->setTool(nullptr);
+
+    QCOMPARE(dragged.size(), 2);
+    QCOMPARE(drawn.size(), 1);
+    const auto rectangle = drawn[0][0].value<PixelRect>();
+    QCOMPARE((std::vector{rectangle.y0, rectangle.x0, rectangle.y1, rectangle.x1}),
+             (std::vector{30, 40, 35, 51}));
+    QCOMPARE(cancelled.size(), 1);  // a click
   }
 
   void withoutTheTool_clicksMoveTheCrossHair() {

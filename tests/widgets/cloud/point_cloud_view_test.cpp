@@ -149,7 +149,7 @@ class PointCloudViewTest : public QObject {
     view_->setCloud(bump());
     const QImage before = view_->grabFramebuffer();
 
-    view_->setZStretch(2);
+    view_->setLook({.z_stretch = 2});
 
     QVERIFY(view_->grabFramebuffer() != before);
   }
@@ -161,6 +161,147 @@ class PointCloudViewTest : public QObject {
 
     QTRY_COMPARE(view_->grabFramebuffer().size(), QSize(500, 400) * view_->devicePixelRatioF());
     QVERIFY(count(view_->grabFramebuffer(), Qt::red) > 5000);
+  }
+
+  void pointSize_coversMore() {
+    PointCloud sparse;
+    for (int i = 0; i < 100; ++i) {
+      sparse.positions.push_back({float(i % 10), float(i / 10), 0});
+      sparse.colors.push_back({255, 0, 0});
+    }
+    view_->setCloud(sparse);
+    const int small = count(view_->grabFramebuffer(), Qt::red);
+
+    view_->setLook({.point_size = 8});
+
+    QVERIFY(count(view_->grabFramebuffer(), Qt::red) > 8 * small);
+  }
+
+  void clip_leavesOutWhatIsNearOrFar_forPickingToo() {
+    const PointCloud cloud = bump();
+    view_->setCloud(cloud);
+    view_->showPreset(CloudPreset::Front);
+    (void)view_->grabFramebuffer();
+    QSignalSpy picked(view_.get(), &PointCloudView::pointPicked);
+
+    view_->setLook({.clip_near = 0.5});
+    const QImage without_bump = view_->grabFramebuffer();
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {160, 120});
+    view_->setLook({.clip_far = 0.5});
+    const QImage bump_alone = view_->grabFramebuffer();
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {160, 20});
+
+    QCOMPARE(count(without_bump, Qt::green), 0);
+    QVERIFY(count(without_bump, Qt::red) > 5000);
+    QCOMPARE(count(bump_alone, Qt::red), 0);
+    QVERIFY(count(bump_alone, Qt::green) > 500);
+    QCOMPARE(picked.size(), 0);  // the bump is gone, then what is beside it
+  }
+
+  void surface_hidesWhatIsBehindIt() {
+    PointCloud cloud = bump();  // of points, with a gap of several pixels between them
+    const auto at = [](int y, int x) { return std::uint32_t(81 * y + x); };
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        cloud.triangles.push_back({at(y, x), at(y, x + 1), at(y + 1, x + 1)});
+        cloud.triangles.push_back({at(y, x), at(y + 1, x + 1), at(y + 1, x)});
+      }
+    }
+    view_->resize(800, 600);
+    view_->setCloud(cloud);
+    view_->showPreset(CloudPreset::Front);
+
+    const QImage shown = view_->grabFramebuffer();
+
+    const QRect within(shown.width() / 2 - 150, shown.height() / 2 - 150, 300, 300);
+    QCOMPARE(count(shown.copy(within), theme::kCanvas), 0);
+    view_->setLook({.is_shaded = true});
+    QVERIFY(view_->grabFramebuffer() != shown);
+  }
+
+  void mark_isSeenWhateverIsInFront() {
+    PointCloud cloud = bump();
+    for (int i = 0; i < 81 * 81; ++i) cloud.pixels.push_back({i / 81, i % 81});
+    view_->setCloud(cloud);
+    view_->showPreset(CloudPreset::Side);  // the bump hides what is behind it
+    QCOMPARE(count(view_->grabFramebuffer(), theme::kCrossHair), 0);
+
+    view_->setMarkedPixel(PixelIndex{40, 4});
+    QVERIFY(count(view_->grabFramebuffer(), theme::kCrossHair) > 20);
+    view_->setMarkedPixel(PixelIndex{400, 4});
+    QCOMPARE(count(view_->grabFramebuffer(), theme::kCrossHair), 0);
+  }
+
+  void legend_showsItsColoursAndComesAndGoes() {
+    view_->resize(400, 300);
+    view_->setCloud(bump());
+    const QImage before = view_->grabFramebuffer();
+
+    view_->setLegend("disparity [px]", {render::color_map("viridis"), {-1, 2}});
+    const QImage with = view_->grabFramebuffer();
+    view_->setLegend({});
+
+    const auto [red, green, blue] = render::color_map("viridis").colors[255];
+    QVERIFY(count(with, QColor(red, green, blue)) > 10);
+    QCOMPARE(view_->grabFramebuffer(), before);
+  }
+
+  void parts_arePickedApart() {
+    auto parts = std::make_shared<CloudParts>();
+    parts->push_back({bump(), {}});
+    PointCloud right = bump();
+    for (auto& position : right.positions) position[0] += 90;
+    parts->push_back({right, {}});
+    view_->setParts(parts);
+    view_->showPreset(CloudPreset::Front);
+    (void)view_->grabFramebuffer();
+    QSignalSpy picked(view_.get(), &PointCloudView::pointPicked);
+
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {90, 120});
+    QTest::mouseClick(view_.get(), Qt::LeftButton, {}, {230, 120});
+
+    QCOMPARE(picked.size(), 2);
+    QCOMPARE(picked[0][1].value<std::size_t>(), std::size_t(0));
+    QCOMPARE(picked[1][1].value<std::size_t>(), std::size_t(1));
+  }
+
+  void manyPoints_areFewWhileMoving_andAllWhenStill() {
+    const auto grid = [](int side, float pitch) {
+      PointCloud cloud;
+      for (int i = 0; i < side * side; ++i) {
+        cloud.positions.push_back({pitch * float(i % side), pitch * float(i / side), 0});
+        cloud.colors.push_back({255, 0, 0});
+      }
+      return cloud;
+    };
+    auto parts = std::make_shared<CloudParts>();
+    parts->push_back({grid(1600, 1), grid(40, 40)});
+    view_->resize(900, 700);
+    view_->setParts(parts);
+    view_->showPreset(CloudPreset::Front);
+    const QImage all = view_->grabFramebuffer();  // takes long enough to be reduced
+    QCOMPARE(view_->pointCount(), std::size_t(1600 * 1600));
+
+    QTest::mousePress(view_.get(), Qt::LeftButton, {}, {160, 120});
+    QTest::mouseMove(view_.get(), {170, 121});
+    if (!view_->isMoving()) QSKIP("this machine draws 2.5 million points fluently");
+    const QImage moving = view_->grabFramebuffer();
+    QTest::mouseRelease(view_.get(), Qt::LeftButton, {}, {170, 121});
+
+    QVERIFY(2 * count(moving, Qt::red) < count(all, Qt::red));
+    QTRY_VERIFY(!view_->isMoving());
+    QVERIFY(count(view_->grabFramebuffer(), Qt::red) > 2 * count(moving, Qt::red));
+  }
+
+  void nothingIsDrawn_whileNothingChanges() {
+    view_->setCloud(bump());
+    QTRY_VERIFY(!view_->isMoving());
+    QTest::qWait(400);
+    QSignalSpy frames(view_.get(), &QOpenGLWidget::aboutToCompose);
+
+    QTest::qWait(500);
+
+    QCOMPARE(frames.size(), 0);
   }
 
   void reparenting_keepsTheCloud() {
@@ -176,6 +317,27 @@ class PointCloudViewTest : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(&window));
     QVERIFY(count(view->grabFramebuffer(), Qt::red) > 5000);
     QVERIFY(count(window.grab().toImage(), Qt::red) > 5000);
+  }
+
+  void preset_fillsAnotherSize_untilItIsTurned() {
+    view_->resize(200, 400);
+    view_->setLook({.point_size = 8});  // without gaps
+    view_->setCloud(bump());
+    view_->showPreset(CloudPreset::Front);
+    (void)view_->grabFramebuffer();
+    const auto fills = [&] {
+      const QImage shown = view_->grabFramebuffer();
+      return count(shown, theme::kCanvas) < shown.width() * shown.height() / 3;
+    };
+
+    view_->resize(400, 400);
+    QTRY_VERIFY(fills());
+    QTest::mousePress(view_.get(), Qt::MiddleButton, {}, {160, 120});
+    QTest::mouseMove(view_.get(), {165, 120});
+    QTest::mouseRelease(view_.get(), Qt::MiddleButton, {}, {165, 120});
+    view_->resize(1000, 400);
+    QTRY_COMPARE(view_->grabFramebuffer().width(), 1000 * view_->devicePixelRatioF());
+    QVERIFY(!fills());
   }
 
   void twoViews_drawTheirOwnClouds() {
@@ -199,7 +361,9 @@ class PointCloudViewTest : public QObject {
     panel.show();
     QVERIFY(QTest::qWaitForWindowExposed(&panel));
     QVERIFY(panel.isAvailable());
-    panel.setCloud(bump());
+    auto parts = std::make_shared<CloudParts>();
+    parts->push_back({bump(), {}});
+    panel.display().setParts(parts, {});
     auto* view = panel.findChild<PointCloudView*>();
     QTRY_VERIFY(view->isVisible());
     const QImage tilted = view->grabFramebuffer();

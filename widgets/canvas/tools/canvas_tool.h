@@ -5,6 +5,7 @@
 #include <QObject>
 #include <QPointF>
 #include <QRectF>
+#include <QTransform>
 
 class QPainter;
 
@@ -15,6 +16,7 @@ struct ToolPress {
   QPointF at;
   Qt::MouseButton button = Qt::LeftButton;  ///< Left or right.
   Qt::KeyboardModifiers modifiers;
+  bool is_double = false;  ///< The second press of a double click.
 };
 
 /// A tool that the mouse of a ViewCanvas is given to: it is handed whatever is not zoom or pan, and
@@ -28,11 +30,15 @@ class CanvasTool : public QObject {
 
   virtual void press(const ToolPress& press) = 0;
   virtual void drag(QPointF /*image*/) {}
+  /// The mouse moves without a button.
+  virtual void hover(QPointF /*image*/) {}
   void release() { end(); }
   /// Ends the gesture, as a release would, or takes it back; what the hand goes on to do until the
   /// release is ignored. Returns whether there was one.
   virtual bool end() { return false; }
   virtual bool cancel() { return false; }
+  /// Another tool is taken, or none.
+  virtual void putAway() { end(); }
   /// Ctrl+Shift+wheel, in notches.
   virtual void step(double /*steps*/) {}
 
@@ -41,10 +47,14 @@ class CanvasTool : public QObject {
   /// empty = nothing. `center` is in widget coordinates.
   [[nodiscard]] virtual QRectF markRect(QPointF /*center*/, double /*scale*/) const { return {}; }
   virtual void paintMark(QPainter& /*painter*/, QPointF /*center*/, double /*scale*/) const {}
+  /// Draws what the gesture has drawn on the picture so far.
+  virtual void paintShape(QPainter& /*painter*/, const QTransform& /*widget_from_image*/) const {}
 
  signals:
   /// Cursor or mark look different now.
   void changed();
+  /// Likewise what `paintShape` draws.
+  void shapeChanged();
 };
 
 }  // namespace episcope

@@ -26,7 +26,7 @@ Numbers numbers_in_table(const WindowFixture& f, const std::string& result) {
   for (const QString& line : lines.mid(1)) {
     const QStringList cells = line.split(',');
     if (cells.value(0).toStdString() != result) continue;
-    for (qsizetype i = 1; i < keys.indexOf("scene"); ++i) {  // then it says what was judged
+    for (qsizetype i = 1; i < keys.indexOf("region"); ++i) {  // then it says what was judged
       if (!cells.value(i).isEmpty()) numbers[keys[i]] = cells[i].toDouble();
     }
   }

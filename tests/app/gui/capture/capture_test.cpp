@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
+#include "app/gui/capture/photographs.h"
 #include "app/session/session.h"
 #include "engine/capture/demo/scan_mesh.h"
 #include "engine/capture/mesh/mesh_file.h"
@@ -8,9 +9,12 @@
 #include "engine/io/open/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
+#include "widgets/controls/elided_label.h"
 #include "widgets/controls/message_bar.h"
 
+#include <QDialog>
 #include <QFile>
+#include <QFileDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
@@ -44,7 +48,9 @@ class Capturing : public WindowFixture {
     capture::write_mesh(file("scan.ply"), mesh);
     Scene scene = scenes::render_builtin("edge", smallOptions(), Progress());
     LightFieldInfo info = scene.light_field->info();
-    info.camera = {.baseline = 10, .focal_length = kPinhole.focal_px, .shift = 10 * 120.0 / 900};
+    info.camera.baseline = 10;
+    info.camera.focal_length = kPinhole.focal_px;
+    info.camera.shift = 10 * 120.0 / 900;
     if (has_pinhole) info.camera.pinhole = kPinhole;
     const auto& samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
     scene.light_field = std::make_shared<LightField>(samples.clone(), info);
@@ -58,6 +64,9 @@ class Capturing : public WindowFixture {
   CaptureController& capture() { return find<CaptureController>(window); }
   [[nodiscard]] QString text(const char* label) const {
     return window.findChild<QLabel*>(label)->text();
+  }
+  [[nodiscard]] QString full(const char* label) const {
+    return window.findChild<ElidedLabel*>(label)->fullText();
   }
   void openMesh() {
     capture().openMesh(path("scan.ply"));
@@ -165,6 +174,26 @@ class CaptureTest : public QObject {
     QVERIFY(f.capture().pose());
   }
 
+  void pairs_belongToTheProject() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(8);
+    Session& session = f.window.bench().session;
+    const CaptureWork kept = session.place().capture;
+    QCOMPARE(kept.mesh, f.file("scan.ply").string());
+    QCOMPARE(kept.pairs.size(), std::size_t{8});
+    f.click("capture.undo");
+    QVERIFY(session.place().capture.pairs.empty());
+
+    // Another light field comes with its work, as when a project is opened.
+    session.add(session.scene(), "as it was kept");
+    session.set_capture(kept);
+    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{8});
+    QVERIFY(f.capture().pairs().all() == kept.pairs);
+    QVERIFY(f.capture().pose());
+    QVERIFY(!f.capture().pairs().is_undoable());
+  }
+
   void wrongPick_isNamed() {
     Capturing f;
     f.openMesh();
@@ -199,8 +228,63 @@ class CaptureTest : public QObject {
     f.openMesh();
     f.importPairs(8);
     QVERIFY(!f.capture().pose());
-    QVERIFY2(f.text("capture.pose").contains("rectify"), qPrintable(f.text("capture.pose")));
+    QVERIFY2(f.text("capture.pose").contains("Rectify"), qPrintable(f.text("capture.pose")));
     QVERIFY(!f.window.findChild<QPushButton*>("capture.writeTruth")->isEnabled());
+  }
+
+  // From nothing to a pose: the demo, its lens, its photographs, rectified.
+  void demo_leadsFromPhotographsToAPose() {
+    Capturing f;
+    Photographs& photographs = f.capture().photographs();
+    auto* rectify = f.window.findChild<QPushButton*>("capture.rectify");
+    QVERIFY(!rectify->isEnabled());
+    capture::DemoOptions small;
+    small.grid = {3, 3};
+    small.height = 300;
+    small.width = 400;
+    small.detail = 50;
+    photographs.makeDemo(f.path(""), small);
+    QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->grid().v, 3, kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kPatience);
+    QVERIFY2(f.full("capture.camera").contains("focal length"),
+             qPrintable(f.full("capture.camera")));
+    const std::size_t picked = f.capture().pairs().all().size();
+    QVERIFY(picked >= 4);
+    QVERIFY(!f.capture().pose());
+
+    QTRY_VERIFY(rectify->isEnabled());
+    QTest::mouseClick(rectify, Qt::LeftButton);
+    auto* dialog = f.window.findChild<QDialog*>("rectify");
+    QVERIFY(dialog);
+    QTest::mouseClick(dialog->findChild<QPushButton*>("rectify.accept"), Qt::LeftButton);
+    auto* file = f.window.findChild<QFileDialog*>("save_rectified");
+    QVERIFY(file);
+    emit file->fileSelected(f.path("rectified.h5"));
+    QTRY_VERIFY_WITH_TIMEOUT(f.capture().pose(), kPatience);
+    QCOMPARE(f.capture().pairs().all().size(), picked);
+    QVERIFY(f.capture().pose()->reprojection_error_px < 1.5);
+    QVERIFY(!rectify->isEnabled());
+    QVERIFY2(f.full("capture.alignment").contains("aligned"),
+             qPrintable(f.full("capture.alignment")));
+  }
+
+  void lens_isKeptInAFile() {
+    Capturing f(false);
+    Photographs& photographs = f.capture().photographs();
+    capture::LensCamera camera;
+    camera.width = camera.height = 96;
+    camera.focal_x = camera.focal_y = 120;
+    capture::write_camera(f.file("lens.yml"), camera);
+    QVERIFY(!f.window.findChild<QPushButton*>("capture.rectify")->isEnabled());
+    photographs.openCamera(f.path("lens.yml"));
+    QVERIFY(f.window.findChild<QPushButton*>("capture.rectify")->isEnabled());
+    photographs.saveCamera(f.path("again.yml"));
+    QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(f.path("again.yml")), kPatience);
+    QCOMPARE(capture::read_camera(f.file("again.yml")).focal_x, 120.0);
+    photographs.openCamera(f.path("nowhere.yml"));
+    const auto* messages = f.window.findChild<MessageBar*>("messageBar");
+    QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("nowhere.yml"), kPatience);
+    QCOMPARE(photographs.camera()->focal_x, 120.0);
   }
 
   void brokenFiles_areTold() {

@@ -52,7 +52,7 @@ void TilesTest::tiles_keepTheRegionInSight() {
 
   f.trigger("view.zoom_in");
   f.trigger("compare.tiles");
-  QVERIFY(std::abs(zoom_of(*f.canvas()).relative_scale - 4 * kCanvasZoomStep) < 1e-6);
+  QTRY_VERIFY(std::abs(zoom_of(*f.canvas()).relative_scale - 4 * kCanvasZoomStep) < 1e-6);
 }
 
 void TilesTest::clickOnATile_showsItsResultAndMovesTheCrossHair() {

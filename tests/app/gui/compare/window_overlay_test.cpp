@@ -156,8 +156,7 @@ void OverlayTest::compareTab_showsTheMainMetricsWithoutScrolling() {
   WindowFixture f;
   f.openSmall();
   f.runAndWait();
-  auto* tabs = f.window.findChild<QTabWidget*>()->tabBar();
-  QTest::mouseClick(tabs, Qt::LeftButton, {}, tabs->tabRect(1).center());
+  f.trigger("tab.compare");
   const auto* table = f.window.findChild<QTableWidget*>("metrics.table");
   QTRY_VERIFY_WITH_TIMEOUT(table->isVisible() && table->columnCount() > 7, kPatience);
 

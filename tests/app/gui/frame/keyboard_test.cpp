@@ -13,6 +13,8 @@
 #include <QTabBar>
 #include <QTabWidget>
 
+#include <vector>
+
 namespace episcope::in_keyboard_test {
 
 namespace {
@@ -141,9 +143,14 @@ void KeyboardTest::tab_thatIsShown_leavesTheKeysWithTheView() {
   Typing f;
   auto* tabs = f.window.findChild<QTabWidget*>("tabs");
 
-  for (int i = tabs->count() - 1; i >= 0; --i) {
+  std::vector<int> shown;  // others have keys of their own
+  for (int i = 0; i < tabs->count(); ++i) {
+    if (tabs->isTabVisible(i)) shown.push_back(i);
+  }
+  QVERIFY(shown.size() > 4);
+  for (int i = static_cast<int>(shown.size()) - 1; i >= 0; --i) {
     QTest::keyClick(QApplication::focusWidget(), Qt::Key(Qt::Key_1 + i), Qt::ControlModifier);
-    QCOMPARE(tabs->currentIndex(), i);
+    QCOMPARE(tabs->currentIndex(), shown[i]);
     f.waitForHome();
     f.press(Qt::Key_Right);
     f.press(Qt::Key_Home);

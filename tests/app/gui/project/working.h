@@ -8,6 +8,13 @@
 #include "app/gui/project/project_controller.h"
 #include "app/gui/project/project_guard.h"
 #include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+
+#include <QCoreApplication>
+#include <QTest>
+
+#include <QCoreApplication>
+#include <QTest>
 
 namespace episcope {
 

@@ -11,6 +11,7 @@
 #include <QTemporaryDir>
 
 #include <algorithm>
+#include <limits>
 
 namespace episcope::in_view_review_test {
 
@@ -49,6 +50,7 @@ class ViewReviewTest : public QObject {
 
  private slots:
   void labels_areCountedAndMeasured();
+  void amounts_leaveOutWhatHasNoDisparity();
   void strip_hasTheLabelsOfItsLines();
   void strip_ofALabelThatIsNotSeen_isEmpty();
   void masks_ofOneView_areWrittenWithANameForAnyFileSystem();
@@ -67,22 +69,49 @@ void ViewReviewTest::labels_areCountedAndMeasured() {
   const auto disparity = f.scene.truth->field.disparity.view(kView);
   double sum = 0;
   std::int64_t count = 0;
+  double least = 1e9;
+  double most = -1e9;
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       if (labels.at(y, x) != 2) continue;
       ++count;
       sum += disparity.at(y, x);
+      least = std::min<double>(least, disparity.at(y, x));
+      most = std::max<double>(most, disparity.at(y, x));
     }
   }
   const LabelSummary& of_two = review.labels[1];
-  QCOMPARE(of_two.pixels, count);
-  QVERIFY(std::abs(*of_two.mean_disparity_px - sum / static_cast<double>(count)) < 1e-6);
-  QVERIFY(*of_two.disparity_deviation_px > 0);
+  QCOMPARE(of_two.amount.pixels, count);
+  QVERIFY(std::abs(of_two.amount.disparity->mean - sum / static_cast<double>(count)) < 1e-6);
+  QVERIFY(of_two.amount.disparity->deviation > 0);
+  QCOMPARE(of_two.amount.disparity->min, least);
+  QCOMPARE(of_two.amount.disparity->max, most);
   QCOMPARE(review.labels[0].count(PieceKind::Main), 1);
   QVERIFY(review.labels[0].count(PieceKind::Hole) >= 1);
-  QVERIFY(!review_view(f.labeling, {}, kView, painted, nullptr, Progress())
-               .labels[1]
-               .mean_disparity_px);
+  QVERIFY(
+      !review_view(f.labeling, {}, kView, painted, nullptr, Progress()).labels[1].amount.disparity);
+}
+
+void ViewReviewTest::amounts_leaveOutWhatHasNoDisparity() {
+  Image<std::uint8_t> labels(2, 4);
+  for (int x = 0; x < 4; ++x) labels.at(0, x) = x < 3 ? 7 : 2;
+  Image<float> disparity(2, 4, 1, 1.5F);
+  disparity.at(0, 0) = std::numeric_limits<float>::quiet_NaN();
+  disparity.at(0, 2) = -0.5F;
+  Image<std::uint8_t> valid(2, 4, 1, 1);
+  valid.at(0, 3) = 0;
+
+  const std::vector<LabelAmount> amounts =
+      label_amounts(labels.view(), {disparity.view(), valid.view()});
+
+  QCOMPARE(amounts.size(), std::size_t{2});
+  QCOMPARE(amounts[0].id, 2);
+  QVERIFY(!amounts[0].disparity);
+  QCOMPARE(amounts[1].pixels, std::int64_t{3});
+  QCOMPARE(amounts[1].disparity->mean, 0.5);
+  QCOMPARE(amounts[1].disparity->deviation, 1.0);
+  QCOMPARE(amounts[1].disparity->min, -0.5);
+  QCOMPARE(amounts[1].disparity->max, 1.5);
 }
 
 void ViewReviewTest::strip_hasTheLabelsOfItsLines() {

@@ -96,7 +96,7 @@ void CostUnitTest::weight_doesNotDependOnTheRange() {
     const double ratio = weight_of(wide) / weight_of(narrow);
     QVERIFY2(std::fabs(ratio - 1) < 0.01, qPrintable(QString::number(ratio)));
     const Errors off = errors(wide.field.disparity.view(view), narrow.field.view(view), 8);
-    QVERIFY2(off.mse_100 < 0.3, qPrintable(QString::number(off.mse_100)));
+    QVERIFY2(off.mse_100 < 0.35, qPrintable(QString::number(off.mse_100)));
   }
 }
 

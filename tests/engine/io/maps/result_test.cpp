@@ -283,15 +283,16 @@ class ResultTest : public QObject {
     DisparityField field = sample_field({1, 1}, {});
     std::fill_n(field.disparity.data(), field.disparity.size(), 1.0F);
     field.disparity.data()[1] = 2;
-    const Image<std::uint8_t> rgb(kHeight, kWidth, 3, 200);
-    io::PointCloud cloud{field.view({0, 0}), rgb.view(), {}, false};
+    const Image<std::uint8_t> rgba(kHeight, kWidth, 4, 200);
+    CameraGrid camera;
     if (is_known) {
-      cloud.camera.baseline = 10;
-      cloud.camera.focal_length = 2;
-      cloud.camera.shift = 1;
+      camera.baseline = 10;
+      camera.focal_length = 2;
+      camera.shift = 1;
     }
 
-    io::write_ply(path("c.ply"), cloud);
+    io::write_ply(path("c.ply"), make_point_cloud(field.view({0, 0}), camera, rgba),
+                  io::PlyForm::Text);
     std::istringstream in(text_of(path("c.ply")));
     std::string line;
     while (std::getline(in, line) && line != "end_header") {
@@ -313,12 +314,7 @@ class ResultTest : public QObject {
   }
 
   void ply_withoutPointsIsRefused() {
-    DisparityField field = sample_field({1, 1}, {});
-    std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{0});
-    const Image<std::uint8_t> rgb(kHeight, kWidth, 3);
-
-    QVERIFY_EXCEPTION_THROWN(
-        io::write_ply(path("c.ply"), {field.view({0, 0}), rgb.view(), {}, true}), InvalidInput);
+    QVERIFY_EXCEPTION_THROWN(io::write_ply(path("c.ply"), PointCloud{}), InvalidInput);
     QVERIFY(!std::filesystem::exists(path("c.ply")));
   }
 };

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/about/version_text.h"
+
+#include "app/about/commit.h"
+#include "engine/core/version.h"
+
+#include <fmt/format.h>
+
+namespace episcope {
+
+std::string version_text(const std::string& program, const std::vector<LibraryVersion>& others) {
+  std::string text = fmt::format("{} {}\ncommit {}\n", program, kVersion, kCommit);
+  std::vector<LibraryVersion> libraries = io::library_versions();
+  libraries.insert(libraries.end(), others.begin(), others.end());
+  for (const auto& [name, version] : libraries) text += fmt::format("{} {}\n", name, version);
+  return text;
+}
+
+}  // namespace episcope

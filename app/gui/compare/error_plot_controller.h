@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/gui/frame/jobs.h"
+#include "app/session/judge/evaluation_cache.h"
+#include "app/session/parts.h"
+
+#include <QObject>
+#include <QString>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+class ErrorPlotPanel;
+class RegionController;
+class Session;
+struct EstimateEntry;
+
+/// The tab of errors by true disparity, of the shown result and of the one it is compared with, in
+/// the judged part of the view. Computed in the background, and only while the tab is shown.
+class ErrorPlotController : public QObject {
+  Q_OBJECT
+
+ public:
+  ErrorPlotController(const Workbench& bench, const RegionController& region);
+
+ private:
+  struct Judged {
+    std::string name;
+    EvaluationPtr evaluation;
+    DisparityView truth;  ///< Of the scene, which outlives the job.
+  };
+
+  void update();
+  [[nodiscard]] QString obstacle() const;
+  /// Nothing while the evaluation is on its way.
+  [[nodiscard]] std::optional<Judged> judged(const EstimateEntry& entry);
+  void start(std::vector<Judged> results);
+
+  Workbench bench_;
+  Session& session_;
+  const RegionController& region_;
+  ErrorPlotPanel* panel_;
+  LatestJob job_;
+};
+
+}  // namespace episcope

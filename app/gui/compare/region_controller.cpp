@@ -1,0 +1,300 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/compare/region_controller.h"
+
+#include "app/gui/compare/compare_section.h"
+#include "app/gui/document/document_controller.h"
+#include "app/gui/document/label_choice.h"
+#include "app/gui/frame/cancels.h"
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/dialogs.h"
+#include "app/gui/frame/jobs.h"
+#include "app/gui/frame/messages.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
+#include "engine/io/beside/map_file.h"
+#include "widgets/canvas/outline.h"
+#include "widgets/canvas/tools/rectangle_tool.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/compare/region_bar.h"
+
+#include <QFileInfo>
+#include <QLocale>
+
+#include <algorithm>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+using Mask = Image<std::uint8_t>;
+
+PixelEdges edges_of(const PixelRect& rectangle) {
+  const QPoint a(rectangle.x0, rectangle.y0), b(rectangle.x1, rectangle.y0),
+      c(rectangle.x1, rectangle.y1), d(rectangle.x0, rectangle.y1);
+  return {{a, b}, {b, c}, {d, c}, {a, d}};
+}
+
+template <class IsInside>
+RegionPtr mask_where(const LightField& light_field, IsInside is_inside) {
+  auto mask = std::make_shared<Mask>(light_field.height(), light_field.width());
+  for (int y = 0; y < mask->height(); ++y) {
+    for (int x = 0; x < mask->width(); ++x) mask->at(y, x) = is_inside(y, x) ? 1 : 0;
+  }
+  return mask;
+}
+
+}  // namespace
+
+RegionController::RegionController(const Workbench& bench, RegionBar* bar)
+    : QObject(&bench.owner), bench_(bench), bar_(bar), tool_(new RectangleTool(this)) {
+  bar_->setParts({tr("Whole view"), tr("Rectangle"), tr("Current label"),
+                  tr("Where all results have values"), tr("Mask of a file…")});
+  addCommands(*bar);
+  connectTool();
+  connect(bar_, &RegionBar::partChosen, this, [this](int part) { choose(Kind{part}); });
+  connect(&bench.labels, &LabelChoice::changed, this, [this] {
+    if (now().kind == Kind::Label) refresh();
+  });
+  connect(&bench.document, &DocumentController::changed, this, [this] {
+    if (now().kind == Kind::Label) refresh();
+  });
+  bench.cancels.add(CancelRank::Stroke, [this] {
+    if (bench_.stage.canvas()->tool() != tool_) return false;
+    endRectangle();
+    refresh();
+    return true;
+  });
+  bench.session.on_changed([this](Parts parts) { update(parts); });
+  refresh();
+}
+
+RegionController::~RegionController() {
+  if (bench_.stage.canvas()->tool() == tool_) bench_.stage.canvas()->setTool(nullptr);
+}
+
+void RegionController::addCommands(RegionBar& bar) {
+  QAction* draw = bench_.commands.add(
+      {.id = "compare.rectangle",
+       .menu = Menu::Compare,
+       .text = tr("Judge a rectangle"),
+       .tip = tr("The next drag on the view draws the rectangle that metrics are of"),
+       .icon = "rectangle",
+       .keys = {tr("Ctrl+Alt+R")},
+       .run = [this] { beginRectangle(); },
+       .section = compare_section::kRange,
+       .enabled = [this] { return bench_.session.scene() != nullptr; }});
+  bench_.commands.add({.id = "compare.whole",
+                       .menu = Menu::Compare,
+                       .text = tr("Judge the whole view"),
+                       .tip = tr("Metrics are of the whole view again"),
+                       .keys = {tr("Ctrl+Alt+W")},
+                       .run = [this] { choose(Kind::Whole); },
+                       .section = compare_section::kRange,
+                       .enabled = [this] { return now().kind != Kind::Whole; }});
+  bar.addAction(draw, "region.draw");
+}
+
+void RegionController::connectTool() {
+  connect(tool_, &RectangleTool::rectangleDragged, this, [this](const PixelRect& rectangle) {
+    bench_.stage.canvas()->setRegion(edges_of(clipped(rectangle)));
+  });
+  connect(tool_, &RectangleTool::rectangleCancelled, this, &RegionController::showOutline);
+  connect(
+      tool_, &RectangleTool::rectangleDrawn, this,
+      [this](const PixelRect& rectangle) {
+        endRectangle();
+        if (clipped(rectangle).empty()) return refresh();
+        now().rectangle = clipped(rectangle);
+        choose(Kind::Rectangle);
+      },
+      Qt::QueuedConnection);  // the canvas is still busy with the release
+}
+
+RegionController::Choice& RegionController::now() {
+  return choices_[bench_.session.generation()];
+}
+
+const RegionController::Choice& RegionController::now() const {
+  static const Choice kWhole;
+  const auto found = choices_.find(bench_.session.generation());
+  return found == choices_.end() ? kWhole : found->second;
+}
+
+PixelRect RegionController::clipped(PixelRect rectangle) const {
+  const LightFieldPtr light_field = bench_.session.light_field();
+  if (!light_field) return {};
+  return {std::max(rectangle.y0, 0), std::max(rectangle.x0, 0),
+          std::min(rectangle.y1, light_field->height()),
+          std::min(rectangle.x1, light_field->width())};
+}
+
+void RegionController::beginRectangle() {
+  bench_.stage.requestSingleView();
+  ViewCanvas* canvas = bench_.stage.canvas();
+  if (canvas->tool() != tool_) former_tool_ = canvas->tool();
+  canvas->setTool(tool_);
+  bench_.messages.hint(tr("Drag a rectangle on the view. Esc leaves it."));
+}
+
+void RegionController::endRectangle() {
+  tool_->cancel();  // before it is taken away, which would end the gesture as a release does
+  ViewCanvas* canvas = bench_.stage.canvas();
+  if (canvas->tool() == tool_) canvas->setTool(former_tool_);
+  former_tool_ = nullptr;
+}
+
+void RegionController::choose(Kind kind) {
+  if (kind == Kind::Mask) {
+    askForMask();
+  } else if (kind == Kind::Rectangle && now().rectangle.empty()) {
+    beginRectangle();
+  } else {
+    now().kind = kind;
+  }
+  refresh();
+}
+
+void RegionController::askForMask() {
+  ask_for_file(&bench_.window,
+               {.name = "open_mask",
+                .title = tr("Mask of the pixels that are judged: those that are not black"),
+                .filter = tr("Images (*.png *.tif *.tiff *.pgm *.bmp)")},
+               [this](const QString& path) { useMask(path); });
+}
+
+void RegionController::useMask(const QString& path) {
+  bench_.jobs.start<RegionPtr>(
+      Lane::Load, tr("Mask %1").arg(QFileInfo(path).fileName()),
+      [file = std::filesystem::path(path.toStdString())](const Progress&) {
+        return std::make_shared<const Mask>(io::read_mask(file));
+      },
+      [this, path, scene = bench_.session.generation()](const RegionPtr& mask) {
+        const OpenScene* open = bench_.session.find_scene(scene);
+        if (!open || !open->scene) return;
+        const LightField& light_field = *open->scene->light_field;
+        if (mask->height() != light_field.height() || mask->width() != light_field.width()) {
+          return bench_.messages.warn(tr("The mask has %1×%2 px, but the views have %3×%4 px: "
+                                         "choose a mask of the size of the views.")
+                                          .arg(mask->width())
+                                          .arg(mask->height())
+                                          .arg(light_field.width())
+                                          .arg(light_field.height()));
+        }
+        Choice& choice = choices_[scene];
+        choice.kind = Kind::Mask;
+        choice.mask = mask;
+        choice.mask_name = QFileInfo(path).fileName();
+        refresh();
+      });
+}
+
+void RegionController::update(Parts parts) {
+  if (parts.has(Part::Scenes)) {
+    std::erase_if(choices_,
+                  [this](const auto& each) { return !bench_.session.find_scene(each.first); });
+  }
+  const Kind kind = now().kind;
+  const bool is_new = parts.has(Part::Scene) ||
+                      (kind == Kind::Common && parts.has(Part::Estimates)) ||
+                      (kind == Kind::Label && parts.has(Part::Labels));
+  if (parts.has(Part::Scene)) endRectangle();
+  if (is_new) {
+    refresh();
+  } else if (parts.has(Part::View)) {
+    showOutline();
+  }
+}
+
+RegionPtr RegionController::makeRegion() const {
+  const LightFieldPtr light_field = bench_.session.light_field();
+  const Choice& choice = now();
+  if (!light_field || choice.kind == Kind::Whole) return nullptr;
+  switch (choice.kind) {
+    case Kind::Label:
+      return labelRegion();
+    case Kind::Common:
+      return commonRegion();
+    case Kind::Mask:
+      return choice.mask;
+    default:
+      return mask_where(*light_field, [&r = choice.rectangle](int y, int x) {
+        return y >= r.y0 && y < r.y1 && x >= r.x0 && x < r.x1;
+      });
+  }
+}
+
+// Of the segmentation of the judged view; without one, what is painted there.
+RegionPtr RegionController::labelRegion() const {
+  const Session& session = bench_.session;
+  const LightField& light_field = *session.light_field();
+  const ViewIndex view = judged_view(*session.scene());
+  const int label = bench_.labels.current();
+  const LabelingPtr& labeling = session.labels().labeling;
+  if (labeling && labeling->labels.contains(view)) {
+    const auto labels = labeling->labels.view(view);
+    return mask_where(light_field, [&](int y, int x) { return labels.at(y, x) == label; });
+  }
+  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  const auto painted =
+      document ? document->scribbles().view(view) : ImageView<const std::uint8_t>();
+  return mask_where(light_field, [&](int y, int x) {
+    return !painted.empty() && label != 0 && painted.at(y, x) == label;
+  });
+}
+
+RegionPtr RegionController::commonRegion() const {
+  const Session& session = bench_.session;
+  const ViewIndex view = judged_view(*session.scene());
+  std::vector<DisparityView> maps;
+  for (const EstimateEntry& entry : session.estimates()) {
+    if (entry.estimate->contains(view)) maps.push_back(entry.estimate->field.view(view));
+  }
+  return mask_where(*session.light_field(), [&](int y, int x) {
+    return std::ranges::all_of(maps, [&](const DisparityView& map) { return map.is_valid(y, x); });
+  });
+}
+
+void RegionController::refresh() {
+  region_ = makeRegion();
+  bar_->setCurrent(static_cast<int>(now().kind));
+  const auto count = region_ ? std::count_if(region_->data(), region_->data() + region_->size(),
+                                             [](std::uint8_t inside) { return inside != 0; })
+                             : 0;
+  bar_->setSummary(region_ ? tr("%1 px").arg(QLocale::c().toString(static_cast<qlonglong>(count)))
+                           : QString());
+  showOutline();
+  bench_.commands.refresh();
+  emit changed();
+}
+
+void RegionController::showOutline() {
+  const Session& session = bench_.session;
+  const bool is_seen = region_ && session.view() == judged_view(*session.scene());
+  bench_.stage.canvas()->setRegion(is_seen ? outline_of(region_->view(), {}) : PixelEdges());
+}
+
+QString RegionController::name() const {
+  const Choice& choice = now();
+  const LabelInfo* label = bench_.labels.info();
+  switch (choice.kind) {
+    case Kind::Rectangle:
+      return tr("rectangle x %1–%2, y %3–%4")
+          .arg(choice.rectangle.x0)
+          .arg(choice.rectangle.x1 - 1)
+          .arg(choice.rectangle.y0)
+          .arg(choice.rectangle.y1 - 1);
+    case Kind::Label:
+      return tr("label %1").arg(label ? QString::fromStdString(label->name) : QString());
+    case Kind::Common:
+      return tr("where all results have values");
+    case Kind::Mask:
+      return tr("mask %1").arg(choice.mask_name);
+    case Kind::Whole:
+      break;
+  }
+  return tr("whole view");
+}
+
+}  // namespace episcope
+
+#include "moc_region_controller.cpp"

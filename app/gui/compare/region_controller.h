@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/session/parts.h"
+#include "engine/core/array/image.h"
+#include "engine/core/array/pixel_rect.h"
+#include "widgets/canvas/tools/canvas_tool.h"
+
+#include <QObject>
+#include <QString>
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace episcope {
+
+class RectangleTool;
+class RegionBar;
+
+/// Which pixels are judged; null = all.
+using RegionPtr = std::shared_ptr<const Image<std::uint8_t>>;
+
+/// Chooses the part of the judged view that metrics are of, for each open light field: all of it, a
+/// rectangle drawn on the view, the current label, the pixels that every result has a value in, or
+/// those of a mask in a file.
+class RegionController : public QObject {
+  Q_OBJECT
+
+ public:
+  RegionController(const Workbench& bench, RegionBar* bar);
+  ~RegionController() override;
+
+  /// Of the size of the view; null = everywhere.
+  [[nodiscard]] const RegionPtr& region() const { return region_; }
+  /// "whole view", "rectangle x 10–49, y 20–59", "label sky": for tables.
+  [[nodiscard]] QString name() const;
+
+  /// The next drag on the view draws a rectangle.
+  void beginRectangle();
+  void useMask(const QString& path);
+
+ signals:
+  void changed();
+
+ private:
+  // In the order of the bar.
+  enum class Kind { Whole, Rectangle, Label, Common, Mask };
+  struct Choice {
+    Kind kind = Kind::Whole;
+    PixelRect rectangle{};
+    RegionPtr mask{};
+    QString mask_name{};
+  };
+
+  void addCommands(RegionBar& bar);
+  void connectTool();
+  void choose(Kind kind);
+  void askForMask();
+  void endRectangle();
+  void update(Parts parts);
+  void refresh();
+  void showOutline();
+  [[nodiscard]] Choice& now();
+  [[nodiscard]] const Choice& now() const;
+  [[nodiscard]] RegionPtr makeRegion() const;
+  [[nodiscard]] RegionPtr labelRegion() const;
+  [[nodiscard]] RegionPtr commonRegion() const;
+  [[nodiscard]] PixelRect clipped(PixelRect rectangle) const;
+
+  Workbench bench_;
+  RegionBar* bar_;
+  RectangleTool* tool_;
+  CanvasTool* former_tool_ = nullptr;
+  std::map<std::uint64_t, Choice> choices_;  // by scene
+  RegionPtr region_;
+};
+
+}  // namespace episcope

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/frame/panes.h"
+
+#include "app/gui/frame/pane_window.h"
+
+#include <QSettings>
+#include <QWidget>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+constexpr const char* kTorn = "layout/torn";
+
+QString place_key(const QString& id) {
+  return "layout/place/" + id;
+}
+
+}  // namespace
+
+Panes::Panes(QWidget& home) : QObject(&home), home_(home) {}
+
+Panes::~Panes() = default;
+
+void Panes::add(Pane pane) {
+  panes_.push_back(std::move(pane));
+}
+
+const Pane* Panes::find(const QString& id) const {
+  const auto found = std::ranges::find(panes_, id, &Pane::id);
+  return found == panes_.end() ? nullptr : &*found;
+}
+
+void Panes::tear(const QString& id) {
+  if (const auto open = windows_.constFind(id); open != windows_.constEnd()) {
+    (*open)->raise();
+    (*open)->activateWindow();
+    return;
+  }
+  const Pane* pane = find(id);
+  if (!pane) return;
+  const QSize size = pane->widget->size();
+  const QPoint corner = pane->widget->mapToGlobal(QPoint());
+  auto* window = new PaneWindow(pane->widget, pane->title, home_.window());
+  window->setObjectName("pane." + id);
+  if (!window->restoreGeometry(QSettings().value(place_key(id)).toByteArray())) {
+    window->resize(size);
+    window->move(corner);
+  }
+  windows_[id] = window;
+  connect(window, &PaneWindow::closed, this, [this, id] { putBack(id); });
+  window->show();
+  emit opened(window);
+  emit changed(id);
+}
+
+void Panes::putBack(const QString& id) {
+  const Pane* pane = find(id);
+  if (!pane || !isTorn(id)) return;
+  remember(id);
+  PaneWindow* window = windows_.take(id);
+  pane->put_back();
+  window->hide();
+  window->deleteLater();
+  emit changed(id);
+}
+
+void Panes::toggle(const QString& id) {
+  isTorn(id) ? putBack(id) : tear(id);
+}
+
+void Panes::remember(const QString& id) const {
+  QSettings().setValue(place_key(id), windows_[id]->saveGeometry());
+}
+
+void Panes::save() const {
+  for (const QString& id : windows_.keys()) remember(id);
+  QSettings().setValue(kTorn, QStringList(windows_.keys()));
+}
+
+void Panes::restore() {
+  for (const QString& id : QSettings().value(kTorn).toStringList()) tear(id);
+}
+
+void Panes::reset() {
+  for (const QString& id : windows_.keys()) putBack(id);
+  QSettings().remove(kTorn);
+  QSettings().remove("layout/place");
+}
+
+}  // namespace episcope
+
+#include "moc_panes.cpp"

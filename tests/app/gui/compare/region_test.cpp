@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The judged part of the view and errors by disparity, driven in the window that ships.
+#include "app/gui/compare/region_controller.h"
+
+#include "tests/app/gui/compare/compared.h"
+#include "widgets/compare/metric_table.h"
+#include "widgets/compare/region_bar.h"
+#include "widgets/plot/line_plot.h"
+
+#include <QComboBox>
+#include <QImage>
+#include <QLabel>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::in_region_test {
+
+namespace {
+
+class Judging : public Compared {
+ public:
+  explicit Judging(std::vector<float> offsets) : Compared(std::move(offsets)) {
+    trigger("tab.compare");
+    window.activateWindow();
+  }
+
+  [[nodiscard]] RegionController& region() { return find<RegionController>(window); }
+  [[nodiscard]] QString summary() const { return find<RegionBar>(window).summary(); }
+
+  /// A cell of the table as it is copied; nothing while there is no such column.
+  [[nodiscard]] QString cell(int row, const QString& column) const {
+    const QStringList lines = find<MetricTable>(window).toCsv().split('\n', Qt::SkipEmptyParts);
+    if (row + 1 >= lines.size()) return {};
+    const auto place = lines[0].trimmed().split(',').indexOf(column);
+    return place < 0 ? QString() : lines[row + 1].trimmed().split(',').value(place);
+  }
+
+  void choose(int part) {
+    auto* combo = window.findChild<QComboBox*>("region.part");
+    combo->setCurrentIndex(part);
+    emit combo->activated(part);
+    QCoreApplication::processEvents();
+  }
+
+  void drawRectangle(PixelIndex from, PixelIndex to) {
+    click("region.draw");
+    drag(from, to);
+    QCoreApplication::processEvents();
+  }
+};
+
+}  // namespace
+
+class RegionTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void rectangle_isDrawnAndJudged();
+  void escape_leavesTheRectangle();
+  void wholeView_isJudgedAgain();
+  void label_isJudged();
+  void commonPixels_leaveOutWhatAResultLacks();
+  void mask_isReadFromAFile();
+  void maskOfAnotherSize_isRefused();
+  void everyScene_hasItsOwnPart();
+  void errors_arePlottedByDisparity();
+  void errorsOfTwoResults_areTwoLines();
+};
+
+void RegionTest::rectangle_isDrawnAndJudged() {
+  Judging f({0.0F});
+  // The result is off in one corner only.
+  auto estimate = std::make_shared<Estimate>();
+  estimate->field.disparity = f.session().scene()->truth->field.disparity.clone();
+  for (int y = 0; y < 20; ++y) {
+    for (int x = 0; x < 30; ++x) estimate->field.disparity.view({4, 4}).at(y, x) += 1;
+  }
+  f.session().add_estimate(estimate, {-1, 1}, f.session().generation());
+  QTRY_VERIFY_WITH_TIMEOUT(!f.cell(1, "vmv2013.mse_100").isEmpty(), kPatience);
+  const double whole = f.cell(1, "vmv2013.mse_100").toDouble();
+  QVERIFY(std::abs(whole - 100.0 * 600 / (96 * 96)) < 0.01);
+
+  f.drawRectangle({2, 3}, {17, 22});
+
+  QVERIFY(f.summary().startsWith("320"));  // 16 × 20
+  QTRY_COMPARE_WITH_TIMEOUT(f.cell(1, "vmv2013.mse_100").toDouble(), 100.0, kPatience);
+  QCOMPARE(f.cell(1, "vmv2013.pixels"), QString("320"));
+  QCOMPARE(f.cell(1, "benchmark2016.pixels"), QString("24"));  // rows 15 … 17 and columns 15 … 22
+  QVERIFY(f.cell(1, "region").startsWith("\"rectangle x 3–22"));
+  QVERIFY(!f.canvas()->region().empty());
+  QVERIFY(!f.canvas()->tool());  // the mouse browses again
+  f.key(Qt::Key_Right);          // another view: the outline is not of it
+  QTRY_VERIFY(f.canvas()->region().empty());
+}
+
+void RegionTest::escape_leavesTheRectangle() {
+  Judging f({0.5F});
+  f.click("region.draw");
+  QVERIFY(f.canvas()->tool());
+  f.press({10, 10});
+  f.move({30, 30});
+  QVERIFY(!f.canvas()->region().empty());
+  f.key(Qt::Key_Escape);
+  f.release({30, 30});
+  QCoreApplication::processEvents();
+  QVERIFY(!f.canvas()->tool());
+  QVERIFY(f.canvas()->region().empty());
+  QCOMPARE(f.region().name(), QString("whole view"));
+}
+
+void RegionTest::wholeView_isJudgedAgain() {
+  Judging f({0.5F});
+  f.drawRectangle({2, 3}, {17, 22});
+  QVERIFY(f.region().region());
+  f.choose(0);
+  QVERIFY(!f.region().region());
+  QTRY_COMPARE_WITH_TIMEOUT(f.cell(0, "region"), QString("whole view"), kPatience);
+  f.choose(1);  // the rectangle is still known
+  QVERIFY(f.summary().startsWith("320"));
+}
+
+void RegionTest::label_isJudged() {
+  Judging f({0.5F});
+  f.trigger("tab.annotate");
+  f.drag({40, 20}, {40, 60});
+  f.trigger("tab.compare");
+  f.choose(2);
+  QVERIFY(f.region().name().startsWith("label"));
+  const auto& painted = f.document().scribbles().view({4, 4});
+  const auto count = std::count_if(painted.row(0), painted.row(0) + 96 * 96,
+                                   [](std::uint8_t label) { return label == 1; });
+  QVERIFY(count > 0);
+  QTRY_COMPARE_WITH_TIMEOUT(f.cell(0, "vmv2013.pixels").toLongLong(), static_cast<qlonglong>(count),
+                            kPatience);
+}
+
+void RegionTest::commonPixels_leaveOutWhatAResultLacks() {
+  Judging f({0.5F, 0.1F});
+  auto estimate = std::make_shared<Estimate>();
+  estimate->field.disparity = f.session().scene()->truth->field.disparity.clone();
+  estimate->field.valid = ViewStack<std::uint8_t>(estimate->field.disparity.grid(), 96, 96);
+  std::fill_n(estimate->field.valid.data(), estimate->field.valid.size(), std::uint8_t{0});
+  for (int x = 0; x < 96; ++x) estimate->field.valid.view({4, 4}).at(50, x) = 1;
+  f.session().add_estimate(estimate, {-1, 1}, f.session().generation());
+  QCoreApplication::processEvents();
+  f.choose(3);
+  QCOMPARE(f.summary(), QString("96 px"));
+}
+
+void RegionTest::mask_isReadFromAFile() {
+  Judging f({0.5F});
+  QImage mask(96, 96, QImage::Format_Grayscale8);
+  mask.fill(0);
+  for (int x = 0; x < 10; ++x) mask.setPixel(x, 5, qRgb(255, 255, 255));
+  QVERIFY(mask.save(f.path("mask.png")));
+  f.region().useMask(f.path("mask.png"));
+  QTRY_COMPARE_WITH_TIMEOUT(f.summary(), QString("10 px"), kPatience);
+  QCOMPARE(f.region().name(), QString("mask mask.png"));
+}
+
+void RegionTest::maskOfAnotherSize_isRefused() {
+  Judging f({0.5F});
+  QImage mask(20, 10, QImage::Format_Grayscale8);
+  mask.fill(255);
+  QVERIFY(mask.save(f.path("mask.png")));
+  f.region().useMask(f.path("mask.png"));
+  auto* bar = f.window.findChild<QWidget*>("messageBar");
+  QTRY_VERIFY_WITH_TIMEOUT(bar->isVisible(), kPatience);
+  QVERIFY(!f.region().region());
+}
+
+void RegionTest::everyScene_hasItsOwnPart() {
+  Judging f({0.5F});
+  f.drawRectangle({2, 3}, {17, 22});
+  const auto first = f.session().generation();
+  f.session().add(f.session().scene(), "another");
+  QCoreApplication::processEvents();
+  QVERIFY(!f.region().region());
+  f.session().choose(first);
+  QCoreApplication::processEvents();
+  QVERIFY(f.region().region());
+}
+
+void RegionTest::errors_arePlottedByDisparity() {
+  Judging f({0.2F});
+  f.trigger("tab.errors");
+  auto* squares = f.window.findChild<LinePlot*>("errors.squares");
+  QTRY_VERIFY_WITH_TIMEOUT(squares->plot().series.size() == 1, kPatience);
+  QVERIFY(squares->plot().series[0].points.size() >= 2);
+  for (const QPointF& point : squares->plot().series[0].points) {
+    QVERIFY(std::abs(point.y() - 4) < 0.5);  // one pixel has no value
+  }
+  auto* bad = f.window.findChild<LinePlot*>("errors.bad");
+  QCOMPARE(bad->plot().series[0].points[0].y(), 100.0);
+
+  f.trigger("compare.rectangle");
+  f.drag({30, 40}, {33, 43});
+  QTRY_VERIFY_WITH_TIMEOUT(
+      f.window.findChild<QLabel*>("errors.title")->toolTip().contains(", 16 px") ||
+          f.window.findChild<QLabel*>("errors.title")->text().contains(", 16 px"),
+      kPatience);
+}
+
+void RegionTest::errorsOfTwoResults_areTwoLines() {
+  Judging f({0.2F, 0.5F});
+  f.trigger("tab.errors");
+  auto* squares = f.window.findChild<LinePlot*>("errors.squares");
+  QTRY_VERIFY_WITH_TIMEOUT(squares->plot().series.size() == 2, kPatience);
+  QVERIFY(std::abs(squares->plot().series[0].points.back().y() - 25) < 1);  // A, shown last
+  QVERIFY(std::abs(squares->plot().series[1].points.back().y() - 4) < 1);
+  f.session().show_estimate(f.ids[0]);
+  QTRY_VERIFY_WITH_TIMEOUT(std::abs(squares->plot().series[0].points.back().y() - 4) < 1,
+                           kPatience);
+}
+
+}  // namespace episcope::in_region_test
+
+EPISCOPE_WINDOW_TEST(region_test, RegionTest)
+#include "region_test.moc"

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Sweeps, driven in the window that ships.
+#include "tests/app/gui/window_fixture.h"
+#include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/estimate/method_panel.h"
+#include "widgets/estimate/parameter_form.h"
+#include "widgets/plot/line_plot.h"
+#include "widgets/sweep/sweep_panel.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope::in_sweep_window_test {
+
+namespace {
+
+class Sweeping : public WindowFixture {
+ public:
+  explicit Sweeping(const std::string& scene = "edge") {
+    openSmall(scene);
+    key(Qt::Key_F5, Qt::ControlModifier | Qt::ShiftModifier);
+    QCoreApplication::processEvents();
+  }
+
+  [[nodiscard]] LinePlot& upper() const { return *window.findChild<LinePlot*>("sweep.upper"); }
+  [[nodiscard]] LinePlot& lower() const { return *window.findChild<LinePlot*>("sweep.lower"); }
+  [[nodiscard]] QString text(const char* label) const {
+    return window.findChild<QLabel*>(label)->text();
+  }
+  [[nodiscard]] QPushButton& button(const char* name) const {
+    return *window.findChild<QPushButton*>(name);
+  }
+  Session& session() { return window.bench().session; }
+
+  /// As by hand: the parameter from its list, values typed.
+  void vary(const char* row, const char* key, const char* values) {
+    auto* combo = window.findChild<QComboBox*>(row);
+    const int place = combo->findData(QString(key));
+    QVERIFY2(place >= 0, key);
+    combo->setCurrentIndex(place);
+    emit combo->activated(place);
+    auto* field = window.findChild<QLineEdit*>(QString(row) + ".values");
+    field->selectAll();
+    QTest::keyClicks(field, values);
+  }
+
+  void run() {
+    click("sweep.run");
+    QTRY_COMPARE_WITH_TIMEOUT(window.bench().jobs.count(), 0, kScenePatience);
+    QCoreApplication::processEvents();
+  }
+
+  void clickPoint(LinePlot& plot, PlotPlace place) {
+    plot.grab();  // positions are those of the last picture
+    QTest::mouseClick(&plot, Qt::LeftButton, {}, plot.positionOf(place).toPoint());
+    QCoreApplication::processEvents();
+  }
+};
+
+}  // namespace
+
+class SweepWindowTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void run_plotsEveryValue();
+  void twoParameters_giveALineForEachValueOfTheSecond();
+  void point_showsItsMap_andTheNextTakesItsPlace();
+  void keptPoint_stays();
+  void keys_chooseAPoint();
+  void values_goBackToTheForm();
+  void wrongValues_areSaidAndCannotBeRun();
+  void cancelled_keepsThePointsThatAreThere();
+  void withoutTruth_plotsChangeAndTime();
+  void export_writesEveryPoint();
+  void closedScene_takesItsSweepAway();
+};
+
+void SweepWindowTest::run_plotsEveryValue() {
+  Sweeping f;
+  QCOMPARE(f.window.bench().frame.shownTab(), QString("sweep"));
+  f.vary("sweep.first", "inner_scale", "0.6, 0.9, 1.2");
+  QVERIFY(f.text("sweep.plan").contains("4"));  // the present values, which are none of these
+
+  f.run();
+
+  const std::size_t results = f.session().estimates().size();
+  QCOMPARE(f.upper().plot().series.size(), 1U);
+  QCOMPARE(f.upper().plot().series[0].points.size(), 3U);
+  QVERIFY(f.upper().plot().y.title.contains("MSE"));
+  QVERIFY(f.lower().plot().y.title.contains("BadPix"));
+  for (const QPointF& point : f.upper().plot().series[0].points) QVERIFY(point.y() > 0);
+  QCOMPARE(f.session().estimates().size(), results);  // the list of results is as it was
+}
+
+void SweepWindowTest::twoParameters_giveALineForEachValueOfTheSecond() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6 0.9");
+  f.vary("sweep.second", "outer_scale", "0.5, 1, 2");
+  f.run();
+  const auto& series = f.upper().plot().series;
+  QCOMPARE(series.size(), 3U);
+  QVERIFY(series[1].name.contains("outer_scale 1"));
+  QCOMPARE(series[1].points.size(), 2U);
+}
+
+void SweepWindowTest::point_showsItsMap_andTheNextTakesItsPlace() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  const std::size_t before = f.session().estimates().size();
+
+  f.clickPoint(f.upper(), {0, 1});
+  QCOMPARE(f.session().estimates().size(), before + 1);
+  QVERIFY(f.session().shown()->name.find("inner_scale 1.2") != std::string::npos);
+  QVERIFY(f.text("sweep.chosen").contains("inner_scale"));
+  QVERIFY(f.lower().mark() == (PlotPlace{0, 1}));
+
+  f.clickPoint(f.lower(), {0, 0});
+  QCOMPARE(f.session().estimates().size(), before + 1);
+  QVERIFY(f.session().shown()->name.find("inner_scale 0.6") != std::string::npos);
+
+  // What is shown is judged as what is plotted.
+  const EvaluationKey key{f.session().shown()->id, judged_view(*f.session().scene()),
+                          Protocol::Vmv2013};
+  EvaluationPtr evaluation;
+  QTRY_VERIFY_WITH_TIMEOUT((evaluation = f.session().evaluation(key)), kPatience);
+  QCOMPARE(find_metric(evaluation->metrics, "mse_100").value(),
+           f.upper().plot().series[0].points[0].y());
+}
+
+void SweepWindowTest::keptPoint_stays() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  const std::size_t before = f.session().estimates().size();
+  f.clickPoint(f.upper(), {0, 0});
+  const int kept = f.session().shown()->id;
+
+  f.click("sweep.keep");
+  QVERIFY(!f.button("sweep.keep").isEnabled());
+  f.clickPoint(f.upper(), {0, 1});
+
+  QCOMPARE(f.session().estimates().size(), before + 2);
+  QVERIFY(f.session().find_estimate(kept));
+}
+
+void SweepWindowTest::keys_chooseAPoint() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.upper().setFocus(Qt::TabFocusReason);
+  QTest::keyClick(&f.upper(), Qt::Key_Right);
+  QTest::keyClick(&f.upper(), Qt::Key_Return);
+  QCoreApplication::processEvents();
+  QVERIFY(f.session().shown()->name.find("inner_scale 1.2") != std::string::npos);
+  QVERIFY((f.view() == ViewIndex{4, 4}));  // the arrow was not the viewer's
+}
+
+void SweepWindowTest::values_goBackToTheForm() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.clickPoint(f.upper(), {0, 1});
+  f.click("sweep.use");
+  const ParameterSet changed = find<MethodPanel>(f.window).form()->modifiedValues();
+  QVERIFY(changed == (ParameterSet{{"inner_scale", 1.2}}));
+}
+
+void SweepWindowTest::wrongValues_areSaidAndCannotBeRun() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, x");
+  QVERIFY(!f.button("sweep.run").isEnabled());
+  QVERIFY(f.text("sweep.plan").contains("inner_scale"));
+  f.vary("sweep.first", "inner_scale", "0.5:1.5:200");
+  QVERIFY(!f.button("sweep.run").isEnabled());
+  QVERIFY(f.text("sweep.plan").contains("200"));
+  f.vary("sweep.first", "inner_scale", "0.5:1.5:3");
+  QVERIFY(f.button("sweep.run").isEnabled());
+}
+
+void SweepWindowTest::cancelled_keepsThePointsThatAreThere() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.5:1.5:50");
+  f.click("sweep.run");
+  const auto count = [&] {
+    const auto& series = f.upper().plot().series;
+    return series.empty() ? std::size_t{0} : series[0].points.size();
+  };
+  QTRY_VERIFY_WITH_TIMEOUT(count() >= 2, kScenePatience);
+  f.click("sweep.cancel");
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kPatience);
+  QVERIFY(count() >= 2 && count() < 50);
+  QVERIFY(f.button("sweep.run").isEnabled());
+  f.clickPoint(f.upper(), {0, 1});
+  QVERIFY(f.session().shown()->name.find("inner_scale") != std::string::npos);
+}
+
+void SweepWindowTest::withoutTruth_plotsChangeAndTime() {
+  Sweeping f;
+  const auto& scene = *f.session().scene();
+  auto bare = std::make_shared<Scene>();
+  bare->light_field = scene.light_field;
+  bare->truth = std::make_shared<const GroundTruth>();
+  f.session().open(bare, f.session().input());
+  QCoreApplication::processEvents();
+  f.vary("sweep.first", "inner_scale", "0.8, 1.2");
+  f.run();
+  QVERIFY(f.upper().plot().y.title.contains("Change"));
+  QVERIFY(f.lower().plot().y.title.contains("Time"));
+  QVERIFY(f.upper().plot().series[0].points[1].y() > 0);
+  QVERIFY(f.text("sweep.chosen").contains("No ground truth"));
+}
+
+void SweepWindowTest::export_writesEveryPoint() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.click("sweep.export");
+  auto* dialog = f.window.findChild<QFileDialog*>("save_sweep");
+  QVERIFY(dialog);
+  const QString path = f.path("sweep.csv");
+  emit dialog->fileSelected(path);
+  dialog->close();
+  QTRY_VERIFY_WITH_TIMEOUT(QFile::exists(path), kPatience);
+  QFile file(path);
+  QVERIFY(file.open(QIODevice::ReadOnly));
+  const QStringList lines = QString::fromUtf8(file.readAll()).trimmed().split('\n');
+  QCOMPARE(lines.size(), 4);  // head, present values, two
+  QVERIFY(lines[0].startsWith("scene,method,parameters,inner_scale,vmv2013.mse_100"));
+  QVERIFY(lines[2].startsWith("edge,epi_l,,0.6,"));
+}
+
+void SweepWindowTest::closedScene_takesItsSweepAway() {
+  Sweeping f;
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.session().close();
+  QCoreApplication::processEvents();
+  QVERIFY(f.upper().plot().series.empty());
+  QVERIFY(!f.button("sweep.run").isEnabled());
+}
+
+}  // namespace episcope::in_sweep_window_test
+
+EPISCOPE_WINDOW_TEST(sweep_window_test, SweepWindowTest)
+#include "sweep_window_test.moc"

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "widgets/cloud/cloud_marks.h"
+
+#include "widgets/style/theme.h"
+
+#include <vtkActor2D.h>
+#include <vtkCellArray.h>
+#include <vtkCoordinate.h>
+#include <vtkLookupTable.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper2D.h>
+#include <vtkProperty2D.h>
+#include <vtkRenderer.h>
+#include <vtkScalarBarActor.h>
+#include <vtkTextProperty.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace episcope {
+namespace {
+
+// Logical pixels.
+constexpr double kGap = 4;
+constexpr double kArm = 13;
+constexpr int kTextSize = 10;  // points
+constexpr int kBarWidth = 90;
+constexpr int kBarHeight = 260;
+
+// Two lines across, open in the middle, where the point is.
+vtkNew<vtkPolyData> cross(double ratio) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  for (const auto& [x, y] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+    const vtkIdType from = points->InsertNextPoint(x * kGap * ratio, y * kGap * ratio, 0);
+    const vtkIdType to = points->InsertNextPoint(x * kArm * ratio, y * kArm * ratio, 0);
+    lines->InsertNextCell({from, to});
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(lines);
+  return data;
+}
+
+void style_text(vtkTextProperty& text, double ratio) {
+  const QColor color = theme::kCanvasText;
+  text.SetColor(color.redF(), color.greenF(), color.blueF());
+  text.SetFontSize(static_cast<int>(std::lround(kTextSize * ratio)));
+  text.SetFontFamilyToArial();
+  text.ItalicOff();
+  text.BoldOff();
+  text.ShadowOff();
+}
+
+}  // namespace
+
+CloudMarks::CloudMarks(vtkRenderer& renderer) : renderer_(renderer) {
+  bar_->SetLookupTable(colors_);
+  bar_->UnconstrainedFontSizeOn();
+  bar_->SetNumberOfLabels(5);
+  bar_->SetMaximumNumberOfColors(256);
+  bar_->SetLabelFormat("%.3g");
+  bar_->SetBarRatio(0.25);
+  bar_->VisibilityOff();
+  renderer_.AddActor2D(bar_);
+}
+
+CloudMarks::~CloudMarks() {
+  setCrosses({});
+  renderer_.RemoveActor2D(bar_);
+}
+
+void CloudMarks::addCross() {
+  vtkNew<vtkPolyDataMapper2D> mapper;
+  mapper->SetInputData(cross(ratio_));
+  auto actor = std::make_unique<vtkNew<vtkActor2D>>();
+  (*actor)->SetMapper(mapper);
+  (*actor)->GetPositionCoordinate()->SetCoordinateSystemToWorld();
+  const QColor color = theme::kCrossHair;
+  (*actor)->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+  (*actor)->GetProperty()->SetLineWidth(static_cast<float>(2 * ratio_));
+  renderer_.AddActor2D(*actor);
+  crosses_.push_back(std::move(actor));
+}
+
+void CloudMarks::setCrosses(const std::vector<std::array<double, 3>>& places) {
+  while (crosses_.size() > places.size()) {
+    renderer_.RemoveActor2D(*crosses_.back());
+    crosses_.pop_back();
+  }
+  while (crosses_.size() < places.size()) addCross();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [x, y, z] = places[i];
+    (*crosses_[i])->GetPositionCoordinate()->SetValue(x, y, z);
+  }
+}
+
+void CloudMarks::setLegend(const QString& title, const render::Shading& shading) {
+  bar_->SetVisibility(!title.isEmpty());
+  if (title.isEmpty()) return;
+  const auto& colors = shading.map.colors;
+  colors_->SetNumberOfTableValues(static_cast<vtkIdType>(colors.size()));
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const auto& [red, green, blue] = colors[i];
+    colors_->SetTableValue(static_cast<vtkIdType>(i), red / 255.0, green / 255.0, blue / 255.0);
+  }
+  colors_->SetTableRange(shading.range.min, shading.range.max);
+  bar_->SetTitle(QString(title).replace(" [", "\n[").toUtf8().constData());
+}
+
+void CloudMarks::setScale(double ratio, int height) {
+  ratio_ = ratio;
+  style_text(*bar_->GetTitleTextProperty(), ratio);
+  style_text(*bar_->GetLabelTextProperty(), ratio);
+  const double width = kBarWidth * ratio;
+  const double tall = std::min(kBarHeight * ratio, 0.8 * height);
+  bar_->SetMaximumWidthInPixels(static_cast<int>(width));
+  bar_->SetMaximumHeightInPixels(static_cast<int>(tall));
+  bar_->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  bar_->GetPositionCoordinate()->SetValue(8 * ratio, (height - tall) / 2);
+  bar_->GetPosition2Coordinate()->SetCoordinateSystemToViewport();
+  bar_->GetPosition2Coordinate()->SetReferenceCoordinate(nullptr);
+  bar_->GetPosition2Coordinate()->SetValue(8 * ratio + width, (height + tall) / 2);
+  for (const auto& actor : crosses_) {
+    static_cast<vtkPolyDataMapper2D*>((*actor)->GetMapper())->SetInputData(cross(ratio));
+  }
+}
+
+}  // namespace episcope
