@@ -7,6 +7,7 @@
 #include "widgets/style/number_text.h"
 #include "widgets/style/theme.h"
 
+#include <QCheckBox>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -59,12 +60,17 @@ CapturePanel::CapturePanel(QWidget* parent)
       hint_(make_text(this, "capture.hint")),
       next_(make_text(this, "capture.next")),
       pose_(make_text(this, "capture.pose")),
+      snap_(new QCheckBox(tr("Snap"), this)),
       add_(make_button(this, "capture.add", tr("Add pair"),
                        tr("The cross-hair and the marked point of the mesh are the same point"))),
       undo_(make_button(this, "capture.undo", tr("Undo"), tr("Takes back the last change"))),
       table_(new QTableWidget(this)),
       stack_(new QStackedLayout) {
   setObjectName("capturePanel");
+  snap_->setObjectName("capture.snap");
+  snap_->setToolTip(
+      tr("Takes the corner or the centre of the blob beside the cross-hair, to a "
+         "fraction of a pixel"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(theme::kSpacing);
@@ -126,12 +132,14 @@ QWidget* CapturePanel::makePairs() {
   for (QPushButton* each : {remove, undo_, import, save}) buttons->addWidget(each);
   auto* next = new QHBoxLayout;
   next->addWidget(next_, 1);
+  next->addWidget(snap_);
   next->addWidget(add_);
   auto* layout = new QVBoxLayout(part);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addLayout(next);
   layout->addWidget(table_, 1);
   layout->addLayout(buttons);
+  connect(snap_, &QCheckBox::toggled, this, &CapturePanel::snapChanged);
   connect(add_, &QPushButton::clicked, this, &CapturePanel::addRequested);
   connect(remove, &QPushButton::clicked, this, &CapturePanel::removeRequested);
   connect(undo_, &QPushButton::clicked, this, &CapturePanel::undoRequested);
@@ -203,6 +211,10 @@ void CapturePanel::setPose(const QString& text, bool is_known) {
 
 void CapturePanel::setUndoable(bool is_undoable) {
   undo_->setEnabled(is_undoable);
+}
+
+bool CapturePanel::snaps() const {
+  return snap_->isChecked();
 }
 
 std::vector<int> CapturePanel::selectedRows() const {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+class QCheckBox;
 class QLabel;
 class QPushButton;
 class QStackedLayout;
@@ -47,6 +48,8 @@ class CapturePanel : public QWidget {
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);
+  /// Whether picks are to move to the corner or blob beside them.
+  [[nodiscard]] bool snaps() const;
   [[nodiscard]] PhotographSteps* steps() const { return steps_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
 
@@ -54,6 +57,7 @@ class CapturePanel : public QWidget {
   void openRequested();
   void importRequested();
   void exportRequested();
+  void snapChanged();
   void addRequested();
   void removeRequested();
   void undoRequested();
@@ -77,6 +81,7 @@ class CapturePanel : public QWidget {
   QLabel* hint_;
   QLabel* next_;
   QLabel* pose_;
+  QCheckBox* snap_;
   QPushButton* add_;
   QPushButton* undo_;
   QTableWidget* table_;

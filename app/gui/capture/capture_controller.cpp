@@ -133,6 +133,7 @@ void CaptureController::connectPanel() {
     ask("write_truth", tr("Write the light field with its ground truth"), tr("Light field (*.h5)"),
         &CaptureController::writeTruth, true, "lf.h5");
   });
+  connect(panel_, &CapturePanel::snapChanged, this, &CaptureController::showNext);
   connect(panel_, &CapturePanel::addRequested, this, &CaptureController::addPair);
   connect(panel_, &CapturePanel::vertexPicked, this, &CaptureController::pickVertex);
   connect(panel_, &CapturePanel::showRequested, this, &CaptureController::showOverView);
@@ -231,8 +232,12 @@ void CaptureController::pickVertex(std::size_t vertex) {
 void CaptureController::addPair() {
   if (!vertex_ || !bench_.session.scene()) return;
   const PixelIndex pixel = bench_.session.cross_hair();
+  const auto mark = snapped();
   const auto& [x, y, z] = mesh_->vertices[*vertex_];
-  now_->pairs.add({{"", static_cast<double>(pixel.x), static_cast<double>(pixel.y), {x, y, z}}});
+  now_->pairs.add({{"",
+                    mark ? mark->place.x : static_cast<double>(pixel.x),
+                    mark ? mark->place.y : static_cast<double>(pixel.y),
+                    {x, y, z}}});
   vertex_.reset();
   changed();
 }
@@ -279,19 +284,34 @@ QString CaptureController::obstacle() const {
   return {};
 }
 
+std::optional<capture::SnappedPick> CaptureController::snapped() {
+  if (!panel_->snaps()) return {};
+  return snapper_.snap(bench_.session.light_field(), bench_.session.cross_hair());
+}
+
+QString CaptureController::nextText() {
+  if (const auto mark = snapped()) {
+    return QString("%1, %2 (%3)")
+        .arg(mark->place.x, 0, 'f', 2)
+        .arg(mark->place.y, 0, 'f', 2)
+        .arg(mark->kind == capture::MarkKind::Corner ? tr("corner") : tr("blob"));
+  }
+  const PixelIndex pixel = bench_.session.cross_hair();
+  const QString whole = QString("%1, %2").arg(pixel.x).arg(pixel.y);
+  return panel_->snaps() ? tr("%1 (no mark beside it)").arg(whole) : whole;
+}
+
 void CaptureController::showNext() {
   if (!panel_) return;
   const bool is_here =
       bench_.session.scene() && bench_.session.view() == bench_.session.light_field()->center();
-  const PixelIndex pixel = bench_.session.cross_hair();
   std::optional<std::array<double, 3>> point;
   if (mesh_ && vertex_) {
     const auto& [x, y, z] = mesh_->vertices[*vertex_];
     point = {x, y, z};
   }
   const QString elsewhere = bench_.session.scene() ? tr("go to the centre view (Home)") : QString();
-  panel_->setNext(is_here ? QString("%1, %2").arg(pixel.x).arg(pixel.y) : elsewhere, point,
-                  is_here && point);
+  panel_->setNext(is_here ? nextText() : elsewhere, point, is_here && point);
 }
 
 void CaptureController::showPairs() {

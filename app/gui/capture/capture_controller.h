@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/gui/capture/pick_snapper.h"
 #include "app/gui/capture/picked_pairs.h"
 #include "app/gui/frame/jobs.h"
 #include "app/session/parts.h"
@@ -63,6 +64,11 @@ class CaptureController : public QObject {
   void changed();
   void solve();
   void showNext();
+  /// What the next pair would take in the view, px.
+  /// The mark beside the cross-hair, if picks are to move to one.
+  [[nodiscard]] std::optional<capture::SnappedPick> snapped();
+  /// The place in the view that the next pair would take.
+  [[nodiscard]] QString nextText();
   void showPairs();
   [[nodiscard]] QString poseText() const;
   /// Why there can be no pose; empty = there can.
@@ -75,6 +81,7 @@ class CaptureController : public QObject {
   std::filesystem::path mesh_file_;
   std::shared_ptr<const capture::TriangleMesh> mesh_;
   std::optional<std::size_t> vertex_;
+  PickSnapper snapper_;
   std::optional<capture::SolvedPose> pose_;
   QString problem_;  // why there is no pose
   std::map<std::uint64_t, OfScene> of_scenes_;
