@@ -81,6 +81,8 @@ int main(int argc, char** argv) {
   app.add_option("--seeds", request.seeds, "How many")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--jitter", request.options.jitter_px, "Of the gantry, in px")
+      ->capture_default_str();
   app.add_option("--detail", request.options.detail, "Of the mesh")->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {

@@ -49,13 +49,20 @@ std::shared_ptr<const DisparityField> field_of(const EstimatePtr& estimate) {
 QString CloudRequests::obstacle() const {
   const Session& session = bench_.session;
   if (!session.scene()) return Text::tr("Open a light field first.");
+  if (result() || truth()) return {};
   const EstimateEntry* shown = session.shown();
   if (!shown) return Text::tr("Run a method: its disparity appears here in 3D.");
-  if (!shown->estimate->contains(session.view())) {
-    return Text::tr("%1 has no map of this view. Go to the centre view (Home).")
-        .arg(QString::fromStdString(shown->name));
-  }
-  return {};
+  return Text::tr("%1 has no map of this view. Go to the centre view (Home).")
+      .arg(QString::fromStdString(shown->name));
+}
+
+const EstimateEntry* CloudRequests::result() const {
+  const EstimateEntry* shown = bench_.session.shown();
+  return shown && shown->estimate->contains(bench_.session.view()) ? shown : nullptr;
+}
+
+std::shared_ptr<const DisparityField> CloudRequests::main() const {
+  return result() ? field_of(result()->estimate) : truth();
 }
 
 std::shared_ptr<const DisparityField> CloudRequests::truth() const {
@@ -90,11 +97,12 @@ QString CloudRequests::referenceName(const CloudChoice& choice) const {
 CloudOffers CloudRequests::offers() const {
   const Session& session = bench_.session;
   CloudOffers offers;
-  offers.has_truth = truth() != nullptr;
-  offers.has_error = session.has_truth(session.view());
+  offers.has_truth = result() && truth();
+  offers.has_error = result() && session.has_truth(session.view());
   offers.has_labels = bench_.overlay.isAvailable(Quantity::Segmentation) ||
                       bench_.overlay.isAvailable(Quantity::TrueLabels);
-  offers.has_distance = session.light_field()->info().camera.is_known() && (truth() || other());
+  offers.has_distance =
+      result() && session.light_field()->info().camera.is_known() && (truth() || other());
   offers.other = otherName();
   return offers;
 }
@@ -110,6 +118,12 @@ CloudChoice CloudRequests::possible(CloudChoice choice) const {
       (choice.companion == CloudCompanion::Other && offered.other.isEmpty());
   if (lacks_companion) choice.companion = CloudCompanion::None;
   return choice;
+}
+
+// The truth has colours of its own.
+Quantity CloudRequests::quantity(CloudColoring coloring) const {
+  const Quantity quantity = quantity_of(coloring, bench_.overlay);
+  return quantity == Quantity::Disparity && !result() ? Quantity::Truth : quantity;
 }
 
 std::optional<MapSource> CloudRequests::map(CloudColoring coloring, int estimate) const {
@@ -129,26 +143,33 @@ std::optional<SpaceRequest> CloudRequests::request(const CloudChoice& wanted) co
   request.tone = session.place().tone;
   if (choice.is_surface) request.jump_px = choice.jump_px;
   if (choice.coloring == CloudColoring::Distance) request.reference = reference(choice.companion);
-  request.sources.push_back({field_of(session.shown()->estimate)});
+  request.sources.push_back({main()});
   if (choice.companion == CloudCompanion::Truth) request.sources.push_back({truth()});
   if (choice.companion == CloudCompanion::Other) request.sources.push_back({other()});
   if (!is_of_map(choice.coloring)) return request;
+  request.shading = bench_.overlay.shadingOf(quantity(choice.coloring));
+  return addMaps(choice, request) ? std::optional(request) : std::nullopt;
+}
 
-  request.shading = bench_.overlay.shadingOf(quantity_of(choice.coloring, bench_.overlay));
-  request.sources[0].map = map(choice.coloring, session.shown()->id);
-  if (!request.sources[0].map) return std::nullopt;
-  if (request.sources.size() < 2) return request;
+bool CloudRequests::addMaps(const CloudChoice& choice, SpaceRequest& request) const {
+  const auto truth_map = bench_.overlay.sourceOf({Quantity::Truth, 0, 0});
+  const bool is_truth = quantity(choice.coloring) == Quantity::Truth;
+  request.sources[0].map = is_truth ? truth_map : map(choice.coloring, result() ? result()->id : 0);
+  if (!request.sources[0].map) return false;
+  if (request.sources.size() < 2) return true;
   if (choice.companion == CloudCompanion::Other || choice.coloring == CloudColoring::Labels) {
-    request.sources[1].map = map(choice.coloring, session.compared() ? session.compared()->id : 0);
-    if (!request.sources[1].map) return std::nullopt;
-  } else if (choice.coloring == CloudColoring::Disparity) {
-    request.sources[1].map = bench_.overlay.sourceOf({Quantity::Truth, 0, 0});
-  }  // else it is the truth, which has no error
-  return request;
+    const EstimateEntry* other = bench_.session.compared();
+    request.sources[1].map = map(choice.coloring, other ? other->id : 0);
+    return request.sources[1].map.has_value();
+  }
+  // The truth has no error.
+  if (choice.coloring == CloudColoring::Disparity) request.sources[1].map = truth_map;
+  return true;
 }
 
 QString CloudRequests::title(const CloudChoice& choice) const {
-  const QString shown = QString::fromStdString(bench_.session.shown()->name);
+  const QString shown =
+      result() ? QString::fromStdString(result()->name) : Text::tr("Ground truth");
   switch (possible(choice).companion) {
     case CloudCompanion::Truth:
       return Text::tr("%1 and the ground truth").arg(shown);
@@ -164,8 +185,8 @@ QString CloudRequests::legend(const CloudChoice& choice) const {
   switch (possible(choice).coloring) {
     case CloudColoring::Disparity:
     case CloudColoring::Error: {
-      const Quantity quantity = quantity_of(choice.coloring, bench_.overlay);
-      return Text::tr("%1 [%2]").arg(quantity_label(quantity), quantity_unit(quantity));
+      const Quantity shown = quantity(choice.coloring);
+      return Text::tr("%1 [%2]").arg(quantity_label(shown), quantity_unit(shown));
     }
     case CloudColoring::Distance:
       return Text::tr("distance");

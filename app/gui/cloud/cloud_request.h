@@ -12,8 +12,10 @@
 
 namespace episcope {
 
+struct EstimateEntry;
+
 /// Turns what a user chose of the 3D view into what is to be made of the session, as things are
-/// now.
+/// now. What is seen is the shown result; without one, the ground truth.
 class CloudRequests {
  public:
   explicit CloudRequests(const Workbench& bench) : bench_(bench) {}
@@ -33,11 +35,18 @@ class CloudRequests {
   [[nodiscard]] QString legend(const CloudChoice& choice) const;
 
  private:
+  /// What is shown, if it has a map of this view; the truth stands in for it.
+  [[nodiscard]] const EstimateEntry* result() const;
   [[nodiscard]] CloudChoice possible(CloudChoice choice) const;
   [[nodiscard]] std::shared_ptr<const DisparityField> truth() const;
   [[nodiscard]] std::shared_ptr<const DisparityField> other() const;
   [[nodiscard]] std::shared_ptr<const DisparityField> reference(CloudCompanion companion) const;
+  /// What is drawn beside the companion.
+  [[nodiscard]] std::shared_ptr<const DisparityField> main() const;
+  [[nodiscard]] render::Quantity quantity(CloudColoring coloring) const;
   [[nodiscard]] std::optional<MapSource> map(CloudColoring coloring, int estimate) const;
+  /// Whether all are there.
+  [[nodiscard]] bool addMaps(const CloudChoice& choice, SpaceRequest& request) const;
   [[nodiscard]] QString otherName() const;
 
   Workbench bench_;

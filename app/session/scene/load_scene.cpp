@@ -122,6 +122,7 @@ Scene open_light_field(const std::string& input, const io::OpenOptions& options,
 std::string builtin_scene_id(const std::string& input) {
   const std::string prefix = std::string(kDemo) + ":";
   if (input == kDemo || input == prefix) return kDemo;
+  if (input.starts_with(std::string(kDemo) + "?")) return input;
   return input.starts_with(prefix) ? input.substr(prefix.size()) : std::string();
 }
 

@@ -20,8 +20,8 @@ struct LoadOptions {
   bool needs_truth = true;
 };
 
-/// What follows `demo:` if `input` is `demo` or `demo:<scene>`, which `scenes::read_request` reads;
-/// else empty.
+/// What follows `demo:` if `input` is `demo`, `demo?<options>` (the scene `demo` with options) or
+/// `demo:<scene>`, which `scenes::read_request` reads; else empty.
 [[nodiscard]] std::string builtin_scene_id(const std::string& input);
 
 /// Id of the reader of an input (engine/io/open/reader.h), "builtin" for built-in scenes; empty if

@@ -26,15 +26,15 @@ struct SweptParameter {
 
 /// What a point found out.
 struct SweepPoint {
-  ParameterSet point;    ///< The swept parameters.
-  EstimatePtr estimate;  ///< Of the centre view; null if the run failed or it was let go of.
+  ParameterSet point{};    ///< The swept parameters.
+  EstimatePtr estimate{};  ///< Of the centre view; null if the run failed or it was let go of.
   Interval display_range{};
   double seconds = 0;
-  Metrics vmv2013;        ///< Empty without ground truth.
-  Metrics benchmark2016;  ///< Likewise; also of small views, see `judge_by_both`.
+  Metrics vmv2013{};        ///< Empty without ground truth.
+  Metrics benchmark2016{};  ///< Likewise; also of small views, see `judge_by_both`.
   /// Median of |disparity − disparity of the first point| over pixels with a value in both, px.
-  std::optional<double> change_px;
-  std::string problem;  ///< Why it failed, a sentence; empty = it did not.
+  std::optional<double> change_px{};
+  std::string problem{};  ///< Why it failed, a sentence; empty = it did not.
 };
 
 /// Runs a point on the centre view and judges it. `reference` is the estimate of the first point;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
+#include "app/gui/capture/pick_snapper.h"
 #include "app/session/session.h"
 #include "engine/capture/demo/scan_mesh.h"
 #include "engine/capture/mesh/mesh_file.h"
@@ -12,6 +13,7 @@
 #include "widgets/controls/elided_label.h"
 #include "widgets/controls/message_bar.h"
 
+#include <QCheckBox>
 #include <QDialog>
 #include <QFile>
 #include <QFileDialog>
@@ -123,6 +125,29 @@ class CaptureTest : public QObject {
     QCOMPARE(table->rowCount(), 5);
     f.click("capture.undo");
     QCOMPARE(table->rowCount(), 6);
+  }
+
+  void snap_takesTheMarkBesideTheCrossHair() {
+    Capturing f;
+    f.openMesh();
+    Session& session = f.window.bench().session;
+    PickSnapper snapper;
+    std::optional<capture::SnappedPick> mark;
+    for (int i = 0; !mark && i < 80 * 80; i += 7) {
+      const PixelIndex pixel{8 + i / 80, 8 + i % 80};
+      mark = snapper.snap(session.light_field(), pixel);
+      if (mark) session.set_cross_hair(pixel);
+    }
+    QVERIFY(mark);
+    QVERIFY(!f.text("capture.next").contains("corner"));
+    QTest::mouseClick(f.window.findChild<QCheckBox*>("capture.snap"), Qt::LeftButton);
+    const QString kind = mark->kind == capture::MarkKind::Corner ? "corner" : "blob";
+    QVERIFY2(f.text("capture.next").contains(kind), qPrintable(f.text("capture.next")));
+    f.capture().pickVertex(5);
+    f.click("capture.add");
+    QCOMPARE(f.capture().pairs().all().size(), std::size_t{1});
+    QCOMPARE(f.capture().pairs().all()[0].x_px, mark->place.x);
+    QCOMPARE(f.capture().pairs().all()[0].y_px, mark->place.y);
   }
 
   void exactPairs_giveTheExactDepth() {

@@ -75,6 +75,7 @@ class CloudWindowTest : public QObject {
   void ownWindow_holdsTheViewWithItsControls();
   void choices_areRemembered();
   void surfaceAndTruth_areDrawn();
+  void withoutAResult_theTruthIsSeen();
   void distance_isToldAsNumberAndColours();
   void whatIsNotSeen_isNotHeld();
   void export_writesWhatIsSeen();
@@ -185,6 +186,25 @@ void CloudWindowTest::surfaceAndTruth_areDrawn() {
   QCOMPARE(count(both.copy(left), color(1)), 0);
   QVERIFY(count(both.copy(right), color(1)) > 500);
   QVERIFY(f.summary().contains("ground truth"));
+}
+
+void CloudWindowTest::withoutAResult_theTruthIsSeen() {
+  WindowFixture f;
+  f.openSmall();
+  f.trigger("tab.cloud");
+  auto& panel = find<PointCloudPanel>(f.window);
+  QTRY_COMPARE_WITH_TIMEOUT(panel.display().view()->pointCount(), std::size_t{96 * 96}, kPatience);
+  const auto* summary = panel.findChild<QLabel*>("cloud.summary");
+  QTRY_VERIFY2(summary->text().startsWith("Ground truth: "), qPrintable(summary->text()));
+  auto* colors = panel.findChild<QComboBox*>("cloud.coloring");
+  const QImage in_colors = panel.display().view()->grabFramebuffer();
+  colors->setCurrentIndex(colors->findText("disparity"));
+  QTRY_VERIFY_WITH_TIMEOUT(panel.display().view()->grabFramebuffer() != in_colors, kPatience);
+  f.trigger("tab.estimate");
+  f.runAndWait();
+  f.trigger("tab.cloud");
+  QTRY_VERIFY2_WITH_TIMEOUT(summary->text().startsWith("EPI"), qPrintable(summary->text()),
+                            kPatience);
 }
 
 void CloudWindowTest::distance_isToldAsNumberAndColours() {

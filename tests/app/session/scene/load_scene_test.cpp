@@ -57,6 +57,8 @@ void LoadSceneTest::builtinInput_isRecognised_data() {
                                << "demo";
   QTest::newRow("scene") << "demo:slant"
                          << "slant";
+  QTest::newRow("options") << "demo?size=64"
+                           << "demo?size=64";
   QTest::newRow("path") << "demo.h5"
                         << "";
   QTest::newRow("folder") << "./demo"
