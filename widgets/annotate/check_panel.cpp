@@ -14,10 +14,13 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace episcope {
 namespace {
 
 constexpr int kActionColumns = 2;  // Their texts are long.
+constexpr int kWidestName = 140;
 
 // Columns of the list of labels that have a tool tip.
 enum { kMean = 3, kMin, kMax };
@@ -143,6 +146,27 @@ void CheckPanel::setRows(const std::vector<Row>& rows, int current_label) {
     for (const int column : {kMean, kMin, kMax}) item->setToolTip(column, row.tip);
     if (row.label.id == current_label) labels_->setCurrentItem(item);
   }
+  fitNames();
+}
+
+void CheckPanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fitNames();
+}
+
+// Names are read before numbers: where both do not fit, the list scrolls.
+void CheckPanel::fitNames() {
+  QHeaderView& header = *labels_->header();
+  const QAbstractItemView& cells = *labels_;
+  const auto width_of = [&](int column) {
+    return std::max(header.sectionSizeHint(column), cells.sizeHintForColumn(column));
+  };
+  const int wanted = std::min(width_of(0), kWidestName);
+  int numbers = 0;
+  for (int column = 1; column < header.count(); ++column) numbers += width_of(column);
+  const bool has_room = wanted + numbers <= labels_->viewport()->width();
+  header.setSectionResizeMode(0, has_room ? QHeaderView::Stretch : QHeaderView::Fixed);
+  if (!has_room) header.resizeSection(0, wanted);
 }
 
 void CheckPanel::setPieces(const QString& title, const std::vector<Piece>& pieces) {

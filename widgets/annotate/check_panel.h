@@ -65,9 +65,13 @@ class CheckPanel : public QWidget {
   void labelChosen(int id);
   void pieceChosen(int index);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   [[nodiscard]] QTreeWidget* makeList(const QString& name, const QString& title,
                                       const QStringList& columns);
+  void fitNames();
 
   QGridLayout* actions_;
   QLabel* note_;

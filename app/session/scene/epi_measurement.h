@@ -12,10 +12,10 @@ namespace episcope {
 
 /// A disparity that was measured along a line in an EPI.
 struct EpiMeasurement {
-  std::string name;
+  std::string name{};
   EpiDirection direction = EpiDirection::Horizontal;
-  ViewIndex view;    ///< Whose row or column of views the EPI runs through,
-  PixelIndex pixel;  ///< and where the line meets it.
+  ViewIndex view{};    ///< Whose row or column of views the EPI runs through,
+  PixelIndex pixel{};  ///< and where the line meets it.
   double disparity_px = 0;
   friend bool operator==(const EpiMeasurement&, const EpiMeasurement&) = default;
 };

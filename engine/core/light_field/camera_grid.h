@@ -23,8 +23,8 @@ struct CameraGrid {
   double baseline = 0;      ///< B (`dH`); with `focal_length` in units of B·f = px · depth unit.
   double focal_length = 0;  ///< f (`focalLength`).
   double shift = 0;         ///< Δx in px per view step (`shift`).
-  std::optional<double> cam_distance;  ///< Z0, where d = 0 (`camDistance`, Blender scenes).
-  std::optional<Pinhole> pinhole;      ///< Known of rectified photographs.
+  std::optional<double> cam_distance{};  ///< Z0, where d = 0 (`camDistance`, Blender scenes).
+  std::optional<Pinhole> pinhole{};      ///< Known of rectified photographs.
 
   /// Whether depth and disparity can be converted into each other.
   [[nodiscard]] bool is_known() const { return baseline * focal_length > 0; }
