@@ -5,6 +5,7 @@
 #include "app/session/labels/kept_labels.h"
 #include "app/session/picture/map_source.h"
 #include "app/session/scene/epi_measurement.h"
+#include "engine/core/array/pixel_rect.h"
 #include "engine/core/light_field/scene.h"
 #include "engine/render/quantity.h"
 #include "engine/render/tone.h"
@@ -29,6 +30,7 @@ struct EstimateEntry {
   bool is_saved = false;   ///< A file of the user's holds it.
   std::filesystem::path kept{};  ///< The file that keeps it for the project; empty = none yet.
   std::string note{};            ///< What the user wrote about it; may have several lines.
+  PixelRect part{};              ///< The pixels that were estimated; empty = all.
 };
 
 /// How results are arranged for comparison.

@@ -20,6 +20,7 @@ enum class Part : unsigned {
   LabelLook = 4096,  ///< Which labels are hidden or locked, and how labels are drawn.
   Measured = 8192,   ///< The disparities measured by hand that are kept.
   Capture = 16384,   ///< The mesh and the pairs picked on it.
+  Live = 32768,      ///< The estimate that is made while parameters are tried.
 };
 
 /// A set of parts.

@@ -128,13 +128,43 @@ void Session::mark_saved(int id) {
 }
 
 const EstimateEntry* Session::find_estimate(int id) const {
+  if (const EstimateEntry* tried = live(); tried && tried->id == id) return tried;
   const auto found = std::find_if(now_->estimates.begin(), now_->estimates.end(),
                                   [&](const EstimateEntry& entry) { return entry.id == id; });
   return found == now_->estimates.end() ? nullptr : &*found;
 }
 
+void Session::set_live(EstimateEntry entry, std::uint64_t scene) {
+  clear_live();
+  if (!entry.estimate || scene != now_->id) return;
+  entry.id = ++last_id_;
+  live_ = std::move(entry);
+  live_scene_ = scene;
+  changed(Part::Live);
+}
+
+void Session::clear_live() {
+  if (!live_) return;
+  evaluations_.forget(live_->id);
+  live_.reset();
+  changed(Part::Live);
+}
+
+const EstimateEntry* Session::live() const {
+  return live_ && live_scene_ == now_->id ? &*live_ : nullptr;
+}
+
+const EstimateEntry* Session::side_a() const {
+  const EstimateEntry* tried = live();
+  return tried ? tried : shown();
+}
+
+const EstimateEntry* Session::side_b() const {
+  return live() ? shown() : compared();
+}
+
 void Session::show_estimate(int id) {
-  if (id == now_->shown || !find_estimate(id)) return;
+  if (id == now_->shown || !entry_of(id)) return;
   if (const EstimateEntry* other = compared();
       !now_->is_compared_chosen || (other && other->id == id)) {
     now_->compared = now_->shown;
@@ -144,7 +174,8 @@ void Session::show_estimate(int id) {
 }
 
 void Session::compare_with(int id) {
-  if (!find_estimate(id)) return;
+  if (!entry_of(id)) return;
+  if (live()) return show_estimate(id);
   if (id == now_->shown) {
     const EstimateEntry* other = compared();
     if (!other) return;
@@ -165,7 +196,8 @@ const EstimateEntry* Session::compared() const {
 
 EvaluationPtr Session::evaluation(const EvaluationKey& key) {
   const EstimateEntry* entry = find_estimate(key.estimate);
-  return entry ? evaluations_.find_or_begin(key, entry->estimate, now_->scene) : nullptr;
+  return entry ? evaluations_.find_or_begin(key, entry->estimate, now_->scene, entry->part)
+               : nullptr;
 }
 
 bool Session::has_truth(ViewIndex view) const {
@@ -180,7 +212,9 @@ Interval Session::known_range() const {
   if (now_->known_range.length() > 0) return now_->known_range;
   const auto found = std::ranges::find_if(
       now_->estimates, [](const EstimateEntry& each) { return each.display_range.length() > 0; });
-  return found == now_->estimates.end() ? Interval{} : found->display_range;
+  if (found != now_->estimates.end()) return found->display_range;
+  const EstimateEntry* tried = live();
+  return tried ? tried->display_range : Interval{};
 }
 
 void Session::set_bad_threshold(double threshold_px) {

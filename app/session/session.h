@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,7 @@ class Session {
   /// Notes that a file of the user's holds an estimate of any open scene. Unknown ids are ignored.
   void mark_saved(int id);
   [[nodiscard]] const std::vector<EstimateEntry>& estimates() const { return now_->estimates; }
+  /// Among them, or the live one; else null.
   [[nodiscard]] const EstimateEntry* find_estimate(int id) const;
 
   /// Unknown ids are ignored. Showing the compared estimate swaps the two.
@@ -97,6 +99,18 @@ class Session {
   /// The estimate to compare with: the one chosen, else the one shown before, else any other; null
   /// if there is no other.
   [[nodiscard]] const EstimateEntry* compared() const;
+
+  /// Puts an estimate before the shown one while parameters are tried: it is in no list and in no
+  /// project, and the one before it is forgotten. Null takes it away. Dropped unless `scene` is
+  /// shown; it goes away with that. Of `entry`, the id is given here.
+  void set_live(EstimateEntry entry, std::uint64_t scene);
+  void clear_live();
+  /// Null if there is none.
+  [[nodiscard]] const EstimateEntry* live() const;
+  /// What is looked at: the live estimate, else the shown one; null if there is neither.
+  [[nodiscard]] const EstimateEntry* side_a() const;
+  /// What that is compared with: of a live estimate the shown one, else `compared`.
+  [[nodiscard]] const EstimateEntry* side_b() const;
 
   /// The evaluation if it is there; else null, and it is begun in the background if there is truth
   /// for that view: Part::Evaluations tells when it is there.
@@ -174,6 +188,8 @@ class Session {
   std::uint64_t last_scene_ = 0;
   std::uint64_t uses_ = 0;
   int last_id_ = 0;
+  std::optional<EstimateEntry> live_;
+  std::uint64_t live_scene_ = 0;
   double bad_threshold_px_ = kBadPixelThreshold_px;
   render::LabelDrawing label_drawing_ = render::LabelDrawing::Fill;
   std::shared_ptr<Session*> alive_;  // posted closures outlive the session harmlessly

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/estimate/method_panel.h"
 
+#include "widgets/controls/elided_label.h"
 #include "widgets/controls/tool_button.h"
 #include "widgets/estimate/parameter_form.h"
 #include "widgets/style/aside_delegate.h"
@@ -43,7 +44,9 @@ MethodPanel::MethodPanel(QWidget* parent)
       form_(new ParameterForm),
       scroll_(new QScrollArea(this)),
       all_views_(new QCheckBox(tr("All views"), this)),
+      live_status_(new ElidedLabel(this)),
       run_(make_button("method.run", "run", tr("Run"), tr("Estimate with these parameters"), this)),
+      live_(make_button("method.live", "live", tr("Live"), {}, this)),
       cancel_(make_button("method.cancel", "stop", tr("Cancel"), tr("Cancel all runs"), this)),
       reset_(make_button("method.reset", "reset", tr("Reset"),
                          tr("Reset all parameters to their defaults"), this)),
@@ -61,6 +64,9 @@ MethodPanel::MethodPanel(QWidget* parent)
   reference_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   all_views_->setObjectName("method.allViews");
   all_views_->setToolTip(tr("Estimate all views instead of the centre view only"));
+  live_->setCheckable(true);
+  live_status_->setObjectName("method.liveStatus");
+  live_status_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   run_->setDefault(true);
 
   scroll_->setObjectName("method.scroll");
@@ -79,7 +85,7 @@ MethodPanel::MethodPanel(QWidget* parent)
 
   auto* buttons = new QGridLayout;
   buttons->setSpacing(theme::kSpacing);
-  buttons->addWidget(run_, 0, 0);
+  buttons->addLayout(layRun(), 0, 0);
   buttons->addWidget(cancel_, 0, 1);
   buttons->addWidget(reset_, 1, 0);
   buttons->addWidget(copy_, 1, 1);
@@ -90,7 +96,7 @@ MethodPanel::MethodPanel(QWidget* parent)
     layout->addWidget(widget);
   }
   layout->addWidget(scroll_, 1);
-  layout->addWidget(all_views_);
+  layout->addLayout(layViews());
   layout->addLayout(buttons);
   connectControls();
   setRunning(false);
@@ -98,16 +104,37 @@ MethodPanel::MethodPanel(QWidget* parent)
   updateColors();
 }
 
+QBoxLayout* MethodPanel::layViews() {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(all_views_);
+  row->addWidget(live_status_, 1);
+  return row;
+}
+
+QBoxLayout* MethodPanel::layRun() {
+  auto* row = new QHBoxLayout;
+  row->setSpacing(theme::kSpacing);
+  row->addWidget(run_, 1);
+  row->addWidget(live_);
+  return row;
+}
+
 void MethodPanel::connectControls() {
   connect(method_, &QComboBox::currentIndexChanged, this, [this](int index) {
     showMethod(index);
     emit methodChanged(QString::fromStdString(request().method));
+    emit requestChanged();
   });
   connect(run_, &QPushButton::clicked, this, [this] { emit runRequested(request()); });
   connect(cancel_, &QPushButton::clicked, this, &MethodPanel::cancelRequested);
   connect(reset_, &QPushButton::clicked, form_, &ParameterForm::resetToDefaults);
   connect(copy_, &QPushButton::clicked, this, [this] { emit copyCommandRequested(request()); });
-  connect(form_, &ParameterForm::valuesChanged, this, &MethodPanel::updateReset);
+  connect(form_, &ParameterForm::valuesChanged, this, [this] {
+    updateReset();
+    emit requestChanged();
+  });
+  connect(live_, &QPushButton::clicked, this, &MethodPanel::liveToggled);
 }
 
 void MethodPanel::setMethods(std::vector<MethodDescription> methods) {
@@ -167,6 +194,7 @@ void MethodPanel::setRequest(const RunRequest& request) {
   form_->setValues(request.values);
   if (all_views_->isEnabled()) all_views_->setChecked(request.all_views);
   updateReset();
+  emit requestChanged();
 }
 
 void MethodPanel::setRunning(bool running) {
@@ -177,7 +205,20 @@ void MethodPanel::setRunBlocked(const QString& reason) {
   blocked_ = reason;
   run_->setEnabled(reason.isEmpty() && shown_ >= 0);
   copy_->setEnabled(run_->isEnabled());
+  live_->setEnabled(run_->isEnabled() || live_->isChecked());
   run_->setToolTip(reason.isEmpty() ? tr("Estimate with these parameters") : reason);
+}
+
+void MethodPanel::setLive(bool is_live) {
+  live_->setChecked(is_live);
+}
+
+void MethodPanel::setLiveStatus(const QString& text) {
+  live_status_->setFullText(text);
+}
+
+void MethodPanel::followLiveTip(const QAction* live) {
+  follow_tip(live_, live);
 }
 
 void MethodPanel::followTips(const QAction* cancel, const QAction* copy) {
@@ -209,7 +250,9 @@ void MethodPanel::changeEvent(QEvent* event) {
 }
 
 void MethodPanel::updateColors() {
-  reference_->setPalette(theme::text_palette(theme::muted_text(palette())));
+  for (QLabel* label : std::initializer_list<QLabel*>{reference_, live_status_}) {
+    label->setPalette(theme::text_palette(theme::muted_text(palette())));
+  }
 }
 
 }  // namespace episcope

@@ -11,6 +11,7 @@
 #include <vector>
 
 class QAction;
+class QBoxLayout;
 class QCheckBox;
 class QComboBox;
 class QLabel;
@@ -19,6 +20,7 @@ class QScrollArea;
 
 namespace episcope {
 
+class ElidedLabel;
 class ParameterForm;
 
 /// What the panel needs to know of a method.
@@ -38,8 +40,8 @@ struct RunRequest {
   bool all_views = false;
 };
 
-/// Method, its parameters, Run, Cancel, Reset and Copy as command. Values of a method are kept
-/// while another one is chosen.
+/// Method, its parameters, Run, Live, Cancel, Reset and Copy as command. Values of a method are
+/// kept while another one is chosen.
 class MethodPanel : public QWidget {
   Q_OBJECT
 
@@ -55,8 +57,13 @@ class MethodPanel : public QWidget {
   void setRunning(bool running);
   /// An empty reason enables Run; else it is greyed out and the reason is its tool tip.
   void setRunBlocked(const QString& reason);
+  /// Whether every change of the request is to be answered at once.
+  void setLive(bool is_live);
+  /// How that goes, a few words beside the box of views; they never take room from others.
+  void setLiveStatus(const QString& text);
   /// The buttons take the tool tips of what they do, with the keys in them.
   void followTips(const QAction* cancel, const QAction* copy);
+  void followLiveTip(const QAction* live);
 
   /// `method` is empty while there are no methods.
   [[nodiscard]] RunRequest request() const;
@@ -70,11 +77,17 @@ class MethodPanel : public QWidget {
   void cancelRequested();
   void copyCommandRequested(const episcope::RunRequest& request);
   void methodChanged(const QString& id);
+  /// Another method, other parameters or other views.
+  void requestChanged();
+  /// By the user.
+  void liveToggled(bool is_live);
 
  protected:
   void changeEvent(QEvent* event) override;
 
  private:
+  [[nodiscard]] QBoxLayout* layViews();
+  [[nodiscard]] QBoxLayout* layRun();
   void connectControls();
   void showMethod(int index);
   void updateReset();
@@ -90,7 +103,9 @@ class MethodPanel : public QWidget {
   ParameterForm* form_;
   QScrollArea* scroll_;
   QCheckBox* all_views_;
+  ElidedLabel* live_status_;
   QPushButton* run_;
+  QPushButton* live_;
   QPushButton* cancel_;
   QPushButton* reset_;
   QPushButton* copy_;

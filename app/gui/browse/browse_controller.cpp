@@ -114,7 +114,7 @@ void BrowseController::update(Parts parts) {
   if (parts.has_any(of_view)) showView();
   if (parts.has_any(of_view | Part::CrossHair)) showEpis();
   if (parts.has(Part::Estimates)) showFocusReach();
-  if (parts.has_any(Part::Shown | Part::Estimates)) showSlopes();
+  if (parts.has_any(Part::Shown | Part::Estimates | Part::Live)) showSlopes();
 }
 
 void BrowseController::showScene() {
@@ -233,7 +233,7 @@ void BrowseController::showSlopes() {
   if (session_.scene()) {
     truth = disparities_at(*session_.scene()->truth, session_.view(), session_.cross_hair());
     const bool is_flipped = bench_.overlay.isFlipped();
-    if (const auto* shown = is_flipped ? session_.compared() : session_.shown()) {
+    if (const auto* shown = is_flipped ? session_.side_b() : session_.side_a()) {
       estimate = disparities_at(*shown->estimate, session_.view(), session_.cross_hair());
     }
   }
@@ -246,7 +246,7 @@ void BrowseController::showSlopes() {
 void BrowseController::focusAt(PixelIndex pixel) {
   if (!session_.scene() || stage_.isPreviewing()) return;
   std::optional<double> disparity;
-  if (const EstimateEntry* shown = session_.shown()) {
+  if (const EstimateEntry* shown = session_.side_a()) {
     disparity = disparity_at(shown->estimate->field, session_.view(), pixel);
   }
   if (!disparity) {

@@ -30,8 +30,9 @@ QColor color_at(const LightField& light_field, ViewIndex view, PixelIndex pixel)
 std::vector<const EstimateEntry*> shown_first(const Session& session) {
   std::vector<const EstimateEntry*> entries;
   for (const EstimateEntry& entry : session.estimates()) entries.push_back(&entry);
+  if (const EstimateEntry* live = session.live()) entries.push_back(live);
   const auto rank = [&session](const EstimateEntry* entry) {
-    return entry == session.shown() ? 0 : entry == session.compared() ? 1 : 2;
+    return entry == session.side_a() ? 0 : entry == session.side_b() ? 1 : 2;
   };
   std::stable_sort(
       entries.begin(), entries.end(),

@@ -51,7 +51,7 @@ void CompareController::addChoiceCommands() {
        .run = [this] { overlay_.setFlipped(!overlay_.isFlipped()); },
        .section = compare_section::kChoice,
        .scope = KeyScope::Held,
-       .enabled = [this] { return session_.shown() != nullptr; },
+       .enabled = [this] { return session_.side_a() != nullptr; },
        .hold =
            [this](bool is_held) {
              if (mode_ == CompareMode::Single || !is_held) overlay_.setFlipped(is_held);
@@ -60,7 +60,6 @@ void CompareController::addChoiceCommands() {
 }
 
 void CompareController::addPairCommands() {
-  const auto has_other = [this] { return session_.compared() != nullptr; };
   bench_.commands.add(
       {.id = "compare.difference",
        .menu = Menu::Compare,
@@ -71,17 +70,18 @@ void CompareController::addPairCommands() {
        .run = [this] { toggleDifference(); },
        .section = compare_section::kChoice,
        .bar = BarSection::Compare,
-       .enabled = has_other,
+       .enabled = [this] { return session_.side_b() != nullptr; },
        .checked = [this] { return overlay_.showsDifference(); }});
-  bench_.commands.add({.id = "compare.swap",
-                       .menu = Menu::Compare,
-                       .text = tr("Swap A and B"),
-                       .tip = tr("Shows B and compares it with A"),
-                       .icon = "swap",
-                       .keys = {Qt::Key_QuoteLeft},
-                       .run = [this] { session_.show_estimate(session_.compared()->id); },
-                       .section = compare_section::kChoice,
-                       .enabled = has_other});
+  bench_.commands.add(
+      {.id = "compare.swap",
+       .menu = Menu::Compare,
+       .text = tr("Swap A and B"),
+       .tip = tr("Shows B and compares it with A"),
+       .icon = "swap",
+       .keys = {Qt::Key_QuoteLeft},
+       .run = [this] { session_.show_estimate(session_.compared()->id); },
+       .section = compare_section::kChoice,
+       .enabled = [this] { return !session_.live() && session_.compared() != nullptr; }});
 }
 
 void CompareController::addModeCommands() {

@@ -90,7 +90,8 @@ void CompareController::connectWall() {
 void CompareController::update(Parts parts) {
   if (parts.has(Part::Scene) && session_.scene()) {
     restore();
-  } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown) && !isAvailable(mode_)) {
+  } else if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Live) &&
+             !isAvailable(mode_)) {
     showComparison(CompareMode::Single);
   }
   if (parts.has_any(Part::Evaluations | Part::Estimates | Part::Shown | Part::Tone)) showMode();
@@ -101,11 +102,14 @@ void CompareController::update(Parts parts) {
 
 void CompareController::listChoices() {
   std::vector<CompareBar::Choice> choices;
+  if (const EstimateEntry* live = session_.live()) {
+    choices.push_back({static_cast<quint64>(live->id), QString::fromStdString(live->name)});
+  }
   for (const EstimateEntry& entry : session_.estimates()) {
     choices.push_back({static_cast<quint64>(entry.id), QString::fromStdString(entry.name)});
   }
-  const EstimateEntry* shown = session_.shown();
-  const EstimateEntry* compared = session_.compared();
+  const EstimateEntry* shown = session_.side_a();
+  const EstimateEntry* compared = session_.side_b();
   bar_->setChoices(choices, shown ? static_cast<quint64>(shown->id) : 0,
                    compared ? static_cast<quint64>(compared->id) : 0,
                    overlay_.describe(overlay_.choiceB()));
@@ -114,7 +118,7 @@ void CompareController::listChoices() {
 bool CompareController::isAvailable(CompareMode mode) const {
   if (mode == CompareMode::Single) return true;
   if (!session_.scene()) return false;
-  return session_.shown() || (mode == CompareMode::Wall && session_.has_truth(session_.view()));
+  return session_.side_a() || (mode == CompareMode::Wall && session_.has_truth(session_.view()));
 }
 
 void CompareController::toggleMode(CompareMode mode) {
@@ -148,7 +152,7 @@ void CompareController::showComparison(CompareMode mode) {
   }
   if (mode == CompareMode::Wipe || mode == CompareMode::Sides) overlay_.setDifference(false);
   if (mode != CompareMode::Single && overlay_.quantity() == Quantity::View) {
-    overlay_.setQuantity(session_.shown() ? Quantity::Disparity : Quantity::Truth);
+    overlay_.setQuantity(session_.side_a() ? Quantity::Disparity : Quantity::Truth);
   }
   bench_.stage.setWallShown(has_wall);
   if (!has_wall) {

@@ -46,7 +46,8 @@ ErrorPlotController::ErrorPlotController(const Workbench& bench, const RegionCon
   connect(&bench.frame, &Frame::tabShown, this, &ErrorPlotController::update);
   connect(&region, &RegionController::changed, this, &ErrorPlotController::update);
   session_.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) update();
+    if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::Live))
+      update();
   });
 }
 
@@ -56,10 +57,10 @@ QString ErrorPlotController::obstacle() const {
   if (!scene->truth->has_disparity() && !scene->truth->has_layers()) {
     return tr("This light field has no ground truth to compare results with.");
   }
-  if (!session_.shown()) return tr("Run a method: its errors by true disparity appear here.");
-  if (!can_judge(*session_.shown()->estimate, *scene, judged_view(*scene))) {
+  if (!session_.side_a()) return tr("Run a method: its errors by true disparity appear here.");
+  if (!can_judge(*session_.side_a()->estimate, *scene, judged_view(*scene))) {
     return tr("%1 has no map of the view that the ground truth is of.")
-        .arg(QString::fromStdString(session_.shown()->name));
+        .arg(QString::fromStdString(session_.side_a()->name));
   }
   return {};
 }
@@ -82,7 +83,7 @@ void ErrorPlotController::update() {
     return panel_->clear(why);
   }
   std::vector<Judged> results;
-  for (const EstimateEntry* entry : {session_.shown(), session_.compared()}) {
+  for (const EstimateEntry* entry : {session_.side_a(), session_.side_b()}) {
     if (!entry) continue;
     if (auto result = judged(*entry)) results.push_back(std::move(*result));
   }

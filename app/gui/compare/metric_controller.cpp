@@ -93,10 +93,11 @@ void MetricController::update(Parts parts) {
     told_.clear();
     scored_.clear();
   }
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Evaluations)) fillTable();
-  if (parts.has_any(Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations)) {
-    const EstimateEntry* shown = session_.shown();
-    const EstimateEntry* compared = session_.compared();
+  const Parts of_rows = Part::Scene | Part::Estimates | Part::Evaluations | Part::Live;
+  if (parts.has_any(of_rows)) fillTable();
+  if (parts.has_any(of_rows | Part::Shown)) {
+    const EstimateEntry* shown = session_.side_a();
+    const EstimateEntry* compared = session_.side_b();
     table_->setSides(shown ? static_cast<quint64>(shown->id) : 0,
                      compared ? static_cast<quint64>(compared->id) : 0);
   }
@@ -163,7 +164,11 @@ QStringList MetricController::provenanceOf(const EstimateEntry& entry) const {
 std::vector<Judged> MetricController::judgeAll() {
   std::vector<Judged> judged;
   std::vector<Scored> wanted;
-  for (const EstimateEntry& entry : session_.estimates()) {
+  std::vector<const EstimateEntry*> entries;
+  if (const EstimateEntry* live = session_.live()) entries.push_back(live);
+  for (const EstimateEntry& entry : session_.estimates()) entries.push_back(&entry);
+  for (const EstimateEntry* each_entry : entries) {
+    const EstimateEntry& entry = *each_entry;
     Judged each{entry.id, entry.name, entry.estimate->seconds, {}};
     for (const Protocol protocol : kProtocols) {
       const auto evaluation =

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/estimate_controller.h"
 
+#include "app/gui/estimate/live_controller.h"
 #include "app/gui/estimate/measured_range.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/estimate/sweep_controller.h"
@@ -75,6 +76,7 @@ EstimateController::EstimateController(const Workbench& bench)
   addCommands();
   add_measured_range(bench_, method_);
   method_->setMethods(described_methods());
+  new LiveController(bench, *method_);
   new SweepController(bench, *method_);
   connect(method_, &MethodPanel::runRequested, this,
           [this](const RunRequest& request) { run(request_of(request)); });

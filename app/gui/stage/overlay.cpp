@@ -93,10 +93,11 @@ void Overlay::update(Parts parts) {
       quantity_ = Quantity::Disparity;
     }
   }
-  const Parts of_choice = Part::Scene | Part::Estimates | Part::Shown | Part::TrueLabels;
+  const Parts of_choice =
+      Part::Scene | Part::Estimates | Part::Shown | Part::TrueLabels | Part::Live;
   if (parts.has_any(of_choice)) {
     leaveWhatIsGone();
-    if (!session_.compared()) shows_difference_ = false;
+    if (!session_.side_b()) shows_difference_ = false;
     showAvailable();
   }
   if (parts.has_any(of_choice | Part::View | Part::Evaluations | Part::LabelLook)) draw();
@@ -114,7 +115,7 @@ void Overlay::beginScene() {
   if (!stage_.colorBar()->isRangeLocked()) edited_ranges_ = place.ranges;
   if (!place.quantity) return;
   quantity_ = *place.quantity;
-  shows_difference_ = place.comparison.shows_difference && session_.compared();
+  shows_difference_ = place.comparison.shows_difference && session_.side_b();
   known_estimates_ = session_.estimates().size();
 }
 
@@ -148,7 +149,7 @@ void Overlay::selectNextQuantity() {
 }
 
 void Overlay::setDifference(bool shows_difference) {
-  shows_difference_ = shows_difference && session_.compared();
+  shows_difference_ = shows_difference && session_.side_b();
   draw();
   emit choiceChanged();
 }
@@ -159,18 +160,18 @@ void Overlay::setFlipped(bool is_flipped) {
 
 MapChoice Overlay::choice() const {
   if (is_flipped_) return choiceB();
-  const EstimateEntry* compared = session_.compared();
+  const EstimateEntry* compared = session_.side_b();
   if (!shows_difference_ || !compared) return choiceA();
-  return {Quantity::Difference, session_.shown()->id, compared->id};
+  return {Quantity::Difference, session_.side_a()->id, compared->id};
 }
 
 MapChoice Overlay::choiceA() const {
-  const EstimateEntry* shown = session_.shown();
+  const EstimateEntry* shown = session_.side_a();
   return {quantity_, shown && is_of_results(quantity_) ? shown->id : 0, 0};
 }
 
 MapChoice Overlay::choiceB() const {
-  const EstimateEntry* compared = session_.compared();
+  const EstimateEntry* compared = session_.side_b();
   if (is_of_results(quantity_) && compared) return {quantity_, compared->id, 0};
   const Quantity other = quantity_ == Quantity::Disparity      ? Quantity::Truth
                          : quantity_ == Quantity::Segmentation ? Quantity::TrueLabels
@@ -279,7 +280,7 @@ void Overlay::showCaption(const MapChoice& choice) const {
     caption += tr(" · no such map for this view");
   }
   const bool has_sides =
-      choice.quantity != Quantity::Difference && (is_flipped_ || session_.compared());
+      choice.quantity != Quantity::Difference && (is_flipped_ || session_.side_b());
   stage_.canvas()->setCaption(caption, !has_sides ? Side::None : is_flipped_ ? Side::B : Side::A);
 }
 

@@ -2,6 +2,7 @@
 #include "app/session/judge/evaluation_cache.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
 namespace episcope {
@@ -9,6 +10,16 @@ namespace {
 
 // An evaluation of 512×512 pixels takes 1.5 MB.
 constexpr std::size_t kKept = 48;
+
+// 1 in the part; empty for an empty part.
+Image<std::uint8_t> mask_of(const PixelRect& part, const LightField& light_field) {
+  if (part.empty()) return {};
+  Image<std::uint8_t> mask(light_field.height(), light_field.width());
+  for (int y = part.y0; y < part.y1; ++y) {
+    for (int x = part.x0; x < part.x1; ++x) mask.at(y, x) = 1;
+  }
+  return mask;
+}
 
 }  // namespace
 
@@ -21,7 +32,8 @@ std::list<EvaluationCache::Entry>::iterator EvaluationCache::find(const Evaluati
 }
 
 EvaluationPtr EvaluationCache::find_or_begin(const EvaluationKey& key, const EstimatePtr& estimate,
-                                             const std::shared_ptr<const Scene>& scene) {
+                                             const std::shared_ptr<const Scene>& scene,
+                                             const PixelRect& part) {
   if (!estimate || !scene || !can_judge(*estimate, *scene, key.view)) return nullptr;
   if (const auto found = find(key); found != entries_.end()) {
     entries_.splice(entries_.begin(), entries_, found);
@@ -30,11 +42,14 @@ EvaluationPtr EvaluationCache::find_or_begin(const EvaluationKey& key, const Est
   entries_.push_front({key, nullptr});
   trim();
   ++pending_;
-  runner_.start<EvaluationPtr>(
-      [key, estimate, scene](const Progress& progress) {
+  entries_.front().job = runner_.start<EvaluationPtr>(
+      [key, estimate, scene, part](const Progress& progress) {
         progress.check();
+        const Image<std::uint8_t> asked = mask_of(part, *scene->light_field);
+        EvaluationOptions options{.protocol = key.protocol, .progress = progress};
+        if (!part.empty()) options.shown = asked.view();
         return std::make_shared<const Evaluation>(
-            judge(*estimate, *scene, {.protocol = key.protocol, .progress = progress}, key.view));
+            judge(*estimate, *scene, std::move(options), key.view));
       },
       [this, key](Outcome<EvaluationPtr> outcome) { finish(key, std::move(outcome)); });
   return nullptr;
@@ -48,7 +63,11 @@ void EvaluationCache::finish(const EvaluationKey& key, Outcome<EvaluationPtr> ou
 }
 
 void EvaluationCache::forget(int estimate) {
-  entries_.remove_if([&](const Entry& entry) { return entry.key.estimate == estimate; });
+  entries_.remove_if([&](const Entry& entry) {
+    if (entry.key.estimate != estimate) return false;
+    runner_.cancel(entry.job);
+    return true;
+  });
 }
 
 void EvaluationCache::trim() {

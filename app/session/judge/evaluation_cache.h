@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/session/judge/judge.h"
+#include "engine/core/array/pixel_rect.h"
 #include "engine/core/parallel/job_runner.h"
 
 #include <functional>
@@ -27,11 +28,12 @@ class EvaluationCache {
   EvaluationCache(const JobRunner::Post& post, std::function<void()> on_evaluated);
 
   /// The evaluation if it is there; else null, and it is begun unless it is under way, failed
-  /// before, or cannot be judged (`can_judge`).
+  /// before, or cannot be judged (`can_judge`). Only the pixels of `part` are judged; empty = all.
   [[nodiscard]] EvaluationPtr find_or_begin(const EvaluationKey& key, const EstimatePtr& estimate,
-                                            const std::shared_ptr<const Scene>& scene);
+                                            const std::shared_ptr<const Scene>& scene,
+                                            const PixelRect& part = {});
 
-  /// Forgets all evaluations of an estimate; drops those that are under way.
+  /// Forgets all evaluations of an estimate; cancels those that are under way.
   void forget(int estimate);
   /// Evaluations begun whose end was not told yet: the computation may be over.
   [[nodiscard]] int pending() const { return pending_; }
@@ -40,6 +42,7 @@ class EvaluationCache {
   struct Entry {
     EvaluationKey key;
     EvaluationPtr evaluation;  ///< Null: under way or failed.
+    JobId job = 0;
   };
   [[nodiscard]] std::list<Entry>::iterator find(const EvaluationKey& key);
   void finish(const EvaluationKey& key, Outcome<EvaluationPtr> outcome);

@@ -44,16 +44,18 @@ void require_truth(const Scene& scene, ViewIndex view) {
   }
 }
 
-/// Which pixels both the light field and maps that lack a border show; empty = all.
-Image<std::uint8_t> covered(const Estimate& estimate, const LightField& light_field,
-                            ViewIndex view) {
+/// Which pixels of `asked` (empty = all) both the light field and maps that lack a border show;
+/// empty = all that the light field shows.
+Image<std::uint8_t> covered(const Estimate& estimate, const LightField& light_field, ViewIndex view,
+                            ImageView<const std::uint8_t> asked) {
   const int border = estimate.border_px;
-  if (border <= 0) return {};
+  if (border <= 0 && asked.empty()) return {};
   const auto shown = light_field.valid_of(view);
   Image<std::uint8_t> mask(light_field.height(), light_field.width());
   for (int y = border; y < mask.height() - border; ++y) {
     for (int x = border; x < mask.width() - border; ++x) {
-      mask.at(y, x) = shown.empty() || shown.at(y, x) != 0 ? 1 : 0;
+      const bool is_asked = asked.empty() || asked.at(y, x) != 0;
+      mask.at(y, x) = is_asked && (shown.empty() || shown.at(y, x) != 0) ? 1 : 0;
     }
   }
   return mask;
@@ -81,7 +83,7 @@ Evaluation judge(const Estimate& estimate, const Scene& scene, EvaluationOptions
   const LightField& light_field = *scene.light_field;
   const ViewIndex view = asked_view.value_or(judged_view(scene));
   options.camera = light_field.info().camera;
-  const Image<std::uint8_t> part = covered(estimate, light_field, view);
+  const Image<std::uint8_t> part = covered(estimate, light_field, view, options.shown);
   options.shown = part.empty() ? light_field.valid_of(view) : part.view();
   Evaluation evaluation;
   if (compares_layers(estimate, truth)) {

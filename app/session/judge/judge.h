@@ -22,11 +22,11 @@ using EvaluationPtr = std::shared_ptr<const Evaluation>;
 /// The error of a result in one view, `judged_view` if none is given. Of a result in two layers
 /// against a truth in two layers, keys are those of `layered_metrics`, and the maps are those of
 /// the foreground. Pixels that the light field does not show (LightField::valid), or that maps
-/// of other programs do not cover (Provenance::border_px), are not judged.
-/// Region masks and the high resolution count in the centre view only; camera and truth are those
-/// of the scene, whatever `options` say. Protocol benchmark2016 gains runtime_log, log10 of the
-/// seconds, where they are known. Throws InvalidInput if scene or result lacks what is compared;
-/// Cancelled.
+/// of other programs do not cover (Provenance::border_px), are not judged; nor what is 0 in
+/// `options.shown`, unless that is empty. Region masks and the high resolution count in the centre
+/// view only; camera and truth are those of the scene, whatever `options` say. Protocol
+/// benchmark2016 gains runtime_log, log10 of the seconds, where they are known. Throws InvalidInput
+/// if scene or result lacks what is compared; Cancelled.
 [[nodiscard]] Evaluation judge(const Estimate& estimate, const Scene& scene,
                                EvaluationOptions options, std::optional<ViewIndex> view = {});
 

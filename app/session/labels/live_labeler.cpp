@@ -2,6 +2,7 @@
 #include "app/session/labels/live_labeler.h"
 
 #include "annotation/document/exchange.h"
+#include "app/session/run/failure_text.h"
 #include "app/session/run/thread_priority.h"
 #include "engine/labeling/features/training_samples.h"
 
@@ -10,16 +11,6 @@
 
 namespace episcope {
 namespace {
-
-std::string sentence_of(const std::exception_ptr& failure) {
-  try {
-    std::rethrow_exception(failure);
-  } catch (const std::bad_alloc&) {
-    return "there is not enough memory; close other programs or remove results";
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-}
 
 // What must be painted before there is anything to learn; empty if nothing is missing.
 std::string missing_scribbles(const LabelingInput& input) {
@@ -142,7 +133,7 @@ void LiveLabeler::start(ViewIndex view) {
 
 void LiveLabeler::finish(const Outcome<std::string>& outcome) {
   if (outcome.failure) {
-    change(LiveState::Failed, sentence_of(outcome.failure));
+    change(LiveState::Failed, failure_text(outcome.failure));
   } else if (outcome.value) {
     change(outcome.value->empty() ? LiveState::Idle : LiveState::Hint, *outcome.value);
   }

@@ -27,12 +27,12 @@ bool is_available(const Session& session, Quantity quantity) {
     case Subject::TrueLabels:
       return session.true_labels() != nullptr;
     case Subject::Result:
-      return session.shown() &&
-             result_map_of(quantity).coverage(*session.shown()->estimate).grid.count() > 0;
+      return session.side_a() &&
+             result_map_of(quantity).coverage(*session.side_a()->estimate).grid.count() > 0;
     case Subject::Error:
-      return session.shown() && is_available_of(*scene->truth, Quantity::Truth);
+      return session.side_a() && is_available_of(*scene->truth, Quantity::Truth);
     case Subject::ResultPair:
-      return session.compared() != nullptr;
+      return session.side_b() != nullptr;
     case Subject::Segmentation:
       return false;
   }

@@ -50,7 +50,8 @@ void reduce_valid(const LightField& lf, ViewIndex view, int factor, ImageView<st
 
 }  // namespace
 
-LightField smaller_views(const LightField& lf, int factor, const Progress& progress) {
+LightField smaller_views(const LightField& lf, int factor, const Progress& progress,
+                         ReducedViews reduced) {
   const GridShape grid = lf.grid();
   const int height = lf.height() / factor, width = lf.width() / factor;
   ViewStack<std::uint16_t> samples(grid, height, width, lf.channels());
@@ -58,7 +59,7 @@ LightField smaller_views(const LightField& lf, int factor, const Progress& progr
   if (!lf.valid().empty()) valid = ViewStack<std::uint8_t>(grid, height, width);
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view = samples.view_at(i), center = lf.center();
-    if (view.v == center.v || view.u == center.u) {
+    if (reduced == ReducedViews::All || view.v == center.v || view.u == center.u) {
       reduce(lf, view, factor, samples.view(view));
     } else {
       std::fill_n(samples.view(view).data, samples.view_size(), std::uint16_t{0});

@@ -42,6 +42,17 @@ class SmallerViewsTest : public QObject {
     QVERIFY(smaller.view_as_float({1, 0}).at(1, 1) > 0.49F);
   }
 
+  void allViews_areThereOnRequest() {
+    const LightField lf = make_light_field({3, 3}, 4, 4, 1, [](ViewIndex view, int, int, int) {
+      return 0.1F * static_cast<float>(3 * view.v + view.u);
+    });
+
+    const LightField smaller = smaller_views(lf, 2, Progress(), ReducedViews::All);
+
+    QVERIFY(std::fabs(smaller.view_as_float({2, 0}).at(1, 1) - 0.6F) < 1e-4F);
+    QVERIFY(std::fabs(smaller.view_as_float({1, 1}).at(0, 1) - 0.4F) < 1e-4F);
+  }
+
   void blocksWithAnInvalidPixel_areNotValid() {
     ViewStack<float> samples({1, 2}, 4, 4);
     std::fill_n(samples.data(), samples.size(), 0.5F);

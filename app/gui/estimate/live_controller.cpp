@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/estimate/live_controller.h"
+
+#include "app/gui/frame/commands.h"
+#include "app/gui/frame/queued_post.h"
+#include "app/gui/stage/overlay.h"
+#include "app/gui/stage/stage.h"
+#include "app/session/session.h"
+#include "engine/disparity/registry.h"
+#include "widgets/canvas/tile_wall.h"
+#include "widgets/canvas/view_canvas.h"
+#include "widgets/estimate/method_panel.h"
+#include "widgets/style/number_text.h"
+
+#include <QAction>
+
+#include <cmath>
+#include <utility>
+
+namespace episcope {
+namespace {
+
+using render::Quantity;
+using render::Subject;
+
+constexpr int kRunSection = 0;  // of the menu Estimate
+
+QString time_text(double seconds) {
+  return seconds < 1 ? LiveController::tr("%1 ms").arg(std::lround(1000 * seconds))
+                     : LiveController::tr("%1 s").arg(number_text(seconds, 1));
+}
+
+bool is_of_a_result(Quantity quantity) {
+  const Subject subject = render::info_of(quantity).subject;
+  return subject == Subject::Result || subject == Subject::Error;
+}
+
+}  // namespace
+
+LiveController::LiveController(const Workbench& bench, MethodPanel& method)
+    : QObject(&bench.owner),
+      bench_(bench),
+      method_(method),
+      estimator_(queued_post(this), [this] { show(); }) {
+  addCommand();
+  connect(&method_, &MethodPanel::liveToggled, this, &LiveController::setOn);
+  connect(&method_, &MethodPanel::requestChanged, this, &LiveController::follow);
+  connect(bench.stage.canvas(), &ViewCanvas::transformChanged, this, &LiveController::follow);
+  connect(bench.stage.wall(), &TileWall::zoomChanged, this, &LiveController::follow);
+  connect(&bench.stage, &Stage::previewChanged, this, &LiveController::follow);
+  bench.session.on_changed([this](Parts parts) { update(parts); });
+}
+
+void LiveController::addCommand() {
+  QAction* action = bench_.commands.add(
+      {.id = "estimate.live",
+       .menu = Menu::Estimate,
+       .text = tr("Live estimate"),
+       .tip = tr("Estimates what is in sight at every change of parameters or view; Run keeps it"),
+       .icon = "live",
+       .keys = {tr("Ctrl+L")},
+       .run = [this] { setOn(!is_on_); },
+       .section = kRunSection,
+       .enabled = [this] { return is_on_ || bench_.session.scene() != nullptr; },
+       .checked = [this] { return is_on_; }});
+  method_.followLiveTip(action);
+}
+
+void LiveController::setOn(bool is_on) {
+  if (std::exchange(is_on_, is_on) != is_on) {
+    if (is_on) {
+      follow();
+    } else {
+      estimator_.clear();
+      show();
+      giveBack();
+    }
+  }
+  method_.setLive(is_on);
+  bench_.commands.refresh();
+}
+
+void LiveController::update(Parts parts) {
+  if (parts.has(Part::Scene)) {
+    // What was drawn before belongs to the other scene.
+    before_.reset();
+    is_up_ = false;
+    estimator_.clear();
+    show();
+  }
+  if (parts.has_any(Part::Scene | Part::View)) follow();
+}
+
+std::optional<LiveRequest> LiveController::request() const {
+  const RunRequest form = method_.request();
+  const Session& session = bench_.session;
+  if (!session.scene() || form.method.empty() || bench_.stage.isPreviewing()) return {};
+  const QRect seen = bench_.stage.pixelsInSight();
+  const PixelRect in_sight{seen.top(), seen.left(), seen.bottom() + 1, seen.right() + 1};
+  const LightFieldPtr light_field = session.light_field();
+  const PixelRect all{0, 0, light_field->height(), light_field->width()};
+  return LiveRequest{light_field, form.method, form.values, session.view(),
+                     seen.isEmpty() || in_sight == all ? PixelRect{} : in_sight};
+}
+
+void LiveController::follow() {
+  if (!is_on_) return;
+  if (const auto wanted = request()) estimator_.request(*wanted);
+  showStatus();
+}
+
+void LiveController::show() {
+  const auto& map = estimator_.map();
+  if (!map) {
+    if (std::exchange(map_, nullptr)) bench_.session.clear_live();
+    is_up_ = false;
+  } else if (std::exchange(map_, map->estimate) != map->estimate) {
+    EstimateEntry entry;
+    const QString method = QString::fromStdString(find_estimator(map->estimate->method).info.name);
+    entry.name = tr("Live %1").arg(method).toStdString();
+    entry.estimate = map->estimate;
+    entry.display_range = map->display_range;
+    entry.part = map->part;
+    bench_.session.set_live(std::move(entry), bench_.session.generation());
+    bringUp();
+  }
+  showStatus();
+}
+
+void LiveController::bringUp() {
+  if (std::exchange(is_up_, true) || is_of_a_result(bench_.overlay.quantity())) return;
+  if (!before_) before_ = bench_.overlay.quantity();
+  bench_.overlay.setQuantity(Quantity::Disparity);
+}
+
+void LiveController::giveBack() {
+  const auto before = std::exchange(before_, std::nullopt);
+  // Unless the user chose something else since.
+  if (before && bench_.overlay.quantity() == Quantity::Disparity) {
+    bench_.overlay.setQuantity(*before);
+  }
+}
+
+void LiveController::showStatus() {
+  method_.setLiveStatus(is_on_ ? status() : QString());
+}
+
+QString LiveController::status() const {
+  if (!bench_.session.scene()) return tr("Live");
+  if (estimator_.stage() == LiveStage::Failed) {
+    return tr("Live: %1").arg(with_minus(QString::fromStdString(estimator_.sentence())));
+  }
+  const auto coarse = estimator_.coarse_seconds();
+  const QString begun = coarse ? tr("Live: coarse %1 / ").arg(time_text(*coarse)) : tr("Live: ");
+  if (estimator_.is_running()) {
+    return begun + tr("%1 %").arg(std::lround(100 * estimator_.fraction()));
+  }
+  if (!estimator_.full_seconds()) return tr("Live");
+  const QString done = begun + tr("full %1").arg(time_text(*estimator_.full_seconds()));
+  const bool has_view =
+      !estimator_.map() || estimator_.map()->estimate->contains(bench_.session.view());
+  return has_view ? done : tr("Live: this method has no map of this view");
+}
+
+}  // namespace episcope
+
+#include "moc_live_controller.cpp"
