@@ -7,6 +7,7 @@
 #include "engine/core/parameter/parameter.h"
 
 #include <optional>
+#include <utility>
 
 namespace episcope {
 
