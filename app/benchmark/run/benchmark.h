@@ -9,6 +9,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ struct BenchmarkOptions {
   ViewSelection views = ViewSelection::All;
   bool has_search = false;
   std::vector<LabelerParameters> labels;  ///< Ways to label all views from the scene's strokes.
+  /// Nothing is run: what the log lacks is a failure. `OpenScene::whole_fingerprint` of each input,
+  /// of which none may have changed; empty for those that could not be read.
+  std::optional<std::vector<std::string>> recorded;
 };
 
 /// Opens one of the inputs.
@@ -38,7 +42,7 @@ using SceneLoader = std::function<Scene(const std::string& input, const Progress
 /// on. Finished runs are in the log of the folder and are not computed again by a later call,
 /// unless samples, truth, parameters, method or program changed; failed ones are tried again. The
 /// program may be ended at any moment. Throws IoError if the folder cannot be written or holds
-/// something else, Cancelled.
+/// something else, InvalidInput if a recorded scene has changed, Cancelled.
 [[nodiscard]] BenchmarkReport run_benchmark(const BenchmarkOptions& options,
                                             const SceneLoader& load, const Progress& progress);
 

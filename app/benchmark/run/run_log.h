@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "app/benchmark/run/record.h"
+#include "app/benchmark/run/run_records.h"
 #include "engine/io/durable/append_log.h"
 
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -19,24 +18,29 @@ class RunLog {
 
   /// Throws IoError, also if another program works in the folder. Lines that are no records are
   /// passed over.
-  explicit RunLog(const std::filesystem::path& folder);
+  explicit RunLog(const std::filesystem::path& folder) : RunLog(folder, folder / kFileName) {}
+  /// A log of that name of a benchmark in that folder.
+  RunLog(const std::filesystem::path& folder, const std::filesystem::path& file);
 
-  /// The finished run of this key for the scene of this name, if it did not fail, its files are
-  /// there and no later run wrote the same ones; else null. Valid until the next `add`.
-  [[nodiscard]] const BenchmarkRecord* find(const std::string& key, const std::string& scene) const;
+  /// As of RunRecords.
+  [[nodiscard]] const BenchmarkRecord* find(const std::string& key,
+                                            const std::string& scene) const {
+    return known_.find(key, scene);
+  }
+  [[nodiscard]] const BenchmarkRecord* last(const std::string& key,
+                                            const std::string& scene) const {
+    return known_.last(key, scene);
+  }
   /// Throws IoError.
   void add(const BenchmarkRecord& record);
+  /// Adds what it does not hold yet of runs that were made elsewhere. Throws IoError.
+  void take_over(const std::vector<BenchmarkRecord>& records);
 
-  [[nodiscard]] const std::vector<BenchmarkRecord>& records() const { return records_; }
+  [[nodiscard]] const std::vector<BenchmarkRecord>& records() const { return known_.all(); }
 
  private:
-  void keep(BenchmarkRecord record);
-
-  std::filesystem::path folder_;
   io::AppendLog log_;
-  std::vector<BenchmarkRecord> records_;
-  std::map<std::string, std::size_t> places_;   ///< By key and scene.
-  std::map<std::string, std::string> writers_;  ///< Key of the last run that wrote a file.
+  RunRecords known_;
 };
 
 }  // namespace episcope

@@ -13,6 +13,7 @@
 #include <deque>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -69,6 +70,7 @@ struct Arguments::State {
   CLI::Option* declare(CLI::Option* added, const OptionText& text, bool with_value) {
     const std::vector<std::string> names = CLI::detail::split(text.names, ',');
     for (const auto& name : names) takes_value[name] = with_value;
+    if (text.may_begin_with_dash) takes_any.insert(names.begin(), names.end());
     options.push_back(Json::object({{"names", names},
                                     {"value", text.value_name},
                                     {"choices", text.choices},
@@ -77,8 +79,8 @@ struct Arguments::State {
     return added->group(group);
   }
 
-  void declare_positional(CLI::Option* added, bool has_several) {
-    added->required()->option_text(" ");
+  void declare_positional(CLI::Option* added, bool has_several, Need need = Need::Required) {
+    added->required(need == Need::Required)->option_text(" ");
     positionals.push_back(Json::object({{"name", added->get_name()},
                                         {"help", added->get_description()},
                                         {"several", has_several}}));
@@ -110,8 +112,8 @@ struct Arguments::State {
     }
   }
 
-  /// Refuses options that do not exist, whatever else is wrong, and binds negative numbers to the
-  /// option before them.
+  /// Refuses options that do not exist, whatever else is wrong, and binds negative numbers, and
+  /// any value of an option that takes such, to the option before them.
   [[nodiscard]] std::vector<std::string> checked(const std::vector<std::string>& arguments) const {
     std::vector<std::string> result;
     for (std::size_t i = 0; i < arguments.size(); ++i) {
@@ -120,7 +122,7 @@ struct Arguments::State {
         check_option(name_of(argument));
         const auto found = takes_value.find(argument);
         if (found != takes_value.end() && found->second && i + 1 < arguments.size() &&
-            is_number_like(arguments[i + 1])) {
+            (is_number_like(arguments[i + 1]) || takes_any.contains(argument))) {
           argument += (argument.starts_with("--") ? "=" : "") + arguments[++i];
         }
       }
@@ -150,6 +152,7 @@ struct Arguments::State {
   std::vector<Json> positionals;
   std::vector<Json> options;
   std::map<std::string, bool> takes_value;
+  std::set<std::string> takes_any;  ///< Options whose values may begin with a dash.
 
   /// An option with a value, or a flag that stands for one.
   struct Given {
@@ -173,6 +176,11 @@ void Arguments::positional(const std::string& name, std::string& value, const st
 void Arguments::positionals(const std::string& name, std::vector<std::string>& values,
                             const std::string& help) {
   state_->declare_positional(state_->app.add_option(name, values, help), true);
+}
+
+void Arguments::optional_positionals(const std::string& name, std::vector<std::string>& values,
+                                     const std::string& help) {
+  state_->declare_positional(state_->app.add_option(name, values, help), true, Need::Optional);
 }
 
 void Arguments::flag(const std::string& names, bool& value, const std::string& help) {

@@ -32,6 +32,9 @@ class Arguments {
   /// One or more.
   void positionals(const std::string& name, std::vector<std::string>& values,
                    const std::string& help);
+  /// Any number, none included.
+  void optional_positionals(const std::string& name, std::vector<std::string>& values,
+                            const std::string& help);
 
   void flag(const std::string& names, bool& value, const std::string& help);
   /// A flag that stands for a value.
@@ -45,14 +48,14 @@ class Arguments {
   template <class T, class Typed>
   void option(const std::string& names, T& value, const OptionValue<Typed>& typed,
               const std::string& help) {
-    add_option({names, typed.name, help, typed.choices}, assignment(names, value, typed),
-               Need::Optional);
+    add_option({names, typed.name, help, typed.choices, typed.may_begin_with_dash},
+               assignment(names, value, typed), Need::Optional);
   }
   template <class T, class Typed>
   void required_option(const std::string& names, T& value, const OptionValue<Typed>& typed,
                        const std::string& help) {
-    add_option({names, typed.name, help, typed.choices}, assignment(names, value, typed),
-               Need::Required);
+    add_option({names, typed.name, help, typed.choices, typed.may_begin_with_dash},
+               assignment(names, value, typed), Need::Required);
   }
   /// An option with one or more texts, which may be given several times.
   void list_option(const std::string& names, std::vector<std::string>& values,
@@ -76,6 +79,7 @@ class Arguments {
     std::string value_name;
     std::string help;
     std::vector<std::string> choices{};
+    bool may_begin_with_dash = false;
   };
   enum class Need { Optional, Required };
   using Assign = std::function<void(const std::string& text)>;

@@ -17,6 +17,8 @@ struct OptionValue {
   /// Throws UsageError, naming the option, for a text that is no such value.
   std::function<T(const std::string& option, const std::string& text)> read;
   std::vector<std::string> choices{};  ///< Where only certain words are values.
+  bool may_begin_with_dash =
+      false;  ///< What follows is the value, even if it looks like an option.
 };
 
 /// Any text: the name of a file, of an INPUT.

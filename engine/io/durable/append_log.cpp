@@ -90,9 +90,23 @@ void AppendLog::read_records() {
 }
 
 void AppendLog::append(std::span<const std::uint8_t> record) {
-  require_sound();
   Bytes bytes;
   put_record(framing_, record, bytes);
+  write(bytes);
+}
+
+void AppendLog::append(std::string_view record) {
+  append({reinterpret_cast<const std::uint8_t*>(record.data()), record.size()});
+}
+
+void AppendLog::append_all(std::span<const LogRecord> records) {
+  Bytes bytes;
+  for (const LogRecord& record : records) put_record(framing_, record, bytes);
+  if (!bytes.empty()) write(bytes);
+}
+
+void AppendLog::write(std::span<const std::uint8_t> bytes) {
+  require_sound();
   errno = 0;
   if (!write_all(file_.id(), bytes) || (!flush_ && ::fsync(file_.id()) != 0)) {
     const IoError error = write_error(path_);
@@ -101,10 +115,6 @@ void AppendLog::append(std::span<const std::uint8_t> record) {
   }
   bytes_ += bytes.size();
   if (flush_) flush_->request();
-}
-
-void AppendLog::append(std::string_view record) {
-  append({reinterpret_cast<const std::uint8_t*>(record.data()), record.size()});
 }
 
 void AppendLog::flush() {

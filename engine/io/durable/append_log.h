@@ -40,6 +40,8 @@ class AppendLog {
   /// before the call; if even that failed, it accepts no more records.
   void append(std::span<const std::uint8_t> record);
   void append(std::string_view record);
+  /// Several records in one write; as `append`.
+  void append_all(std::span<const LogRecord> records);
   /// Waits until all records are on the disk. Throws IoError.
   void flush();
 
@@ -50,6 +52,7 @@ class AppendLog {
   void read_records();
   void start_flush(LogFlush flush, BackgroundFlush::Start start);
   void require_sound();
+  void write(std::span<const std::uint8_t> bytes);
 
   std::filesystem::path path_;
   LogFraming framing_;

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/cli/cluster/slurm.h"
+
+#include "app/cli/cluster/run_program.h"
+#include "engine/core/error.h"
+#include "engine/core/text/join.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace episcope::cli {
+namespace {
+
+constexpr std::size_t kArrayTasks = 1000;
+
+/// As one word of the shell.
+std::string quoted(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
+/// The command line of this program with these words behind "benchmark -o FOLDER".
+std::string benchmark_command(const std::filesystem::path& folder, const std::string& words) {
+  const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+  return fmt::format("exec {} benchmark -o {} --quiet --threads \"${{SLURM_CPUS_ON_NODE:-0}}\" {}",
+                     quoted(program), quoted(folder.string()), words);
+}
+
+/// Where Slurm writes what a job prints; "%" begins a placeholder there.
+std::string output_option(const std::filesystem::path& folder, const std::string& name) {
+  std::string path;
+  for (const char c : (folder / "tasks").string()) {
+    path += c == '%' ? std::string("%%") : std::string(1, c);
+  }
+  return "--output=" + path + "/" + name;
+}
+
+std::string submit(const std::vector<std::string>& words) {
+  ProgramAnswer answer;
+  try {
+    answer = run_program("sbatch", words);
+  } catch (const Unavailable& error) {
+    throw Unavailable(std::string(error.what()) +
+                      "; submit from a machine of a Slurm cluster, or run the tasks by --plan and "
+                      "--point");
+  }
+  if (answer.exit_code != 0) {
+    std::string why = answer.err.substr(0, answer.err.find_last_not_of(" \n") + 1);
+    std::replace(why.begin(), why.end(), '\n', ' ');
+    throw Error(fmt::format("sbatch refused the job (exit code {}): {}", answer.exit_code, why));
+  }
+  return answer.out.substr(0, answer.out.find_first_of(";\n"));  // "17;cluster"
+}
+
+std::vector<std::string> with_options(std::vector<std::string> words,
+                                      const std::vector<std::string>& options,
+                                      const std::string& command) {
+  words.insert(words.end(), options.begin(), options.end());
+  words.push_back("--wrap=" + command);
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> option_words(const std::string& text) {
+  std::vector<std::string> words;
+  bool is_inside = false;  // a word
+  char quote = 0;          // that is open
+  for (const char c : text) {
+    const bool is_space = c == ' ' || c == '\t' || c == '\n';
+    if (quote == 0 && is_space) {
+      is_inside = false;
+      continue;
+    }
+    if (!is_inside) words.emplace_back();
+    is_inside = true;
+    const bool is_mark = quote == 0 ? c == '\'' || c == '"' : c == quote;
+    if (is_mark) {
+      quote = quote == 0 ? c : '\0';
+    } else {
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw InvalidInput(fmt::format("a {} is not closed in: {}", quote, text));
+  return words;
+}
+
+std::vector<JobArray> job_arrays(const std::vector<std::size_t>& numbers) {
+  std::vector<JobArray> arrays;
+  for (std::size_t i = 0; i < numbers.size();) {
+    const std::size_t offset = numbers[i] / kArrayTasks * kArrayTasks;
+    if (arrays.empty() || arrays.back().offset != offset) arrays.push_back({offset, {}});
+    std::size_t end = i + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1 &&
+           numbers[end] < offset + kArrayTasks) {
+      ++end;
+    }
+    std::string& indices = arrays.back().indices;
+    if (!indices.empty()) indices += ",";
+    indices += std::to_string(numbers[i] - offset);
+    if (end > i + 1) indices += "-" + std::to_string(numbers[end - 1] - offset);
+    i = end;
+  }
+  return arrays;
+}
+
+SubmittedJobs submit_tasks(const std::filesystem::path& folder,
+                           const std::vector<std::size_t>& numbers,
+                           const std::vector<std::string>& options) {
+  SubmittedJobs jobs;
+  for (const JobArray& array : job_arrays(numbers)) {
+    const std::string point = fmt::format("--point $((SLURM_ARRAY_TASK_ID + {}))", array.offset);
+    jobs.tasks.push_back(
+        submit(with_options({"--parsable", "--requeue", "--job-name=episcope",
+                             "--array=" + array.indices, output_option(folder, "slurm-%A_%a.txt")},
+                            options, benchmark_command(folder, point))));
+  }
+  jobs.tables = submit(with_options(
+      {"--parsable", "--requeue", "--job-name=episcope-tables",
+       "--dependency=afterany:" + joined(jobs.tasks, ":"), output_option(folder, "slurm-%j.txt")},
+      options, benchmark_command(folder, "--collect")));
+  return jobs;
+}
+
+}  // namespace episcope::cli
