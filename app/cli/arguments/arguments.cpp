@@ -122,7 +122,8 @@ struct Arguments::State {
         check_option(name_of(argument));
         const auto found = takes_value.find(argument);
         if (found != takes_value.end() && found->second && i + 1 < arguments.size() &&
-            (is_number_like(arguments[i + 1]) || takes_any.contains(argument))) {
+            (is_number_like(arguments[i + 1]) ||
+             (takes_any.contains(argument) && arguments[i + 1].starts_with("-")))) {
           argument += (argument.starts_with("--") ? "=" : "") + arguments[++i];
         }
       }

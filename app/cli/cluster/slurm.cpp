@@ -87,21 +87,28 @@ std::vector<std::string> option_words(const std::string& text) {
   return words;
 }
 
+std::string ranges_text(std::span<const std::size_t> numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t end = i + 1;
+    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
+    if (!text.empty()) text += ",";
+    text += std::to_string(numbers[i]);
+    if (end > i + 1) text += "-" + std::to_string(numbers[end - 1]);
+    i = end;
+  }
+  return text;
+}
+
 std::vector<JobArray> job_arrays(const std::vector<std::size_t>& numbers) {
   std::vector<JobArray> arrays;
-  for (std::size_t i = 0; i < numbers.size();) {
+  std::vector<std::size_t> indices;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t offset = numbers[i] / kArrayTasks * kArrayTasks;
-    if (arrays.empty() || arrays.back().offset != offset) arrays.push_back({offset, {}});
-    std::size_t end = i + 1;
-    while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1 &&
-           numbers[end] < offset + kArrayTasks) {
-      ++end;
-    }
-    std::string& indices = arrays.back().indices;
-    if (!indices.empty()) indices += ",";
-    indices += std::to_string(numbers[i] - offset);
-    if (end > i + 1) indices += "-" + std::to_string(numbers[end - 1] - offset);
-    i = end;
+    indices.push_back(numbers[i] - offset);
+    if (i + 1 < numbers.size() && numbers[i + 1] < offset + kArrayTasks) continue;
+    arrays.push_back({offset, ranges_text(indices)});
+    indices.clear();
   }
   return arrays;
 }

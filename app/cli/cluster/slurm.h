@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@ namespace episcope::cli {
 /// Options for sbatch as one text, "--partition=gpu --time=1:00:00": words between spaces, of which
 /// '…' and "…" keep theirs. Throws InvalidInput for a quotation mark without its partner.
 [[nodiscard]] std::vector<std::string> option_words(const std::string& text);
+
+/// Ascending numbers as ranges, "0-3,7".
+[[nodiscard]] std::string ranges_text(std::span<const std::size_t> numbers);
 
 /// An array of jobs: the tasks of which `SLURM_ARRAY_TASK_ID + offset` are the numbers.
 struct JobArray {

@@ -25,10 +25,6 @@ std::string reading_text(const BenchmarkRequest& request) {
   return io::parameters_to_json(request.read.options.values());
 }
 
-std::string numbers_text(const std::vector<std::size_t>& numbers) {
-  return joined(numbers, " ", [](std::size_t number) { return std::to_string(number); });
-}
-
 /// Refuses to replace a file that is no plan.
 void check_plan_file(const fs::path& file) {
   std::error_code ignored;
@@ -190,9 +186,9 @@ void print_status(const PlannedBenchmark& planned, const BenchmarkRequest& reque
                              count->failed, count->missing(), count->all);
   }
   if (!status.unfinished.empty()) {
-    std::cout << "tasks to run: " << numbers_text(status.unfinished) << '\n';
+    std::cout << "tasks to run: " << ranges_text(status.unfinished) << '\n';
   }
-  if (!status.running.empty()) std::cout << "running: " << numbers_text(status.running) << '\n';
+  if (!status.running.empty()) std::cout << "running: " << ranges_text(status.running) << '\n';
   for (const std::string& failure : status.failures) std::cout << "failed: " << failure << '\n';
 }
 
