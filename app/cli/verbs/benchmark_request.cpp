@@ -183,9 +183,12 @@ bool parse_benchmark(const VerbArguments& arguments, BenchmarkRequest& request) 
        "command resumes where it was stopped. The exit code is 1 if anything failed; the\n"
        "tables are written nevertheless.",
        "episcope-cli benchmark demo:edge demo:bars --methods epi_l,epi_s -o tables --search\n"
-       "episcope-cli benchmark demo:edge demo:bars --labels --features image -o tables"});
+       "episcope-cli benchmark demo:edge demo:bars --labels --features image -o tables\n"
+       "episcope-cli benchmark scenes --methods all --search -o tables --slurm "
+       "\"--time=1:00:00\""});
   declare_what(parser, request);
   declare_tasks(parser, request);
+  parser.heading("Options");
   if (!parse_reading(parser, arguments, request.job, request.read)) return false;
   check(request);
   return true;
