@@ -77,21 +77,22 @@ PlacedScene place(std::span<const PlacedMesh> meshes, const Progress& progress) 
   scene.faces.resize(faces);
   std::uint32_t first_vertex = 0;
   std::uint32_t first_face = 0;
-  for (const auto& [mesh, pose] : meshes) {
+  for (const auto& placed : meshes) {
+    const TriangleMesh& mesh = *placed.mesh;
     scene.first_face.push_back(first_face);
-    for_each_chunked(mesh->vertices.size(), progress, [&](std::size_t i) {
-      const Vertex& v = mesh->vertices[i];
-      const Point3 p = pose.apply({v[0], v[1], v[2]});
+    for_each_chunked(mesh.vertices.size(), progress, [&](std::size_t i) {
+      const Vertex& v = mesh.vertices[i];
+      const Point3 p = placed.pose.apply({v[0], v[1], v[2]});
       scene.vertices[first_vertex + i] = {static_cast<float>(p.x), static_cast<float>(p.y),
                                           static_cast<float>(p.z)};
     });
-    for_each_chunked(mesh->faces.size(), progress, [&](std::size_t i) {
+    for_each_chunked(mesh.faces.size(), progress, [&](std::size_t i) {
       for (int k = 0; k < 3; ++k) {
-        scene.faces[first_face + i][k] = first_vertex + mesh->faces[i][k];
+        scene.faces[first_face + i][k] = first_vertex + mesh.faces[i][k];
       }
     });
-    first_vertex += static_cast<std::uint32_t>(mesh->vertices.size());
-    first_face += static_cast<std::uint32_t>(mesh->faces.size());
+    first_vertex += static_cast<std::uint32_t>(mesh.vertices.size());
+    first_face += static_cast<std::uint32_t>(mesh.faces.size());
   }
   return scene;
 }

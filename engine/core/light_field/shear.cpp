@@ -250,8 +250,7 @@ std::vector<ViewIndex> painted_in(const Scribbles& a, const Scribbles& b) {
   }
   const auto place = [](ViewIndex view) { return std::pair(view.v, view.u); };
   std::ranges::sort(views, {}, place);
-  const auto rest = std::ranges::unique(views);
-  views.erase(rest.begin(), rest.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
   return views;
 }
 

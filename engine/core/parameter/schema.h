@@ -109,10 +109,10 @@ class Schema {
   /// unknown key or a value that a parameter does not take.
   Schema& preset(const char* key, const char* choice, const ParameterSet& values) {
     Preset& changed = preset_of(key, choice);
-    for (const auto& [other, value] : values) {
-      check_parameter(descriptions_[index_of(other)], value);
-      std::erase_if(changed.values, [&](const auto& known) { return known.first == other; });
-      changed.values.emplace_back(other, value);
+    for (const auto& given : values) {
+      check_parameter(descriptions_[index_of(given.first)], given.second);
+      std::erase_if(changed.values, [&](const auto& known) { return known.first == given.first; });
+      changed.values.push_back(given);
     }
     return *this;
   }

@@ -128,7 +128,7 @@ class Wildcards final : public NameMatcher {
     if (part + 1 < parts_.size() && parts_[part + 1].kind == Part::Kind::Number) {
       // Digits that run together belong to both by halves, if that fits.
       const std::size_t half = at + (end_of_digits(name, at) - at) / 2;
-      std::ranges::stable_partition(ends, [&](std::size_t end) { return end == half; });
+      std::stable_partition(ends.begin(), ends.end(), [&](std::size_t end) { return end == half; });
     }
     for (const std::size_t end : ends) {
       if (!matches(search, part + 1, end)) continue;

@@ -10,8 +10,7 @@ namespace episcope::io {
 
 NumberRun::NumberRun(std::vector<long long> all) : values(std::move(all)) {
   std::ranges::sort(values);
-  const auto repeated = std::ranges::unique(values);
-  values.erase(repeated.begin(), repeated.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   long long common = 0;
   for (const long long value : values) common = std::gcd(common, value - values.front());
   step = std::max(common, 1LL);

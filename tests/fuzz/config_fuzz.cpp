@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/beside/baseline_file.h"
+#include "engine/io/open/folder_account.h"
+#include "tests/engine/io/arrays/array_files.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/seed_scene.h"
+
+namespace episcope::fuzz {
+namespace {
+
+constexpr const char* kConfig = "parameters.cfg";
+
+void prepare(const std::filesystem::path& folder) {
+  write_seed("benchmark", folder / "scene");
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+  prepare(folder);
+  write_bytes(folder / "written.cfg", test::bytes_of_file(folder / "scene" / kConfig));
+  std::filesystem::remove_all(folder / "scene");
+  write_bytes(folder / "param.txt", "base_x = 0.05\nbase_y = 0.05\n");
+}
+
+/// The parameters of a scene of the 2016 benchmark, and those of a folder with a baseline.
+void read(const std::filesystem::path& file) {
+  const std::filesystem::path scene = file.parent_path() / "scene";
+  std::filesystem::copy_file(file, scene / kConfig,
+                             std::filesystem::copy_options::overwrite_existing);
+  io::FolderAccount account(file.parent_path());
+  (void)io::stated_unit(file.parent_path(), account);
+  open_light_field(scene);
+}
+
+}  // namespace
+
+const Harness kHarness{[](std::string_view) { return std::string(io::kBaselineFile); }, read,
+                       write_seeds, prepare};
+
+}  // namespace episcope::fuzz

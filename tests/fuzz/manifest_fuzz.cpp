@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/arrays/npy_file.h"
+#include "engine/io/blender/render_manifest.h"
+#include "engine/io/grid/image_file.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/seed_scene.h"
+
+#include <vector>
+
+namespace episcope::fuzz {
+namespace {
+
+constexpr const char* kManifest =
+    R"({"format": "episcope light field", "version": 1, "blender": "3.4.1",
+ "grid": {"rows": 1, "columns": 2}, "size": {"width": 3, "height": 2},
+ "camera": {"baseline": 0.5, "focal_length_px": 120, "zero_plane": 7.5},
+ "disparity_range": [-0.5, 1.5], "labels": [{"value": 2, "name": "square"}],
+ "files": {"views": "{row:02}_{column:02}.png", "depth": "{row:02}_{column:02}.npy",
+  "labels": "{row:02}_{column:02}.npy"}, "complete": [[0, 0], [0, 1]]})";
+
+/// Views and maps that the manifest names.
+void prepare(const std::filesystem::path& folder) {
+  const std::vector<float> depth(6, 8.0F);
+  for (const char* view : {"00_00", "00_01"}) {
+    io::write_png(folder / (std::string(view) + ".png"), Image<std::uint8_t>(2, 3, 3).view());
+    io::write_npy<float>(folder / (std::string(view) + ".npy"), {2, 3}, depth);
+  }
+}
+
+void write_seeds(const std::filesystem::path& folder) {
+  write_bytes(folder / "manifest", kManifest);
+}
+
+void read(const std::filesystem::path& file) {
+  open_light_field(file.parent_path());
+}
+
+}  // namespace
+
+const Harness kHarness{[](std::string_view) { return std::string(io::kRenderManifest); }, read,
+                       write_seeds, prepare};
+
+}  // namespace episcope::fuzz

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/image_header.h"
+#include "engine/io/open/open.h"
+#include "tests/fuzz/harness.h"
+#include "tests/fuzz/seed_scene.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+namespace episcope::fuzz {
+namespace {
+
+void write_seeds(const std::filesystem::path& folder) {
+  write_seed("eslf", folder / "lf_eslf.png");
+  const cv::Mat picture(4, 6, CV_8UC3, cv::Scalar(10, 100, 200));
+  for (const char* suffix : {".bmp", ".ppm", ".tif", ".jpg", ".png", ".jp2", ".webp", ".hdr"}) {
+    cv::imwrite((folder / ("picture" + std::string(suffix))).string(), picture);
+  }
+}
+
+/// A picture of any form, also as a mosaic of lenslets.
+void read(const std::filesystem::path& file) {
+  tolerate([&] { (void)io::read_image_header(file); });
+  tolerate([&] { (void)io::decode_image(file); });
+  io::OpenOptions options;
+  options.mosaic = io::Mosaic::Lenslets;
+  options.grid = "3x3";
+  (void)io::open_scene(file, options, Progress(1));
+}
+
+}  // namespace
+
+const Harness kHarness{[](std::string_view) { return std::string("lf_eslf.png"); }, read,
+                       write_seeds};
+
+}  // namespace episcope::fuzz

@@ -1,0 +1,36 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# run.sh FOLDER SECONDS [FUZZER…]: runs the fuzzers in FOLDER, or those of these names, for SECONDS each, beginning with files that
+# each writes itself. What was found to lead further is kept in FOLDER/corpus for the next time; inputs that fail are
+# in FOLDER/findings. Fails if there are any.
+set -eu
+folder=$1
+seconds=$2
+shift 2
+if [ $# -eq 0 ]; then
+  for program in "$folder"/*_fuzz; do
+    set -- "$@" "$(basename "$program" _fuzz)"
+  done
+fi
+here=$(cd "$(dirname "$0")" && pwd)
+# Leaks are looked for at the end: after every input takes too long.
+LSAN_OPTIONS="suppressions=$here/../../resources/sanitizers/fuzz.supp:print_suppressions=0"
+export LSAN_OPTIONS
+options="-max_len=65536 -len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -detect_leaks=0"
+failed=""
+for name in "$@"; do
+  corpus="$folder/corpus/$name"
+  findings="$folder/findings/$name"
+  log="$folder/$name.log"
+  mkdir -p "$corpus" "$findings"
+  "$folder/${name}_fuzz" "--seeds=$corpus"
+  # shellcheck disable=SC2086 # One word an option.
+  if "$folder/${name}_fuzz" $options -max_total_time="$seconds" -print_final_stats=1 \
+    -artifact_prefix="$findings/" "$corpus" >"$log" 2>&1; then
+    echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs"
+  else
+    echo "$name: FAILED: $(grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log" || tail -n 1 "$log"); see $log"
+    failed="$failed $name"
+  fi
+done
+[ -z "$failed" ]

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+
+#include <filesystem>
+#include <string>
+
+namespace episcope::fuzz {
+
+/// A tiny light field with truth, labels and scribbles: 3×3 views of 6×8 px.
+[[nodiscard]] const Scene& seed_scene();
+
+/// It by the writer of this id ("archive", "npz"); a folder, or a file of this name.
+void write_seed(const std::string& writer, const std::filesystem::path& path);
+
+/// Opens a light field with and without truth, after a look at its headers.
+void open_light_field(const std::filesystem::path& path);
+
+}  // namespace episcope::fuzz
