@@ -2,11 +2,12 @@
 #include "app/session/project/project_file.h"
 
 #include "annotation/document/label_set.h"
+#include "app/session/project/own_folders.h"
 #include "app/session/run/result_source.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
-#include "engine/io/durable/system_error.h"
+#include "engine/io/json/bounded_json.h"
 #include "engine/io/maps/parameter_json.h"
 #include "engine/io/maps/result_file.h"
 
@@ -16,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <set>
 #include <span>
 
@@ -35,6 +35,14 @@ Json interval_json(Interval interval) {
 
 Interval interval_of(const Json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>()};
+}
+
+ViewIndex view_of(const Json& json) {
+  return {io::int_of(json.at(0)), io::int_of(json.at(1))};
+}
+
+PixelIndex pixel_of(const Json& json) {
+  return {io::int_of(json.at(0)), io::int_of(json.at(1))};
 }
 
 constexpr std::array<const char*, 4> kCompareModes{"single", "wipe", "sides", "tiles"};
@@ -75,11 +83,9 @@ Measurements measured_of(const Json& json) {
     measured.list.push_back(
         {each.at("name"),
          each.at("along") == kAlongRow ? EpiDirection::Horizontal : EpiDirection::Vertical,
-         {each.at("view").at(0), each.at("view").at(1)},
-         {each.at("pixel").at(0), each.at("pixel").at(1)},
-         each.at("disparity_px")});
+         view_of(each.at("view")), pixel_of(each.at("pixel")), each.at("disparity_px")});
   }
-  measured.current = json.at("current");
+  measured.current = io::int_of(json.at("current"));
   return measured;
 }
 
@@ -107,15 +113,18 @@ Json place_json(const ScenePlace& place) {
 }
 
 std::set<std::int32_t> label_ids(const Json& json) {
-  std::set<std::int32_t> ids = json;
-  std::erase_if(ids, [](std::int32_t id) { return id < 1 || id > LabelSet::kMaxId; });
+  std::set<std::int32_t> ids;
+  for (const Json& each : json) {
+    const int id = io::int_of(each);
+    if (id >= 1 && id <= LabelSet::kMaxId) ids.insert(id);
+  }
   return ids;
 }
 
 ScenePlace place_of(const Json& json) {
   ScenePlace place;
-  place.view = {json.at("view").at(0).get<int>(), json.at("view").at(1).get<int>()};
-  place.cross_hair = {json.at("pixel").at(0).get<int>(), json.at("pixel").at(1).get<int>()};
+  place.view = view_of(json.at("view"));
+  place.cross_hair = pixel_of(json.at("pixel"));
   place.focus_px = json.at("focus_px").get<double>();
   if (const auto* shown = render::find_quantity(json.value("quantity", ""))) {
     place.quantity = shown->quantity;
@@ -232,17 +241,37 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
 
 Project project_of(const Json& json, const fs::path& path) {
   if (json.at("format") != kFormat) throw IoError(path, "is no project of Episcope");
-  if (json.at("version").get<int>() > kVersion) {
+  if (io::int_of(json.at("version")) > kVersion) {
     throw IoError(path, "was written by a newer Episcope; open it with that one");
   }
   Project project;
   for (const Json& each : json.at("scenes")) {
     project.scenes.push_back(scene_of(each, fs::absolute(path)));
   }
-  project.current = json.at("current");
+  project.current = static_cast<std::size_t>(std::max(0, io::int_of(json.at("current"))));
   project.bad_threshold_px = json.at("bad_threshold_px");
   project.saved_as = json.value("saved_as", "");
   return project;
+}
+
+IoError damaged(const fs::path& path, const std::exception& error) {
+  return {path, std::string("is no whole project file (") + error.what() +
+                    "); open another, or restore it from a copy"};
+}
+
+void require_files_beside(const Project& project, const fs::path& path) {
+  const OwnFolders own(path);
+  const auto require = [&](const fs::path& file) {
+    if (file.empty() || own.contain(file)) return;
+    throw IoError(path, "names " + file.string() +
+                            ", which is not in the folder of the project; move it there, or open "
+                            "it by itself");
+  };
+  for (const ProjectScene& scene : project.scenes) {
+    require(scene.strokes);
+    require(scene.labels.file);
+    for (const ProjectResult& result : scene.results) require(result.file);
+  }
 }
 
 }  // namespace
@@ -265,14 +294,15 @@ void write_project(const fs::path& path, const Project& project) {
   io::write_atomically(path, text);
 }
 
-Project read_project(const fs::path& path) {
-  io::require_readable_file(path);
-  std::ifstream file(path);
+Project read_project(const fs::path& path, ProjectFiles files) {
   try {
-    return project_of(Json::parse(file), path);
+    Project project = project_of(io::read_json<Json>(path), path);
+    if (files == ProjectFiles::Beside) require_files_beside(project, path);
+    return project;
   } catch (const Json::exception& error) {
-    throw IoError(path, std::string("is no whole project file (") + error.what() +
-                            "); open another, or restore it from a copy");
+    throw damaged(path, error);
+  } catch (const InvalidInput& error) {
+    throw damaged(path, error);
   }
 }
 

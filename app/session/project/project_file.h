@@ -19,8 +19,17 @@ inline constexpr const char* kProjectSuffix = ".episcope";
 /// IoError.
 void write_project(const std::filesystem::path& path, const Project& project);
 
+/// Where results, strokes and labels of a project may be.
+enum class ProjectFiles {
+  Beside,   ///< Below the folder of the project: a project of the user's.
+  Anywhere  ///< A workspace, which names those of the project that it goes on from.
+};
+
 /// Reads a project file; paths come back absolute. Whether the files are there is not looked at.
-/// Throws IoError with one sentence.
-[[nodiscard]] Project read_project(const std::filesystem::path& path);
+/// Light fields and meshes may be anywhere; other files are copied when the project is saved, so
+/// one that came from somewhere must not name those of the reader. Throws IoError with one
+/// sentence, also for a file that is not where `files` says.
+[[nodiscard]] Project read_project(const std::filesystem::path& path,
+                                   ProjectFiles files = ProjectFiles::Beside);
 
 }  // namespace episcope

@@ -59,7 +59,8 @@ std::vector<LeftWorkspace> left_workspaces(const fs::path& root) {
     if (!entry.is_directory(ignored) || io::is_held(folder / kLock)) continue;
     const fs::path file = project_in(folder);
     try {
-      left.push_back({folder, read_project(file), fs::last_write_time(file, ignored)});
+      left.push_back(
+          {folder, read_project(file, ProjectFiles::Anywhere), fs::last_write_time(file, ignored)});
     } catch (const IoError&) {
       // Killed before anything was in it, or not to be read: nothing can be offered.
     }

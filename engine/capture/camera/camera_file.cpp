@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/camera/camera_file.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
 
@@ -39,8 +40,8 @@ LensCamera parse(const std::filesystem::path& path, const std::string& text) {
   const cv::Mat matrix = matrix_of(file, "camera_matrix");
   const cv::Mat distortion = matrix_of(file, "distortion_coefficients");
   LensCamera camera;
-  camera.width = static_cast<int>(file["image_width"].real());
-  camera.height = static_cast<int>(file["image_height"].real());
+  camera.width = whole_int(file["image_width"].real()).value_or(0);
+  camera.height = whole_int(file["image_height"].real()).value_or(0);
   if (matrix.size() == cv::Size(3, 3)) {
     camera.focal_x = matrix.at<double>(0, 0);
     camera.focal_y = matrix.at<double>(1, 1);

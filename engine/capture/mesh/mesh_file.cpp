@@ -6,6 +6,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/atomic_file.h"
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -28,6 +29,21 @@ class StopHandler : public Assimp::ProgressHandler {
 
  private:
   Progress progress_;
+};
+
+/// Opens nothing but the mesh: files that it names, its materials, may be anywhere.
+class MeshAlone : public Assimp::DefaultIOSystem {
+ public:
+  explicit MeshAlone(std::string file) : file_(std::move(file)) {}
+  bool Exists(const char* file) const override {
+    return file == file_ && DefaultIOSystem::Exists(file);
+  }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return file == file_ ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string file_;
 };
 
 void require_readable(const std::filesystem::path& path) {
@@ -120,7 +136,8 @@ TriangleMesh read_mesh(const std::filesystem::path& path, const Progress& progre
   progress.check();
   if (suffix_of(path) == ".ply") require_whole_ply(path);
   Assimp::Importer importer;
-  importer.SetProgressHandler(new StopHandler(progress));  // owned by the importer
+  importer.SetIOHandler(new MeshAlone(path.string()));     // owned by the importer
+  importer.SetProgressHandler(new StopHandler(progress));  // likewise
   const aiScene* scene = nullptr;
   try {
     scene = importer.ReadFile(path.string(), 0);

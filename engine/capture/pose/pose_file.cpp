@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/json/bounded_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,12 @@ bool is_rotation(const std::array<double, 9>& r) {
   return turn > 0;
 }
 
+IoError no_pose(const std::filesystem::path& path) {
+  return {path,
+          "this is no pose: mesh, rotation (9 numbers) and translation (3) are expected; "
+          "make one with episcope-cli pose"};
+}
+
 }  // namespace
 
 std::string pose_json(const PoseStory& story, const std::filesystem::path& path) {
@@ -79,19 +86,20 @@ void write_pose(const std::filesystem::path& path, const PoseStory& story) {
 }
 
 PoseStory read_pose(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  if (!file) throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
+  if (!std::ifstream(path)) {
+    throw IoError(path, "this file cannot be read; make one with episcope-cli pose");
+  }
   PoseStory story;
   try {
-    const Json json = Json::parse(file);
+    const auto json = io::read_json<Json>(path);
     story.mesh = json.at("mesh").get<std::string>();
     json.at("rotation").get_to(story.solved.pose.rotation);
     json.at("translation").get_to(story.solved.pose.translation);
     story.light_field = json.value("light_field", "");
   } catch (const Json::exception&) {
-    throw IoError(path,
-                  "this is no pose: mesh, rotation (9 numbers) and translation (3) are expected; "
-                  "make one with episcope-cli pose");
+    throw no_pose(path);
+  } catch (const InvalidInput&) {
+    throw no_pose(path);
   }
   if (!is_rotation(story.solved.pose.rotation)) {
     throw IoError(path,

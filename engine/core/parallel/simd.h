@@ -51,6 +51,19 @@ typedef float LooseVec __attribute__((vector_size(EPISCOPE_VECTOR_BYTES), aligne
   return mask ? yes : no;
 }
 
+/// Lanes of two vectors by their numbers; those of `b` follow those of `a`.
+[[maybe_unused]] inline Vec shuffled(Vec a, Vec b, IntVec lanes) {
+#ifdef __clang__
+  Vec taken;
+  for (int i = 0; i < kLanes; ++i) {
+    taken[i] = lanes[i] < kLanes ? a[lanes[i]] : b[lanes[i] - kLanes];
+  }
+  return taken;
+#else
+  return __builtin_shuffle(a, b, lanes);
+#endif
+}
+
 template <class V>
 inline V least(V a, V b) {
   return a < b ? a : b;

@@ -55,7 +55,13 @@ struct Pack {
     for (auto& p : part) p = value - Register<T>{};
   }
   T operator[](int lane) const { return part[lane / kPartLanes][lane % kPartLanes]; }
-  T& operator[](int lane) { return part[lane / kPartLanes][lane % kPartLanes]; }
+  T& operator[](int lane) {
+#ifdef __clang__  // knows no reference to a lane; its vectors alias their lanes
+    return reinterpret_cast<T*>(part)[lane];
+#else
+    return part[lane / kPartLanes][lane % kPartLanes];
+#endif
+  }
 
   EPISCOPE_PACK_OPERATOR(Pack, +)
   EPISCOPE_PACK_OPERATOR(Pack, -)

@@ -37,7 +37,7 @@ inline Vec lowest(Vec value) {
   for (int step = kLanes / 2; step > 0; step /= 2) {
     IntVec turned;
     for (int i = 0; i < kLanes; ++i) turned[i] = (i + step) % kLanes;
-    value = least(value, __builtin_shuffle(value, turned));
+    value = least(value, shuffled(value, value, turned));
   }
   return value;
 }

@@ -46,7 +46,9 @@ std::map<std::string, Image<std::uint8_t>> read_regions(const Hdf5Input& file,
   const Hdf5Shape expected{static_cast<std::size_t>(shape.height),
                            static_cast<std::size_t>(shape.width)};
   for (const Hdf5Dataset& dataset : file.datasets()) {
-    if (!dataset.name.starts_with(kRegionPrefix)) continue;
+    if (!dataset.name.starts_with(kRegionPrefix) || dataset.name.find('/') != std::string::npos) {
+      continue;  // files are named by regions
+    }
     if (dataset.shape != expected) {
       throw IoError(file.path(),
                     fmt::format("the dataset {} has the shape {}, but {} is expected; "

@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_labels.h"
 
 #include "engine/io/labels/label_list.h"
+#include "engine/io/labels/raise_label.h"
 #include "engine/io/labels/scribble_dataset.h"
 
 #include <algorithm>
@@ -32,8 +33,7 @@ ArchiveLabels read_archive_labels(const Hdf5Input& file, const FieldShape& shape
   found.scribbles = std::move(stored.scribbles);
   if (!stored.raises_labels) return found;
   report.raised_labels = true;
-  std::for_each(found.labels.data(), found.labels.data() + found.labels.size(),
-                [](std::int32_t& label) { ++label; });
+  std::for_each(found.labels.data(), found.labels.data() + found.labels.size(), raise_label);
   report.warnings.push_back(
       "Labels start at 0 in this file and unpainted pixels are marked by another value: all labels "
       "are raised by one, so that 0 means unpainted.");

@@ -2,6 +2,7 @@
 #include "engine/io/arrays/npy_file.h"
 
 #include "engine/core/array/transposed.h"
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/system_error.h"
@@ -111,7 +112,7 @@ Image<std::int32_t> read_label_map(const ArrayInput& array, bool is_transposed) 
   if (!is_float(array.type())) return read_image<std::int32_t>(array, is_transposed);
   const Image<float> numbers = read_image<float>(array, is_transposed);
   if (!std::all_of(numbers.begin(), numbers.end(),
-                   [](float number) { return number == std::trunc(number); })) {
+                   [](float number) { return whole_int(number).has_value(); })) {
     throw IoError(array.path(),
                   "labels are expected to be whole numbers, but the array holds fractions; save "
                   "labels as integers");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/benchmark/benchmark_views.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/io/benchmark/benchmark_names.h"
 #include "engine/io/grid/image_grid_probe.h"
@@ -53,13 +54,13 @@ ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile
   if (given) {
     grid = *given;
   } else if (columns && rows) {
-    grid = {static_cast<int>(*rows), static_cast<int>(*columns)};
+    grid = {whole_int(*rows).value_or(0), whole_int(*columns).value_or(0)};
     if (grid.v < 1 || grid.u < 1 || grid.v > 1000 || grid.u > 1000) {
       throw IoError(
           folder / kBenchmarkConfig,
           fmt::format(
               "num_cams_x and num_cams_y are {} and {}, which is not possible; correct this file",
-              grid.u, grid.v));
+              *columns, *rows));
     }
   } else {
     grid = square_grid(folder, count);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/beside/map_file.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/npy_file.h"
@@ -129,12 +130,10 @@ StoredLabels read_hdf5_labels(const fs::path& path, GridShape grid) {
 }
 
 std::int32_t packed_level(float value, const fs::path& path) {
-  if (value != std::trunc(value)) {
-    throw IoError(path,
-                  "labels are expected to be whole numbers, but the image holds fractions; save "
-                  "labels as integers");
-  }
-  return static_cast<std::int32_t>(value);
+  if (const auto level = whole_int(value)) return *level;
+  throw IoError(path,
+                "labels are expected to be whole numbers, but the image holds fractions; save "
+                "labels as integers");
 }
 
 template <class T>

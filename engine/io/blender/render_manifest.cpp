@@ -2,6 +2,7 @@
 #include "engine/io/blender/render_manifest.h"
 
 #include "engine/core/error.h"
+#include "engine/io/json/bounded_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -72,7 +73,7 @@ CameraGrid read_camera(const Json& json, int width) {
 std::vector<LabelInfo> read_labels(const Json& json) {
   std::map<int, LabelInfo> labels;
   for (const Json& label : json) {
-    const int id = label.at("value").get<int>();
+    const int id = int_of(label.at("value"));
     auto name = label.at("name").get<std::string>();
     std::ranges::replace_if(
         name, [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -86,14 +87,14 @@ std::vector<LabelInfo> read_labels(const Json& json) {
 RenderManifest parse(const fs::path& folder, const Json& json) {
   RenderManifest manifest;
   manifest.folder = folder;
-  if (json.at("version").get<int>() > kVersion) {
+  if (int_of(json.at("version")) > kVersion) {
     throw IoError(folder / kRenderManifest,
                   "the manifest was written by a newer add-on; use a newer version of Episcope");
   }
   manifest.blender = json.value("blender", "");
-  manifest.grid = {json.at("grid").at("rows").get<int>(), json.at("grid").at("columns").get<int>()};
-  manifest.width = json.at("size").at("width").get<int>();
-  manifest.height = json.at("size").at("height").get<int>();
+  manifest.grid = {int_of(json.at("grid").at("rows")), int_of(json.at("grid").at("columns"))};
+  manifest.width = int_of(json.at("size").at("width"));
+  manifest.height = int_of(json.at("size").at("height"));
   manifest.camera = read_camera(json.at("camera"), manifest.width);
   if (const auto range = json.find("disparity_range"); range != json.end()) {
     const Interval stated{range->at(0).get<double>(), range->at(1).get<double>()};
@@ -102,7 +103,7 @@ RenderManifest parse(const fs::path& folder, const Json& json) {
   manifest.files = json.at("files").get<std::map<std::string, std::string>>();
   if (json.contains("labels")) manifest.labels = read_labels(json.at("labels"));
   for (const Json& view : json.at("complete")) {
-    manifest.complete.push_back({view.at(0).get<int>(), view.at(1).get<int>()});
+    manifest.complete.push_back({int_of(view.at(0)), int_of(view.at(1))});
   }
   return manifest;
 }
@@ -126,10 +127,8 @@ bool has_render_manifest(const fs::path& folder) {
 
 RenderManifest read_render_manifest(const fs::path& folder) {
   const fs::path path = folder / kRenderManifest;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw IoError(path, "it cannot be read; check its permissions");
   try {
-    RenderManifest manifest = parse(folder, Json::parse(file));
+    RenderManifest manifest = parse(folder, read_json<Json>(path));
     require_fields(path, manifest.files);
     require_sizes(path, manifest);
     return manifest;

@@ -5,12 +5,12 @@
 #include "engine/core/hash/fnv1a.h"
 #include "engine/core/version.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/json/bounded_json.h"
 #include "engine/io/open/reader.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 #include <span>
 #include <utility>
 
@@ -21,7 +21,6 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 
 constexpr int kForm = 2;
-constexpr std::uintmax_t kLargestFile = 64 << 20;
 
 /// Other readers may find other light fields.
 std::string key_of_program() {
@@ -64,15 +63,15 @@ ResultBeside result_from(const Json& json) {
 }
 
 SceneProbe probe_from(const Json& json) {
-  SceneProbe probe{.grid = {json.at("grid").at(0).get<int>(), json.at("grid").at(1).get<int>()},
-                   .height = json.at("size").at(0).get<int>(),
-                   .width = json.at("size").at(1).get<int>(),
-                   .channels = json.at("size").at(2).get<int>(),
+  SceneProbe probe{.grid = {int_of(json.at("grid").at(0)), int_of(json.at("grid").at(1))},
+                   .height = int_of(json.at("size").at(0)),
+                   .width = int_of(json.at("size").at(1)),
+                   .channels = int_of(json.at("size").at(2)),
                    .truth = json.at("truth").get<std::string>(),
                    .labels = json.at("labels").get<std::string>(),
-                   .list = json.at("list").get<int>(),
-                   .frames = json.at("frames").get<int>()};
-  const int type = json.at("type").get<int>();
+                   .list = int_of(json.at("list")),
+                   .frames = int_of(json.at("frames"))};
+  const int type = int_of(json.at("type"));
   constexpr int last = static_cast<int>(SampleType::Float32);
   if (type >= 0 && type <= last) probe.sample_type = static_cast<SampleType>(type);
   return probe;
@@ -119,17 +118,18 @@ bool is_utf8(const Json& json) {
 
 CollectionCache::CollectionCache(fs::path file) : file_(std::move(file)) {
   std::error_code error;
-  if (file_.empty() || fs::file_size(file_, error) > kLargestFile || error) return;
+  if (file_.empty() || !fs::exists(file_, error)) return;
   try {
     read();
   } catch (const Json::exception&) {
     old_.clear();  // damaged
+  } catch (const Error&) {
+    old_.clear();  // too large or too deep
   }
 }
 
 void CollectionCache::read() {
-  std::ifstream in(file_);
-  const Json json = Json::parse(in);
+  const Json json = read_json<Json>(file_);
   if (json.at("program") != key_of_program()) return;
   for (const auto& [folder, kept] : json.at("folders").items()) {
     old_[folder] = {kept.at("fingerprint").get<std::uint64_t>(), record_from(kept.at("record"))};
@@ -158,7 +158,7 @@ void CollectionCache::save() const {
   const std::string text = json.dump();
   std::error_code error;
   fs::create_directories(file_.parent_path(), error);
-  if (error || text.size() > kLargestFile) return;
+  if (error || text.size() > kLargestJson) return;
   try {
     write_atomically(file_, text);
   } catch (const IoError&) {

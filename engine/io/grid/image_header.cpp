@@ -88,9 +88,10 @@ ImageHeader jpeg_header(Bytes& file) {
 
 ImageHeader bmp_header(Bytes& file) {
   const bool has_palette = file.number(28, 2, true) <= 8;  // which may be grey or not
-  const auto height = static_cast<std::int32_t>(file.number(22, 4, true));
-  return {length(static_cast<std::uint32_t>(height < 0 ? -height : height)),
-          length(file.number(18, 4, true)), has_palette ? 0 : 3, SampleType::UInt8};
+  const std::uint32_t height = file.number(22, 4, true);   // negative where it is from the top
+  constexpr std::uint32_t sign = 1U << 31;
+  return {length((height & sign) != 0 ? ~height + 1 : height), length(file.number(18, 4, true)),
+          has_palette ? 0 : 3, SampleType::UInt8};
 }
 
 ImageHeader pnm_header(Bytes& file, int channels) {

@@ -32,7 +32,8 @@ double claimed_bytes(hid_t dataset) {
   std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(rank, 0)));
   if (rank > 0) H5Sget_simple_extent_dims(space, extent.data(), nullptr);
   auto bytes = static_cast<double>(H5Tget_size(type));
-  for (const hsize_t length : extent) bytes *= static_cast<double>(length);
+  // One that is empty along an axis must not claim too much along the others, either.
+  for (const hsize_t length : extent) bytes *= static_cast<double>(std::max<hsize_t>(length, 1));
   return bytes;
 }
 
@@ -56,6 +57,19 @@ std::string missing_filter(hid_t creation) {
 
 bool fits_file(const std::filesystem::path& path, double bytes) {
   return bytes <= file_bytes(path);
+}
+
+bool holds_own_samples(hid_t dataset) {
+  const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation) <= 0 && H5Pget_layout(creation) != H5D_VIRTUAL;
+}
+
+void require_own_samples(const std::filesystem::path& path, const std::string& name,
+                         hid_t dataset) {
+  if (holds_own_samples(dataset)) return;
+  throw IoError(path, "the samples of the dataset " + name +
+                          " are in other files, which are not read; store them in this file, for "
+                          "example by h5repack");
 }
 
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,

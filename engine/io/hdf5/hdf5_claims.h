@@ -16,6 +16,12 @@ namespace episcope::io {
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset);
 
+/// Whether the samples of a dataset are in its file: not in raw files that it names, nor in
+/// datasets of other files that it is made of. Such a file could name any file of the user's.
+[[nodiscard]] bool holds_own_samples(hid_t dataset);
+/// Throws IoError if it does not.
+void require_own_samples(const std::filesystem::path& path, const std::string& name, hid_t dataset);
+
 /// Whether `bytes` of an attribute or text are no more than the file holds.
 [[nodiscard]] bool fits_file(const std::filesystem::path& path, double bytes);
 

@@ -67,11 +67,12 @@ std::size_t chunk_cache_bytes(hid_t dataset) {
   return std::min(bytes, kChunkCacheLimit);
 }
 
-hid_t open_with_cache(hid_t file, const std::string& name) {
+hid_t open_with_cache(const std::filesystem::path& path, hid_t file, const std::string& name) {
   std::size_t bytes = 0;
   {
     Hdf5Handle plain(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (!plain.ok()) return -1;
+    require_own_samples(path, name, plain);
     bytes = chunk_cache_bytes(plain);
     if (bytes == 0) return plain.release();
   }
@@ -79,6 +80,12 @@ hid_t open_with_cache(hid_t file, const std::string& name) {
   const Hdf5Handle access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
   H5Pset_chunk_cache(access, 100003, bytes, 1.0);
   return H5Dopen2(file, name.c_str(), access);
+}
+
+/// A file must not name others that are read in its stead, wherever they are.
+void follow_no_external_links() {
+  static const herr_t is_set = H5Lunregister(H5L_TYPE_EXTERNAL);
+  static_cast<void>(is_set);
 }
 
 struct Listing {
@@ -126,11 +133,18 @@ hid_t open_attribute(hid_t file, const std::string& object, const std::string& n
   return H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
 }
 
-bool path_exists(hid_t file, const std::string& name) {
+bool path_exists(const std::filesystem::path& path, hid_t file, const std::string& name) {
   if (name == "/") return true;
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
     if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
+    H5L_info_t info;
+    if (H5Lget_info(file, part.c_str(), &info, H5P_DEFAULT) >= 0 &&
+        info.type == H5L_TYPE_EXTERNAL) {
+      throw IoError(path, part +
+                              " is a link to another file, which is not followed; store the "
+                              "samples in this file");
+    }
     if (end == std::string::npos) return true;
   }
 }
@@ -169,6 +183,7 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
     throw IoError(path, "this is not an HDF5 file, despite its name; choose another file");
   }
   const Hdf5Lock session;
+  follow_no_external_links();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -188,7 +203,7 @@ Hdf5Input::~Hdf5Input() {
 
 bool Hdf5Input::has(const std::string& name) const {
   const Hdf5Lock session;
-  return path_exists(file_, name);
+  return path_exists(path_, file_, name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
@@ -198,7 +213,7 @@ std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   std::vector<Hdf5Dataset> found;
   for (const std::string& name : names) {
     const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    if (dataset.ok()) found.push_back(describe(dataset, name));
+    if (dataset.ok() && holds_own_samples(dataset)) found.push_back(describe(dataset, name));
   }
   return found;
 }
@@ -225,7 +240,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advic
 std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
-  const hid_t id = open_with_cache(file_, name);
+  const hid_t id = open_with_cache(path_, file_, name);
   if (id < 0) {
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");

@@ -44,7 +44,8 @@ struct Hdf5Block {
 [[nodiscard]] bool has_hdf5_signature(const std::filesystem::path& path);
 
 /// An HDF5 file open for reading, without file locks. Objects are named by their path in the file;
-/// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero).
+/// "/" is the root. Element types are converted by HDF5 (clipped, rounded towards zero). Links to
+/// other files and samples in them are not followed: `has` and `read` throw IoError.
 class Hdf5Input {
  public:
   /// Throws IoError that tells a missing file, another kind of file and a damaged one apart.

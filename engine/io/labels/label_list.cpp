@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/labels/label_list.h"
 
+#include "engine/core/array/whole_int.h"
+
 #include <algorithm>
 #include <sstream>
 
@@ -19,11 +21,12 @@ std::vector<LabelInfo> read_label_list(const Hdf5Input& file, const std::string&
   std::vector<LabelInfo> labels;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     LabelInfo label;
-    label.id = static_cast<int>(ids[i]);
-    if (!std::getline(names, label.name)) return {};
+    const auto id = whole_int(ids[i]);
+    if (!id || !std::getline(names, label.name)) return {};
+    label.id = *id;
     for (std::size_t c = 0; c < kColorChannels; ++c) {
-      label.color[c] =
-          static_cast<std::uint8_t>(std::clamp(colors[i * kColorChannels + c], 0., 255.));
+      const int level = whole_int(colors[i * kColorChannels + c]).value_or(0);
+      label.color[c] = static_cast<std::uint8_t>(std::clamp(level, 0, 255));
     }
     labels.push_back(std::move(label));
   }

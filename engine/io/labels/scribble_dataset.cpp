@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/labels/scribble_dataset.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/labels/label_list.h"
+#include "engine/io/labels/raise_label.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +49,7 @@ bool is_painted(const Image<std::int32_t>& labels) {
 ViewIndex stated_view(const Hdf5Input& file, const FieldShape& shape, ViewIndex otherwise) {
   const std::vector<double> stated = file.numbers("/", "scribble_view");
   if (stated.size() != 2) return otherwise;
-  const ViewIndex view{static_cast<int>(stated[0]), static_cast<int>(stated[1])};
+  const ViewIndex view{whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
   if (!shape.grid.contains(view)) {
     throw IoError(file.path(), fmt::format("the attribute scribble_view names view ({}, {}), which "
                                            "the light field does not have; correct it",
@@ -81,7 +83,7 @@ bool decode(std::vector<ViewScribbles>& views, bool has_label_zero) {
       if (is_none(label)) {
         label = 0;
       } else if (is_zero_a_label) {
-        ++label;
+        raise_label(label);
       }
     }
   }
@@ -96,7 +98,7 @@ StoredScribbles read_scribble_dataset(const Hdf5Input& file, const FieldShape& s
   std::vector<ViewScribbles>& views = stored.scribbles.views;
   views = read_views(file, shape, progress);
   if (const auto unpainted = file.number(kName, "unpainted")) {
-    const auto none = static_cast<std::int32_t>(*unpainted);
+    const std::int32_t none = whole_int(*unpainted).value_or(0);
     for (ViewScribbles& one : views) std::ranges::replace(one.labels, none, 0);
     stored.raises_labels = file.number(kName, "raises_labels").value_or(0) != 0;
   } else {

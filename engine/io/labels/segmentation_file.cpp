@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/labels/segmentation_file.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/core/version.h"
 #include "engine/io/hdf5/hdf5_file.h"
@@ -9,11 +10,14 @@
 #include "engine/io/maps/result_file.h"
 #include "engine/io/maps/stored_reading.h"
 
+#include <algorithm>
+
 namespace episcope::io {
 namespace {
 
 constexpr const char* kLabels = "LABELS";
 constexpr const char* kProbabilities = "Probabilities";
+constexpr int kLongestSide = 1 << 15;  ///< In views or px: the number of views is an int.
 
 std::size_t label_count(const StoredSegmentation& labeling) {
   return labeling.infos.size();
@@ -98,6 +102,23 @@ struct SegmentationFile::State {
   [[nodiscard]] ViewIndex place(ViewIndex view) const {
     return {view.v - first.v, view.u - first.u};
   }
+
+  void require_sides() const {
+    const bool is_sound = std::ranges::all_of(
+        shape, [](std::size_t side) { return side > 0 && side <= kLongestSide; });
+    if (is_sound) return;
+    throw IoError(file.path(), "the dataset LABELS has the shape " + shape_text(shape) +
+                                   ", but sides of 1 to " + std::to_string(kLongestSide) +
+                                   " are expected; write it again");
+  }
+  void read_first() {
+    const std::vector<double> stated = file.numbers(kLabels, "first_view");
+    if (stated.size() != 2) return;
+    first = {whole_int(stated[0]).value_or(-1), whole_int(stated[1]).value_or(-1)};
+    constexpr int last = kLongestSide;
+    if (first.v >= 0 && first.v <= last && first.u >= 0 && first.u <= last) return;
+    throw IoError(file.path(), "the attribute first_view of LABELS names no view; write it again");
+  }
 };
 
 SegmentationFile::SegmentationFile(const std::filesystem::path& path)
@@ -108,11 +129,11 @@ SegmentationFile::SegmentationFile(const std::filesystem::path& path)
     throw IoError(path, "the dataset LABELS has the shape " + shape_text(state.shape) +
                             ", but 2 or 4 axes are expected; write it again");
   }
+  state.require_sides();
   if (state.has_views()) {
     state.grid = {static_cast<int>(state.shape[0]), static_cast<int>(state.shape[1])};
   }
-  const std::vector<double> first = state.file.numbers(kLabels, "first_view");
-  if (first.size() == 2) state.first = {static_cast<int>(first[0]), static_cast<int>(first[1])};
+  state.read_first();
   state.infos = read_label_list(state.file, kLabels);
 }
 

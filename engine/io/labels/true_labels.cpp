@@ -4,6 +4,7 @@
 #include "engine/core/light_field/shear.h"
 #include "engine/io/archive/archive_maps.h"
 #include "engine/io/labels/label_list.h"
+#include "engine/io/labels/raise_label.h"
 #include "engine/io/open/view_crop.h"
 #include "engine/io/order/view_order.h"
 
@@ -20,8 +21,7 @@ ViewStack<std::int32_t> read_true_labels(const std::filesystem::path& path, cons
                          field.width()};
   auto labels = read_maps<std::int32_t>(file, kTrueLabels, shape, progress);
   if (scene.convention.raised_labels) {
-    std::for_each(labels.data(), labels.data() + labels.size(),
-                  [](std::int32_t& label) { ++label; });
+    std::for_each(labels.data(), labels.data() + labels.size(), raise_label);
   }
   reverse_views(labels, shape.grid, flip_of(scene.convention));
   if (crop.leaves_out()) labels = cropped(std::move(labels), crop);

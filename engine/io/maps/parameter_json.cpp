@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/maps/parameter_json.h"
 
+#include "engine/core/error.h"
+#include "engine/io/json/bounded_json.h"
 #include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
@@ -42,6 +44,17 @@ ParameterValue from_json(const Json& value) {
   return value.dump();
 }
 
+/// Null for what is no JSON.
+Json parsed(const std::string& text) {
+  try {
+    return parse_json<Json>(text);
+  } catch (const Json::exception&) {
+    return {};
+  } catch (const InvalidInput&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::string parameters_to_json(const ParameterSet& parameters) {
@@ -51,7 +64,7 @@ std::string parameters_to_json(const ParameterSet& parameters) {
 }
 
 ParameterSet parameters_from_json(const std::string& json) {
-  const Json object = Json::parse(json, nullptr, false);
+  const Json object = parsed(json);
   ParameterSet parameters;
   if (!object.is_object()) return parameters;
   for (const auto& [key, value] : object.items()) parameters.emplace_back(key, from_json(value));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/maps/result_file.h"
 
+#include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/core/hash/fnv1a.h"
 #include "engine/core/version.h"
@@ -107,7 +108,7 @@ class ResultReader {
  private:
   [[nodiscard]] ViewIndex first_view(bool is_single) const {
     const std::vector<double> view = file_.numbers(kGroup, is_single ? "view" : "first_view");
-    if (view.size() == 2) return {static_cast<int>(view[0]), static_cast<int>(view[1])};
+    if (view.size() == 2) return {whole_int(view[0]).value_or(-1), whole_int(view[1]).value_or(-1)};
     return is_single ? grid_.center() : ViewIndex{};
   }
 
@@ -123,10 +124,10 @@ class ResultReader {
     }
     const auto length = [&](std::size_t axis) { return static_cast<int>(map.shape[axis]); };
     const GridShape views = rank == 2 ? GridShape{1, 1} : GridShape{length(0), length(1)};
-    const ViewIndex first = first_view(views.count() == 1);
-    const ViewIndex last{first.v + views.v - 1, first.u + views.u - 1};
-    if (!grid_.contains(first) || !grid_.contains(last) || length(rank - 2) < 1 ||
-        length(rank - 1) < 1) {
+    const ViewIndex first = first_view(views == GridShape{1, 1});
+    const bool fits = views.v > 0 && views.u > 0 && grid_.contains(first) &&
+                      views.v <= grid_.v - first.v && views.u <= grid_.u - first.u;
+    if (!fits || length(rank - 2) < 1 || length(rank - 1) < 1) {
       throw IoError(file_.path(),
                     fmt::format("the dataset {} of {} does not fit a light field of {}×{} views; "
                                 "name the light field that it belongs to",
@@ -166,9 +167,9 @@ class ResultReader {
     estimate.source_hash = hash_from_digits(text("source_hash"));
     estimate.reading = reading_in(file_, kGroup);
     estimate.notes = split_lines(text("notes"));
-    constexpr double widest = 1 << 16;
-    estimate.border_px =
-        static_cast<int>(std::clamp(file_.number(kGroup, "border_px").value_or(0), 0.0, widest));
+    constexpr int widest = 1 << 16;
+    const double border_px = file_.number(kGroup, "border_px").value_or(0);
+    estimate.border_px = std::clamp(whole_int(border_px).value_or(0), 0, widest);
     const std::vector<double> range = file_.numbers(kGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
   }

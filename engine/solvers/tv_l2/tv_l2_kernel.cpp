@@ -103,8 +103,8 @@ void restrict_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
       low += residual_at(fine, lower, x);
       high += residual_at(fine, lower, x + kLanes);
     }
-    store(b + x / 2, __builtin_shuffle(low, high, ramp(0, 2)));
-    store(b + x / 2 + coarse.odd, __builtin_shuffle(low, high, ramp(1, 2)));
+    store(b + x / 2, shuffled(low, high, ramp(0, 2)));
+    store(b + x / 2 + coarse.odd, shuffled(low, high, ramp(1, 2)));
   }
 }
 
@@ -127,9 +127,9 @@ void correct_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
       prefetch(u + x + i + (kAhead + 1) * fine.pitch);
     }
     const Halves cells = load_halves(coarse, correction, x / 2);
-    store(u + x, load(u + x) + __builtin_shuffle(cells.even, cells.odd, interleaved(0)));
+    store(u + x, load(u + x) + shuffled(cells.even, cells.odd, interleaved(0)));
     store(u + x + kLanes,
-          load(u + x + kLanes) + __builtin_shuffle(cells.even, cells.odd, interleaved(kLanes / 2)));
+          load(u + x + kLanes) + shuffled(cells.even, cells.odd, interleaved(kLanes / 2)));
   }
 }
 

@@ -28,7 +28,7 @@ namespace {
 
 /// The last lane of `before`, then all but the last of `here`.
 [[maybe_unused]] inline Vec shifted(Vec before, Vec here) {
-  return __builtin_shuffle(before, here, ramp(kLanes - 1, 1));
+  return shuffled(before, here, ramp(kLanes - 1, 1));
 }
 
 /// One value for each of a vector of even pixels and the odd ones to their right.

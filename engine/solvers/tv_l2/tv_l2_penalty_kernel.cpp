@@ -67,8 +67,8 @@ void penalise(const TvL2Level& level, const TvL2Penalty& penalty) {
 
 // Cells of one coarse row, as they follow one another, to its halves.
 inline void store_cells(const TvL2Level& coarse, float* plane, long at, Vec low, Vec high) {
-  store(plane + at, __builtin_shuffle(low, high, ramp(0, 2)));
-  store(plane + at + coarse.odd, __builtin_shuffle(low, high, ramp(1, 2)));
+  store(plane + at, shuffled(low, high, ramp(0, 2)));
+  store(plane + at + coarse.odd, shuffled(low, high, ramp(1, 2)));
 }
 
 void coarsen_penalty(const TvL2Level& fine, const TvL2Level& coarse, float edge_factor) {

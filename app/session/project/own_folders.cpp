@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/session/project/own_folders.h"
+
+#include "app/session/project/stored_project.h"
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_below(const fs::path& file, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
+         folder.end();
+}
+
+}  // namespace
+
+OwnFolders::OwnFolders(const fs::path& project)
+    : folder_(fs::absolute(project).lexically_normal().parent_path()) {
+  std::error_code error;
+  files_ = fs::weakly_canonical(files_of_project(project), error);
+}
+
+bool OwnFolders::contain(const fs::path& file) const {
+  return is_below(file, folder_) || (!files_.empty() && is_below(file, files_));
+}
+
+}  // namespace episcope
