@@ -1,10 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# ./test.sh [--all] [--sanitize] [--packages] [--reproducible]: builds everything and runs every test; one that passed before and
+# ./test.sh [--all] [--sanitize] [--packages] [--reproducible] [--fuzz SECONDS]: builds everything and runs every test; one that passed before and
 # of which nothing has changed since, not a byte, is left out unless --all is given. With --sanitize
 # also under AddressSanitizer, UndefinedBehaviorSanitizer and ThreadSanitizer; with --packages makes
 # packages and tries them in a fresh Debian (as root); with --reproducible builds the command line
-# twice and compares the bytes.
+# twice and compares the bytes; with --fuzz runs each fuzzer of tests/fuzz for SECONDS.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 cd "$here"
@@ -34,6 +34,12 @@ check_preset() {
   fi
 }
 
+# run_fuzzers: builds and runs them.
+run_fuzzers() {
+  cmake --preset fuzz >/dev/null && cmake --build --preset fuzz --target fuzzers || return 1
+  tests/fuzz/run.sh build/fuzz/tests/fuzz "$fuzz"
+}
+
 # note PART COMMAND…: notes a failure of the part and goes on.
 note() {
   part=$1
@@ -47,22 +53,31 @@ all=""
 sanitize=""
 packages=""
 reproducible=""
-for option in "$@"; do
-  case "$option" in
+fuzz=""
+usage() {
+  echo "usage: ./test.sh [--all] [--sanitize] [--packages] [--reproducible] [--fuzz SECONDS]" >&2
+  exit 2
+}
+while [ $# -gt 0 ]; do
+  case "$1" in
     --all) all=1 ;;
     --sanitize) sanitize=1 ;;
     --packages) packages=1 ;;
     --reproducible) reproducible=1 ;;
-    *)
-      echo "usage: ./test.sh [--all] [--sanitize] [--packages] [--reproducible]" >&2
-      exit 2
+    --fuzz)
+      shift
+      fuzz=${1:-}
+      case "$fuzz" in "" | *[!0-9]*) usage ;; esac
       ;;
+    *) usage ;;
   esac
+  shift
 done
 
 started=$(date +%s)
 # shellcheck disable=SC2086 # One word a package.
-install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PACKAGING_PACKAGES}
+install_missing $ENGINE_PACKAGES $WINDOW_PACKAGES $TEST_PACKAGES ${packages:+$PACKAGING_PACKAGES} \
+  ${fuzz:+$FUZZ_PACKAGES}
 # run.sh leaves the tests out of a build that it configures.
 check_preset release -DEPISCOPE_TESTS=ON -DEPISCOPE_BENCH=ON
 check_preset headless -DEPISCOPE_TESTS=ON
@@ -76,6 +91,9 @@ if [ -n "$packages" ]; then
 fi
 if [ -n "$reproducible" ]; then
   note reproducible tests/packaging/reproducible.sh
+fi
+if [ -n "$fuzz" ]; then
+  note fuzz run_fuzzers
 fi
 minutes=$((($(date +%s) - started + 59) / 60))
 

@@ -12,7 +12,7 @@ namespace {
 
 void write_seeds(const std::filesystem::path& folder) {
   write_seed("eslf", folder / "lf_eslf.png");
-  const cv::Mat picture(4, 6, CV_8UC3, cv::Scalar(10, 100, 200));
+  const cv::Mat picture(32, 40, CV_8UC3, cv::Scalar(10, 100, 200));
   for (const char* suffix : {".bmp", ".ppm", ".tif", ".jpg", ".png", ".jp2", ".webp", ".hdr"}) {
     cv::imwrite((folder / ("picture" + std::string(suffix))).string(), picture);
   }

@@ -18,3 +18,13 @@ if "$2" 48 "$work/broken.h5" "$work/none" 2>/dev/null; then
   exit 1
 fi
 [ ! -e "$work/none" ]
+# What a hostile file may take: a program in the place of ours tells its limits.
+mkdir "$work/bin"
+cat >"$work/bin/episcope-cli" <<'END'
+#!/bin/sh
+while [ "$1" != -o ]; do shift; done
+for limit in t v f; do ulimit -$limit; done >"$2"
+END
+chmod +x "$work/bin/episcope-cli"
+PATH="$work/bin:$PATH" "$2" 48 "$work/lf.h5" "$work/limits"
+[ "$(tr '\n' ' ' <"$work/limits")" = "30 8388608 131072 " ] || { cat "$work/limits"; exit 1; }

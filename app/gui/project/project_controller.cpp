@@ -13,6 +13,7 @@
 #include "app/gui/project/autosave.h"
 #include "app/gui/project/restore.h"
 #include "app/session/project/moved_inputs.h"
+#include "app/session/project/own_folders.h"
 #include "app/session/project/project_file.h"
 #include "app/session/project/session_project.h"
 #include "app/session/project/stored_project.h"
@@ -103,6 +104,8 @@ void ProjectController::read(const QString& path) {
         auto read = std::make_shared<ReadProject>();
         read->project = read_project(path.toStdString());
         read_strokes(*read);
+        const OwnFolders own(path.toStdString());
+        for (auto& [place, strokes] : read->strokes) forget_file_elsewhere(strokes.owner, own);
         return read;
       },
       [this, path](const Read& read) {

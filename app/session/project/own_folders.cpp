@@ -24,7 +24,12 @@ OwnFolders::OwnFolders(const fs::path& project)
 }
 
 bool OwnFolders::contain(const fs::path& file) const {
-  return is_below(file, folder_) || (!files_.empty() && is_below(file, files_));
+  const fs::path plain = file.lexically_normal();
+  return is_below(plain, folder_) || (!files_.empty() && is_below(plain, files_));
+}
+
+void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own) {
+  if (!own.contain(owner.file)) owner.file.clear();
 }
 
 }  // namespace episcope

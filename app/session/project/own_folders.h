@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/document/annotation_journal.h"
+
 #include <filesystem>
 
 namespace episcope {
@@ -11,12 +13,16 @@ class OwnFolders {
  public:
   explicit OwnFolders(const std::filesystem::path& project);
 
-  /// `file`: absolute, without dots.
+  /// `file`: absolute.
   [[nodiscard]] bool contain(const std::filesystem::path& file) const;
 
  private:
   std::filesystem::path folder_;
   std::filesystem::path files_;  ///< As it is when links are followed.
 };
+
+/// Where strokes of a project say that labels are saved (JournalOwner::file) would be written to:
+/// empty afterwards if it is not in `own`, so that the user is asked.
+void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own);
 
 }  // namespace episcope

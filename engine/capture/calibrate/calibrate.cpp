@@ -3,6 +3,7 @@
 
 #include "engine/capture/calibrate/sharpness.h"
 #include "engine/core/error.h"
+#include "engine/io/grid/claimed_pixels.h"
 
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
@@ -112,6 +113,7 @@ bool leave_out_misfit(std::vector<PatternPhotograph>& photographs) {
 
 cv::Mat read_grey(const std::filesystem::path& file) {
   cv::Mat grey;
+  io::require_plausible_picture(file);
   try {
     grey = cv::imread(file.string(), cv::IMREAD_GRAYSCALE);
   } catch (const cv::Exception&) {

@@ -72,9 +72,13 @@ class Bounds {
   const std::vector<int>& before(const Part& part) {
     const std::size_t count = near_.size();
     for (std::size_t j = 0; j < count; ++j) {
-      may_hide_[j] = static_cast<char>((near_[j] >= part.far) & (left_[j] < part.box.high.x) &
-                                       (right_[j] > part.box.low.x) & (top_[j] < part.box.high.y) &
-                                       (bottom_[j] > part.box.low.y));
+      // Numbers, so that nothing is skipped: compilers make vectors of it.
+      const int is_near = near_[j] >= part.far;
+      const int is_left = left_[j] < part.box.high.x;
+      const int is_right = right_[j] > part.box.low.x;
+      const int is_above = top_[j] < part.box.high.y;
+      const int is_below = bottom_[j] > part.box.low.y;
+      may_hide_[j] = static_cast<char>(is_near & is_left & is_right & is_above & is_below);
     }
     indices_.clear();
     for (std::size_t j = 0; j < count; ++j) {

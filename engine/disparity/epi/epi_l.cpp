@@ -101,8 +101,10 @@ using ColumnSink = std::function<StructureTensor::Sink(int u)>;
 void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                   const ColumnSink& sink_of, const Progress& progress) {
   const LightField& lf = maps.light_field;
-  const auto [height, width] =
+  const TensorExtent largest =
       StructureTensor::largest_task(lf, StructureTensor::Direction::Vertical, scales);
+  const int height = largest.height;
+  const int width = largest.width;
   const int across = (lf.width() + width - 1) / width;
   const int blocks = across * ((lf.height() + height - 1) / height);
   const ViewIndex first = maps.first();

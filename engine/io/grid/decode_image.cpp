@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/grid/claimed_pixels.h"
 #include "engine/io/grid/decode_png.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,7 @@ cv::Mat read_mat(const std::filesystem::path& path) {
 AnyImage decode_image(const std::filesystem::path& path) {
   require_readable_file(path);
   if (has_png_signature(path)) return decode_png(path);
+  require_plausible_picture(path);
   const cv::Mat decoded = read_mat(path);
   if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);

@@ -84,7 +84,17 @@ hid_t open_with_cache(const std::filesystem::path& path, hid_t file, const std::
 
 /// A file must not name others that are read in its stead, wherever they are.
 void follow_no_external_links() {
-  static const herr_t is_set = H5Lunregister(H5L_TYPE_EXTERNAL);
+  static const H5L_class_t refused = [] {
+    H5L_class_t links{};
+    links.version = H5L_LINK_CLASS_T_VERS;
+    links.id = H5L_TYPE_EXTERNAL;
+    links.comment = "external, not followed";
+    links.trav_func = [](const char*, hid_t, const void*, std::size_t, hid_t, hid_t) -> hid_t {
+      return -1;
+    };
+    return links;
+  }();
+  static const herr_t is_set = H5Lregister(&refused);
   static_cast<void>(is_set);
 }
 
@@ -137,7 +147,6 @@ bool path_exists(const std::filesystem::path& path, hid_t file, const std::strin
   if (name == "/") return true;
   for (std::size_t end = name.find('/', 1);; end = name.find('/', end + 1)) {
     const std::string part = name.substr(0, end);
-    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
     H5L_info_t info;
     if (H5Lget_info(file, part.c_str(), &info, H5P_DEFAULT) >= 0 &&
         info.type == H5L_TYPE_EXTERNAL) {
@@ -145,6 +154,7 @@ bool path_exists(const std::filesystem::path& path, hid_t file, const std::strin
                               " is a link to another file, which is not followed; store the "
                               "samples in this file");
     }
+    if (H5Lexists(file, part.c_str(), H5P_DEFAULT) <= 0) return false;
     if (end == std::string::npos) return true;
   }
 }

@@ -73,8 +73,8 @@ LabelSurfaces::Surface LabelSurfaces::fit(const std::vector<Sample>& samples, do
   std::vector<double> misses(samples.size());
   for (int round = 0; round < kRounds; ++round) {
     solve(samples, weights, ridge_px2, surface);
-    const auto& [at, across, down] = surface.plane;
     std::ranges::transform(samples, misses.begin(), [&](const Sample& s) {
+      const auto& [at, across, down] = surface.plane;
       return std::abs(s.d - at - across * (s.x - surface.x) - down * (s.y - surface.y));
     });
     std::vector<double> sorted = misses;

@@ -6,6 +6,7 @@
 
 #include <QTemporaryDir>
 
+#include <sys/stat.h>
 #include <fstream>
 
 namespace episcope::in_mesh_file_test {
@@ -49,6 +50,16 @@ class MeshFileTest : public QObject {
     const TriangleMesh read = read_mesh(path, Progress(1));
     QVERIFY(read.vertices == mesh.vertices);
     QVERIFY(read.faces == mesh.faces);
+  }
+
+  // Opening a pipe would wait for whoever writes into it.
+  void filesThatAMeshNames_areNotOpened() {
+    const std::string pipe = folder_.filePath("a.mtl").toStdString();
+    QCOMPARE(::mkfifo(pipe.c_str(), 0600), 0);
+    const TriangleMesh mesh =
+        read_mesh(file("named.obj", "mtllib a.mtl\nv 0 0 1\nv 1 0 1\nv 1 1 1\nusemtl a\nf 1 2 3\n"),
+                  Progress(1));
+    QCOMPARE(mesh.faces.size(), std::size_t{1});
   }
 
   void asciiForms_areRead() {

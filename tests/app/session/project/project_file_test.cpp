@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project/project_file.h"
+#include "app/session/project/own_folders.h"
 
 #include "app/session/project/moved_inputs.h"
 #include "app/session/project/workspace.h"
@@ -61,6 +62,10 @@ class ProjectFileTest : public QObject {
   void truncatedFile_isRefusedInASentence();
   void otherFiles_areRefused_data();
   void otherFiles_areRefused();
+  void filesElsewhere_areRefused_data();
+  void filesElsewhere_areRefused();
+  void linkedFolderOfFiles_isTheProjectsOwn();
+  void placeToSave_isTheProjectsOwnOrForgotten();
   void movedFolder_isFoundForOthers();
   void leftWorkspace_isOfferedOnceNobodyHoldsIt();
 };
@@ -133,8 +138,70 @@ void ProjectFileTest::otherFiles_areRefused_data() {
                                   << "is no project";
   QTest::newRow("a newer one") << "{\"format\": \"episcope project\", \"version\": 99}"
                                << "newer";
+  QTest::newRow("a number that fits no int")
+      << "{\"format\": \"episcope project\", \"version\": 1e99}"
+      << "where a whole number belongs";
+  QTest::newRow("nested deeply") << "{\"format\": " + QString(1000000, '[') << "levels";
   QTest::newRow("wrong types") << "{\"format\": \"episcope project\", \"version\": \"one\"}"
                                << "is no whole project";
+}
+
+// They would be copied into the project when it is saved.
+void ProjectFileTest::filesElsewhere_areRefused_data() {
+  QTest::addColumn<QString>("part");
+  QTest::newRow("result") << "result";
+  QTest::newRow("strokes") << "strokes";
+  QTest::newRow("labels") << "labels";
+}
+
+void ProjectFileTest::filesElsewhere_areRefused() {
+  QFETCH(QString, part);
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  Project project = sample(root);
+  ProjectScene& scene = project.scenes[0];
+  std::filesystem::path& file = part == "result"    ? scene.results[0].file
+                                : part == "strokes" ? scene.strokes
+                                                    : scene.labels.file;
+  file = root.parent_path() / "secret";
+  scene.input = root.parent_path() / "scenes/lf.h5";  // light fields may be anywhere
+  const std::filesystem::path path = root / "work.episcope";
+  write_project(path, project);
+
+  try {
+    (void)read_project(path);
+    QFAIL("it was read");
+  } catch (const IoError& error) {
+    QVERIFY2(QString(error.what()).contains("secret, which is not in the folder"), error.what());
+  }
+  QCOMPARE(read_project(path, ProjectFiles::Anywhere).scenes[0].input, scene.input);
+}
+
+// A disk of their own for what is large.
+void ProjectFileTest::linkedFolderOfFiles_isTheProjectsOwn() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  std::filesystem::create_directories(root / "here");
+  std::filesystem::create_directories(root / "disk");
+  std::filesystem::create_directory_symlink(root / "disk", root / "here/work_files");
+  write_project(root / "here/work.episcope", sample(root / "here"));
+
+  const Project read = read_project(root / "here/work.episcope");
+
+  QVERIFY(std::filesystem::weakly_canonical(read.scenes[0].results[0].file) ==
+          std::filesystem::weakly_canonical(root / "disk/a.h5"));
+}
+
+void ProjectFileTest::placeToSave_isTheProjectsOwnOrForgotten() {
+  const OwnFolders own("/a/work.episcope");
+  JournalOwner inside{.name = {}, .source = {}, .file = "/a/labels.h5"};
+  JournalOwner outside{.name = {}, .source = {}, .file = "/a/../b/labels.h5"};
+
+  forget_file_elsewhere(inside, own);
+  forget_file_elsewhere(outside, own);
+
+  QCOMPARE(inside.file, std::string("/a/labels.h5"));
+  QCOMPARE(outside.file, std::string());
 }
 
 void ProjectFileTest::otherFiles_areRefused() {

@@ -170,8 +170,9 @@ class BlenderReaderTest : public QObject {
     QTest::addColumn<std::string>("from");
     QTest::addColumn<std::string>("to");
     QTest::addColumn<std::string>("expected");
-    const auto row = [](const char* name, const char* from, const char* to, const char* expected) {
-      QTest::newRow(name) << std::string(from) << std::string(to) << std::string(expected);
+    const auto row = [](const char* name, const char* from, const std::string& to,
+                        const char* expected) {
+      QTest::newRow(name) << std::string(from) << to << std::string(expected);
     };
     row("truncated", "'complete': [", "'complete", "the manifest is damaged");
     row("newer", "'version': 1", "'version': 7", "a newer add-on");
@@ -183,6 +184,12 @@ class BlenderReaderTest : public QObject {
     row("other size", "'width': 72", "'width': 70", "states 70×60 px");
     row("names without numbers", "label_{row:02}", "label_", "must lie in the folder");
     row("names elsewhere", "labels/label", "../label", "must lie in the folder");
+    row("names at the root", "labels/label", "/label", "must lie in the folder");
+    row("number that fits no int", "'rows': 5", "'rows': 1e300", "where a whole number belongs");
+    row("fraction", "'rows': 5", "'rows': 4.5", "where a whole number belongs");
+    row("nested deeply", "'complete': [",
+        "'x': " + std::string(100, '[') + std::string(100, ']') + ", 'complete': [",
+        "more than 64 levels");
     row("missing files", "depth/depth_", "depth/d_", "d_");
   }
   void damage_isNamed() {

@@ -95,6 +95,50 @@ fs::path archive_of_text(const fs::path& folder) {
   return path;
 }
 
+/// LF lies in another file, as a link or by its samples.
+fs::path archive_elsewhere(const fs::path& folder, const std::function<void(hid_t file)>& add) {
+  fs::create_directory(folder / "lf");
+  archive_of(folder, {{"LF", {3, 3, 8, 9, 3}}});
+  fs::rename(folder / "lf.h5", folder / "other.h5");
+  const fs::path path = folder / "lf" / "lf.h5";
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  add(file);
+  H5Fclose(file);
+  return path;
+}
+
+void add_dataset(hid_t file, const std::function<void(hid_t creation, hid_t space)>& prepare) {
+  const hsize_t shape[] = {3, 3, 8, 9, 3};
+  const hid_t space = H5Screate_simple(5, shape, nullptr);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  prepare(creation, space);
+  H5Dclose(H5Dcreate2(file, "LF", H5T_STD_U8LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+  H5Pclose(creation);
+  H5Sclose(space);
+}
+
+fs::path archive_of_link(const fs::path& folder) {
+  return archive_elsewhere(folder, [](hid_t file) {
+    H5Lcreate_external("../other.h5", "LF", file, "LF", H5P_DEFAULT, H5P_DEFAULT);
+  });
+}
+
+fs::path archive_of_raw_file(const fs::path& folder) {
+  return archive_elsewhere(folder, [](hid_t file) {
+    add_dataset(file, [](hid_t creation, hid_t) {
+      H5Pset_external(creation, "../other.h5", 0, H5F_UNLIMITED);
+    });
+  });
+}
+
+fs::path archive_of_virtual_samples(const fs::path& folder) {
+  return archive_elsewhere(folder, [](hid_t file) {
+    add_dataset(file, [](hid_t creation, hid_t space) {
+      H5Pset_virtual(creation, space, "../other.h5", "LF", space);
+    });
+  });
+}
+
 Estimate estimate_of(const Scene& scene) {
   Estimate estimate;
   estimate.field.disparity = scene.truth->field.disparity.clone();
@@ -129,6 +173,14 @@ std::vector<Broken> broken_archives() {
        "truncated or damaged"},
       {"HDF5 cut in its samples", [](const fs::path& f) { return cut_archive(f, 200000); },
        "truncated or damaged"},
+      {"LF is a link to another file", archive_of_link, "is a link to another file"},
+      {"LF in a raw file elsewhere", archive_of_raw_file, "are in other files"},
+      {"LF made of another file", archive_of_virtual_samples, "are in other files"},
+      {"sides that are huge beside an empty one",
+       [](const fs::path& f) {
+         return unwritten_archive(f, {60000, 60000, 0, 1, 1}, [](hid_t) {});
+       },
+       "claims"},
       {"no dataset LF",
        [](const fs::path& f) {
          return archive_of(f, {{"IMAGES", {2, 2}}});

@@ -145,7 +145,7 @@ class MosaicTest : public QObject {
 
     const io::SceneProbe probe = io::reader_named("mosaic")->probe(path(name.toStdString()), {});
 
-    QCOMPARE(probe.grid, is_told ? GridShape(7, 7) : GridShape());
+    QCOMPARE(probe.grid, (is_told ? GridShape{7, 7} : GridShape{}));
     QCOMPARE(probe.height, is_told ? scene.light_field->height() : 0);
     QCOMPARE(probe.width, is_told ? scene.light_field->width() : 0);
     QCOMPARE(probe.channels, is_told ? 3 : 0);

@@ -79,7 +79,7 @@ ViewStack<std::uint8_t> layered_views(const LayeredOptions& options) {
       for (int x = 0; x < options.width; ++x) {
         const auto [x1, y1] = at_center(x, y, options.foreground_px);
         const auto [x0, y0] = at_center(x, y, options.background_px);
-        const bool is_near = std::ranges::any_of(discs, [&](const Disc& disc) {
+        const bool is_near = std::ranges::any_of(discs, [x1 = x1, y1 = y1](const Disc& disc) {
           return std::hypot(x1 - disc.x, y1 - disc.y) < disc.radius;
         });
         const double grey = 20 + 210 * (is_near ? near.at(x1, y1) : far.at(x0, y0));

@@ -96,8 +96,8 @@ class ListLayoutTest : public QObject {
     options.foreground_px *= 0.5;
     const ListLayout line = layout_of_list(options, ListOrder::Rows);
 
-    QVERIFY2(grid.is_decided && grid.grid == GridShape(7, 7), grid.evidence.c_str());
-    QVERIFY2(line.is_decided && line.grid == GridShape(1, 49), line.evidence.c_str());
+    QVERIFY2(grid.is_decided && grid.grid == (GridShape{7, 7}), grid.evidence.c_str());
+    QVERIFY2(line.is_decided && line.grid == (GridShape{1, 49}), line.evidence.c_str());
   }
 
   void viewsWithoutParallax_areNotArranged_data() {
@@ -156,7 +156,7 @@ class ListLayoutTest : public QObject {
 
     const ListLayout found = io::find_list_layout(std::move(views), Progress(2));
 
-    QVERIFY2(found.is_decided && found.grid == GridShape(7, 7), found.evidence.c_str());
+    QVERIFY2(found.is_decided && found.grid == (GridShape{7, 7}), found.evidence.c_str());
   }
 
   void longLists_askForSomeViewsOnly() {
@@ -175,7 +175,7 @@ class ListLayoutTest : public QObject {
 
     const ListLayout found = io::find_list_layout(289, view, Progress(2));
 
-    QVERIFY2(found.is_decided && found.grid == GridShape(17, 17), found.evidence.c_str());
+    QVERIFY2(found.is_decided && found.grid == (GridShape{17, 17}), found.evidence.c_str());
     QVERIFY2(asked.size() <= 140, qPrintable(QString::number(asked.size())));
   }
 

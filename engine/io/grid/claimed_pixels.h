@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace episcope::io {
+
+/// Pixels that the header of a picture claims, before any of them is decoded: JPEG, BMP, PNM, TIFF,
+/// WebP, JPEG 2000, OpenEXR, Radiance. Nothing for other forms.
+[[nodiscard]] std::optional<std::uint64_t> claimed_pixels(const std::filesystem::path& path);
+
+/// Throws IoError if a picture claims more pixels than its file can hold, compressed as densely as
+/// can be, unless they are few (16 million).
+void require_plausible_picture(const std::filesystem::path& path);
+
+}  // namespace episcope::io
