@@ -14,8 +14,8 @@ struct SceneSize {
 };
 
 /// Processor seconds that a run is expected to take: a constant of the method (measured, see the
-/// source) times the pixels of all views that it reads. Right within a factor of four; enough to
-/// bundle short runs and to begin with the long ones.
+/// source) times the pixels of all views that it reads. Rough, and measured on one small scene, but
+/// enough to bundle short runs and to begin with the long ones.
 [[nodiscard]] double estimated_seconds(const BenchmarkRun& run, const SceneSize& size);
 
 /// Seconds to open such a scene, which every task spends again.
