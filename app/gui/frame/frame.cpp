@@ -55,8 +55,8 @@ Frame::Frame(QWidget* parent)
   split->setObjectName("split.tabs");
   split->addWidget(viewer_);
   split->addWidget(side_);
-  split->setStretchFactor(0, 4);  // a larger window has room for more tabs as well
-  split->setStretchFactor(1, 1);
+  split->setStretchFactor(0, 1);
+  split->setStretchFactor(1, 0);
   split->setSizes({kColumnWidth + kStageWidth, kTabsWidth});
   split->setChildrenCollapsible(false);
 
