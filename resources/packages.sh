@@ -10,7 +10,9 @@ LIBRARY_PACKAGES="libhdf5-dev libopencv-core-dev
 ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
-TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth mkdocs"
+TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth"
+# What making the manual takes, beside a display.
+MANUAL_PACKAGES="mkdocs doxygen"
 FUZZ_PACKAGES="clang libclang-rt-14-dev"
 # What making and trying packages takes.
 PACKAGING_PACKAGES="dpkg-dev librsvg2-bin lintian mmdebstrap desktop-file-utils appstream

@@ -4,7 +4,8 @@
 set -eu
 # shellcheck source=resources/packages.sh
 . "$1/packages.sh"
-for package in $ENGINE_PACKAGES $WINDOW_PACKAGES $WAYLAND_PACKAGES $TEST_PACKAGES $PACKAGING_PACKAGES; do
+for package in $ENGINE_PACKAGES $WINDOW_PACKAGES $WAYLAND_PACKAGES $TEST_PACKAGES \
+  $MANUAL_PACKAGES $FUZZ_PACKAGES $PACKAGING_PACKAGES; do
   grep -q "^| $package |" "$1/dependencies.md" || {
     echo "dependencies.md has no row of $package"
     exit 1
