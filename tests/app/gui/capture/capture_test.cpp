@@ -269,8 +269,8 @@ class CaptureTest : public QObject {
     small.width = 400;
     small.detail = 50;
     photographs.makeDemo(f.path(""), small);
-    QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->grid().v, 3, kPatience);
-    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kPatience);
+    QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->grid().v, 3, kScenePatience);
+    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kScenePatience);
     QVERIFY2(f.full("capture.camera").contains("focal length"),
              qPrintable(f.full("capture.camera")));
     const std::size_t picked = f.capture().pairs().all().size();
@@ -285,7 +285,7 @@ class CaptureTest : public QObject {
     auto* file = f.window.findChild<QFileDialog*>("save_rectified");
     QVERIFY(file);
     emit file->fileSelected(f.path("rectified.h5"));
-    QTRY_VERIFY_WITH_TIMEOUT(f.capture().pose(), kPatience);
+    QTRY_VERIFY_WITH_TIMEOUT(f.capture().pose(), kScenePatience);
     QCOMPARE(f.capture().pairs().all().size(), picked);
     QVERIFY(f.capture().pose()->reprojection_error_px < 1.5);
     QVERIFY(!rectify->isEnabled());
