@@ -93,10 +93,12 @@ endfunction()
 set(ui "^Qt6?::" "^VTK::" "[Hh]ighgui")
 set(above_engine "^episcope_(annotation|session|widgets|window)$")
 set(hdf5 "[Hh][Dd][Ff]5")
-episcope_forbid(episcope_core "^episcope_(io|scenes|solvers|disparity|labeling|evaluation|render)$"
+episcope_forbid(episcope_core "^episcope_(cuda|io|scenes|solvers|disparity|labeling|evaluation|render)$"
                 ${above_engine} ${ui} ${hdf5} "^opencv" "TBB")
 episcope_forbid(episcope_solvers ${ui} ${above_engine} ${hdf5} "^opencv"
                 "^episcope_(io|disparity|labeling|render)$")
+episcope_forbid(episcope_cuda ${ui} ${above_engine} ${hdf5} "^opencv"
+                "^episcope_(io|scenes|solvers|disparity|labeling|evaluation|render)$")
 episcope_forbid(episcope_io ${ui} ${above_engine} "^episcope_(disparity|labeling|evaluation|render|scenes)$")
 foreach(target episcope_scenes episcope_render)
   episcope_forbid(${target} ${ui} ${above_engine} ${hdf5} "^episcope_(io|disparity|labeling|evaluation)$")

@@ -8,12 +8,14 @@ endif()
 # What every target of ours is compiled with.
 add_library(episcope_options INTERFACE)
 target_compile_options(episcope_options
-                       INTERFACE $<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>)
+                       INTERFACE $<$<COMPILE_LANGUAGE:CXX>:$<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>>)
 target_include_directories(episcope_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
                                                       $<INSTALL_INTERFACE:include/episcope>)
 if(EPISCOPE_SANITIZE)
-  target_compile_options(episcope_options INTERFACE "-fsanitize=${EPISCOPE_SANITIZE}"
-                         -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_compile_options(
+    episcope_options INTERFACE "$<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${EPISCOPE_SANITIZE}>"
+    $<$<COMPILE_LANGUAGE:CXX>:-fno-omit-frame-pointer>
+    $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize-recover=all>)
   target_link_options(episcope_options INTERFACE "-fsanitize=${EPISCOPE_SANITIZE}")
 endif()
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstring>
 #include <limits>
 
@@ -24,6 +25,11 @@ void convert(const T* in, std::size_t count, float* out) {
   for (std::size_t i = 0; i < count; ++i) out[i] = scale * static_cast<float>(in[i]);
 }
 
+std::uint64_t next_identity() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
 }  // namespace
 
 LightField::LightField(LightField&& other, LightFieldInfo info)
@@ -33,10 +39,14 @@ LightField::LightField(LightField&& other, LightFieldInfo info)
       grid_(other.grid_),
       height_(other.height_),
       width_(other.width_),
-      channels_(other.channels_) {}
+      channels_(other.channels_),
+      identity_(other.identity_) {}
 
 LightField::LightField(Samples samples, LightFieldInfo info, ViewStack<std::uint8_t> valid)
-    : samples_(std::move(samples)), valid_(std::move(valid)), info_(std::move(info)) {
+    : samples_(std::move(samples)),
+      valid_(std::move(valid)),
+      info_(std::move(info)),
+      identity_(next_identity()) {
   std::visit(
       [this](const auto& stack) {
         grid_ = stack.grid();

@@ -91,6 +91,10 @@ class LightField {
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
 
+  /// Another for every light field that this program makes, kept when one is moved: for copies of
+  /// the samples elsewhere, on a device, to tell whether they are still the same.
+  [[nodiscard]] std::uint64_t identity() const { return identity_; }
+
   /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
   [[nodiscard]] const ViewStack<std::uint8_t>& valid() const { return valid_; }
   [[nodiscard]] bool is_valid(ViewIndex index, int y, int x) const {
@@ -109,6 +113,7 @@ class LightField {
   int height_ = 0;
   int width_ = 0;
   int channels_ = 1;
+  std::uint64_t identity_ = 0;
 };
 
 /// The grid that views cover.

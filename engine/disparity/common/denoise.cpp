@@ -116,7 +116,7 @@ std::string gap_note(double largest) {
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight, float map_noise) {
+             const Progress& progress, float min_weight, float map_noise, Device) {
   progress.step("denoising");
   const double gap = denoise_views(lf, parameters, min_weight, map_noise, estimate, progress);
   estimate.notes.push_back(gap_note(gap));

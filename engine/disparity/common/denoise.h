@@ -5,6 +5,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/run_options.h"
 
 #include <string>
 
@@ -49,8 +50,8 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 /// give the plain method.
 /// Reference: Rudin, Osher, Fatemi 1992 [ROF92].
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight = DataWeight{}.minimum,
-             float map_noise = 0);
+             const Progress& progress, float min_weight = DataWeight{}.minimum, float map_noise = 0,
+             Device device = Device::Cpu);
 
 /// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);

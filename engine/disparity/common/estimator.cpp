@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/light_field/view_places.h"
 #include "engine/core/version.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "engine/disparity/common/disparity_range.h"
 
 #include <fmt/format.h>
@@ -13,8 +14,34 @@
 namespace episcope {
 
 void require_device(Device device, const EstimatorInfo& info) {
-  if (device == Device::Auto || std::ranges::count(info.devices, device) > 0) return;
-  throw Unavailable("this build runs on the CPU only; use --device cpu or auto");
+  if (device == Device::Auto) return;
+  if (std::ranges::count(info.devices, device) == 0) {
+    throw Unavailable(fmt::format("{} runs on the CPU only; use --device cpu or auto", info.name));
+  }
+  if (device != Device::Cuda || has_cuda_device()) return;
+  throw Unavailable(
+      fmt::format("there is no GPU to use: {}; use --device cpu or auto", cuda_device().why_not));
+}
+
+Device chosen_device(Device device, const EstimatorInfo& info) {
+  if (device != Device::Auto) return device;
+  const bool can_use = std::ranges::count(info.devices, Device::Cuda) > 0 && has_cuda_device();
+  return can_use ? Device::Cuda : Device::Cpu;
+}
+
+Estimate estimate_on_device(Device device, const EstimatorInfo& info,
+                            const std::function<Estimate(Device)>& estimate) {
+  if (chosen_device(device, info) == Device::Cpu) return estimate(Device::Cpu);
+  try {
+    Estimate result = estimate(Device::Cuda);
+    result.notes.push_back(fmt::format("computed on {}", cuda_device().name));
+    return result;
+  } catch (const DeviceFailure& failure) {
+    if (device == Device::Cuda) throw;
+    Estimate result = estimate(Device::Cpu);
+    result.notes.push_back(fmt::format("computed on the CPU: {}", failure.what()));
+    return result;
+  }
 }
 
 namespace {

@@ -31,6 +31,15 @@ struct EstimatorInfo {
 /// Throws Unavailable if the method cannot compute there; with Device::Auto it always can.
 void require_device(Device device, const EstimatorInfo& info);
 
+/// Where a method computes that was asked to on `device`: the CPU or CUDA. Auto takes CUDA where
+/// the method and the machine have it.
+[[nodiscard]] Device chosen_device(Device device, const EstimatorInfo& info);
+
+/// Runs `estimate(device)` where `chosen_device` says. If a device that was not demanded fails, or
+/// has too little memory, the CPU takes over. Notes which, unless there was no choice.
+[[nodiscard]] Estimate estimate_on_device(Device device, const EstimatorInfo& info,
+                                          const std::function<Estimate(Device)>& estimate);
+
 /// A disparity estimator: pure, no globals, no files. Values of this type come from
 /// `registered_estimators()`; `make_estimator` makes one from a parameter struct and a function.
 struct Estimator {
@@ -46,9 +55,9 @@ struct Estimator {
 };
 
 /// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`, or
-/// for a method with a choice of devices `estimate(light_field, P, RunOptions, Progress)`, returns
-/// an Estimate with maps, confidence, range and notes; the rest is filled in here. Pixels that the
-/// light field marks as invalid get no valid result.
+/// for a method with a choice of devices `estimate(light_field, P, RunOptions, Progress)`, whose
+/// device is never Auto, returns an Estimate with maps, confidence, range and notes; the rest is
+/// filled in here. Pixels that the light field marks as invalid get no valid result.
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
@@ -75,7 +84,10 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
         std::is_invocable_v<F, const LightField&, const P&, const RunOptions&, const Progress&>;
     Estimate result = [&] {
       if constexpr (knows_devices) {
-        return estimate(light_field, parameters, options, limited);
+        return estimate_on_device(options.device, info, [&](Device device) {
+          return estimate(light_field, parameters, {options.views, device, options.threads},
+                          limited);
+        });
       } else {
         return estimate(light_field, parameters, options.views, limited);
       }

@@ -131,7 +131,7 @@ void EstimatorTest::foreignDevice_isUnavailable() {
 
   const std::string text =
       message_of([&] { (void)estimator.run(tiny(), {}, {.device = Device::Cuda}, Progress()); });
-  QCOMPARE(text, "this build runs on the CPU only; use --device cpu or auto");
+  QCOMPARE(text, "EPI_L runs on the CPU only; use --device cpu or auto");
 }
 
 void EstimatorTest::method_runsAndFillsProvenance() {

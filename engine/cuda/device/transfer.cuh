@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+#include "engine/core/parallel/progress.h"
+#include "engine/cuda/device/device_array.cuh"
+
+#include <cstddef>
+
+namespace episcope::cuda {
+
+/// Copies bytes to the device, by way of pinned memory. The host's may change when it returns.
+/// Throws DeviceFailure, Cancelled.
+void upload_bytes(void* device, const void* host, std::size_t bytes, const DeviceStream& stream,
+                  const Progress& progress);
+/// Copies bytes from the device, when what was begun on the stream is done. Throws DeviceFailure,
+/// Cancelled.
+void download_bytes(void* host, const void* device, std::size_t bytes, const DeviceStream& stream,
+                    const Progress& progress);
+
+/// An array like that of the host, of `size` elements.
+template <class T>
+[[nodiscard]] DeviceArray<T> upload(const T* host, std::size_t size, const DeviceStream& stream,
+                                    const Progress& progress) {
+  DeviceArray<T> array(size, stream);
+  upload_bytes(array.data(), host, array.byte_size(), stream, progress);
+  return array;
+}
+
+/// Fills a stack, which must have the array's size.
+template <class T>
+void download(ViewStack<T>& host, const DeviceArray<T>& array, const DeviceStream& stream,
+              const Progress& progress) {
+  download_bytes(host.data(), array.data(), array.byte_size(), stream, progress);
+}
+
+}  // namespace episcope::cuda

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/disparity/common/estimator.h"
+
+#include <string>
+#include <vector>
+
+namespace episcope::cuda_tests {
+
+/// One method in one profile on one scene.
+struct Case {
+  Estimator estimator;
+  ParameterSet values;
+  std::string title;  ///< "epi_l", "epi_l paper"
+};
+
+/// How closely a method on the device must follow the CPU.
+enum class Kind {
+  Local,     ///< 99.99 % of the pixels within 1e-4 px.
+  Iterative  ///< MSE within 0.5 %: both stop at the same gap, on different ways.
+};
+[[nodiscard]] Kind kind_of(const Estimator& estimator);
+
+/// Every method that computes on a GPU whose id begins with `filter`, in each of its profiles.
+[[nodiscard]] std::vector<Case> cases(const std::string& filter);
+
+/// Names of the built-in scenes compared on: flat, slanted, cluttered, noisy, invalid pixels.
+[[nodiscard]] std::vector<std::string> scene_texts();
+
+/// A scene by its text (engine/scenes/request.h), with views of `size`² pixels, and for "masked?…"
+/// the same with the corners of every view marked as invalid.
+[[nodiscard]] Scene make_scene(const std::string& text, int size);
+
+}  // namespace episcope::cuda_tests

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/scene.h"
+#include "engine/cuda/device/kernel_times.h"
+#include "tests/cuda/cases.h"
+
+#include <vector>
+
+namespace episcope::cuda_tests {
+
+/// What a run on the device takes, the light field already there, and on the CPU of the machine.
+struct Timing {
+  double seconds = 0;         ///< Least of several, until the results are on the host.
+  double kernel_seconds = 0;  ///< Of that, what kernels ran.
+  double cpu_seconds = 0;     ///< 0 = not measured.
+  std::vector<KernelTime> kernels;
+};
+[[nodiscard]] Timing time_case(const Case& each, const Scene& scene, bool with_cpu);
+
+}  // namespace episcope::cuda_tests
