@@ -2,6 +2,7 @@
 #include "engine/disparity/common/denoise.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
@@ -67,6 +68,18 @@ double denoise_views(const LightField& lf, const DenoiseParameters& parameters, 
   return *std::max_element(gaps.begin(), gaps.end());
 }
 
+// The same on the device.
+double denoise_on_device(const LightField& lf, const DenoiseParameters& parameters,
+                         float min_weight, float map_noise, Estimate& estimate,
+                         const Progress& progress) {
+  const std::vector<double> gaps = cuda::denoise_maps(
+      lf,
+      {parameters.lambda, parameters.weight_power, min_weight, parameters.edge_strength, map_noise,
+       parameters.stop.max_iterations, parameters.stop.gap},
+      estimate.confidence, estimate.field.disparity, progress);
+  return *std::max_element(gaps.begin(), gaps.end());
+}
+
 }  // namespace
 
 Schema<StopParameters> stop_schema() {
@@ -116,9 +129,10 @@ std::string gap_note(double largest) {
 }
 
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
-             const Progress& progress, float min_weight, float map_noise, Device) {
+             const Progress& progress, float min_weight, float map_noise, Device device) {
   progress.step("denoising");
-  const double gap = denoise_views(lf, parameters, min_weight, map_noise, estimate, progress);
+  const auto run = device == Device::Cuda ? denoise_on_device : denoise_views;
+  const double gap = run(lf, parameters, min_weight, map_noise, estimate, progress);
   estimate.notes.push_back(gap_note(gap));
 }
 

@@ -25,11 +25,11 @@ Schema<EpiSParameters> epi_s_schema() {
 }
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
-                        const Progress& progress) {
+                        const Progress& progress, Device device) {
   Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
   check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
   denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
-          parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum);
+          parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum, 0, device);
   clamp_to_range(estimate, progress.part(0.98, 1));
   return estimate;
 }
@@ -42,8 +42,13 @@ Estimator epi_s_estimator() {
        .reference = "Wanner and Goldluecke 2013 [WG13]",
        .all_views = true,
        .iterative = true,
-       .revision = 5},
-      epi_s_schema(), estimate_epi_s);
+       .revision = 5,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_s_schema(),
+      [](const LightField& lf, const EpiSParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_s(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope

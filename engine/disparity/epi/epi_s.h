@@ -30,7 +30,7 @@ struct EpiSParameters {
 /// Reference: Wanner and Goldluecke 2013 [WG13]; Rudin, Osher, Fatemi 1992 [ROF92].
 [[nodiscard]] Estimate estimate_epi_s(const LightField& light_field,
                                       const EpiSParameters& parameters, ViewSelection views,
-                                      const Progress& progress);
+                                      const Progress& progress, Device device = Device::Cpu);
 
 [[nodiscard]] Estimator epi_s_estimator();
 
