@@ -3,6 +3,7 @@
 
 #include "app/about/commit.h"
 #include "engine/core/version.h"
+#include "engine/cuda/device/cuda_device.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +13,9 @@ std::string version_text(const std::string& program, const std::vector<LibraryVe
   std::string text = fmt::format("{} {}\ncommit {}\n", program, kVersion, kCommit);
   std::vector<LibraryVersion> libraries = io::library_versions();
   libraries.insert(libraries.end(), others.begin(), others.end());
+  if (const CudaDevice device = cuda_device(); !device.runtime.empty()) {
+    libraries.push_back({"CUDA", device.runtime});
+  }
   for (const auto& [name, version] : libraries) text += fmt::format("{} {}\n", name, version);
   return text;
 }

@@ -23,6 +23,7 @@ struct BenchmarkOptions {
   /// Views of the runs for the tables: all gives the times of figure 8. Points of a search always
   /// estimate the centre view alone.
   ViewSelection views = ViewSelection::All;
+  Device device = Device::Auto;  ///< Cuda is for the methods that can; the others stay on the CPU.
   bool has_search = false;
   std::vector<LabelerParameters> labels;  ///< Ways to label all views from the scene's strokes.
   /// Nothing is run: what the log lacks is a failure. `OpenScene::whole_fingerprint` of each input,

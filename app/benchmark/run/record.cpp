@@ -39,6 +39,7 @@ BenchmarkRecord read_record(const Json& json) {
   run.revision = json.at("revision");
   run.parameters = io::parameters_from_json(json.at("parameters").dump());
   run.views = value_named<ViewSelection>(json.at("views"));
+  if (json.contains("device")) run.device = value_named<Device>(json.at("device"));
   BenchmarkResult& result = record.result;
   result.entry = run.method;
   result.scene = json.at("scene");
@@ -59,9 +60,11 @@ Names<RunKind> names_of(RunKind) {
   return {{RunKind::Table, "run"}, {RunKind::Search, "search"}, {RunKind::Labels, "labels"}};
 }
 
-BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point, ViewSelection views,
-                      RunKind kind) {
-  BenchmarkRun run{kind, estimator.info.id, estimator.info.revision, {}, views};
+BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point,
+                      const RunOptions& options, RunKind kind) {
+  BenchmarkRun run{kind, estimator.info.id, estimator.info.revision, {}, options.views};
+  const bool can = std::ranges::count(estimator.info.devices, options.device) > 0;
+  if (can) run.device = options.device;
   for (const auto& parameter : estimator.parameters) {
     const auto set = std::find_if(point.begin(), point.end(),
                                   [&](const auto& value) { return value.first == parameter.key; });
@@ -78,6 +81,7 @@ std::string record_key(const BenchmarkRun& run, const std::string& fingerprint) 
         std::string(kVersion), std::to_string(run.revision)}) {
     text += "\n" + part;
   }
+  if (run.device != Device::Auto) text += "\n" + name_of(run.device);
   return text_fingerprint(text);
 }
 
@@ -91,6 +95,7 @@ std::string record_to_json(const BenchmarkRecord& record) {
   json["method"] = record.run.method;
   json["parameters"] = Json::parse(io::parameters_to_json(record.run.parameters));
   json["views"] = name_of(record.run.views);
+  if (record.run.device != Device::Auto) json["device"] = name_of(record.run.device);
   json["version"] = kVersion;
   json["revision"] = record.run.revision;
   json["seconds"] = result.seconds;

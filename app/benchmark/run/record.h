@@ -27,11 +27,14 @@ struct BenchmarkRun {
   int revision = 1;         ///< EstimatorInfo::revision.
   ParameterSet parameters;  ///< All of the method.
   ViewSelection views = ViewSelection::Center;
+  /// Cuda if it was demanded, of a method that can; else Auto. Results of either count as the same
+  /// only for Auto.
+  Device device = Device::Auto;
 };
 
 /// `point` over the defaults of the method.
 [[nodiscard]] BenchmarkRun plan_run(const Estimator& estimator, const ParameterSet& point,
-                                    ViewSelection views, RunKind kind);
+                                    const RunOptions& options, RunKind kind);
 
 /// Names the result of a run on a scene with this fingerprint, by all that it depends on, the
 /// version of the program included.

@@ -120,7 +120,9 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
                      "Folders with maps from other programs, named after the scenes");
   ParameterDescription views = run_schema().description("views");
   views.help = "Views to estimate for the tables; all if the method can";
-  request.job.run.declare(parser, {views});
+  ParameterDescription device = run_schema().description("device");
+  device.help = "Device to compute on; methods that cannot stay on the CPU";
+  request.job.run.declare(parser, {views, device});
   parser.flag("--json", request.is_json, "Print one JSON object instead of tables");
 }
 
@@ -205,6 +207,7 @@ BenchmarkOptions benchmark_options(const BenchmarkRequest& request) {
   options.submissions.assign(request.submissions.begin(), request.submissions.end());
   options.folder = request.output;
   options.views = request.job.run_options().views;
+  options.device = request.job.run_options().device;
   options.has_search = request.has_search;
   return options;
 }

@@ -7,6 +7,7 @@
 #include "app/cli/verbs/verbs.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include <iostream>
 #include <map>
@@ -53,6 +54,15 @@ void note_problems(const BenchmarkReport& report, Job& job) {
   }
 }
 
+/// Throws Unavailable if runs demand a device that this machine lacks; where they are planned, it
+/// may.
+void require_devices(const BenchmarkOptions& options) {
+  for (const Estimator& method : options.methods) {
+    const bool can = std::ranges::count(method.info.devices, options.device) > 0;
+    if (can) require_device(options.device, method.info);
+  }
+}
+
 /// Writes what a benchmark found out, of whatever machines.
 void answer(const BenchmarkRequest& request, const BenchmarkReport& report, Job& job) {
   note_problems(report, job);
@@ -70,11 +80,15 @@ void run_benchmark(const VerbArguments& arguments, std::stop_token stop) {
   if (request.makes_plan()) return plan_benchmark(arguments, request, job);
   if (request.follows_plan()) {
     const PlannedBenchmark planned = planned_benchmark(request, job);
-    if (request.point) return run_point(planned, request, job);
+    if (request.point) {
+      require_devices(planned.options);
+      return run_point(planned, request, job);
+    }
     if (request.wants_status) return print_status(planned, request, job);
     return answer(request, planned.collect(job), job);
   }
   BenchmarkOptions options = benchmark_options(request);
+  require_devices(options);
   options.inputs = benchmark_inputs(request, job);
   answer(request, episcope::run_benchmark(options, scene_loader(request, job), job.progress()),
          job);

@@ -3,6 +3,7 @@
 
 #include "app/session/scene/scene_range.h"
 #include "app/session/scene/scene_summary.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/schema_text.h"
 
@@ -84,6 +85,18 @@ QString names_text(const Reading& reading) {
   return text("%1 (set by you)").arg(names);
 }
 
+// The GPU that methods compute on, or why there is none.
+QString gpu_text() {
+  const CudaDevice device = cuda_device();
+  const auto gibibytes = [](std::size_t bytes) {
+    return QString::number(static_cast<double>(bytes) / (1 << 30), 'f', 1);
+  };
+  if (!device.is_available) return text("none: %1").arg(QString::fromStdString(device.why_not));
+  return text("%1, %2 of %3 GiB free")
+      .arg(QString::fromStdString(device.name), gibibytes(device.free_memory),
+           gibibytes(device.memory));
+}
+
 void add_conventions(SceneInfo& info, const CameraGrid& camera,
                      const ConventionReport& convention) {
   const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
@@ -147,6 +160,7 @@ SceneInfo describe(const Scene& scene) {
     info.rows.push_back({text("Files"), utf8(files), {}, "files"});
   }
   info.rows.push_back({text("Source"), utf8(light_field.info().source), {}, "source"});
+  info.rows.push_back({text("GPU"), gpu_text(), {}, "gpu"});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
   return info;
 }

@@ -48,6 +48,7 @@ struct LiveRun {
   Interval range;
   std::optional<ViewIndex> view;  ///< That the estimate is of; none = all views.
   LivePart part;
+  bool is_at_once = false;  ///< The full map is there as soon as a coarse one would be.
 };
 
 // The view comes from the parameter, else from the centre or from all views.
@@ -66,13 +67,17 @@ void choose_view(const LiveRequest& request, LiveRun& run) {
 }
 
 LiveRun definite_run(LiveSource& source, const LiveRequest& request, const Progress& progress) {
-  LiveRun run{find_estimator(request.method), request.parameters, {}, {}, {}, {}};
+  LiveRun run{find_estimator(request.method), request.parameters, {}, {}, {}, {}, false};
   run.request = {request.method, request.parameters, {}};
   run.range = source.range(
       std::get<IntervalOrAuto>(value_of(run.estimator, request.parameters, kRange)), progress);
   set_value(run.request.parameters, kRange, IntervalOrAuto(run.range));
   choose_view(request, run);
-  run.part = live_part(*request.light_field, request.in_sight, run.range, run.view);
+  const bool on_device = chosen_device(Device::Auto, run.estimator.info) == Device::Cuda;
+  // A device has the whole light field already, and is done as soon as the CPU with a part of it.
+  run.is_at_once = on_device;
+  run.part = live_part(*request.light_field, on_device ? PixelRect{} : request.in_sight, run.range,
+                       run.view);
   return run;
 }
 
@@ -136,9 +141,11 @@ LiveMap estimate_live(LiveSource& source, const LiveRequest& request,
                       const std::function<void(LiveMap)>& on_coarse, const Progress& progress) {
   const Stopwatch watch;
   const LiveRun run = definite_run(source, request, progress.part(0, 0.05));
-  if (auto coarse = coarse_map(source, run, request.view, progress.part(0.05, 0.15))) {
-    coarse->seconds = watch.seconds();
-    on_coarse(std::move(*coarse));
+  if (!run.is_at_once) {
+    if (auto coarse = coarse_map(source, run, request.view, progress.part(0.05, 0.15))) {
+      coarse->seconds = watch.seconds();
+      on_coarse(std::move(*coarse));
+    }
   }
   LiveMap map = full_map(source, run, progress.part(0.15, 1));
   map.seconds = watch.seconds();

@@ -30,8 +30,9 @@ struct LiveMap {
 /// Estimates what is in sight in one view: a method with a parameter `view` that is auto is run for
 /// it, one that estimates all views at once for all of them unless the view is the centre; others
 /// give the view that they are of. `on_coarse` gets a map at a quarter of the size first, where
-/// that leaves enough pixels and the method accepts it. `source` is that of the request's light
-/// field. Throws what the method throws, Unavailable for an unknown one.
+/// that leaves enough pixels and the method accepts it. On a GPU all pixels are estimated at once.
+/// `source` is that of the request's light field. Throws what the method throws, Unavailable for an
+/// unknown one.
 [[nodiscard]] LiveMap estimate_live(LiveSource& source, const LiveRequest& request,
                                     const std::function<void(LiveMap)>& on_coarse,
                                     const Progress& progress);
