@@ -306,7 +306,7 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
 }
 
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
-                                ViewSelection views, const Progress& progress) {
+                                ViewSelection views, const Progress& progress, Device device) {
   EpiLParameters tensor = parameters.tensor;
   const TensorScales scales{
       parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
@@ -322,7 +322,7 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   const DoubleSearch search{{estimate.range.min - kOvershoot, estimate.range.max + kOvershoot},
                             parameters.least_distance};
   DoubleLayers layers = measure_double_layers(lf, scales, search, single.grid(), single.first(),
-                                              progress.part(0.2, 0.4));
+                                              progress.part(0.2, 0.4), device);
   estimate.layered.foreground.disparity = std::move(layers.near);
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
@@ -343,8 +343,13 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 6},
-      epi_two_layer_schema(), estimate_epi_two_layer);
+       .revision = 6,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_two_layer_schema(),
+      [](const LightField& lf, const EpiTwoLayerParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_two_layer(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope
