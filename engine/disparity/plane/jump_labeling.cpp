@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/jump_labeling.h"
 
+#include "engine/cuda/messages/message_labeling.h"
 #include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/messages/message_labeling.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -19,6 +21,12 @@ float distance(const Image<float>& image, PixelIndex a, PixelIndex b) {
     sum += off * off;
   }
   return std::sqrt(sum);
+}
+
+MessageResult solve_on_device(const MessageProblem& problem, int passes, const Progress& progress) {
+  cuda::MessageAnswer answer = cuda::solve_by_messages(
+      {problem.cost, problem.across, problem.down, problem.slope, problem.most}, passes, progress);
+  return {std::move(answer.labels), answer.iterations, answer.energy, answer.bound};
 }
 
 }  // namespace
@@ -65,7 +73,9 @@ std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights&
   const auto unit = static_cast<float>(parameters.smoothness * data.scale);
   const MessageProblem problem{data.costs, weights.across, weights.down, unit * step,
                                unit * static_cast<float>(parameters.jump)};
-  const MessageResult result = solve_by_messages(problem, parameters.passes, progress);
+  const MessageResult result = data.device == Device::Cuda
+                                   ? solve_on_device(problem, parameters.passes, progress)
+                                   : solve_by_messages(problem, parameters.passes, progress);
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
       disparity.at(y, x) =

@@ -38,12 +38,12 @@ double mean_cap(const LightField& lf, const StereoCosts& stereo) {
 
 // Costs with what is known of the visibility, labeled; the last time also refined.
 void run_round(const LightField& lf, const PlaneParameters& parameters, const StereoCosts& stereo,
-               bool is_last, Estimate& estimate, const Progress& progress) {
+               Device device, bool is_last, Estimate& estimate, const Progress& progress) {
   progress.step("matching costs");
   const Volume<float> volume = visible_costs(lf, stereo, progress.part(0, 0.4));
   const Image<float> means = mean_costs(volume.view(), progress.part(0.4, 0.42));
   const Image<float> edges = smoothness_weights(lf, stereo.view, parameters.labeling.edge_strength);
-  const PlaneRefinementData data{stereo, volume.view(), means, edges, mean_cap(lf, stereo)};
+  const PlaneRefinementData data{stereo, volume.view(), means, edges, mean_cap(lf, stereo), device};
   label_costs(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
   if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.98), map);
@@ -88,8 +88,10 @@ struct MapView {
 // The light field as it is compared, and its data term.
 class Evened {
  public:
-  Evened(const LightField& lf, const PlaneParameters& parameters)
-      : lf_(lf), parameters_(parameters) {}
+  Evened(const LightField& lf, const PlaneParameters& parameters, Device device)
+      : lf_(lf), parameters_(parameters), device_(device) {}
+
+  [[nodiscard]] Device device() const { return device_; }
 
   [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
   [[nodiscard]] StereoCosts& stereo() { return stereo_; }
@@ -134,6 +136,7 @@ class Evened {
 
   const LightField& lf_;
   const PlaneParameters& parameters_;
+  Device device_;
   std::optional<LightField> even_;
   StereoCosts stereo_;
   std::string note_;
@@ -157,7 +160,7 @@ Estimate estimate_one(Evened& data, const PlaneParameters& parameters, const Map
                     progress.part(begin + 0.02 * length, begin + 0.05 * length), data.stereo());
     }
     const StereoCosts& stereo = data.stereo();
-    run_round(data.light_field(), parameters, stereo, done == rounds, estimate,
+    run_round(data.light_field(), parameters, stereo, data.device(), done == rounds, estimate,
               progress.part(begin + 0.05 * length, begin + length));
     map = {estimate.field.disparity.view(stereo.view), estimate.confidence.view(stereo.view)};
   }
@@ -168,15 +171,16 @@ Estimate estimate_one(Evened& data, const PlaneParameters& parameters, const Map
 }
 
 // That of another view: what others show of it occludes from the start. `lf`: as it is compared.
-Estimate estimate_next(const LightField& lf, const PlaneParameters& parameters, ViewIndex view,
-                       const std::vector<Estimate>& maps, const Progress& progress) {
+Estimate estimate_next(const LightField& lf, const PlaneParameters& parameters, Device device,
+                       ViewIndex view, const std::vector<Estimate>& maps,
+                       const Progress& progress) {
   PlaneParameters own = parameters;
   own.matching.range = maps.front().range;
   own.matching.view = view;
   own.even = false;
   own.visibility.rounds = 0;
   const CarriedMaps carried = carry_to_views(maps, {view, {1, 1}}, progress.part(0, 0.01));
-  Evened data(lf, own);
+  Evened data(lf, own, device);
   return estimate_one(data, own, {carried.disparity.view(view), carried.confidence.view(view)},
                       progress.part(0.01, 1));
 }
@@ -209,20 +213,20 @@ float noise_cap(const LightField& lf, ViewIndex view, const Progress& progress) 
 }  // namespace
 
 Estimate estimate_planes(const LightField& lf, const PlaneParameters& parameters,
-                         ViewSelection views, const Progress& progress) {
+                         ViewSelection views, const Progress& progress, Device device) {
   if (views == ViewSelection::Center || lf.grid().count() == 1) {
-    Evened data(lf, parameters);
+    Evened data(lf, parameters, device);
     return estimate_one(data, parameters, {}, progress);
   }
   const ViewIndex from = parameters.matching.view.value_or(lf.center());
   const std::vector<ViewIndex> corners = outermost(lf.grid(), from);
   const double share = 0.9 / static_cast<double>(corners.size() + 1);
   std::vector<Estimate> maps;
-  Evened data(lf, parameters);
+  Evened data(lf, parameters, device);
   maps.push_back(estimate_one(data, parameters, {}, progress.part(0, share)));
   for (std::size_t i = 0; i < corners.size() && !progress.finish_requested(); ++i) {
     const auto done = static_cast<double>(i + 1);
-    maps.push_back(estimate_next(data.light_field(), parameters, corners[i], maps,
+    maps.push_back(estimate_next(data.light_field(), parameters, device, corners[i], maps,
                                  progress.part(share * done, share * (done + 1))));
   }
   CarriedMaps carried = carry_to_views(maps, {{}, lf.grid()}, progress.part(0.9, 0.92));
@@ -248,8 +252,13 @@ Estimator plane_pm_estimator() {
        .reference = "Own; builds on Kolmogorov 2006 [Kol06] and Bredies et al. 2010 [BKP10]",
        .all_views = true,
        .iterative = true,
-       .revision = 6},
-      plane_pm_schema(), estimate_planes);
+       .revision = 6,
+       .devices = {Device::Cpu, Device::Cuda}},
+      plane_pm_schema(),
+      [](const LightField& lf, const PlaneParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_planes(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope

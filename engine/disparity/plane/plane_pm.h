@@ -44,7 +44,7 @@ struct PlaneParameters {
 /// [BKP10]. Evidence: tests/accuracy/tuning.md.
 [[nodiscard]] Estimate estimate_planes(const LightField& light_field,
                                        const PlaneParameters& parameters, ViewSelection views,
-                                       const Progress& progress);
+                                       const Progress& progress, Device device = Device::Cpu);
 
 [[nodiscard]] Estimator plane_pm_estimator();
 

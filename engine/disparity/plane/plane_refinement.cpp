@@ -2,6 +2,8 @@
 #include "engine/disparity/plane/plane_refinement.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/tgv_l2/tgv_l2.h"
+#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/plane/regional_trust.h"
 #include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/tgv_l2/tgv_l2.h"
@@ -64,9 +66,14 @@ Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& p
       all.weights.at(y, x) = placed.weight * (1 + placed.weight / kSureWeight);
     }
   });
-  TvL2Solver(height, width)
-      .solve({all.values, all.weights, data.edges, kWinnerSmoothing}, {}, progress.part(0.3, 1),
-             all.values.view());
+  const Progress solving = progress.part(0.3, 1);
+  if (data.device == Device::Cuda) {
+    cuda::solve_tv_l2(all.values, all.weights, data.edges, kWinnerSmoothing, solving);
+  } else {
+    TvL2Solver(height, width)
+        .solve({all.values, all.weights, data.edges, kWinnerSmoothing}, {}, solving,
+               all.values.view());
+  }
   return std::move(all.values);
 }
 
@@ -119,8 +126,14 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
   if (parameters.tgv <= 0 || progress.finish_requested()) return;
   progress.step("denoising");
   Observations seen = observe(data, disparity, progress.part(0, 0.1));
-  solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.tgv, parameters.bend},
-               parameters.tgv_iterations, progress.part(0.1, 0.9), seen.values.view());
+  const Progress solving = progress.part(0.1, 0.9);
+  if (data.device == Device::Cuda) {
+    cuda::solve_tgv_l2(seen.values, {seen.weights, data.edges, parameters.tgv, parameters.bend},
+                       parameters.tgv_iterations, solving);
+  } else {
+    solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.tgv, parameters.bend},
+                 parameters.tgv_iterations, solving, seen.values.view());
+  }
   const float step = label_step(data.stereo);
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/volume.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/run_options.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
 namespace episcope {
@@ -24,6 +25,7 @@ struct PlaneRefinementData {
   const Image<float>& means;     ///< Of the costs over the labels.
   ImageView<const float> edges;  ///< Weights of the variation, `[y][x]`.
   double scale = 1;              ///< Unit of the smoothness: the mean cost.
+  Device device = Device::Cpu;
 };
 
 /// Places a map of labels between them, in place: each pixel's parabola through the costs of its
