@@ -6,6 +6,7 @@
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/relative_samples.h"
+#include "engine/disparity/stereo/stereo_on_device.h"
 
 #include <fmt/format.h>
 
@@ -42,30 +43,44 @@ struct Residuals {
   double median = 0, lower_quartile = 0;
 };
 
-// The cross-hair tells as much about noise as all views.
-Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
-  MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
-  probe.places = costs.matching.places;
-  const std::vector<float> labels = equidistant_labels(
-      costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
-  const int rows = std::min(kProbedRows, lf.height());
-  std::vector<float> least(static_cast<std::size_t>(rows) * lf.width());
-  parallel_for_workers(rows, progress, [&] {
+// The least cost of every pixel of some rows, `[row][x]`.
+std::vector<float> least_costs(const LightField& lf, const StereoCosts& costs,
+                               const MatchingCost& probe, const std::vector<float>& labels,
+                               const std::vector<int>& rows, const Progress& progress) {
+  if (costs.matcher) {
+    return costs.matcher->least_costs(device_matching(lf, costs.view, probe, labels), rows,
+                                      static_cast<float>(kUncapped), progress);
+  }
+  std::vector<float> least(rows.size() * lf.width());
+  parallel_for_workers(static_cast<int>(rows.size()), progress, [&] {
     return [&, matching = MatchingCostRows(lf, costs.view, probe, labels),
             row = Volume<float>(1, static_cast<int>(labels.size()), lf.width())](int i) mutable {
-      const int y = (2 * i + 1) * lf.height() / (2 * rows);
-      matching.compute(y, row.view(), progress);
+      matching.compute(rows[i], row.view(), progress);
       float* out = least.data() + static_cast<std::size_t>(i) * lf.width();
       std::fill_n(out, lf.width(), static_cast<float>(kUncapped));
       for (int label = 0; label < row.layers(); ++label) {
         const float* cost = row.view().row(0, label);
         for (int x = 0; x < lf.width(); ++x) out[x] = std::min(out[x], cost[x]);
       }
-      for (int x = 0; x < lf.width(); ++x) {
-        if (!lf.is_valid(costs.view, y, x)) out[x] = kNothingSeen;
-      }
     };
   });
+  return least;
+}
+
+// The cross-hair tells as much about noise as all views.
+Residuals find_residuals(const LightField& lf, const StereoCosts& costs, const Progress& progress) {
+  MatchingCost probe{MatchedViews::CrossHair, costs.matching.interpolation, kUncapped};
+  probe.places = costs.matching.places;
+  const std::vector<float> labels = equidistant_labels(
+      costs.range, std::max(static_cast<int>(costs.labels.size()), kProbedLabels));
+  std::vector<int> rows(std::min(kProbedRows, lf.height()));
+  const int count = static_cast<int>(rows.size());
+  for (int i = 0; i < count; ++i) rows[i] = (2 * i + 1) * lf.height() / (2 * count);
+  std::vector<float> least = least_costs(lf, costs, probe, labels, rows, progress);
+  for (std::size_t i = 0; i < least.size(); ++i) {
+    const int y = rows[i / lf.width()], x = static_cast<int>(i % lf.width());
+    if (!lf.is_valid(costs.view, y, x)) least[i] = kNothingSeen;
+  }
   std::erase(least, kNothingSeen);
   Residuals residuals;
   if (least.empty()) return residuals;
@@ -78,13 +93,18 @@ std::string outlier_text(int outliers) {
   return outliers == 0 ? "" : fmt::format(" ({} of them not believed)", outliers);
 }
 
-// Where the view is smoother, the noise that interpolation removes need not be added back.
-std::shared_ptr<const Image<float>> noise_map(const LightField& lf, ViewIndex view, double residual,
-                                              const Progress& progress) {
+// Where the view is smoother, the noise that interpolation removes need not be added back. Returns
+// the median of the noise.
+double compensate_noise(const LightField& lf, double residual, StereoCosts& costs,
+                        const Progress& progress) {
   const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
-  auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, view, progress));
-  for (float& variance : *noise) variance = std::min(variance, static_cast<float>(sigma * sigma));
-  return noise;
+  const auto most = static_cast<float>(sigma * sigma);
+  if (costs.matcher) return costs.matcher->compensate_noise(most, progress);
+  auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, costs.view, progress));
+  for (float& variance : *noise) variance = std::min(variance, most);
+  std::vector<float> variances(noise->begin(), noise->end());
+  costs.matching.noise = std::move(noise);
+  return quantile(variances, 0.5);
 }
 
 // Sets the places of the views to those that files state, if they match better there.
@@ -104,15 +124,11 @@ void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& 
                         ", they match no better than the grid");
 }
 
-std::shared_ptr<const GuideImage> make_guide(const LightField& lf, const StereoCosts& costs,
-                                             int radius, const Progress& progress) {
-  double noise = 0;
-  if (costs.matching.noise) {
-    std::vector<float> variances(costs.matching.noise->begin(), costs.matching.noise->end());
-    noise = quantile(variances, 0.5);
-  }
-  return std::make_shared<GuideImage>(lf, costs.view, radius,
-                                      kLeastGuideVariance + kNoiseInGuide * noise, progress);
+void make_guide(const LightField& lf, int radius, double noise, StereoCosts& costs,
+                const Progress& progress) {
+  const double regularization = kLeastGuideVariance + kNoiseInGuide * noise;
+  if (costs.matcher) return costs.matcher->aggregate(radius, regularization);
+  costs.guide = std::make_shared<GuideImage>(lf, costs.view, radius, regularization, progress);
 }
 
 std::string cap_note(const StereoCosts& costs) {
@@ -179,7 +195,8 @@ Schema<StereoCostParameters> stereo_cost_schema(MatchedViews views) {
 }
 
 StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
-                           const StereoCostParameters& parameters, const Progress& progress) {
+                           const StereoCostParameters& parameters, const Progress& progress,
+                           Device device) {
   StereoCosts costs;
   costs.view = parameters.view.value_or(lf.center());
   check_matching(lf, costs.view);
@@ -188,6 +205,10 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
         relative_samples(lf, kSurroundings, progress.part(0, 0.1)));
   }
   const LightField& compared = costs.relative ? *costs.relative : lf;
+  if (device == Device::Cuda) {
+    costs.matcher =
+        std::make_shared<cuda::StereoMatcher>(compared, lf, costs.view, progress.part(0.1, 0.1));
+  }
   costs.range = search_range(compared, parameters.range, progress.part(0.1, 0.5));
   costs.labels = equidistant_labels(costs.range, parameters.labels);
   costs.matching.views = views;
@@ -198,21 +219,21 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   if (stated.kind == PlacesKind::Implausible) {
     costs.notes.emplace_back("positions of cameras not used: they make no grid");
   }
+  double noise = 0;
   const bool is_irregular = stated.kind == PlacesKind::Irregular;
   if (parameters.compensate_noise || parameters.epsilon == 0 || is_irregular) {
     progress.step("noise");
     Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
     if (is_irregular) choose_places(compared, stated, costs, residuals, progress.part(0.7, 0.8));
     if (parameters.compensate_noise) {
-      costs.matching.noise =
-          noise_map(compared, costs.view, residuals.lower_quartile, progress.part(0.8, 0.9));
+      noise = compensate_noise(compared, residuals.lower_quartile, costs, progress.part(0.8, 0.9));
     }
     if (parameters.epsilon == 0) {
       costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }
   }
   if (parameters.aggregation > 0) {
-    costs.guide = make_guide(lf, costs, parameters.aggregation, progress.part(0.9, 1));
+    make_guide(lf, parameters.aggregation, noise, costs, progress.part(0.9, 1));
   }
   return costs;
 }

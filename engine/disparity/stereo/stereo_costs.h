@@ -2,8 +2,10 @@
 #pragma once
 
 #include "engine/core/parameter/schema.h"
+#include "engine/cuda/stereo/stereo_matcher.h"
 #include "engine/disparity/common/matching_cost.h"
 #include "engine/disparity/common/profile.h"
+#include "engine/disparity/common/run_options.h"
 #include "engine/disparity/stereo/guided_filter.h"
 
 #include <memory>
@@ -56,6 +58,8 @@ struct StereoCosts {
   std::shared_ptr<const GuideImage> guide;     ///< For the aggregation; null = none.
   std::shared_ptr<const LightField> relative;  ///< Compared in place of the samples; null = none.
   std::vector<std::string> notes;              ///< About the positions of cameras.
+  /// Computes the costs on the device, holds noise and guide there; null = on the CPU.
+  std::shared_ptr<cuda::StereoMatcher> matcher;
 };
 
 /// Prepares the data term. An ε of 0 is replaced by a multiple of the residual: the median, over
@@ -71,16 +75,16 @@ struct StereoCosts {
 /// The guide of the aggregation keeps whatever contrast is not noise: its regularization is
 /// 3·10⁻⁵ + 8σ², σ² the median of that noise over the view (0 without `compensate_noise`). Evidence
 /// for all three: tests/accuracy/tuning.md. Throws InvalidInput (no such view, a single view),
-/// Cancelled.
+/// DeviceFailure, Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,
-                                         const Progress& progress);
+                                         const Progress& progress, Device device = Device::Cpu);
 
 /// For the notes of an estimate: which cap was used, and which positions of cameras if any are
 /// stated.
 [[nodiscard]] std::vector<std::string> cost_notes(const StereoCosts& costs);
 
-/// The costs of some rows, aggregated. Not thread-safe: use one object per thread.
+/// The costs of some rows, aggregated, on the CPU. Not thread-safe: use one object per thread.
 class StereoCostRows {
  public:
   StereoCostRows(const LightField& light_field, const StereoCosts& costs);
@@ -101,7 +105,7 @@ class StereoCostRows {
 /// for the aggregation, few enough to keep every thread busy.
 [[nodiscard]] int stereo_band_rows(int height);
 
-/// The costs of all rows: height · width · labels · 4 bytes. Throws Cancelled.
+/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Throws Cancelled.
 [[nodiscard]] Volume<float> stereo_volume(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
 

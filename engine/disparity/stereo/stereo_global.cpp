@@ -23,8 +23,8 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
 }
 
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
-                                const StereoGlobalParameters& parameters,
-                                const Progress& progress) {
+                                const StereoGlobalParameters& parameters, const Progress& progress,
+                                Device) {
   const StereoCosts stereo = prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05));
   progress.step("matching costs");
   const Volume<float> volume = stereo_volume(lf, stereo, progress.part(0.05, 0.3));

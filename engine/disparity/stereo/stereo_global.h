@@ -32,6 +32,7 @@ struct StereoGlobalParameters {
 /// Throws InvalidInput as `prepare_stereo`, Cancelled. Reference: the paper, equation (5).
 [[nodiscard]] Estimate estimate_stereo_global(const LightField& light_field, MatchedViews views,
                                               const StereoGlobalParameters& parameters,
-                                              const Progress& progress);
+                                              const Progress& progress,
+                                              Device device = Device::Cpu);
 
 }  // namespace episcope

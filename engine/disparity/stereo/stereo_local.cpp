@@ -2,6 +2,7 @@
 #include "engine/disparity/stereo/stereo_local.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/stereo/stereo_on_device.h"
 
 #include <algorithm>
 #include <limits>
@@ -61,6 +62,33 @@ class Winners {
   std::vector<float> least_, sum_;
 };
 
+void choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                   Estimate& estimate, const Progress& progress) {
+  const ImageView<float> disparity = estimate.field.disparity.view(costs.view);
+  const ImageView<float> confidence = estimate.confidence.view(costs.view);
+  const int rows = stereo_band_rows(lf.height());
+  const int bands = (lf.height() + rows - 1) / rows;
+  parallel_for_workers(bands, progress, [&] {
+    return [&, source = StereoCostRows(lf, costs),
+            winners = Winners(costs, refinement, lf.width())](int i) mutable {
+      const int y = i * rows;
+      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
+      for (int row = 0; row < band.height; ++row) {
+        winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
+      }
+    };
+  });
+}
+
+void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                      Estimate& estimate, const Progress& progress) {
+  const LightField& compared = costs.relative ? *costs.relative : lf;
+  costs.matcher->choose(
+      device_matching(compared, costs.view, costs.matching, costs.labels),
+      {costs.labels.front(), costs.labels[1] - costs.labels[0], device_refinement(refinement)},
+      estimate.field.disparity.view(costs.view), estimate.confidence.view(costs.view), progress);
+}
+
 }  // namespace
 
 Schema<StereoLocalParameters> stereo_local_schema(MatchedViews views) {
@@ -98,37 +126,28 @@ Schema<StereoSmoothParameters> stereo_smooth_schema(MatchedViews views) {
 }
 
 Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
-                               const StereoLocalParameters& parameters, const Progress& progress) {
-  const StereoCosts costs = prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1));
+                               const StereoLocalParameters& parameters, const Progress& progress,
+                               Device device) {
+  const StereoCosts costs =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
   Estimate estimate;
   estimate.range = costs.range;
   estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
   estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-  const ImageView<float> disparity = estimate.field.disparity.view(costs.view);
-  const ImageView<float> confidence = estimate.confidence.view(costs.view);
-  const int rows = stereo_band_rows(lf.height());
-  const int bands = (lf.height() + rows - 1) / rows;
   progress.step("matching costs");
-  parallel_for_workers(bands, progress.part(0.1, 1), [&] {
-    return [&, source = StereoCostRows(lf, costs),
-            winners = Winners(costs, parameters.refinement, lf.width())](int i) mutable {
-      const int y = i * rows;
-      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
-      for (int row = 0; row < band.height; ++row) {
-        winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
-      }
-    };
-  });
+  const auto choose = costs.matcher ? choose_on_device : choose_labels;
+  choose(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
   estimate.notes = cost_notes(costs);
   return estimate;
 }
 
 Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
-                                const StereoSmoothParameters& parameters,
-                                const Progress& progress) {
-  Estimate estimate = estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85));
+                                const StereoSmoothParameters& parameters, const Progress& progress,
+                                Device device) {
+  Estimate estimate =
+      estimate_stereo_local(lf, views, parameters.local, progress.part(0, 0.85), device);
   denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
-          static_cast<float>(parameters.map_noise));
+          static_cast<float>(parameters.map_noise), device);
   return estimate;
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/disparity/common/denoise.h"
 #include "engine/disparity/common/estimator.h"
+#include "engine/disparity/common/run_options.h"
 #include "engine/disparity/common/sub_label.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
@@ -31,14 +32,15 @@ struct StereoSmoothParameters {
 ///
 /// Confidence: 1 − least cost / mean cost over the labels. It is near 0 where all labels are alike
 /// and falls with noise, since noise raises the least cost. The ε used is reported in the notes.
-/// Throws InvalidInput as `prepare_stereo`, Cancelled.
+/// Throws InvalidInput as `prepare_stereo`, DeviceFailure, Cancelled.
 [[nodiscard]] Estimate estimate_stereo_local(const LightField& light_field, MatchedViews views,
                                              const StereoLocalParameters& parameters,
-                                             const Progress& progress);
+                                             const Progress& progress, Device device = Device::Cpu);
 
 /// The same, denoised (engine/disparity/common/denoise.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,
-                                              const Progress& progress);
+                                              const Progress& progress,
+                                              Device device = Device::Cpu);
 
 }  // namespace episcope

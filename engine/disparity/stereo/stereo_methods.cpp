@@ -14,11 +14,14 @@ template <class P>
 Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
                            Schema<P> (*schema)(MatchedViews),
                            Estimate (*estimate)(const LightField&, MatchedViews, const P&,
-                                                const Progress&)) {
-  return make_estimator<P>(
-      std::move(info), schema(views),
-      [=](const LightField& light_field, const P& parameters, ViewSelection,
-          const Progress& progress) { return estimate(light_field, views, parameters, progress); });
+                                                const Progress&, Device)) {
+  info.devices = {Device::Cpu, Device::Cuda};
+  return make_estimator<P>(std::move(info), schema(views),
+                           [=](const LightField& light_field, const P& parameters,
+                               const RunOptions& options, const Progress& progress) {
+                             return estimate(light_field, views, parameters, progress,
+                                             options.device);
+                           });
 }
 
 }  // namespace

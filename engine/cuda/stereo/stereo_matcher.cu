@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/stereo/stereo_matcher.h"
+
+#include "engine/cuda/device/device_volume.cuh"
+#include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/light_field/device_light_field.cuh"
+#include "engine/cuda/stereo/cost_winners.cuh"
+#include "engine/cuda/stereo/guided_costs.cuh"
+#include "engine/cuda/stereo/matching_tables.cuh"
+#include "engine/cuda/stereo/view_noise.cuh"
+
+#include <algorithm>
+
+namespace episcope::cuda {
+namespace {
+
+// Costs that are held at once, where only the winners are asked for.
+constexpr std::size_t kBandBytes = std::size_t{1} << 29;
+constexpr int kLeastBandRows = 32;
+// Pixels, labels and views of one launch: some ten milliseconds.
+constexpr double kSamplesAtOnce = 1e10;
+
+}  // namespace
+
+struct StereoMatcher::State {
+  std::shared_ptr<const DeviceLightField> compared, shown;
+  ViewIndex view;
+  DeviceStream stream;
+  DeviceArray<float> noise, guide;
+  int radius = 0;
+
+  [[nodiscard]] const DeviceSamples& samples() const { return compared->samples(); }
+  [[nodiscard]] DeviceMatching on_device(const StereoMatching& matching,
+                                         const Progress& progress) const {
+    return {matching, samples(), view, noise.data(), stream, progress};
+  }
+  [[nodiscard]] CostRows with_margin(const CostRows& rows) const;
+  void compute(const MatchingTables& tables, const CostRows& rows, float* costs,
+               const Progress& progress) const;
+  void aggregate(const CostRows& from, const float* costs, const CostRows& to,
+                 float* filtered) const;
+};
+
+// The rows that aggregation needs.
+CostRows StereoMatcher::State::with_margin(const CostRows& rows) const {
+  const int first = std::max(rows.first - 2 * radius, 0);
+  const int end = std::min(rows.first + rows.rows + 2 * radius, samples().height);
+  return {first, end - first, rows.labels};
+}
+
+// Piece by piece, so that a stop request need not wait long.
+void StereoMatcher::State::compute(const MatchingTables& tables, const CostRows& rows, float* costs,
+                                   const Progress& progress) const {
+  const double row_samples =
+      static_cast<double>(samples().width) * tables.labels * tables.view_count;
+  const int at_once = std::max(kLeastBandRows, static_cast<int>(kSamplesAtOnce / row_samples) /
+                                                   kLeastBandRows * kLeastBandRows);
+  const bool is_long = rows.rows > at_once;
+  for (int row = 0; row < rows.rows; row += at_once) {
+    progress.check();
+    const std::size_t begin = static_cast<std::size_t>(row) * rows.labels * samples().width;
+    compute_costs(tables, rows.first + row, std::min(at_once, rows.rows - row), costs + begin,
+                  stream);
+    if (is_long) stream.wait();
+    progress.report(static_cast<double>(row + at_once) / rows.rows);
+  }
+}
+
+void StereoMatcher::State::aggregate(const CostRows& from, const float* costs, const CostRows& to,
+                                     float* filtered) const {
+  const DeviceGuide tables{guide.data(), radius, samples().height, samples().width,
+                           shown->samples().channels};
+  filter_costs(tables, from, costs, to, filtered, stream);
+}
+
+StereoMatcher::StereoMatcher(const LightField& compared, const LightField& shown, ViewIndex view,
+                             const Progress& progress)
+    : state_(std::make_unique<State>()) {
+  state_->shown = on_device(shown, progress);
+  state_->compared =
+      &compared == &shown ? state_->shown : std::make_shared<DeviceLightField>(compared, progress);
+  state_->view = view;
+}
+StereoMatcher::~StereoMatcher() = default;
+
+std::vector<float> StereoMatcher::least_costs(const StereoMatching& matching,
+                                              const std::vector<int>& rows, float most,
+                                              const Progress& progress) {
+  State& s = *state_;
+  const DeviceMatching tables = s.on_device(matching, progress);
+  const auto on_device = upload(rows.data(), rows.size(), s.stream, progress);
+  std::vector<float> least(rows.size() * s.samples().width);
+  DeviceArray<float> found(least.size(), s.stream);
+  find_least_costs(tables.tables(), on_device.data(), static_cast<int>(rows.size()), most,
+                   found.data(), s.stream);
+  download_bytes(least.data(), found.data(), found.byte_size(), s.stream, progress);
+  return least;
+}
+
+float StereoMatcher::compensate_noise(float most, const Progress& progress) {
+  State& s = *state_;
+  progress.check();
+  s.noise = local_noise_on_device(s.samples(), s.view, most, s.stream);
+  return median_on_device(s.noise.data(), static_cast<int>(s.noise.size()), s.stream);
+}
+
+void StereoMatcher::aggregate(int radius, double regularization) {
+  State& s = *state_;
+  s.radius = radius;
+  s.guide = make_guide_planes(s.shown->samples(), s.view, radius, regularization, s.stream);
+}
+
+void StereoMatcher::choose(const StereoMatching& matching, const LabelPlaces& places,
+                           ImageView<float> disparity, ImageView<float> confidence,
+                           const Progress& progress) {
+  State& s = *state_;
+  const DeviceMatching tables = s.on_device(matching, progress);
+  const int height = s.samples().height, width = s.samples().width;
+  const std::size_t row_size = static_cast<std::size_t>(matching.labels) * width;
+  const int fit = static_cast<int>(kBandBytes / (row_size * sizeof(float)));
+  const int at_once = std::min(height, std::max(fit, kLeastBandRows));
+  const int margins = std::min(height, at_once + 4 * s.radius);
+  DeviceArray<float> costs(margins * row_size, s.stream);
+  DeviceArray<float> filtered(s.radius > 0 ? at_once * row_size : 0, s.stream);
+  const std::size_t pixels = static_cast<std::size_t>(height) * width;
+  DeviceArray<float> maps(2 * pixels, s.stream);
+  for (int y = 0; y < height; y += at_once) {
+    const CostRows rows{y, std::min(at_once, height - y), matching.labels};
+    const CostRows needed = s.with_margin(rows);
+    const Progress part =
+        progress.part(static_cast<double>(y) / height, static_cast<double>(y + rows.rows) / height);
+    s.compute(tables.tables(), needed, costs.data(), part);
+    if (s.radius > 0) s.aggregate(needed, costs.data(), rows, filtered.data());
+    const VolumeView<const float> band{s.radius > 0 ? filtered.data() : costs.data(), rows.rows,
+                                       matching.labels, width};
+    float* const from_y = maps.data() + static_cast<std::size_t>(y) * width;
+    choose_winners(band, places, from_y, from_y + pixels, s.stream);
+  }
+  download_bytes(disparity.data, maps.data(), pixels * sizeof(float), s.stream, progress);
+  download_bytes(confidence.data, maps.data() + pixels, pixels * sizeof(float), s.stream, progress);
+}
+
+SharedVolume StereoMatcher::volume(const StereoMatching& matching, const Progress& progress) {
+  State& s = *state_;
+  const DeviceMatching tables = s.on_device(matching, progress);
+  const CostRows all{0, s.samples().height, matching.labels};
+  const auto make = [&] {
+    return std::make_shared<DeviceVolume>(all.rows, all.labels, s.samples().width);
+  };
+  // The stream of a volume frees it; what is written here comes after its allocation there.
+  auto costs = make();
+  costs->stream.wait();
+  s.compute(tables.tables(), all, costs->values.data(), progress);
+  if (s.radius > 0) {
+    auto filtered = make();
+    filtered->stream.wait();
+    s.aggregate(all, costs->values.data(), all, filtered->values.data());
+    s.stream.wait();
+    return filtered;
+  }
+  s.stream.wait();
+  return costs;
+}
+
+}  // namespace episcope::cuda
