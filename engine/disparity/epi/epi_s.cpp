@@ -26,7 +26,8 @@ Schema<EpiSParameters> epi_s_schema() {
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress, Device device) {
-  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
+  Estimate estimate =
+      estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4), device);
   check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
   denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
           parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum, 0, device);
