@@ -87,6 +87,14 @@ std::vector<std::string> option_words(const std::string& text) {
   return words;
 }
 
+std::vector<std::string> with_gpu(std::vector<std::string> options) {
+  const auto names_gpus = [](const std::string& option) {
+    return option.starts_with("--gres") || option.starts_with("--gpus") || option.starts_with("-G");
+  };
+  if (std::ranges::none_of(options, names_gpus)) options.emplace_back("--gres=gpu:1");
+  return options;
+}
+
 std::string ranges_text(std::span<const std::size_t> numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size();) {

@@ -13,6 +13,9 @@ namespace episcope::cli {
 /// '…' and "…" keep theirs. Throws InvalidInput for a quotation mark without its partner.
 [[nodiscard]] std::vector<std::string> option_words(const std::string& text);
 
+/// Options of sbatch with a GPU for each task, unless they say how many themselves.
+[[nodiscard]] std::vector<std::string> with_gpu(std::vector<std::string> options);
+
 /// Ascending numbers as ranges, "0-3,7".
 [[nodiscard]] std::string ranges_text(std::span<const std::size_t> numbers);
 

@@ -53,26 +53,14 @@ void print_plan(const BenchmarkPlan& plan, const BenchmarkRequest& request) {
       plan.tasks.size() - 1, request.output);
 }
 
-/// Those of sbatch, with a GPU for each task if tasks demand one and nothing is said of it.
-std::vector<std::string> slurm_options(const BenchmarkRequest& request) {
-  std::vector<std::string> options = request.slurm.options;
-  const auto names_gpus = [](const std::string& option) {
-    return option.starts_with("--gres") || option.starts_with("--gpus") || option.starts_with("-G");
-  };
-  if (request.job.run_options().device == Device::Cuda &&
-      std::ranges::none_of(options, names_gpus)) {
-    options.emplace_back("--gres=gpu:1");
-  }
-  return options;
-}
-
 void submit_unfinished(const BenchmarkPlan& plan, const BenchmarkRequest& request, Job& job) {
   const PlanStatus status = plan_status(plan, request.output);
   std::vector<std::size_t> tasks;
   std::ranges::set_difference(status.unfinished, status.running, std::back_inserter(tasks));
+  const bool on_gpus = request.job.run_options().device == Device::Cuda;
+  const auto options = on_gpus ? with_gpu(request.slurm.options) : request.slurm.options;
   SubmittedJobs jobs;
-  if (!tasks.empty())
-    jobs = submit_tasks(fs::absolute(request.output), tasks, slurm_options(request));
+  if (!tasks.empty()) jobs = submit_tasks(fs::absolute(request.output), tasks, options);
   job.finish();
   if (request.is_json) {
     print_json(Json::object({{"tasks", plan.tasks.size()},

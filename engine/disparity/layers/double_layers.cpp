@@ -3,12 +3,15 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/layers/double_layers.h"
+#include "engine/disparity/layers/double_filters.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 namespace episcope {
 namespace {
@@ -89,6 +92,53 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   });
 }
 
+cuda::DoubleTaps device_taps(const Taps& taps) {
+  cuda::DoubleTaps copy;
+  copy.radius = taps.radius;
+  std::copy_n(taps.values, 2 * taps.radius + 1, copy.values);
+  return copy;
+}
+
+cuda::DoublePass device_pass(const LightField& lf, bool is_horizontal, const TensorScales& scales) {
+  const DoubleFilterSet set =
+      make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v, lf.channels(), scales);
+  const SecondOrderFilters& filters = set.filters;
+  cuda::DoublePass pass;
+  pass.is_horizontal = is_horizontal;
+  for (int order = 0; order < 3; ++order) {
+    pass.along[order] = device_taps(filters.along[order]);
+    pass.views[order] = device_taps(filters.views[order]);
+    pass.scale[order] = filters.scale[order];
+  }
+  pass.integrate = device_taps(filters.integrate);
+  pass.across = device_taps(filters.across);
+  pass.mix = filters.mix;
+  pass.contrast_energy = filters.contrast_energy;
+  pass.noise_energy = filters.noise_energy;
+  pass.first_product = set.first_product;
+  pass.last_product = set.last_product;
+  pass.row_weights = set.row_weights;
+  return pass;
+}
+
+// Of every tile.
+void measure_on_device(const Measurement& measurement, const Progress& progress) {
+  const LightField& lf = measurement.light_field;
+  const DoubleSearch& search = measurement.search;
+  std::vector<cuda::DoublePass> passes;
+  for (const bool is_horizontal : {true, false}) {
+    const int views = is_horizontal ? lf.grid().u : lf.grid().v;
+    if (views < DoubleOrientation::kMinViews) continue;
+    passes.push_back(device_pass(lf, is_horizontal, measurement.scales));
+  }
+  progress.step("two orientations");
+  cuda::measure_double_layers(
+      lf, passes,
+      {double_steps(search), kDoubleShearReach, static_cast<float>(search.accepted.min),
+       static_cast<float>(search.accepted.max), static_cast<float>(search.min_distance)},
+      {measurement.layers.near, measurement.layers.far, measurement.layers.confidence}, progress);
+}
+
 // View by view: memory of hundreds of megabytes is touched here for the first time, which takes
 // longer than a stop request may wait.
 void clear(DoubleLayers& layers, const Progress& progress) {
@@ -113,7 +163,7 @@ void require_double_grid(const LightField& lf) {
 
 DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& scales,
                                    const DoubleSearch& search, GridShape grid, ViewIndex first,
-                                   const Progress& progress) {
+                                   const Progress& progress, Device device) {
   const bool has_horizontal = lf.grid().u >= DoubleOrientation::kMinViews;
   const bool has_vertical = lf.grid().v >= DoubleOrientation::kMinViews;
   require_double_grid(lf);
@@ -121,6 +171,10 @@ DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& sca
   layers.near = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   layers.far = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
   layers.confidence = ViewStack<std::uint8_t>(grid, lf.height(), lf.width(), 1, first);
+  if (device == Device::Cuda) {
+    measure_on_device({lf, scales, search, layers}, progress);
+    return layers;
+  }
   clear(layers, progress.part(0, 0.01));
   const Measurement measurement{lf, scales, search, layers};
   const double half = !has_vertical ? 1 : has_horizontal ? 0.5 : 0.01;

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/view_stack.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/disparity/common/run_options.h"
 #include "engine/disparity/layers/double_orientation.h"
 
 #include <cstdint>
@@ -27,6 +28,7 @@ void require_double_grid(const LightField& light_field);
 [[nodiscard]] DoubleLayers measure_double_layers(const LightField& light_field,
                                                  const TensorScales& scales,
                                                  const DoubleSearch& search, GridShape grid,
-                                                 ViewIndex first, const Progress& progress);
+                                                 ViewIndex first, const Progress& progress,
+                                                 Device device = Device::Cpu);
 
 }  // namespace episcope

@@ -2,13 +2,12 @@
 #include "engine/disparity/layers/epi_two_layer.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/layers/layer_solver.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/layers/double_layers.h"
-#include "engine/disparity/layers/layer_decision.h"
 #include "engine/disparity/layers/layer_range.h"
-#include "engine/disparity/layers/layer_steadiness.h"
-#include "engine/disparity/layers/line_fit.h"
+#include "engine/disparity/layers/layer_score.h"
 #include "engine/solvers/simplex/binary_segmentation.h"
 
 #include <fmt/format.h>
@@ -21,10 +20,6 @@ namespace {
 
 // Variation of the surface across the border of its region, and of either layer at least.
 constexpr float kBorderWeight = 0.02F;
-// Coherence and confidence that noise alone reaches (measured), and the weight of one layer where
-// nothing else is seen.
-constexpr float kNoiseFit = 0.3F;
-constexpr float kOneLayer = 0.02F;
 // Of data, as in EPI_S.
 constexpr float kMinWeight = 0.003F;
 // Of two orientations, which are harder to tell from noise than one.
@@ -32,13 +27,6 @@ constexpr double kCrossScaleOfLayers = 1;
 // The region must be right to a pixel, not to a thousandth.
 constexpr int kRegionIterations = 10;
 constexpr double kRegionGap = 1e-3;
-
-// Of the fit of lines (raise_by_line_fit): 3 where these reach four views. Nearer, the misfit of
-// another disparity is less, by the square of the distance.
-float strictness(GridShape grid) {
-  const int reach = std::clamp(std::max(grid.u, grid.v) / 2, 1, kMaxArmViews);
-  return 3.0F * kMaxArmViews * kMaxArmViews / static_cast<float>(reach * reach);
-}
 
 // What one thread needs to solve a view.
 struct Workspace {
@@ -66,10 +54,9 @@ class ViewSolver {
   ViewSolver(const LightField& lf, const PackedViews& packed,
              const EpiTwoLayerParameters& parameters, const Progress& progress)
       : lf_(lf),
-        packed_(packed),
         parameters_(parameters),
         progress_(progress),
-        residuals_(packed),
+        score_(packed, parameters.decision),
         space_(lf.height(), lf.width()) {}
 
   // Returns the largest relative gap of its solutions.
@@ -87,33 +74,16 @@ class ViewSolver {
   }
 
   const LightField& lf_;
-  const PackedViews& packed_;
   const EpiTwoLayerParameters& parameters_;
   const Progress& progress_;
-  LineResiduals residuals_;
+  LayerScore score_;
   Workspace space_;
   Image<std::uint8_t> region_;
 };
 
 void ViewSolver::find_region(ViewIndex index, const LayeredView& view) {
-  spread_coherence(view.fit, space_.data, space_.coherence);
-  residuals_.begin(index);
-  raise_by_line_fit(packed_.pixels.view(index), view.single, strictness(lf_.grid()), residuals_,
-                    space_.coherence);
-  const Image<float> steadiness = layer_steadiness(view.near, view.far, view.layers);
-  const auto decision = static_cast<float>(parameters_.decision);
-  for (std::size_t i = 0; i < space_.data.size(); ++i) {
-    const float r = space_.coherence.data()[i];
-    const float c = confidence(view, i);
-    const float share = single_misfit_share(r, c);
-    const float doubles =
-        share > decision ? (share - decision) / (1 - decision) : share / decision - 1;
-    // What is no surface speaks for one layer.
-    const float score = steadiness.data()[i] * (doubles + 1) - 1;
-    const float fit = std::max((std::max(r, c) - kNoiseFit) / (1 - kNoiseFit), 0.0F);
-    space_.data.data()[i] = (fit * score - kOneLayer) / (fit + kOneLayer);
-    space_.weight.data()[i] = fit + kOneLayer;
-  }
+  score_.judge(index, {view.fit, view.single, view.near, view.far, view.layers}, space_.data.view(),
+               space_.weight.view());
   segment_binary(space_.solver, {space_.data, space_.weight, {}, parameters_.region_smoothness},
                  {kRegionIterations, kRegionGap}, progress_, space_.edge.view(), region_.view());
 }
@@ -200,15 +170,59 @@ std::vector<std::string> notes_of(const std::vector<double>& gaps,
           gap_note(*std::max_element(gaps.begin(), gaps.end()))};
 }
 
+// The same on the device, which leaves the score to the CPU.
+std::vector<double> solve_on_device(const LightField& lf, const PackedViews& packed,
+                                    const EpiTwoLayerParameters& parameters,
+                                    const ViewStack<float>& fit, Estimate& estimate,
+                                    const Progress& progress) {
+  LayeredDisparity& layered = estimate.layered;
+  const ViewStack<float>& single = estimate.field.disparity;
+  const auto like_single = [&single] {
+    return ViewStack<float>(single.grid(), single.height(), single.width(), 1, single.first());
+  };
+  ViewStack<float> scores = like_single(), weights = like_single();
+  parallel_for_workers(single.grid().count(), progress.part(0, 0.4), [&] {
+    return [&, score = LayerScore(packed, parameters.decision)](int i) mutable {
+      const ViewIndex view = single.view_at(i);
+      score.judge(view,
+                  {fit.view(view), single.view(view), layered.foreground.disparity.view(view),
+                   layered.background.disparity.view(view), layered.layers.view(view)},
+                  scores.view(view), weights.view(view));
+    };
+  });
+  cuda::LayerSmoothing smoothing;
+  smoothing.region_smoothness = parameters.region_smoothness;
+  smoothing.region_iterations = kRegionIterations;
+  smoothing.region_gap = kRegionGap;
+  smoothing.lambda = parameters.lambda;
+  smoothing.layer_smoothness = parameters.layer_smoothness;
+  smoothing.weight_power = parameters.weight_power;
+  smoothing.min_weight = kMinWeight;
+  smoothing.edge_strength = parameters.edge_strength;
+  smoothing.border_weight = kBorderWeight;
+  smoothing.max_iterations = parameters.stop.max_iterations;
+  smoothing.gap = parameters.stop.gap;
+  return cuda::solve_layers(
+      lf, smoothing,
+      {scores, weights, single, estimate.confidence, layered.foreground.disparity,
+       layered.background.disparity, layered.layers},
+      progress.part(0.4, 1));
+}
+
 // Replaces the raw maps in `estimate` by the results.
 void solve_views(const LightField& lf, const PackedViews& packed,
                  const EpiTwoLayerParameters& parameters, const ViewStack<float>& fit,
-                 Estimate& estimate, const Progress& progress) {
+                 Estimate& estimate, const Progress& progress, Device device) {
   LayeredDisparity& layered = estimate.layered;
+  progress.step("layers");
+  if (device == Device::Cuda) {
+    const auto gaps = solve_on_device(lf, packed, parameters, fit, estimate, progress);
+    estimate.notes = notes_of(gaps, layered.layers);
+    return;
+  }
   const GridShape grid = layered.layers.grid();
   const ViewIndex first = layered.layers.first();
   std::vector<double> gaps(grid.count());
-  progress.step("layers");
   parallel_for_workers(grid.count(), progress, [&] {
     return [&, solver = ViewSolver(lf, packed, parameters, progress)](int i) mutable {
       const ViewIndex view = grid.view_at(i, first);
@@ -306,7 +320,7 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
 }
 
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
-                                ViewSelection views, const Progress& progress) {
+                                ViewSelection views, const Progress& progress, Device device) {
   EpiLParameters tensor = parameters.tensor;
   const TensorScales scales{
       parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
@@ -322,14 +336,14 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   const DoubleSearch search{{estimate.range.min - kOvershoot, estimate.range.max + kOvershoot},
                             parameters.least_distance};
   DoubleLayers layers = measure_double_layers(lf, scales, search, single.grid(), single.first(),
-                                              progress.part(0.2, 0.4));
+                                              progress.part(0.2, 0.4), device);
   estimate.layered.foreground.disparity = std::move(layers.near);
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
   const PackedViews packed = pack_views(lf, progress.part(0.4, 0.42));
   check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
-  solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98));
+  solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98), device);
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;
 }
@@ -343,8 +357,13 @@ Estimator epi_two_layer_estimator() {
        .reference = "Wanner and Goldluecke 2013 [Ano13]",
        .all_views = true,
        .iterative = true,
-       .revision = 6},
-      epi_two_layer_schema(), estimate_epi_two_layer);
+       .revision = 6,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_two_layer_schema(),
+      [](const LightField& lf, const EpiTwoLayerParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_two_layer(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope

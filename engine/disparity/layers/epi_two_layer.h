@@ -55,7 +55,8 @@ struct EpiTwoLayerParameters {
 /// Throws InvalidInput if no axis of the grid has three views.
 [[nodiscard]] Estimate estimate_epi_two_layer(const LightField& light_field,
                                               const EpiTwoLayerParameters& parameters,
-                                              ViewSelection views, const Progress& progress);
+                                              ViewSelection views, const Progress& progress,
+                                              Device device = Device::Cpu);
 
 [[nodiscard]] Estimator epi_two_layer_estimator();
 

@@ -5,6 +5,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/version.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "engine/disparity/registry.h"
 #include "tests/cpu_time.h"
 #include "tests/engine/disparity/light_fields.h"
@@ -127,11 +128,16 @@ void EstimatorTest::foreignDevice_isUnavailable() {
 
   require_device(Device::Auto, estimator.info);
   require_device(Device::Cpu, estimator.info);
+  const bool can = std::ranges::count(estimator.info.devices, Device::Cuda) > 0;
+  if (can && has_cuda_device()) QSKIP("there is a GPU, which tests/cuda is for");
   QVERIFY_THROWS_EXCEPTION(Unavailable, require_device(Device::Cuda, estimator.info));
+  QCOMPARE(chosen_device(Device::Auto, estimator.info), Device::Cpu);
 
   const std::string text =
       message_of([&] { (void)estimator.run(tiny(), {}, {.device = Device::Cuda}, Progress()); });
-  QCOMPARE(text, "EPI_L runs on the CPU only; use --device cpu or auto");
+  QCOMPARE(text,
+           can ? "there is no GPU to use: " + cuda_device().why_not + "; use --device cpu or auto"
+               : estimator.info.name + " runs on the CPU only; use --device cpu or auto");
 }
 
 void EstimatorTest::method_runsAndFillsProvenance() {

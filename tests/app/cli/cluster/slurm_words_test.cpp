@@ -24,6 +24,12 @@ class SlurmWordsTest : public QObject {
     QVERIFY_EXCEPTION_THROWN((void)option_words("--comment='a"), InvalidInput);
   }
 
+  void gpus_areAskedForOnce() {
+    QCOMPARE(with_gpu({"--time=1:00"}), (Words{"--time=1:00", "--gres=gpu:1"}));
+    QCOMPARE(with_gpu({"--gres=gpu:h200:2"}), (Words{"--gres=gpu:h200:2"}));
+    QCOMPARE(with_gpu({"--gpus-per-task=1"}), (Words{"--gpus-per-task=1"}));
+  }
+
   void ranges_joinNeighbours() {
     QCOMPARE(ranges_text(std::vector<std::size_t>{}), std::string());
     QCOMPARE(ranges_text(std::vector<std::size_t>{0, 1, 2, 5, 7, 8}), std::string("0-2,5,7-8"));

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/layers/double_layers.h"
+
+namespace episcope::cuda {
+
+void measure_double_layers(const LightField&, const std::vector<DoublePass>&, const DoubleShears&,
+                           const DoubleResults&, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
+}  // namespace episcope::cuda

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/layers/double_planes.cuh"
+
+namespace episcope::cuda {
+namespace {
+
+__device__ float sample_at(const DoubleLine& line, const DoublePlanes& planes, int row, int a,
+                           int b, int channel) {
+  const int along = min(max(a, 0), planes.length() - 1);
+  const long pixel = planes.is_horizontal ? line.samples.pixel(line.number, row, b, along)
+                                          : line.samples.pixel(row, line.number, along, b);
+  if (line.samples.valid != nullptr && line.samples.valid[pixel] == 0) return nanf("");
+  return line.samples.at(pixel, channel);
+}
+
+// Where a thread works: x and y of a plane with margins, to a and b.
+struct Place {
+  int a = 0, b = 0;
+  bool is_inside = false;
+};
+__device__ Place place_of(const DoublePlanes& planes, int x, int y) {
+  const int length = planes.length() + 2 * planes.margin;
+  const int a = planes.is_horizontal ? x : y, b = planes.is_horizontal ? y : x;
+  return {a - planes.margin, b, a < length && b < planes.breadth()};
+}
+__device__ Place place_of_thread(const DoublePlanes& planes) {
+  return place_of(planes, static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x),
+                  static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y));
+}
+
+dim3 blocks_of(const DoublePlanes& planes, int count) {
+  const int width = planes.width + (planes.is_horizontal ? 2 * planes.margin : 0);
+  const int height = planes.height + (planes.is_horizontal ? 0 : 2 * planes.margin);
+  return {blocks_for(width, 32), blocks_for(height, 8), static_cast<unsigned>(count)};
+}
+
+// Block z is a channel of a view.
+__global__ void differentiate_planes(DoubleLine line, DoubleFilters filters, DoublePlanes planes,
+                                     float* derivatives) {
+  const Place place = place_of_thread(planes);
+  if (!place.is_inside) return;
+  const int plane = static_cast<int>(blockIdx.z);
+  const int channel = plane / line.rows, row = plane % line.rows;
+  const int radius = filters.along[0].radius;
+  float sums[3] = {};
+  for (int i = -radius; i <= radius; ++i) {
+    const float sample = sample_at(line, planes, row, place.a + i, place.b, channel);
+    for (int order = 0; order < 3; ++order) {
+      sums[order] += filters.along[order].values[i + radius] * sample;
+    }
+  }
+  const long size = planes.size(), count = static_cast<long>(gridDim.z);
+  const long at = plane * size + planes.at(place.a, place.b);
+  for (int order = 0; order < 3; ++order) derivatives[order * count * size + at] = sums[order];
+}
+
+struct Products {
+  float values[6];
+};
+
+// Products of the whitened derivatives, channels summed, toned down.
+__device__ Products products_at(const DoubleLine& line, const DoubleFilters& filters, int row,
+                                int step, const DoublePlanes& planes, const float* derivatives,
+                                int a, int b) {
+  const long size = planes.size();
+  const long order = static_cast<long>(line.samples.channels) * line.rows * size;
+  const int radius = filters.views[0].radius;
+  float sums[6] = {};
+  for (int c = 0; c < line.samples.channels; ++c) {
+    float xx = 0, xu = 0, uu = 0;
+    for (int i = -radius; i <= radius; ++i) {
+      const long at =
+          (static_cast<long>(c) * line.rows + row + i) * size + planes.at_clamped(a - i * step, b);
+      xx += filters.views[0].values[i + radius] * derivatives[2 * order + at];
+      xu += filters.views[1].values[i + radius] * derivatives[order + at];
+      uu += filters.views[2].values[i + radius] * derivatives[at];
+    }
+    const float third = filters.scale[2] * uu + filters.mix * xx;
+    const float first = filters.scale[0] * xx, middle = filters.scale[1] * xu;
+    sums[0] += first * first;
+    sums[1] += first * middle;
+    sums[2] += first * third;
+    sums[3] += middle * middle;
+    sums[4] += middle * third;
+    sums[5] += third * third;
+  }
+  const float energy = sums[0] + sums[3] + sums[5];
+  const float weight = filters.contrast_energy / (energy + filters.contrast_energy);
+  Products products;
+  for (int j = 0; j < 6; ++j) {
+    // What an invalid sample entered counts nothing.
+    products.values[j] = isnan(sums[j]) ? 0.0F : weight * sums[j];
+  }
+  return products;
+}
+
+// Tiles of a block, with the halo of the integration along a.
+constexpr int kLongTile = 128, kThinTile = 2;    // a, b of horizontal EPIs
+constexpr int kSquareTile = 16, kWideTile = 32;  // of vertical ones
+constexpr int kThreads = 256;
+constexpr int kMostRadius = DoubleTaps::kMost / 2;
+
+template <int kTileA, int kTileB>
+__global__ void multiply_planes(DoubleLine line, DoubleFilters filters, int step,
+                                DoublePlanes of_derivatives, const float* derivatives,
+                                DoublePlanes planes, float* products) {
+  constexpr int kMostA = kTileA + 2 * kMostRadius;
+  __shared__ float tile[6][kMostA * kTileB];
+  const bool is_horizontal = planes.is_horizontal;
+  const int first_a =
+      static_cast<int>(is_horizontal ? blockIdx.x : blockIdx.y) * kTileA - planes.margin;
+  const int first_b = static_cast<int>(is_horizontal ? blockIdx.y : blockIdx.x) * kTileB;
+  const int product_row = static_cast<int>(blockIdx.z);
+  const int radius = filters.integrate.radius;
+  const int long_a = kTileA + 2 * radius;
+  const auto a_of = [&](int i) { return is_horizontal ? i % long_a : i / kTileB; };
+  const auto b_of = [&](int i) { return is_horizontal ? i / long_a : i % kTileB; };
+  for (int i = static_cast<int>(threadIdx.x); i < long_a * kTileB; i += kThreads) {
+    const int a = a_of(i), b = b_of(i);
+    const Products here =
+        products_at(line, filters, line.first_product + product_row, step, of_derivatives,
+                    derivatives, first_a + a - radius, min(first_b + b, planes.breadth() - 1));
+    for (int j = 0; j < 6; ++j) tile[j][b * kMostA + a] = here.values[j];
+  }
+  __syncthreads();
+  const long size = planes.size(), order = line.product_rows * size;
+  for (int i = static_cast<int>(threadIdx.x); i < kTileA * kTileB; i += kThreads) {
+    const int a = is_horizontal ? i % kTileA : i / kTileB;
+    const int b = is_horizontal ? i / kTileA : i % kTileB;
+    if (first_a + a >= planes.length() + planes.margin || first_b + b >= planes.breadth()) continue;
+    const long at = product_row * size + planes.at(first_a + a, first_b + b);
+    for (int j = 0; j < 6; ++j) {
+      float sum = 0;
+      for (int k = 0; k <= 2 * radius; ++k) {
+        sum += filters.integrate.values[k] * tile[j][b * kMostA + a + k];
+      }
+      products[j * order + at] = sum;
+    }
+  }
+}
+
+// Block z is a plane. Beyond the first and last EPI, these repeat.
+__global__ void average_planes(DoubleTaps taps, DoublePlanes planes, const float* products,
+                               float* averaged) {
+  const Place place = place_of_thread(planes);
+  if (!place.is_inside) return;
+  const long first = blockIdx.z * planes.size();
+  float sum = 0;
+  for (int i = -taps.radius; i <= taps.radius; ++i) {
+    const int b = min(max(place.b + i, 0), planes.breadth() - 1);
+    sum += taps.values[i + taps.radius] * products[first + planes.at(place.a, b)];
+  }
+  averaged[first + planes.at(place.a, place.b)] = sum;
+}
+
+}  // namespace
+
+void differentiate(const DoubleLine& line, const DoubleFilters& filters, const DoublePlanes& planes,
+                   float* derivatives, const DeviceStream& stream) {
+  const int count = line.samples.channels * line.rows;
+  const double places = static_cast<double>(planes.size()) * count;
+  launch(stream, {"double: derivatives", places * 13, places * 6 * 5}, [&] {
+    differentiate_planes<<<blocks_of(planes, count), dim3(32, 8), 0, stream.get()>>>(
+        line, filters, planes, derivatives);
+  });
+}
+
+void multiply(const DoubleLine& line, const DoubleFilters& filters, int step,
+              const DoublePlanes& of_derivatives, const float* derivatives,
+              const DoublePlanes& planes, float* products, const DeviceStream& stream) {
+  const double places = static_cast<double>(planes.size());
+  const double read = static_cast<double>(of_derivatives.size()) * line.rows;
+  const KernelWork work{"double: products",
+                        4 * (3 * line.samples.channels * read + 6 * line.product_rows * places),
+                        places * line.product_rows * (line.samples.channels * 48 + 110)};
+  const int length = planes.length() + 2 * planes.margin;
+  const auto count = static_cast<unsigned>(line.product_rows);
+  launch(stream, work, [&] {
+    if (planes.is_horizontal) {
+      const dim3 grid(blocks_for(length, kLongTile), blocks_for(planes.breadth(), kThinTile),
+                      count);
+      multiply_planes<kLongTile, kThinTile><<<grid, kThreads, 0, stream.get()>>>(
+          line, filters, step, of_derivatives, derivatives, planes, products);
+    } else {
+      const dim3 grid(blocks_for(planes.breadth(), kWideTile), blocks_for(length, kSquareTile),
+                      count);
+      multiply_planes<kSquareTile, kWideTile><<<grid, kThreads, 0, stream.get()>>>(
+          line, filters, step, of_derivatives, derivatives, planes, products);
+    }
+  });
+}
+
+void average_across(const DoubleLine& line, const DoubleFilters& filters,
+                    const DoublePlanes& planes, const float* products, float* averaged,
+                    const DeviceStream& stream) {
+  const int count = 6 * line.product_rows;
+  const double places = static_cast<double>(planes.size()) * count;
+  launch(stream, {"double: across EPIs", places * 8, places * 10}, [&] {
+    average_planes<<<blocks_of(planes, count), dim3(32, 8), 0, stream.get()>>>(
+        filters.across, planes, products, averaged);
+  });
+}
+
+}  // namespace episcope::cuda

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/layers/double_planes.cuh"
+
+namespace episcope::cuda {
+namespace {
+
+// The tensor of 6 products and what its smallest eigenvector says.
+struct Answer {
+  float mean = 0, half_distance = 0, confidence = 0;
+  bool is_real = false;
+};
+
+// Below it the tensor, of trace 1, has rank 1 as far as floats can tell.
+constexpr float kMinorsFloor = 1e-5F;
+
+// Newton's steps on the characteristic polynomial from 0, which rise monotonically.
+__device__ float smallest_eigenvalue(float minors, float determinant) {
+  float value = 0;
+  for (int i = 0; i < 5; ++i) {
+    const float p = ((value - 1) * value + minors) * value - determinant;
+    const float slope = (3 * value - 2) * value + minors;
+    value = fmaxf(value - p / fmaxf(slope, kMinorsFloor), 0.0F);
+  }
+  return value;
+}
+
+__device__ Answer solve(const float (&products)[6], const DoubleFilters& filters) {
+  const float trace = products[0] + products[3] + products[5] + 1e-20F;
+  const float inverse = 1 / trace;
+  float t[6];
+  for (int j = 0; j < 6; ++j) t[j] = inverse * products[j];
+  const float minors =
+      t[0] * t[3] - t[1] * t[1] + (t[0] * t[5] - t[2] * t[2]) + (t[3] * t[5] - t[4] * t[4]);
+  const float determinant = t[0] * (t[3] * t[5] - t[4] * t[4]) -
+                            t[1] * (t[1] * t[5] - t[2] * t[4]) + t[2] * (t[1] * t[4] - t[2] * t[3]);
+  const float smallest = smallest_eigenvalue(fmaxf(minors, 0.0F), determinant);
+  // The other two: their sum is 1 − smallest, their product what is left of the minors.
+  const float sum = 1 - smallest, product = fmaxf(minors - smallest * sum, 0.0F);
+  const float root = sqrtf(fmaxf(sum * sum - 4 * product, 0.0F));
+  const float middle = 2 * product / (sum + root + 1e-20F);
+  // Its eigenvector is any column of the adjoint of T − λ: the longest is the safest.
+  const float a = t[0] - smallest, d = t[3] - smallest, f = t[5] - smallest;
+  const float c11 = d * f - t[4] * t[4], c22 = a * f - t[2] * t[2], c33 = a * d - t[1] * t[1];
+  const float c12 = t[2] * t[4] - t[1] * f, c13 = t[1] * t[4] - t[2] * d;
+  const float c23 = t[1] * t[2] - a * t[4];
+  const bool third = c33 >= c11 && c33 >= c22, second = c22 >= c11;
+  const float b1 = third ? c13 : second ? c12 : c11;
+  const float b2 = third ? c23 : second ? c22 : c12;
+  const float b3 = third ? c33 : second ? c23 : c13;
+  // Back from whitened derivatives: Q f_xx − S f_xu + f_uu = 0.
+  const bool is_sound = b3 * b3 > 1e-4F * (b1 * b1 + b2 * b2 + b3 * b3);
+  const float inverse_last = 1 / (is_sound ? filters.scale[2] * b3 : 1.0F);
+  Answer answer;
+  answer.mean = -0.5F * filters.scale[1] * b2 * inverse_last;
+  const float both = (filters.scale[0] * b1 + filters.mix * b3) * inverse_last;
+  const float discriminant = answer.mean * answer.mean - both;
+  answer.half_distance = sqrtf(fmaxf(discriminant, 0.0F));
+  answer.is_real = is_sound && discriminant > 0 && minors > kMinorsFloor;
+  // Two orientations leave the third eigenvalue empty, one leaves the second empty as well.
+  const float strength = middle * trace;
+  answer.confidence = fmaxf(1 - smallest / (middle + 1e-20F), 0.0F) * strength /
+                      (strength + filters.noise_energy + 1e-20F);
+  return answer;
+}
+
+// Block z is a wanted view.
+__global__ void select_best(DoubleLine line, DoubleFilters filters, const float* row_weights,
+                            DoubleLimits limits, DoublePlanes planes, const float* products,
+                            DoubleBest best) {
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y * blockDim.y + threadIdx.y);
+  if (x >= planes.width || y >= planes.height) return;
+  const int number = static_cast<int>(blockIdx.z), row = best.first + number;
+  const int a = planes.is_horizontal ? x : y, b = planes.is_horizontal ? y : x;
+  const long size = planes.size(), order = line.product_rows * size;
+  float sums[6] = {};
+  for (int i = 0; i < line.product_rows; ++i) {
+    const float weight = row_weights[row * line.product_rows + i];
+    if (weight == 0) continue;
+    const int moved = limits.step * (line.first_product + i - row);
+    const float* const from = products + i * size + planes.at(a - moved, b);
+    for (int j = 0; j < 6; ++j) sums[j] += weight * from[j * order];
+  }
+  const Answer answer = solve(sums, filters);
+  const auto step = static_cast<float>(limits.step);
+  const float near = answer.mean + answer.half_distance + step;
+  const float far = answer.mean - answer.half_distance + step;
+  const long at = (static_cast<long>(number) * planes.height + y) * planes.width + x;
+  const bool better = answer.is_real && fabsf(answer.mean) <= limits.limit &&
+                      answer.half_distance >= 0.5F * limits.min_distance && near <= limits.max &&
+                      far >= limits.min && answer.confidence > best.confidence[at];
+  if (!better) return;
+  best.near[at] = near;
+  best.far[at] = far;
+  best.confidence[at] = answer.confidence;
+}
+
+}  // namespace
+
+void select(const DoubleLine& line, const DoubleFilters& filters, const float* row_weights,
+            const DoubleLimits& limits, const DoublePlanes& planes, const float* products,
+            const DoubleBest& best, const DeviceStream& stream) {
+  const dim3 grid(blocks_for(planes.width, 32), blocks_for(planes.height, 8),
+                  static_cast<unsigned>(best.count));
+  const double pixels = static_cast<double>(planes.width) * planes.height * best.count;
+  const double read = static_cast<double>(planes.size()) * line.product_rows * 6 * sizeof(float);
+  launch(stream, {"double: select", read + pixels * 12, pixels * (line.product_rows * 12 + 140)},
+         [&] {
+           select_best<<<grid, dim3(32, 8), 0, stream.get()>>>(line, filters, row_weights, limits,
+                                                               planes, products, best);
+         });
+}
+
+}  // namespace episcope::cuda

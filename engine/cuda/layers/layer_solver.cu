@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/layers/layer_solver.h"
+#include "engine/cuda/tv_l2/denoise_maps.cuh"
+#include "engine/cuda/tv_l2/tv_l2_solver.cuh"
+
+#include <algorithm>
+
+namespace episcope::cuda {
+namespace {
+
+constexpr int kThreads = 256;
+
+// Maps on the device, all `[view][y][x]`.
+struct Maps {
+  int height = 0, width = 0;
+  long count = 0;  ///< Of all pixels.
+  const float* single = nullptr;
+  float* coherence = nullptr;
+  float* near = nullptr;
+  float* far = nullptr;
+  std::uint8_t* layers = nullptr;
+  std::uint8_t* region = nullptr;  ///< 1 = two layers.
+  float* data = nullptr;
+  float* weight = nullptr;
+  float* image_edges = nullptr;
+  float* edges = nullptr;
+};
+
+__device__ float confidence_at(const Maps& maps, long i) {
+  return static_cast<float>(maps.layers[i]) / 255;
+}
+
+__device__ long place() {
+  return static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
+}
+
+// The region from the solution in `data`, and what either layer is trusted.
+__global__ void find_region(Maps maps, float* trust) {
+  const long i = place();
+  if (i >= maps.count) return;
+  const bool is_double = maps.data[i] > 0;
+  maps.region[i] = is_double ? 1 : 0;
+  trust[i] = is_double ? confidence_at(maps, i) : maps.coherence[i];
+}
+
+// The surface is an area, not a texture: it ignores image edges, and may jump at its border.
+__global__ void begin_foreground(Maps maps, float factor, float border_weight) {
+  const long i = place();
+  if (i >= maps.count) return;
+  const int x = static_cast<int>(i % maps.width);
+  const int y = static_cast<int>(i / maps.width % maps.height);
+  const std::uint8_t here = maps.region[i];
+  const std::uint8_t right = maps.region[x + 1 < maps.width ? i + 1 : i];
+  const std::uint8_t below = maps.region[y + 1 < maps.height ? i + maps.width : i];
+  const bool is_border = right != here || below != here;
+  maps.data[i] = here != 0 ? maps.near[i] : maps.single[i];
+  maps.edges[i] = is_border ? border_weight : here != 0 ? 1.0F : maps.image_edges[i] / factor;
+}
+
+// Image edges of the region are those of both layers: they tell of neither.
+__global__ void begin_background(Maps maps) {
+  const long i = place();
+  if (i >= maps.count) return;
+  const bool is_double = maps.region[i] != 0;
+  maps.data[i] = is_double ? maps.far[i] : maps.single[i];
+  maps.edges[i] = is_double ? 1.0F : maps.image_edges[i];
+}
+
+// Orders the layers, and writes confidence and number of layers.
+__global__ void finish_layers(Maps maps) {
+  const long i = place();
+  if (i >= maps.count) return;
+  if (maps.region[i] == 0) {
+    maps.near[i] = maps.far[i];
+    maps.layers[i] = 1;
+    return;
+  }
+  if (maps.near[i] < maps.far[i]) maps.near[i] = maps.far[i] = 0.5F * (maps.near[i] + maps.far[i]);
+  maps.coherence[i] = confidence_at(maps, i);
+  maps.layers[i] = 2;
+}
+
+// All that the device holds for a run.
+class LayerSolver {
+ public:
+  LayerSolver(const LightField& lf, const LayerSmoothing& smoothing, const LayerMaps& maps,
+              const Progress& progress);
+
+  std::vector<double> solve(const Progress& progress);
+  void download_to(const LayerMaps& maps, const Progress& progress);
+
+ private:
+  template <class Kernel>
+  void run(const char* name, double bytes, const Kernel& kernel) {
+    const double count = static_cast<double>(maps_.count);
+    launch(stream_, {name, bytes * count, 8 * count},
+           [&] { kernel(blocks_for(maps_.count, kThreads)); });
+  }
+  void find_weights(const Progress& progress);
+  void solve_layer(double lambda, float* result, const Progress& progress);
+  [[nodiscard]] DeviceArray<float> stack(const ViewStack<float>& host, const Progress& progress) {
+    return upload(host.data(), host.size(), stream_, progress);
+  }
+
+  std::shared_ptr<const DeviceLightField> light_field_;
+  LayerSmoothing smoothing_;
+  MappedViews views_;
+  DeviceStream stream_;
+  DeviceArray<float> single_, coherence_, near_, far_, data_, weight_, image_edges_, edges_;
+  DeviceArray<std::uint8_t> layers_, region_;
+  TvL2DeviceSolver solver_;
+  Maps maps_;
+  std::vector<double> gaps_;
+};
+
+LayerSolver::LayerSolver(const LightField& lf, const LayerSmoothing& smoothing,
+                         const LayerMaps& maps, const Progress& progress)
+    : light_field_(on_device(lf, progress)),
+      smoothing_(smoothing),
+      views_{maps.single.grid(), maps.single.first()},
+      single_(stack(maps.single, progress)),
+      coherence_(stack(maps.coherence, progress)),
+      near_(stack(maps.near, progress)),
+      far_(stack(maps.far, progress)),
+      data_(stack(maps.score, progress)),
+      weight_(stack(maps.weight, progress)),
+      image_edges_(single_.size(), stream_),
+      edges_(single_.size(), stream_),
+      layers_(upload(maps.layers.data(), maps.layers.size(), stream_, progress)),
+      region_(single_.size(), stream_),
+      solver_(lf.height(), lf.width(), maps.single.grid().count(), stream_),
+      maps_{lf.height(),    lf.width(),        static_cast<long>(single_.size()),
+            single_.data(), coherence_.data(), near_.data(),
+            far_.data(),    layers_.data(),    region_.data(),
+            data_.data(),   weight_.data(),    image_edges_.data(),
+            edges_.data()} {}
+
+// Of either layer's data, and of the variation.
+void LayerSolver::find_weights(const Progress& progress) {
+  (void)solver_.solve({data_.data(), weight_.data(), nullptr, smoothing_.region_smoothness},
+                      smoothing_.region_iterations, smoothing_.region_gap, progress, data_.data());
+  run("layers: region", 14, [&](unsigned blocks) {
+    find_region<<<blocks, kThreads, 0, stream_.get()>>>(maps_, edges_.data());
+  });
+  MapDenoising weights;
+  weights.weight_power = smoothing_.weight_power;
+  weights.min_weight = smoothing_.min_weight;
+  weights.edge_strength = smoothing_.edge_strength;
+  fill_weights(light_field_->samples(), views_, 0, views_.grid.count(), weights, edges_.data(),
+               nullptr, {weight_.data(), image_edges_.data()}, stream_);
+}
+
+void LayerSolver::solve_layer(double lambda, float* result, const Progress& progress) {
+  const std::vector<TvL2Outcome> outcomes =
+      solver_.solve({data_.data(), weight_.data(), edges_.data(), lambda},
+                    smoothing_.max_iterations, smoothing_.gap, progress, result);
+  gaps_.resize(outcomes.size(), 0);
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    gaps_[i] = std::max(gaps_[i], outcomes[i].relative_gap());
+  }
+}
+
+std::vector<double> LayerSolver::solve(const Progress& progress) {
+  find_weights(progress.part(0, 0.3));
+  const auto factor = static_cast<float>(std::max(smoothing_.layer_smoothness, 1.0));
+  run("layers: foreground", 18, [&](unsigned blocks) {
+    begin_foreground<<<blocks, kThreads, 0, stream_.get()>>>(maps_, factor,
+                                                             smoothing_.border_weight);
+  });
+  solve_layer(smoothing_.lambda * factor, near_.data(), progress.part(0.3, 0.65));
+  run("layers: background", 18,
+      [&](unsigned blocks) { begin_background<<<blocks, kThreads, 0, stream_.get()>>>(maps_); });
+  solve_layer(smoothing_.lambda, far_.data(), progress.part(0.65, 1));
+  run("layers: order", 12,
+      [&](unsigned blocks) { finish_layers<<<blocks, kThreads, 0, stream_.get()>>>(maps_); });
+  return gaps_;
+}
+
+void LayerSolver::download_to(const LayerMaps& maps, const Progress& progress) {
+  download(maps.coherence, coherence_, stream_, progress);
+  download(maps.near, near_, stream_, progress);
+  download(maps.far, far_, stream_, progress);
+  download(maps.layers, layers_, stream_, progress);
+}
+
+}  // namespace
+
+std::vector<double> solve_layers(const LightField& lf, const LayerSmoothing& smoothing,
+                                 const LayerMaps& maps, const Progress& progress) {
+  LayerSolver solver(lf, smoothing, maps, progress.part(0, 0.1));
+  std::vector<double> gaps = solver.solve(progress.part(0.1, 0.9));
+  solver.download_to(maps, progress.part(0.9, 1));
+  return gaps;
+}
+
+}  // namespace episcope::cuda

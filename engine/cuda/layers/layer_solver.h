@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/view_stack.h"
+#include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/progress.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope::cuda {
+
+/// How two layers are told from one and smoothed; see EpiTwoLayerParameters.
+struct LayerSmoothing {
+  double region_smoothness = 4;
+  int region_iterations = 10;
+  double region_gap = 1e-3;
+  double lambda = 0.1;
+  double layer_smoothness = 3;
+  double weight_power = 4;
+  float min_weight = 0.003F;
+  double edge_strength = 15;
+  float border_weight = 0.02F;
+  int max_iterations = 30;
+  double gap = 1e-4;
+};
+
+/// Stacks of the same views. `score` speaks for two layers where it is positive, as `weight` says.
+/// The others are raw and become results: the coherence of one orientation that of what is there,
+/// `layers` the confidence of two orientations in 1/255 their number.
+struct LayerMaps {
+  const ViewStack<float>& score;
+  const ViewStack<float>& weight;
+  const ViewStack<float>& single;
+  ViewStack<float>& coherence;
+  ViewStack<float>& near;
+  ViewStack<float>& far;
+  ViewStack<std::uint8_t>& layers;
+};
+
+/// Steps 3 and 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. Throws
+/// DeviceFailure, Cancelled.
+[[nodiscard]] std::vector<double> solve_layers(const LightField& light_field,
+                                               const LayerSmoothing& smoothing,
+                                               const LayerMaps& maps, const Progress& progress);
+
+}  // namespace episcope::cuda

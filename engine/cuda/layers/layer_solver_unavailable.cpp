@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/layers/layer_solver.h"
+
+namespace episcope::cuda {
+
+std::vector<double> solve_layers(const LightField&, const LayerSmoothing&, const LayerMaps&,
+                                 const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
+}  // namespace episcope::cuda

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/epi/line_residuals.h"
+
+namespace episcope {
+
+/// Tells view by view whether rays see two layers or one; one object per thread.
+class LayerScore {
+ public:
+  /// `decision` as in EpiTwoLayerParameters.
+  LayerScore(const PackedViews& packed, double decision);
+
+  /// Fills `score`, in [−1, 1] and positive for two layers, and `weight`, how much is seen there.
+  /// `fit` is the coherence of one orientation `single` before lines were checked, `confidence`
+  /// that of two orientations near ≥ far, in 1/255. All are `[y][x]` of one size.
+  struct Maps {
+    ImageView<const float> fit, single, near, far;
+    ImageView<const std::uint8_t> confidence;
+  };
+  void judge(ViewIndex view, const Maps& maps, ImageView<float> score, ImageView<float> weight);
+
+ private:
+  const PackedViews& packed_;
+  float decision_;
+  float strictness_;
+  LineResiduals residuals_;
+  Image<float> rows_, coherence_;
+};
+
+}  // namespace episcope
