@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/tensor/cpu_order.cuh"
 #include "engine/cuda/tensor/derivative_planes.cuh"
 
 #include <algorithm>
@@ -48,20 +49,23 @@ __device__ void read_tile(const DeviceSamples& samples, const EpiBand& band, con
 
 // Of three neighbouring lanes: central difference, and Scharr's smoothing.
 __device__ float2 derivatives(float left, float here, float right) {
-  return {0.5F * (right - left), (3.0F / 16) * (left + right) + (10.0F / 16) * here};
+  return {0.5F * (right - left), two_products(3.0F / 16, left + right, 10.0F / 16, here)};
 }
 
 // Between in[0] and in[1].
 __device__ float half_pixel(const float* in) {
-  return (9.0F / 16) * (in[0] + in[1]) - (1.0F / 16) * (in[-1] + in[2]);
+  return two_products(9.0F / 16, in[0] + in[1], -1.0F / 16, in[-1] + in[2]);
 }
 
 __device__ float smoothed(const float* in, const LaneTaps& taps) {
   const int radius = taps.count / 2;
-  float sum = taps.values[radius] * in[0];
-  for (int i = 1; i <= radius; ++i) {
-    sum += taps.values[radius + i] * in[i];
-    sum += taps.values[radius - i] * in[-i];
+  const float* const middle = taps.values + radius;
+  if (radius == 0) return middle[0] * in[0];
+  float sum = two_products(middle[0], in[0], middle[1], in[1]);
+  sum = __fmaf_rn(middle[-1], in[-1], sum);
+  for (int i = 2; i <= radius; ++i) {
+    sum = __fmaf_rn(middle[i], in[i], sum);
+    sum = __fmaf_rn(middle[-i], in[-i], sum);
   }
   return sum;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/tensor/cpu_order.cuh"
 #include "engine/cuda/tensor/tensor_average.cuh"
 #include "engine/cuda/tensor/tensor_choice.cuh"
 
@@ -16,7 +17,7 @@ struct Orientation {
 
 // The slope of ∂s + d ∂x = 0, −d, of one tensor by least squares.
 __device__ float slope_of(const Tensor& tensor) {
-  return __fdividef(tensor.xs, tensor.xx + 1e-20F);
+  return tensor.xs * reciprocal(tensor.xx + 1e-20F);
 }
 
 // Neighbours whose disparity differs by so much, squared, count half.
@@ -25,15 +26,15 @@ constexpr float kDisagreement = 0.09F;
 __device__ float agreement(const Tensor& tensor, float own) {
   const float off = tensor.xs - own * tensor.xx;
   const float agreeing = kDisagreement * (tensor.xx * tensor.xx) + 1e-30F;
-  return __fdividef(agreeing, agreeing + off * off);
+  return agreeing * reciprocal(agreeing + off * off);
 }
 
 // Least squares of ∂s + d ∂x = 0; coherence in the frame sheared by d.
 __device__ Orientation read_off(const Tensor& sum, const AverageSettings& settings) {
   const float xx = sum.xx + 1e-20F;
-  const float disparity = -__fdividef(sum.xs, xx);
+  const float disparity = -sum.xs * reciprocal(xx);
   const float residual = fmaxf(sum.ss + disparity * sum.xs, 0);
-  float coherence = __fdividef(xx - residual, xx + residual + settings.noise_energy);
+  float coherence = (xx - residual) * reciprocal(xx + residual + settings.noise_energy);
   const bool inside = disparity >= settings.min && disparity <= settings.max;
   if (!(inside && coherence > 0)) coherence = 0;
   return {fminf(fmaxf(disparity, settings.min), settings.max), coherence};

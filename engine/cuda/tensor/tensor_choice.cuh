@@ -4,6 +4,7 @@
 /// The tensor of one ray, and the choice of the best of its shears.
 
 #include "engine/cuda/tensor/best_tensors.cuh"
+#include "engine/cuda/tensor/cpu_order.cuh"
 
 namespace episcope::cuda {
 
@@ -12,9 +13,9 @@ struct Tensor {
 };
 
 __device__ inline void add(Tensor& sum, float weight, const Tensor& tensor) {
-  sum.xx += weight * tensor.xx;
-  sum.xs += weight * tensor.xs;
-  sum.ss += weight * tensor.ss;
+  sum.xx = __fmaf_rn(weight, tensor.xx, sum.xx);
+  sum.xs = __fmaf_rn(weight, tensor.xs, sum.xs);
+  sum.ss = __fmaf_rn(weight, tensor.ss, sum.ss);
 }
 
 /// Parts of a tensor lie `pitch` apart.
@@ -52,6 +53,8 @@ class ShearChoice {
     }
   }
 
+  [[nodiscard]] __device__ bool by_eigenvector() const { return by_eigenvector_; }
+
  private:
   static constexpr float kTiny = 1e-20F;
 
@@ -69,14 +72,15 @@ class ShearChoice {
     const float difference = tensor.xx - tensor.ss, twice = -2 * tensor.xs;
     if (!(difference > 0 && twice >= below_ * difference && twice <= above_ * difference)) return;
     const float whole = tensor.xx + tensor.ss + (noise_ + kTiny);
-    const float coherence = __fdividef(difference * difference + twice * twice, whole * whole);
+    const float coherence =
+        two_products(difference, difference, twice, twice) * reciprocal(whole * whole);
     if (coherence > best[3 * pitch]) keep(tensor, coherence, best, pitch);
   }
 
   __device__ void keep_eigenvector(const Tensor& tensor, float* best, int pitch) const {
     const float difference = tensor.xx - tensor.ss, twice = -2 * tensor.xs;
     const float trace = tensor.xx + tensor.ss;
-    const float root = sqrtf(difference * difference + twice * twice);
+    const float root = sqrtf(two_products(difference, difference, twice, twice));
     const float disparity = twice / (difference + root + kTiny);
     const float ratio = root / (trace + (noise_ + kTiny));
     const float coherence = ratio * ratio;
@@ -86,7 +90,7 @@ class ShearChoice {
     if (!replaces_) return keep(tensor, coherence, best, pitch);
     // Of eigenvalues (trace ± root)/2, the residual along d is the smaller one.
     const float large = 0.5F * (trace + root), xs = -disparity * large;
-    keep({large, xs, 0.5F * (trace - root) - disparity * xs}, coherence, best, pitch);
+    keep({large, xs, two_products(0.5F, trace - root, -disparity, xs)}, coherence, best, pitch);
   }
 
   float limit_, upright_, noise_;

@@ -14,7 +14,9 @@ struct OrientationMaps {
   float* disparity = nullptr;
   float* confidence = nullptr;
   /// Maps of a view.
-  [[nodiscard]] __host__ __device__ int index(int v, int u) const { return (v - first.v) * grid.u + (u - first.u); }
+  [[nodiscard]] __host__ __device__ int index(int v, int u) const {
+    return (v - first.v) * grid.u + (u - first.u);
+  }
 };
 
 /// `find_orientations` of what is on the device, on a stream, with the results left there. Throws
