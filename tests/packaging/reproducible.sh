@@ -13,10 +13,11 @@ trap 'rm -rf "$folder"' EXIT
 build() {
   mkdir -p "$folder/$1"
   git -C "$project" ls-files -z | (cd "$project" && xargs -0 tar -cf -) | tar -xf - -C "$folder/$1"
-  # Without a compiler cache, which would hand the bytes of one folder to the other.
+  # Without a compiler cache, which would hand the bytes of one folder to the other, and without
+  # CUDA, whose compiler makes names of the paths of its sources.
   # shellcheck disable=SC2086 # One word a target.
   (cd "$folder/$1" && cmake --preset headless -DEPISCOPE_TESTS=OFF -DEPISCOPE_BENCH=OFF \
-    -DCMAKE_CXX_COMPILER_LAUNCHER= -DEPISCOPE_CCACHE= >/dev/null &&
+    -DCMAKE_CXX_COMPILER_LAUNCHER= -DEPISCOPE_CCACHE= -DEPISCOPE_CUDA=OFF >/dev/null &&
     cmake --build --preset headless --target $targets >build.log) ||
     { tail -20 "$folder/$1/build.log"; exit 1; }
 }

@@ -30,7 +30,7 @@ TvL2Levels make_levels(int height, int width, int views) {
 
 std::size_t floats_of(const TvL2Levels& levels) {
   long floats = 0;
-  for (int k = 0; k < levels.count; ++k) floats += kTvL2Planes * levels.level[k].plane;
+  for (int k = 0; k < levels.count; ++k) floats += kTvL2Slots * levels.level[k].plane;
   return static_cast<std::size_t>(floats);
 }
 
@@ -46,7 +46,7 @@ TvL2Grids::TvL2Grids(int height, int width, int views, const DeviceStream& strea
   for (int k = 0; k < levels_.count; ++k) {
     TvL2Level& level = levels_.level[k];
     level.memory = next + kMargin + level.pitch;
-    next += kTvL2Planes * level.plane;
+    next += kTvL2Slots * level.plane;
   }
 }
 

@@ -18,6 +18,7 @@ class TvL2Grids {
   [[nodiscard]] static std::size_t bytes_per_view(int height, int width);
 
   [[nodiscard]] const TvL2Levels& levels() const { return levels_; }
+  void swap_moved(int k) { levels_.level[k].swap_moved(); }
   [[nodiscard]] int views() const { return view_count_; }
   [[nodiscard]] TvL2View* of_views() { return views_.data(); }
   /// Copies what differs from view to view to the device.

@@ -4,12 +4,17 @@
 #include "engine/cuda/device/device_array.cuh"
 
 #include <cstdint>
+#include <utility>
 
 namespace episcope::cuda {
 
 /// What a level of the solver holds for every pixel; as in engine/solvers/tv_l2/tv_l2_kernel.h.
 enum class TvL2Plane { Cf, C, G, U, Zx, Zy, Rx, Ry, Inverse, B };
 inline constexpr int kTvL2Planes = 10;
+/// Those that an iteration moves have a second plane, which it writes to.
+inline constexpr TvL2Plane kTvL2Moved[] = {TvL2Plane::U, TvL2Plane::Zx, TvL2Plane::Zy,
+                                           TvL2Plane::B};
+inline constexpr int kTvL2Slots = kTvL2Planes + 4;
 
 /// One level of the grid hierarchy for all views, `[plane][view][row][half][i]`. Rows are split:
 /// first the pixels of the even columns, `odd` floats further those of the odd ones, so that the
@@ -22,10 +27,22 @@ struct TvL2Level {
   int height = 0, width = 0;
   long pitch = 0, odd = 0;
   float data_scale = 1;  ///< Factor of c when the level serves as multigrid level.
+  /// Where planes lie now: the last four slots are the second planes of those that are moved.
+  std::int8_t slot[kTvL2Slots] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13};
 
   /// Pixel (0, 0) of a view.
   [[nodiscard]] __device__ float* of(TvL2Plane which, int v) const {
-    return memory + static_cast<int>(which) * plane + v * view;
+    return memory + slot[static_cast<int>(which)] * plane + v * view;
+  }
+  /// The second plane of kTvL2Moved[moved].
+  [[nodiscard]] __device__ float* second(int moved, int v) const {
+    return memory + slot[kTvL2Planes + moved] * plane + v * view;
+  }
+  /// The second planes take the place of the first.
+  void swap_moved() {
+    for (int i = 0; i < kTvL2Slots - kTvL2Planes; ++i) {
+      std::swap(slot[static_cast<int>(kTvL2Moved[i])], slot[kTvL2Planes + i]);
+    }
   }
   [[nodiscard]] __host__ __device__ long at(int y, int x) const {
     return y * pitch + (x & 1) * odd + (x >> 1);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
 #include "engine/cuda/tv_l2/tv_l2_penalty.cuh"
 #include "engine/cuda/tv_l2/tv_l2_run.cuh"
 #include "engine/cuda/tv_l2/tv_l2_solver.cuh"
@@ -161,10 +162,7 @@ void TvL2DeviceSolver::renew_penalty(int stage, bool first) {
 // The correction of level stage + 1.
 void TvL2DeviceSolver::correct(int stage) {
   for (int k = stage + 1; k < first_of_tail_; ++k) {
-    const TvL2Level fine = level(k, stage), coarse = level(k + 1, stage);
-    run("tv_l2: relax from zero", RelaxFromZero{fine}, fine, 3, 1);
-    run("tv_l2: relax", RelaxColour{fine, 1}, fine, 8, 9);
-    run_cells("tv_l2: restrict", Restrict{fine, coarse}, coarse, 18, 30);
+    descend_level(stream_, level(k, stage), level(k + 1, stage), grids_.views(), grids_.of_views());
   }
   correct_tail(stream_, {grids_.levels(), first_of_tail_, grids_.views(), grids_.of_views()},
                stage);
@@ -178,16 +176,10 @@ void TvL2DeviceSolver::correct(int stage) {
 void TvL2DeviceSolver::iterate(int stage, int iteration, const Progress& progress) {
   progress.check();
   if (iteration % kPenaltyEvery == 0) renew_penalty(stage, iteration == 0);
-  const TvL2Level solved = level(stage, stage), coarse = level(stage + 1, stage);
-  if (iteration > 0) {
-    correct(stage);
-    run("tv_l2: correct and relax", CorrectAndRelax{solved, coarse}, solved, 9, 13);
-    run("tv_l2: relax", RelaxColour{solved, 0}, solved, 8, 9);
-  }
-  run("tv_l2: move dual", MoveDual{solved, grids_.of_views()}, solved, 16, 40);
-  run("tv_l2: renew and relax", RenewAndRelax{solved}, solved, 17, 60);
-  run("tv_l2: relax", RelaxColour{solved, 1}, solved, 8, 9);
-  run_cells("tv_l2: restrict", Restrict{solved, coarse}, coarse, 18, 30);
+  if (iteration > 0) correct(stage);
+  iterate_level(stream_, level(stage, stage), level(stage + 1, stage), grids_.views(),
+                grids_.of_views(), iteration == 0);
+  grids_.swap_moved(stage);
 }
 
 // Coarse to fine, up to the start of the finest level.

@@ -2,6 +2,7 @@
 #include "engine/disparity/epi/epi_c.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/ordering/ordering.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/epi/replace_occluded.h"
@@ -161,6 +162,13 @@ std::vector<ViewIndex> views_of_colour(GridShape grid, int colour) {
   return views;
 }
 
+// Before each half of a sweep.
+void name_sweep(int sweeps, int half, double gap, const Progress& progress) {
+  if (half % 2 != 0) return;
+  progress.step(fmt::format("ordering, sweep {} of {}{}", half / 2 + 1, sweeps,
+                            half > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
+}
+
 // Improves all views of one colour; returns the largest relative gap.
 double improve(const Work& work, const std::vector<ViewIndex>& views, const Progress& progress) {
   std::vector<double> gaps(views.size());
@@ -176,6 +184,11 @@ double improve(const Work& work, const std::vector<ViewIndex>& views, const Prog
 struct LineCount {
   long violations = 0, lines = 0;
 };
+
+double share_of(const LineCount& count) {
+  return count.lines > 0 ? static_cast<double>(count.violations) / static_cast<double>(count.lines)
+                         : 0;
+}
 
 LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<float>& scratch) {
   LineCount count;
@@ -203,11 +216,36 @@ void keep_center(Estimate& estimate, ViewIndex center) {
   cut(estimate.confidence);
 }
 
+// The same for all views of a colour at once, on the device.
+double improve_on_device(const Work& work, const Progress& progress) {
+  const EpiCParameters& parameters = work.parameters;
+  const OrderingPenalty penalty = work.penalty();
+  const GridShape grid = work.u.grid();
+  cuda::OrderingSweeps sweeps;
+  sweeps.rise = penalty.rise;
+  sweeps.fall = penalty.fall;
+  sweeps.softness = penalty.softness;
+  sweeps.sweeps = parameters.sweeps;
+  sweeps.lambda = parameters.denoising.lambda;
+  sweeps.weight_power = parameters.denoising.weight_power;
+  sweeps.min_weight = kMinWeight;
+  sweeps.edge_strength = parameters.denoising.edge_strength;
+  sweeps.max_iterations = parameters.denoising.stop.max_iterations;
+  sweeps.gap = parameters.denoising.stop.gap;
+  for (int i = 0; i < grid.count(); ++i) {
+    sweeps.counts.push_back(count_valid(work.light_field, grid.view_at(i)) > 0 ? 1 : 0);
+  }
+  sweeps.on_half = [&](int half, double gap) {
+    name_sweep(parameters.sweeps, half, gap, progress);
+  };
+  return cuda::sweep_in_order(work.light_field, sweeps, work.f, work.confidence, work.u, progress);
+}
+
 }  // namespace
 
 double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
-                             const Progress& progress) {
+                             const Progress& progress, Device device) {
   const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
   double gap = 0;
   const GridShape grid = work.u.grid();
@@ -217,11 +255,9 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
     replace_occluded(pack_views(lf, progress.part(0, 0.005)), work.u, work.confidence,
                      progress.part(0.005, 0.02));
   const Progress fitting = progress.part(0.02, 1);
+  if (device == Device::Cuda) return improve_on_device(work, fitting);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
-    if (i % 2 == 0) {
-      progress.step(fmt::format("ordering, sweep {} of {}{}", i / 2 + 1, sweeps,
-                                i > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
-    }
+    name_sweep(sweeps, i, gap, progress);
     const double other =
         improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
     gap = i % 2 == 0 ? other : std::max(gap, other);
@@ -243,7 +279,12 @@ double epi_c_energy(const LightField& lf, const EpiCParameters& parameters,
   return std::accumulate(energies.begin(), energies.end(), 0.0);
 }
 
-double ordering_violations(const ViewStack<float>& disparity, const Progress& progress) {
+double ordering_violations(const ViewStack<float>& disparity, const Progress& progress,
+                           Device device) {
+  if (device == Device::Cuda) {
+    const cuda::OrderedLines all = cuda::count_ordered_lines(disparity, kViolation, progress);
+    return share_of({all.violations, all.lines});
+  }
   const GridShape grid = disparity.grid();
   std::vector<LineCount> counts(grid.count());
   parallel_for(grid.count(), progress, [&](int i) {
@@ -255,7 +296,7 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
     sum.violations += count.violations;
     sum.lines += count.lines;
   }
-  return sum.lines > 0 ? static_cast<double>(sum.violations) / static_cast<double>(sum.lines) : 0;
+  return share_of(sum);
 }
 
 Schema<EpiCParameters> epi_c_schema() {
@@ -296,22 +337,22 @@ Schema<EpiCParameters> epi_c_schema() {
 }
 
 Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, ViewSelection views,
-                        const Progress& progress) {
+                        const Progress& progress, Device device) {
   Estimate estimate =
       estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
   if (!progress.finish_requested()) {
     check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13));
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
-  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight, 0, device);
   ViewStack<float>& u = estimate.field.disparity;
-  const double before = ordering_violations(u, progress.part(0.25, 0.26));
+  const double before = ordering_violations(u, progress.part(0.25, 0.26), device);
   if (parameters.sweeps > 0) {
-    const double gap =
-        denoise_with_ordering(lf, parameters, observed, estimate, progress.part(0.26, 0.97));
+    const double gap = denoise_with_ordering(lf, parameters, observed, estimate,
+                                             progress.part(0.26, 0.97), device);
     if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
-  const double after = ordering_violations(u, progress.part(0.97, 0.98));
+  const double after = ordering_violations(u, progress.part(0.97, 0.98), device);
   estimate.notes.push_back(fmt::format(
       "ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after, 100 * before));
   if (views == ViewSelection::Center) keep_center(estimate, lf.center());
@@ -327,8 +368,13 @@ Estimator epi_c_estimator() {
        .reference = "Goldluecke and Wanner 2013 [GW13]",
        .all_views = true,
        .iterative = true,
-       .revision = 5},
-      epi_c_schema(), estimate_epi_c);
+       .revision = 5,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_c_schema(),
+      [](const LightField& lf, const EpiCParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_c(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope

@@ -53,7 +53,7 @@ struct EpiCParameters {
 /// Reference: Goldluecke and Wanner 2013 [GW13]; Wanner, Meister, Goldluecke 2013 [WMG13].
 [[nodiscard]] Estimate estimate_epi_c(const LightField& light_field,
                                       const EpiCParameters& parameters, ViewSelection views,
-                                      const Progress& progress);
+                                      const Progress& progress, Device device = Device::Cpu);
 
 /// Only the part after EPI_L: improves `estimate.field`, a first guess, to follow `observed` with
 /// weights from `estimate.confidence`; both cover all views. Returns the largest relative duality
@@ -61,7 +61,7 @@ struct EpiCParameters {
 /// reached stay as they are. Throws Cancelled.
 double denoise_with_ordering(const LightField& light_field, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
-                             const Progress& progress);
+                             const Progress& progress, Device device = Device::Cpu);
 
 /// The energy above of `estimate.field`, for `observed` f and the weights from
 /// `estimate.confidence`; all cover all views. Lines are those of `estimate.field` itself.
@@ -73,7 +73,7 @@ double denoise_with_ordering(const LightField& light_field, const EpiCParameters
 /// Share in [0, 1] of the lines to neighbouring views, within the image, that violate the ordering:
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
 [[nodiscard]] double ordering_violations(const ViewStack<float>& disparity,
-                                         const Progress& progress);
+                                         const Progress& progress, Device device = Device::Cpu);
 
 [[nodiscard]] Estimator epi_c_estimator();
 

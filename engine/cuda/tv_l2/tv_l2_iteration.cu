@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The steps of tv_l2_steps.cuh on tiles in shared memory: a step needs its neighbours' results, so
+// a tile computes some of what belongs to its neighbours too, instead of all going through memory
+// after each step.
+#include "engine/cuda/device/launch.cuh"
+#include "engine/cuda/tv_l2/tv_l2_iteration.cuh"
+#include "engine/cuda/tv_l2/tv_l2_steps.cuh"
+
+namespace episcope::cuda {
+namespace {
+
+// Places (pairs of pixels) and rows of a tile, and what it reads around them: the last step reaches
+// five pixels through those before it.
+constexpr int kTilePlaces = 32, kTileRows = 32;
+constexpr int kHaloPlaces = 3, kHaloRows = 5;
+constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
+constexpr int kRows = kTileRows + 2 * kHaloRows;
+constexpr int kThreads = 544;
+constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;  // places of a thread
+constexpr int kPlane = kRows * 2 * kPlaces;
+constexpr int kSharedPlanes = 5;
+
+// A place of a tile: two pixels, the even one first.
+struct Pair {
+  float of[2] = {0, 0};
+};
+
+// Where one of a thread's places lies, found once.
+struct Place {
+  int at = 0;              // of its even pixel in a plane of the tile
+  int from = 0;            // in a plane of a view
+  int cell = 0;            // of its pixels in a plane of the coarse level
+  bool exists = false;     // in the tile, halo included
+  bool is_inner = false;   // has neighbours in the tile
+  bool is_inside = false;  // in the level
+  bool is_core = false;    // not of the halo
+  bool is_odd = false;     // its row
+  bool has_below = false;  // in the level
+};
+
+__device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int number) {
+  const int index = static_cast<int>(threadIdx.x) + number * kThreads;
+  const int y = index / kPlaces, i = index % kPlaces;
+  const int row = static_cast<int>(blockIdx.y) * kTileRows + y - kHaloRows;
+  const int place = static_cast<int>(blockIdx.x) * kTilePlaces + i - kHaloPlaces;
+  Place result;
+  result.at = y * 2 * kPlaces + i;
+  result.from = row * static_cast<int>(level.pitch) + place;
+  result.cell = static_cast<int>(coarse.at(row >> 1, place));
+  result.exists = index < kPlaces * kRows;
+  result.is_inner = result.exists && y > 0 && y + 1 < kRows && i > 0 && i + 1 < kPlaces;
+  result.is_inside =
+      result.exists && row >= 0 && row < level.height && place >= 0 && place < level.half();
+  result.is_core = result.is_inside && y >= kHaloRows && y < kHaloRows + kTileRows &&
+                   i >= kHaloPlaces && i < kHaloPlaces + kTilePlaces;
+  result.is_odd = (row & 1) != 0;
+  result.has_below = row + 1 < level.height;
+  return result;
+}
+
+class Tile {
+ public:
+  __device__ Tile(const TvL2Level& level, const TvL2Level& coarse, int view, float* shared)
+      : level_(level),
+        view_(view),
+        u_(shared),
+        rx_(shared + kPlane),
+        ry_(shared + 2 * kPlane),
+        qx_(shared + 3 * kPlane),
+        qy_(shared + 4 * kPlane) {
+#pragma unroll
+    for (int k = 0; k < kEach; ++k) places_[k] = place_of(level, coarse, k);
+  }
+
+  // Reads the tile; colour 0 with the correction of its cell.
+  __device__ void load(const TvL2Level& coarse, bool is_first);
+  // Relaxes one colour from b as it is.
+  __device__ void relax(int colour);
+  __device__ void move_dual(float relaxation);
+  __device__ void renew();
+  __device__ void store(const TvL2Level& coarse);
+
+ private:
+  [[nodiscard]] __device__ Pair read(TvL2Plane which, const Place& place) const {
+    if (!place.is_inside) return {};
+    const float* const from = level_.of(which, view_) + place.from;
+    return {{from[0], from[level_.odd]}};
+  }
+  __device__ void write(int moved, const Place& place, const Pair& values) const {
+    float* const to = level_.second(moved, view_) + place.from;
+    to[0] = values.of[0];
+    to[level_.odd] = values.of[1];
+  }
+  // Σ penalty·neighbour, and with the pixel itself as `here` Σ penalty·(neighbour − here).
+  [[nodiscard]] __device__ float pull(int at, int left, float here) const {
+    return rx_[at] * (u_[left + 1] - here) + rx_[left] * (u_[left] - here) +
+           ry_[at] * (u_[at + 2 * kPlaces] - here) +
+           ry_[at - 2 * kPlaces] * (u_[at - 2 * kPlaces] - here);
+  }
+  [[nodiscard]] __device__ static int left_of(const Place& place, int half) {
+    return half == 0 ? place.at + kPlaces - 1 : place.at;
+  }
+
+  const TvL2Level& level_;
+  int view_;
+  float *u_, *rx_, *ry_, *qx_, *qy_;
+  Place places_[kEach];
+  Pair b_[kEach], inverse_[kEach];
+};
+
+__device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.exists) continue;
+    Pair u = read(TvL2Plane::U, place);
+    const Pair rx = read(TvL2Plane::Rx, place), ry = read(TvL2Plane::Ry, place);
+    inverse_[k] = read(TvL2Plane::Inverse, place);
+    if (!is_first) {
+      b_[k] = read(TvL2Plane::B, place);
+      if (place.is_inside) {
+        const float cell = coarse.of(TvL2Plane::U, view_)[place.cell];
+        place.is_odd ? u.of[1] += cell : u.of[0] += cell;
+      }
+    }
+#pragma unroll
+    for (int half = 0; half < 2; ++half) {
+      const int at = place.at + half * kPlaces;
+      u_[at] = u.of[half];
+      rx_[at] = rx.of[half];
+      ry_[at] = ry.of[half];
+    }
+  }
+  __syncthreads();
+}
+
+__device__ void Tile::relax(int colour) {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.is_inner) continue;
+    const int half = place.is_odd ? 1 - colour : colour;
+    const int at = place.at + half * kPlaces;
+    const float b = half == 0 ? b_[k].of[0] : b_[k].of[1];
+    const float inverse = half == 0 ? inverse_[k].of[0] : inverse_[k].of[1];
+    u_[at] = (b + pull(at, left_of(place, half), 0)) * inverse;
+  }
+  __syncthreads();
+}
+
+// z ← p + relaxed step along the gradient; 2p − z is kept for `renew`.
+__device__ void Tile::move_dual(float relaxation) {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.exists) continue;
+    Pair zx = read(TvL2Plane::Zx, place), zy = read(TvL2Plane::Zy, place);
+    const Pair g = read(TvL2Plane::G, place);
+#pragma unroll
+    for (int half = 0; half < 2; ++half) {
+      const int at = place.at + half * kPlaces;
+      const int right = half == 0 ? place.at + kPlaces : place.at + 1;
+      const float along = place.is_inner ? u_[right] - u_[at] : 0.0F;
+      const float down = place.is_inner ? u_[at + 2 * kPlaces] - u_[at] : 0.0F;
+      const float stay = 1 - relaxation * (1 - shrinkage(zx.of[half], zy.of[half], g.of[half]));
+      zx.of[half] = zx.of[half] * stay + relaxation * rx_[at] * along;
+      zy.of[half] = zy.of[half] * stay + relaxation * ry_[at] * down;
+      const float mirror = 2 * shrinkage(zx.of[half], zy.of[half], g.of[half]) - 1;
+      qx_[at] = zx.of[half] * mirror;
+      qy_[at] = zy.of[half] * mirror;
+    }
+    if (!place.is_core) continue;
+    write(1, place, zx);
+    write(2, place, zy);
+  }
+  __syncthreads();
+}
+
+// b ← c·f + div(2p − z).
+__device__ void Tile::renew() {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.is_inner) continue;
+    b_[k] = read(TvL2Plane::Cf, place);
+#pragma unroll
+    for (int half = 0; half < 2; ++half) {
+      const int at = place.at + half * kPlaces;
+      b_[k].of[half] += (qx_[at] - qx_[left_of(place, half)]) + (qy_[at] - qy_[at - 2 * kPlaces]);
+    }
+    if (place.is_core) write(3, place, b_[k]);
+  }
+}
+
+// Stores u, and the residual of colour 0 of cells of 2×2; colour 1, relaxed last, has none.
+__device__ void Tile::store(const TvL2Level& coarse) {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.is_inner) continue;
+    const int half = place.is_odd ? 1 : 0;
+    const int at = place.at + half * kPlaces;
+    const float here = u_[at];
+    const Pair c = read(TvL2Plane::C, place);
+    const float own = level_.data_scale * (half == 0 ? c.of[0] : c.of[1]) * here;
+    qx_[at] = (half == 0 ? b_[k].of[0] : b_[k].of[1]) - own + pull(at, left_of(place, half), here);
+    if (place.is_core) write(0, place, {{u_[place.at], u_[place.at + kPlaces]}});
+  }
+  __syncthreads();
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place& place = places_[k];
+    if (!place.is_core || place.is_odd) continue;
+    float sum = qx_[place.at];
+    if (place.has_below) sum += qx_[place.at + 3 * kPlaces];
+    coarse.of(TvL2Plane::B, view_)[place.cell] = sum;
+  }
+}
+
+// A view that is done keeps its u.
+__device__ void keep(const TvL2Level& level, const TvL2Level& coarse, int view) {
+#pragma unroll
+  for (int k = 0; k < kEach; ++k) {
+    const Place place = place_of(level, coarse, k);
+    if (!place.is_core) continue;
+    const float* const from = level.of(TvL2Plane::U, view) + place.from;
+    float* const to = level.second(0, view) + place.from;
+    to[0] = from[0];
+    to[level.odd] = from[level.odd];
+  }
+}
+
+__global__ void __launch_bounds__(kThreads, 2)
+    iterate_tiles(TvL2Level level, TvL2Level coarse, const TvL2View* views, bool is_first) {
+  extern __shared__ float shared[];
+  const int view = static_cast<int>(blockIdx.z);
+  if (views[view].is_active == 0) return keep(level, coarse, view);
+  Tile tile(level, coarse, view, shared);
+  tile.load(coarse, is_first);
+  if (!is_first) {
+    tile.relax(1);
+    tile.relax(0);
+  }
+  tile.move_dual(views[view].relaxation);
+  tile.renew();
+  tile.relax(0);
+  tile.relax(1);
+  tile.store(coarse);
+}
+
+}  // namespace
+
+void iterate_level(const DeviceStream& stream, const TvL2Level& level, const TvL2Level& coarse,
+                   int views, const TvL2View* of_views, bool is_first) {
+  constexpr int kBytes = kSharedPlanes * kPlane * static_cast<int>(sizeof(float));
+  check(cudaFuncSetAttribute(iterate_tiles, cudaFuncAttributeMaxDynamicSharedMemorySize, kBytes));
+  const dim3 grid(blocks_for(level.half(), kTilePlaces), blocks_for(level.height, kTileRows),
+                  static_cast<unsigned>(views));
+  const double places = static_cast<double>(level.height) * level.half() * views;
+  launch(stream, {"tv_l2: iteration", places * 28 * sizeof(float), places * 220}, [&] {
+    iterate_tiles<<<grid, kThreads, kBytes, stream.get()>>>(level, coarse, of_views, is_first);
+  });
+}
+
+}  // namespace episcope::cuda
