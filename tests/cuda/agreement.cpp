@@ -67,7 +67,8 @@ double mse(const Estimate& estimate, const Scene& scene) {
 
 Agreement compare(const Case& each, const Scene& scene) {
   const auto run_on = [&](Device device) {
-    return each.estimator.run(*scene.light_field, each.values, {.device = device}, Progress());
+    return each.estimator.run(*scene.light_field, each.values,
+                              {.views = each.views, .device = device}, Progress());
   };
   const Estimate cpu = run_on(Device::Cpu);
   const Estimate device = run_on(Device::Cuda);

@@ -12,6 +12,8 @@ namespace episcope::cuda_tests {
 namespace {
 
 constexpr const char* kMasked = "masked:";
+constexpr const char* kGrey = "grey:";
+constexpr const char* kFloat = "float:";
 
 bool has_profiles(const Estimator& estimator) {
   return std::ranges::any_of(estimator.parameters,
@@ -34,6 +36,33 @@ ViewStack<std::uint8_t> round_mask(const LightField& lf) {
   return mask;
 }
 
+using Bytes = ViewStack<std::uint8_t>;
+
+LightField::Samples as_grey(const Bytes& samples) {
+  ViewStack<std::uint16_t> grey(samples.grid(), samples.height(), samples.width());
+  const int channels = samples.channels();
+  for (std::size_t i = 0; i < grey.size(); ++i) grey.data()[i] = 257 * samples.data()[i * channels];
+  return grey;
+}
+
+LightField::Samples as_float(const Bytes& samples) {
+  ViewStack<float> values(samples.grid(), samples.height(), samples.width(), samples.channels());
+  std::transform(samples.data(), samples.data() + samples.size(), values.data(),
+                 [](std::uint8_t sample) { return static_cast<float>(sample) / 255; });
+  return values;
+}
+
+// The same scene with other samples, or a mask.
+void change(Scene& scene, const std::string& how) {
+  const LightField& lf = *scene.light_field;
+  const auto& samples = std::get<Bytes>(lf.samples());
+  LightField::Samples changed = how == kGrey    ? as_grey(samples)
+                                : how == kFloat ? as_float(samples)
+                                                : samples.clone();
+  Bytes mask = how == kMasked ? round_mask(lf) : Bytes();
+  scene.light_field = std::make_shared<LightField>(std::move(changed), lf.info(), std::move(mask));
+}
+
 }  // namespace
 
 Kind kind_of(const Estimator& estimator) {
@@ -47,6 +76,9 @@ std::vector<Case> cases(const std::string& filter) {
     if (!info.id.starts_with(filter)) continue;
     if (std::ranges::count(info.devices, Device::Cuda) == 0) continue;
     cases.push_back({estimator, {}, info.id});
+    if (info.all_views) {
+      cases.push_back({estimator, {}, info.id + ", centre view", ViewSelection::Center});
+    }
     if (!has_profiles(estimator)) continue;
     cases.push_back(
         {estimator, {{kProfileKey, std::string(kPaperProfile)}}, info.id + " " + kPaperProfile});
@@ -60,21 +92,21 @@ std::vector<std::string> scene_texts() {
           "random?seed=3&kind=thin",
           "random?seed=8&noise=4",
           "transparent",
-          std::string(kMasked) + "random?seed=5"};
+          std::string(kMasked) + "random?seed=5",
+          "random?seed=4&grid=1x9",
+          "random?seed=4&grid=6x1",
+          std::string(kGrey) + "random?seed=6&grid=4x2",
+          std::string(kFloat) + "random?seed=7&grid=3x17"};
 }
 
 Scene make_scene(const std::string& text, int size) {
-  const bool is_masked = text.starts_with(kMasked);
-  scenes::BuiltinRequest request =
-      scenes::read_request(is_masked ? text.substr(std::string(kMasked).size()) : text);
+  const auto colon = text.find(':');
+  const std::size_t begin = colon == text.npos ? 0 : colon + 1;
+  scenes::BuiltinRequest request = scenes::read_request(text.substr(begin));
   request.options.height = size;
   request.options.width = size + size / 8;
   Scene scene = scenes::render_builtin(request.scene, request.options, Progress());
-  if (!is_masked) return scene;
-  ViewStack<std::uint8_t> mask = round_mask(*scene.light_field);
-  const auto& samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
-  scene.light_field =
-      std::make_shared<LightField>(samples.clone(), scene.light_field->info(), std::move(mask));
+  if (begin > 0) change(scene, text.substr(0, begin));
   return scene;
 }
 

@@ -14,6 +14,7 @@ struct Case {
   Estimator estimator;
   ParameterSet values;
   std::string title;  ///< "epi_l", "epi_l paper"
+  ViewSelection views = ViewSelection::All;
 };
 
 /// How closely a method on the device must follow the CPU.
@@ -23,14 +24,17 @@ enum class Kind {
 };
 [[nodiscard]] Kind kind_of(const Estimator& estimator);
 
-/// Every method that computes on a GPU whose id begins with `filter`, in each of its profiles.
+/// Every method that computes on a GPU whose id begins with `filter`, in each of its profiles, and
+/// for the centre view alone.
 [[nodiscard]] std::vector<Case> cases(const std::string& filter);
 
-/// Names of the built-in scenes compared on: flat, slanted, cluttered, noisy, invalid pixels.
+/// Names of the built-in scenes compared on: flat, slanted, cluttered, noisy, invalid pixels, grids
+/// of few, of many and of an even number of views, other types of samples.
 [[nodiscard]] std::vector<std::string> scene_texts();
 
-/// A scene by its text (engine/scenes/request.h), with views of `size`² pixels, and for "masked?…"
-/// the same with the corners of every view marked as invalid.
+/// A scene by its text (engine/scenes/request.h), with views of about `size`² pixels. Before the
+/// text may stand "masked:", for the corners of every view to be marked as invalid, "grey:" for one
+/// channel of 16 bits and "float:".
 [[nodiscard]] Scene make_scene(const std::string& text, int size);
 
 }  // namespace episcope::cuda_tests

@@ -10,8 +10,8 @@ namespace {
 
 double seconds_on(Device device, const Case& each, const Scene& scene) {
   const Stopwatch watch;
-  const Estimate estimate =
-      each.estimator.run(*scene.light_field, each.values, {.device = device}, Progress());
+  const Estimate estimate = each.estimator.run(*scene.light_field, each.values,
+                                               {.views = each.views, .device = device}, Progress());
   return watch.seconds();
 }
 

@@ -251,9 +251,9 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
   const double steps = 2.0 * sweeps;
-  if (sweeps > 0 && parameters.replace_occluded)
-    replace_occluded(pack_views(lf, progress.part(0, 0.005)), work.u, work.confidence,
-                     progress.part(0.005, 0.02));
+  if (sweeps > 0 && parameters.replace_occluded) {
+    replace_occluded(lf, work.u, work.confidence, progress.part(0, 0.02), device);
+  }
   const Progress fitting = progress.part(0.02, 1);
   if (device == Device::Cuda) return improve_on_device(work, fitting);
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
@@ -338,10 +338,10 @@ Schema<EpiCParameters> epi_c_schema() {
 
 Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, ViewSelection views,
                         const Progress& progress, Device device) {
-  Estimate estimate =
-      estimate_orientations(lf, parameters.tensor, ViewSelection::All, progress.part(0, 0.08));
+  Estimate estimate = estimate_orientations(lf, parameters.tensor, ViewSelection::All,
+                                            progress.part(0, 0.08), device);
   if (!progress.finish_requested()) {
-    check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13));
+    check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13), device);
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
   denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight, 0, device);

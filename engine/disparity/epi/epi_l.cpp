@@ -5,7 +5,7 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/invalid_pixels.h"
-#include "engine/disparity/tensor/structure_tensor.h"
+#include "engine/disparity/tensor/device_tensor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -158,6 +158,40 @@ TensorSearch search_of(const EpiLParameters& p, Interval range) {
   return search;
 }
 
+cuda::TensorSettings device_settings(const LightField& lf, const EpiLParameters& p,
+                                     Interval range) {
+  cuda::TensorSettings settings = device_tensor_settings(lf, scales_of(p), search_of(p, range));
+  settings.takes_winner = p.fusion == Fusion::Winner;
+  settings.fusion_power = p.fusion_power;
+  settings.squares_coherence = p.orientation == Orientation::Eigenvector;
+  return settings;
+}
+
+// The whole of EPI_L on the device, or before it is clamped.
+Estimate orientations_on_device(const LightField& lf, const EpiLParameters& parameters,
+                                ViewSelection views, bool clamps, const Progress& progress) {
+  check_views(lf);
+  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
+  Estimate estimate = unknown_maps(lf, views, range);
+  cuda::TensorSettings settings = device_settings(lf, parameters, range);
+  settings.clamps = clamps;
+  settings.clamp_min = static_cast<float>(range.min);
+  settings.clamp_max = static_cast<float>(range.max);
+  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence,
+                          progress.part(0.05, 1));
+  return estimate;
+}
+
+// One direction of the centre view: the filters along the other are left out.
+void find_direction(const LightField& lf, cuda::TensorSettings settings,
+                    cuda::ViewFilters cuda::TensorSettings::*other, Estimate& estimate,
+                    const Progress& progress) {
+  settings.*other = {};
+  settings.merges = false;
+  if (settings.horizontal.views() + settings.vertical.views() == 0) return;
+  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence, progress);
+}
+
 // What the publications call coherence is the square of the tensor's.
 void finish_confidence(const LightField& lf, Orientation orientation, ViewStack<float>& confidence,
                        const Progress& progress) {
@@ -172,7 +206,10 @@ void finish_confidence(const LightField& lf, Orientation orientation, ViewStack<
 }  // namespace
 
 Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, ViewSelection views,
-                        const Progress& progress) {
+                        const Progress& progress, Device device) {
+  if (device == Device::Cuda) {
+    return orientations_on_device(lf, parameters, views, true, progress);
+  }
   Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.97));
   clamp_to_range(estimate, progress.part(0.97, 1));
   return estimate;
@@ -191,7 +228,10 @@ void clamp_to_range(Estimate& estimate, const Progress& progress) {
 }
 
 Estimate estimate_orientations(const LightField& lf, const EpiLParameters& parameters,
-                               ViewSelection views, const Progress& progress) {
+                               ViewSelection views, const Progress& progress, Device device) {
+  if (device == Device::Cuda) {
+    return orientations_on_device(lf, parameters, views, false, progress);
+  }
   check_views(lf);
   const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
   Estimate estimate = unknown_maps(lf, views, range);
@@ -217,7 +257,7 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
 }
 
 DirectionalOrientations estimate_directions(const LightField& lf, const EpiLParameters& parameters,
-                                            const Progress& progress) {
+                                            const Progress& progress, Device device) {
   check_views(lf);
   const Interval range = search_range(lf, parameters.range, progress.part(0, 0.1));
   DirectionalOrientations directions{unknown_maps(lf, ViewSelection::Center, range),
@@ -230,6 +270,14 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
     return Maps{lf, estimate.field.disparity, estimate.confidence};
   };
   const Maps horizontal = maps_of(directions.horizontal), vertical = maps_of(directions.vertical);
+  if (device == Device::Cuda) {
+    const cuda::TensorSettings settings = device_settings(lf, parameters, range);
+    find_direction(lf, settings, &cuda::TensorSettings::vertical, directions.horizontal,
+                   progress.part(0.1, 0.55));
+    find_direction(lf, settings, &cuda::TensorSettings::horizontal, directions.vertical,
+                   progress.part(0.55, 1));
+    return directions;
+  }
   if (lf.grid().u > 1) {
     progress.step("horizontal EPIs");
     run_horizontal(horizontal, scales, search, progress.part(0.1, 0.55));
@@ -252,8 +300,13 @@ Estimator epi_l_estimator() {
        .summary = "Local orientation of lines on epipolar plane images (structure tensor)",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .all_views = true,
-       .revision = 3},
-      epi_l_schema(), estimate_epi_l);
+       .revision = 3,
+       .devices = {Device::Cpu, Device::Cuda}},
+      epi_l_schema(),
+      [](const LightField& lf, const EpiLParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_l(lf, parameters, options.views, progress, options.device);
+      });
 }
 
 }  // namespace episcope

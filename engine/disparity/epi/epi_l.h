@@ -20,13 +20,13 @@ namespace episcope {
 /// 2012 [WG12], as EPI_L in Wanner, Meister, Goldluecke 2013 [WMG13].
 [[nodiscard]] Estimate estimate_epi_l(const LightField& light_field,
                                       const EpiLParameters& parameters, ViewSelection views,
-                                      const Progress& progress);
+                                      const Progress& progress, Device device = Device::Cpu);
 
 /// The same before it is clamped to the range: what a method that denoises it should begin with,
 /// since clamped noise no longer averages out. Values overshoot the range by up to 0.6 px.
 [[nodiscard]] Estimate estimate_orientations(const LightField& light_field,
                                              const EpiLParameters& parameters, ViewSelection views,
-                                             const Progress& progress);
+                                             const Progress& progress, Device device = Device::Cpu);
 
 /// What the two directions say of the centre view, each for itself.
 struct DirectionalOrientations {
@@ -36,7 +36,8 @@ struct DirectionalOrientations {
 /// As `estimate_orientations`, before the directions are merged.
 [[nodiscard]] DirectionalOrientations estimate_directions(const LightField& light_field,
                                                           const EpiLParameters& parameters,
-                                                          const Progress& progress);
+                                                          const Progress& progress,
+                                                          Device device = Device::Cpu);
 
 /// Clamps every disparity to `estimate.range`.
 void clamp_to_range(Estimate& estimate, const Progress& progress);

@@ -26,8 +26,9 @@ Schema<EpiSParameters> epi_s_schema() {
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress, Device device) {
-  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
-  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
+  Estimate estimate =
+      estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4), device);
+  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5), device);
   denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
           parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum, 0, device);
   clamp_to_range(estimate, progress.part(0.98, 1));

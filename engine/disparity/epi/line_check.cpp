@@ -2,6 +2,7 @@
 #include "engine/disparity/epi/line_check.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/common/box_mean.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/epi/line_residuals.h"
@@ -139,8 +140,12 @@ Schema<LineCheck> line_check_schema() {
 }
 
 void check_lines(const LightField& lf, const LineCheck& check, Estimate& estimate,
-                 const Progress& progress) {
+                 const Progress& progress, Device device) {
   if (!check.does_anything()) return;
+  if (device == Device::Cuda) {
+    return cuda::check_lines(lf, {check.chooses_sides, check.is_on}, estimate.field.disparity,
+                             estimate.confidence, progress);
+  }
   check_lines(pack_views(lf, progress.part(0, 0.1)), check, estimate, progress.part(0.1, 1));
 }
 

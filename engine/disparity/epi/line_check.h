@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
 #include "engine/disparity/common/packed_views.h"
+#include "engine/disparity/common/run_options.h"
 
 namespace episcope {
 
@@ -49,8 +50,8 @@ struct LineCheck {
 void check_lines(const PackedViews& packed_views, const LineCheck& check, Estimate& estimate,
                  const Progress& progress);
 
-/// The same, packing the views if need be.
+/// The same, packing the views if need be, on a device. Throws DeviceFailure, Cancelled.
 void check_lines(const LightField& light_field, const LineCheck& check, Estimate& estimate,
-                 const Progress& progress);
+                 const Progress& progress, Device device = Device::Cpu);
 
 }  // namespace episcope

@@ -2,6 +2,7 @@
 #include "engine/disparity/epi/replace_occluded.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/epi/line_residuals.h"
 
 #include <algorithm>
@@ -146,6 +147,13 @@ long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
     };
   });
   return std::accumulate(changed.begin(), changed.end(), 0L);
+}
+
+void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress, Device device) {
+  if (device == Device::Cuda) return cuda::replace_occluded(lf, disparity, confidence, progress);
+  replace_occluded(pack_views(lf, progress.part(0, 0.25)), disparity, confidence,
+                   progress.part(0.25, 1));
 }
 
 }  // namespace episcope

@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/disparity/common/packed_views.h"
+#include "engine/disparity/common/run_options.h"
 
 namespace episcope {
 
@@ -23,5 +24,9 @@ namespace episcope {
 /// ray. Returns the number of rays changed. Throws Cancelled.
 long replace_occluded(const PackedViews& packed_views, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress);
+
+/// The same, packing the views first, on a device. Throws DeviceFailure, Cancelled.
+void replace_occluded(const LightField& light_field, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress, Device device);
 
 }  // namespace episcope

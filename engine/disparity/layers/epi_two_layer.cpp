@@ -326,10 +326,10 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
       parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
       kCrossScaleOfLayers,           parameters.double_contrast,    tensor.noise};
   tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1));
-  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15));
+  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15), device);
   tensor.cross_scale = kCrossScaleOfLayers;
   const ViewStack<float> fit =
-      estimate_orientations(lf, tensor, views, progress.part(0.15, 0.2)).confidence;
+      estimate_orientations(lf, tensor, views, progress.part(0.15, 0.2), device).confidence;
   const ViewStack<float>& single = estimate.field.disparity;
   // Cut off at the range itself, noise about its ends would no longer average out.
   constexpr double kOvershoot = 0.3;
@@ -342,7 +342,11 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
   const PackedViews packed = pack_views(lf, progress.part(0.4, 0.42));
-  check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
+  if (device == Device::Cuda) {
+    check_lines(lf, parameters.line_check, estimate, progress.part(0.42, 0.5), device);
+  } else {
+    check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
+  }
   solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98), device);
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;

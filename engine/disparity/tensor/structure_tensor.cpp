@@ -41,17 +41,6 @@ int block_height(const LightField& lf) {
   return (lf.height() + blocks - 1) / blocks;
 }
 
-int views_along(const LightField& lf, StructureTensor::Direction direction) {
-  const bool horizontal = direction == StructureTensor::Direction::Horizontal;
-  const int views = horizontal ? lf.grid().u : lf.grid().v;
-  if (views < 2 || views > kMaxTensorViews) {
-    throw InvalidInput(
-        fmt::format("the structure tensor needs 2 to {} views along an EPI, but the grid has {}",
-                    kMaxTensorViews, views));
-  }
-  return views;
-}
-
 }  // namespace
 
 TensorSearch cover_range(Interval range, int step_half_px) {
@@ -311,6 +300,17 @@ StructureTensor::StructureTensor(const LightField& light_field, Direction direct
     : state_(std::make_unique<State>(light_field, direction, scales, search)) {}
 StructureTensor::~StructureTensor() = default;
 StructureTensor::StructureTensor(StructureTensor&&) noexcept = default;
+
+int StructureTensor::views_along(const LightField& lf, Direction direction) {
+  const bool horizontal = direction == Direction::Horizontal;
+  const int views = horizontal ? lf.grid().u : lf.grid().v;
+  if (views < 2 || views > kMaxTensorViews) {
+    throw InvalidInput(
+        fmt::format("the structure tensor needs 2 to {} views along an EPI, but the grid has {}",
+                    kMaxTensorViews, views));
+  }
+  return views;
+}
 
 TensorExtent StructureTensor::largest_task(const LightField& lf, Direction direction,
                                            const TensorScales& scales) {

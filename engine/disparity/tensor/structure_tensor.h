@@ -71,7 +71,11 @@ class StructureTensor {
   using Sink = std::function<void(int view, PixelIndex begin, int count, const float* disparity,
                                   const float* coherence)>;
 
-  /// Throws InvalidInput if the grid has fewer than 2 or more than 160 views in that direction.
+  /// The views of an EPI. Throws InvalidInput if the grid has fewer than 2 or more than 160 in that
+  /// direction.
+  [[nodiscard]] static int views_along(const LightField& light_field, Direction direction);
+
+  /// Throws InvalidInput as `views_along`.
   StructureTensor(const LightField& light_field, Direction direction, const TensorScales& scales,
                   const TensorSearch& search);
   ~StructureTensor();

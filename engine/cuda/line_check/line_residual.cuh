@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+/// How well a ray agrees with its line: see LineResiduals and ResidualKernel.
+
+#include "engine/cuda/line_check/packed_field.cuh"
+
+namespace episcope::cuda {
+
+inline constexpr int kMaxArmViews = 4;
+
+struct PackedColour {
+  float channel[3];
+};
+
+__device__ inline PackedColour unpacked(std::uint32_t packed) {
+  return {{static_cast<float>(packed_channel(packed, 0)),
+           static_cast<float>(packed_channel(packed, 1)),
+           static_cast<float>(packed_channel(packed, 2))}};
+}
+
+/// An arm with fewer views that see the line does not count.
+__device__ inline int min_arm_views(GridShape grid) {
+  return min(max(max(grid.u, grid.v) / 2, 1), 2);
+}
+
+/// Mean squared difference along the views of an arm, (dv, du) from one to the next; infinite where
+/// it does not count.
+__device__ inline float arm_residual(const PackedField& field, const RayPlace& ray, int dv, int du,
+                                     const PackedColour& own, float disparity) {
+  const bool vertical = dv != 0;
+  const int last = (vertical ? field.height : field.width) - 1;
+  const long stride = vertical ? field.width : 1;
+  const long line = vertical ? ray.x : static_cast<long>(ray.y) * field.width;
+  const auto start = static_cast<float>(vertical ? ray.y : ray.x);
+  float sum = 0;
+  int count = 0;
+  for (int k = 1; k <= kMaxArmViews; ++k) {
+    const int v = ray.v + k * dv, u = ray.u + k * du;
+    if (!field.contains(v, u)) break;
+    const float at = __fmaf_rn(disparity, static_cast<float>(-(dv + du) * k), start);
+    if (!(at >= 0 && at <= static_cast<float>(last))) break;  // nor in the views beyond
+    const int tap = static_cast<int>(at);
+    const float weight = at - static_cast<float>(tap);
+    const std::uint32_t* const from = field.view(v, u) + line;
+    const std::uint32_t first = from[tap * stride], second = from[min(tap + 1, last) * stride];
+    if (field.has_invalid && !(is_valid(first) && is_valid(second))) continue;
+    const PackedColour a = unpacked(first), b = unpacked(second);
+    float square = 0;
+    for (int c = 0; c < 3; ++c) {
+      const float off =
+          __fmaf_rn(weight, b.channel[c] - a.channel[c], a.channel[c] - own.channel[c]);
+      square = __fmaf_rn(off, off, square);
+    }
+    sum += square;
+    ++count;
+  }
+  if (count < min_arm_views(field.grid)) return INFINITY;
+  return sum / fmaxf(static_cast<float>(count), 1);
+}
+
+/// Least mean squared difference of the four arms, samples in [0, 1]; infinite where none counts.
+__device__ inline float line_residual(const PackedField& field, const RayPlace& ray,
+                                      float disparity) {
+  constexpr float kUnit = 1.0F / static_cast<float>(kPackedMost);
+  const std::uint32_t packed =
+      field.view(ray.v, ray.u)[static_cast<long>(ray.y) * field.width + ray.x];
+  if (field.has_invalid && !is_valid(packed)) return INFINITY;
+  const PackedColour own = unpacked(packed);
+  float best = arm_residual(field, ray, 0, 1, own, disparity);
+  best = fminf(best, arm_residual(field, ray, 0, -1, own, disparity));
+  best = fminf(best, arm_residual(field, ray, 1, 0, own, disparity));
+  best = fminf(best, arm_residual(field, ray, -1, 0, own, disparity));
+  return best * (kUnit * kUnit);
+}
+
+}  // namespace episcope::cuda
