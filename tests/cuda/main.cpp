@@ -22,7 +22,8 @@ struct Arguments {
   bool times = false;
   bool with_cpu = true;
   int size = 192;
-  std::string methods;  ///< What ids begin with.
+  IntervalOrAuto range;  ///< Searched when times are taken; else as methods find it.
+  std::string methods;   ///< What ids begin with.
 };
 
 int compare_all(const Arguments& arguments) {
@@ -65,7 +66,8 @@ int time_all(const Arguments& arguments) {
   fmt::print("copy {:.0f} GB/s, FP32 {:.0f} GFLOP/s\n\n", bounds.bytes / 1e9,
              bounds.operations / 1e9);
   Scene scene = make_scene("demo", arguments.size);
-  for (const Case& each : cases(arguments.methods)) {
+  for (Case& each : cases(arguments.methods)) {
+    if (arguments.range) each.values.emplace_back("range", arguments.range);
     const Timing timing = time_case(each, scene, arguments.with_cpu);
     fmt::print("{}: {:.1f} ms, kernels {:.1f} ms", each.title, 1e3 * timing.seconds,
                1e3 * timing.kernel_seconds);
@@ -89,6 +91,10 @@ Arguments read_arguments(int count, char** texts) {
     if (text == "--no-cpu") arguments.with_cpu = false;
     if (text == "--size" && has_value) arguments.size = std::stoi(texts[++i]);
     if (text == "--methods" && has_value) arguments.methods = texts[++i];
+    if (text == "--range" && i + 2 < count) {
+      arguments.range = Interval{std::stod(texts[i + 1]), std::stod(texts[i + 2])};
+      i += 2;
+    }
   }
   return arguments;
 }

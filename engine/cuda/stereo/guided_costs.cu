@@ -129,7 +129,8 @@ __device__ void solve(const DeviceGuide& guide, long at, float scale, Planes<kCh
 #pragma unroll
   for (int c = 0; c < kChannels; ++c) {
     means[c] = guide.plane(kChannels + c)[at];
-    covariance[c] = sums[c + 1] * scale - means[c] * mean;
+    // What is left of two products: rounded as on the CPU.
+    covariance[c] = __fmaf_rn(sums[c + 1], scale, -__fmul_rn(means[c], mean));
   }
 #pragma unroll
   for (int i = 0; i < kProducts<kChannels>; ++i) inverse[i] = guide.plane(2 * kChannels + i)[at];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/stereo/matching_tables.cuh"
-#include "engine/cuda/stereo/stored_sample.cuh"
+
+#include <cuda_pipeline.h>
 
 #include <climits>
 
@@ -67,33 +68,48 @@ __device__ Window next_window(const Tile& tile, const MatchShift* rows, const Ma
 template <int kChannels>
 using Samples = float[kChannels][kWindow][kWindow];
 
-// A pixel of a view as floats; one that is not valid as NaN.
-template <class T, int kChannels>
-__device__ void read_pixel(const DeviceSamples& samples, long at, float (&out)[kChannels]) {
-  const T* const stored = static_cast<const T*>(samples.samples) + at * kChannels;
-  const bool is_valid = samples.valid == nullptr || samples.valid[at] != 0;
-#pragma unroll
-  for (int c = 0; c < kChannels; ++c) out[c] = is_valid ? to_unit(stored[c]) : nanf("");
-}
-
-// Reads a window; the border of the view is repeated.
-template <class T, int kChannels>
-__device__ void read_window(const DeviceSamples& samples, ViewIndex view, const Tile& tile,
-                            const Window& window, Samples<kChannels>& out) {
+// Begins to read a window; the border of the view is repeated.
+template <int kChannels>
+__device__ void begin_to_read(const ViewPlanes& planes, ViewIndex view, const Tile& tile,
+                              const Window& window, Samples<kChannels>& out) {
   const int rows = window.bottom - window.top + kTileRows + kTaps - 1;
   const int columns = window.right - window.left + 32;
   const int lane = static_cast<int>(threadIdx.x) % 32;
+  const int left = tile.x + window.left + lane;
+  const int x = min(max(left, 0), planes.width - 1);
+  const int further = min(max(left + 32, 0), planes.width - 1);
+  const float* const of_view = planes.of(view, 0);
   for (int i = static_cast<int>(threadIdx.x) / 32; i < rows; i += kWarps) {
-    const int y = min(max(tile.y + window.top + i, 0), samples.height - 1);
-    const long row = samples.pixel(view.v, view.u, y, 0);
-    for (int j = lane; j < columns; j += 32) {
-      const int x = min(max(tile.x + window.left + j, 0), samples.width - 1);
-      float pixel[kChannels];
-      read_pixel<T>(samples, row + x, pixel);
+    const int y = min(max(tile.y + window.top + i, 0), planes.height - 1);
+    const float* row = of_view + static_cast<long>(y) * planes.width;
 #pragma unroll
-      for (int c = 0; c < kChannels; ++c) out[c][i][j] = pixel[c];
+    for (int c = 0; c < kChannels; ++c, row += planes.plane_size()) {
+      __pipeline_memcpy_async(&out[c][i][lane], row + x, sizeof(float));
+      if (lane + 32 < columns) {
+        __pipeline_memcpy_async(&out[c][i][lane + 32], row + further, sizeof(float));
+      }
     }
   }
+}
+
+// A view and labels that share a window of it.
+struct Stage {
+  int view = 0;
+  int begin = 0;
+  Window window;
+};
+
+// The first stage from label `begin` of a view on; `view` = their number: none.
+__device__ Stage find_stage(const MatchingTables& tables, const Tile& tile, int view, int begin) {
+  Stage stage{view, begin, {}};
+  for (; stage.view < tables.view_count; ++stage.view, stage.begin = 0) {
+    const MatchedView& each = tables.views[stage.view];
+    const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
+    const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
+    stage.window = next_window(tile, rows, columns, tables.labels, stage.begin);
+    if (stage.window.end > stage.begin) break;
+  }
+  return stage;
 }
 
 // A column of samples interpolated between rows.
@@ -138,7 +154,8 @@ template <int kChannels>
 __device__ void find_distances(const MatchShift& row, const MatchShift& column,
                                const float* samples, const Lane<kChannels>& lane,
                                float (&distances)[kRows]) {
-  const float lost = kChannels * fmaxf(1 - row.noise_left * column.noise_left, 0.0F);
+  const auto lost =
+      static_cast<float>(kChannels * fmax(1 - row.noise_left * column.noise_left, 0.0));
 #pragma unroll
   for (int r = 0; r < kRows; ++r) distances[r] = lost * lane.noise[r];
 #pragma unroll
@@ -188,7 +205,7 @@ struct Sums {
 template <bool kIsCounted>
 __device__ void store(const MatchingTables& tables, const Sums<kIsCounted>& sums, int label, int y,
                       int x, int end, float* out) {
-  const int width = tables.samples.width;
+  const int width = tables.planes.width;
 #pragma unroll
   for (int r = 0; r < kRows; ++r) {
     if (y + r >= end) continue;
@@ -203,113 +220,116 @@ __device__ void store(const MatchingTables& tables, const Sums<kIsCounted>& sums
   }
 }
 
-template <class T, int kChannels>
+template <int kChannels>
 __device__ Lane<kChannels> read_lane(const MatchingTables& tables, int y, int x) {
   Lane<kChannels> lane;
   lane.y = y;
   lane.x = x;
-  const DeviceSamples& samples = tables.samples;
-  const int column = min(x, samples.width - 1);
+  const ViewPlanes& planes = tables.planes;
+  const int column = min(x, planes.width - 1);
 #pragma unroll
   for (int r = 0; r < kRows; ++r) {
-    const int row = min(y + r, samples.height - 1);
-    float pixel[kChannels];
-    read_pixel<T>(samples, samples.pixel(tables.reference.v, tables.reference.u, row, column),
-                  pixel);
+    const long at = static_cast<long>(min(y + r, planes.height - 1)) * planes.width + column;
 #pragma unroll
-    for (int c = 0; c < kChannels; ++c) lane.reference[c][r] = pixel[c];
-    lane.noise[r] =
-        tables.noise == nullptr ? 0 : tables.noise[static_cast<long>(row) * samples.width + column];
+    for (int c = 0; c < kChannels; ++c) {
+      lane.reference[c][r] = planes.of(planes.reference, c)[at];
+    }
+    lane.noise[r] = tables.noise == nullptr ? 0.0F : tables.noise[at];
   }
   return lane;
 }
 
-template <class T, int kChannels, bool kIsCounted>
+template <int kChannels, bool kIsCounted>
+__device__ void add_stage(const MatchingTables& tables, const Tile& tile, const Stage& stage,
+                          const Samples<kChannels>& samples, const Lane<kChannels>& lane,
+                          Sums<kIsCounted> (&sums)[kLabels]) {
+  const MatchedView each = tables.views[stage.view];
+  const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
+  const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
+#pragma unroll
+  for (int l = 0; l < kLabels; ++l) {
+    if (l < stage.begin || l >= stage.window.end) continue;
+    const MatchShift row = rows[l], column = columns[l];
+    const int y = lane.y - tile.y + row.origin - stage.window.top;
+    const int x = lane.x - tile.x + column.origin - stage.window.left;
+    float distances[kRows];
+    find_distances<kChannels>(row, column, &samples[0][y][x], lane, distances);
+    sums[l].add(distances, row, column, lane.y, lane.x, tables.cap);
+  }
+}
+
+// While one window is worked on, the next one is read.
+template <int kChannels, bool kIsCounted>
 __global__ __launch_bounds__(kThreads, kIsCounted ? 3 : 4) void match(MatchingTables tables,
                                                                       int first, int end,
                                                                       float* costs) {
-  __shared__ Samples<kChannels> window_samples;
-  const Tile tile{first + static_cast<int>(blockIdx.y) * kTileRows,
-                  static_cast<int>(blockIdx.x) * kTileColumns,
-                  static_cast<int>(blockIdx.z) * kLabels};
+  extern __shared__ float shared[];
+  auto* const windows = reinterpret_cast<Samples<kChannels>*>(shared);
+  const Tile tile{first + static_cast<int>(blockIdx.z) * kTileRows,
+                  static_cast<int>(blockIdx.y) * kTileColumns,
+                  static_cast<int>(blockIdx.x) * kLabels};
   const int of_lane = static_cast<int>(threadIdx.x) % 32;
-  const int of_warp = static_cast<int>(threadIdx.x) / 32 * kRows;
-  const Lane<kChannels> lane = read_lane<T, kChannels>(tables, tile.y + of_warp, tile.x + of_lane);
+  const Lane<kChannels> lane = read_lane<kChannels>(
+      tables, tile.y + static_cast<int>(threadIdx.x) / 32 * kRows, tile.x + of_lane);
   Sums<kIsCounted> sums[kLabels];
-  for (int i = 0; i < tables.view_count; ++i) {
-    const MatchedView each = tables.views[i];
-    const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
-    const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
-    for (int begin = 0; begin < kLabels;) {
-      const Window window = next_window(tile, rows, columns, tables.labels, begin);
-      if (window.end == begin) break;
-      read_window<T, kChannels>(tables.samples, each.view, tile, window, window_samples);
-      __syncthreads();
-#pragma unroll
-      for (int l = 0; l < kLabels; ++l) {
-        if (l < begin || l >= window.end) continue;
-        const MatchShift row = rows[l], column = columns[l];
-        float distances[kRows];
-        find_distances<kChannels>(row, column,
-                                  &window_samples[0][of_warp + row.origin - window.top]
-                                                 [of_lane + column.origin - window.left],
-                                  lane, distances);
-        sums[l].add(distances, row, column, lane.y, lane.x, tables.cap);
-      }
-      __syncthreads();
-      begin = window.end;
+  Stage stage = find_stage(tables, tile, 0, 0);
+  const auto begin_stage = [&](const Stage& begun, int number) {
+    if (begun.view < tables.view_count) {
+      begin_to_read<kChannels>(tables.planes, tables.views[begun.view].view, tile, begun.window,
+                               windows[number % 2]);
     }
+    __pipeline_commit();
+  };
+  begin_stage(stage, 0);
+  for (int number = 0; stage.view < tables.view_count; ++number) {
+    const Stage next = find_stage(tables, tile, stage.view, stage.window.end);
+    begin_stage(next, number + 1);
+    __pipeline_wait_prior(1);
+    __syncthreads();
+    add_stage(tables, tile, stage, windows[number % 2], lane, sums);
+    __syncthreads();
+    stage = next;
   }
-  if (of_lane >= kTileColumns || lane.x >= tables.samples.width) return;
+  if (of_lane >= kTileColumns || lane.x >= tables.planes.width) return;
 #pragma unroll
   for (int l = 0; l < kLabels; ++l) {
     const int label = tile.label + l;
     if (label >= tables.labels) continue;
     const long row = static_cast<long>(lane.y - first) * tables.labels + label;
-    store(tables, sums[l], label, lane.y, lane.x, end, costs + row * tables.samples.width + lane.x);
+    store(tables, sums[l], label, lane.y, lane.x, end, costs + row * tables.planes.width + lane.x);
   }
 }
 
-template <class T, int kChannels>
+template <int kChannels, bool kIsCounted>
 void launch_match(const MatchingTables& tables, int first, int rows, float* costs,
                   const DeviceStream& stream) {
-  const dim3 grid(blocks_for(tables.samples.width, kTileColumns), blocks_for(rows, kTileRows),
-                  blocks_for(tables.labels, kLabels));
-  const double pixels = static_cast<double>(rows) * tables.samples.width;
+  // Labels of one tile run together and share what the cache holds of the views.
+  const dim3 grid(blocks_for(tables.labels, kLabels), blocks_for(tables.planes.width, kTileColumns),
+                  blocks_for(rows, kTileRows));
+  constexpr std::size_t kBytes = 2 * sizeof(Samples<kChannels>);
+  check(cudaFuncSetAttribute(match<kChannels, kIsCounted>,
+                             cudaFuncAttributeMaxDynamicSharedMemorySize,
+                             static_cast<int>(kBytes)));
+  const double pixels = static_cast<double>(rows) * tables.planes.width;
   const double each = pixels * tables.labels * tables.view_count;
   const KernelWork work{"stereo: matching costs",
-                        pixels * (tables.view_count * kChannels * sizeof(T) + 4.0 * tables.labels),
+                        4 * pixels * (tables.view_count * kChannels + tables.labels),
                         each * (kChannels * (tables.is_cross_hair ? 10 : 18) + 4)};
   launch(stream, work, [&] {
-    if (tables.rows_seen == nullptr) {
-      match<T, kChannels, true>
-          <<<grid, kThreads, 0, stream.get()>>>(tables, first, first + rows, costs);
-    } else {
-      match<T, kChannels, false>
-          <<<grid, kThreads, 0, stream.get()>>>(tables, first, first + rows, costs);
-    }
+    match<kChannels, kIsCounted>
+        <<<grid, kThreads, kBytes, stream.get()>>>(tables, first, first + rows, costs);
   });
-}
-
-template <class T>
-void launch_for_channels(const MatchingTables& tables, int first, int rows, float* costs,
-                         const DeviceStream& stream) {
-  if (tables.samples.channels == 3) return launch_match<T, 3>(tables, first, rows, costs, stream);
-  launch_match<T, 1>(tables, first, rows, costs, stream);
 }
 
 }  // namespace
 
 void compute_costs(const MatchingTables& tables, int first, int rows, float* costs,
                    const DeviceStream& stream) {
-  switch (tables.samples.type) {
-    case SampleType::UInt8:
-      return launch_for_channels<std::uint8_t>(tables, first, rows, costs, stream);
-    case SampleType::UInt16:
-      return launch_for_channels<std::uint16_t>(tables, first, rows, costs, stream);
-    default:
-      return launch_for_channels<float>(tables, first, rows, costs, stream);
-  }
+  const bool is_counted = tables.rows_seen == nullptr;
+  const auto run = tables.planes.channels == 3
+                       ? (is_counted ? launch_match<3, true> : launch_match<3, false>)
+                       : (is_counted ? launch_match<1, true> : launch_match<1, false>);
+  run(tables, first, rows, costs, stream);
 }
 
 }  // namespace episcope::cuda

@@ -4,24 +4,26 @@
 namespace episcope::cuda {
 namespace {
 
+// A small array: what it takes to pin memory would be more than the copy.
 template <class T>
-DeviceArray<T> copied(const std::vector<T>& host, const DeviceStream& stream,
-                      const Progress& progress) {
-  return upload(host.data(), host.size(), stream, progress);
+DeviceArray<T> copied(const std::vector<T>& host, const DeviceStream& stream) {
+  DeviceArray<T> array(host.size(), stream);
+  if (host.empty()) return array;
+  check(cudaMemcpyAsync(array.data(), host.data(), array.byte_size(), cudaMemcpyHostToDevice,
+                        stream.get()));
+  return array;
 }
 
 }  // namespace
 
-DeviceMatching::DeviceMatching(const StereoMatching& matching, const DeviceSamples& samples,
-                               ViewIndex reference, const float* noise, const DeviceStream& stream,
-                               const Progress& progress)
-    : views_(copied(matching.views, stream, progress)),
-      rows_(copied(matching.rows, stream, progress)),
-      columns_(copied(matching.columns, stream, progress)),
-      rows_seen_(copied(matching.rows_seen, stream, progress)),
-      columns_seen_(copied(matching.columns_seen, stream, progress)) {
-  tables_.samples = samples;
-  tables_.reference = reference;
+DeviceMatching::DeviceMatching(const StereoMatching& matching, const ViewPlanes& planes,
+                               const float* noise, const DeviceStream& stream)
+    : views_(copied(matching.views, stream)),
+      rows_(copied(matching.rows, stream)),
+      columns_(copied(matching.columns, stream)),
+      rows_seen_(copied(matching.rows_seen, stream)),
+      columns_seen_(copied(matching.columns_seen, stream)) {
+  tables_.planes = planes;
   tables_.views = views_.data();
   tables_.view_count = static_cast<int>(matching.views.size());
   tables_.labels = matching.labels;

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/cuda/device/transfer.cuh"
-#include "engine/cuda/light_field/device_light_field.cuh"
 #include "engine/cuda/stereo/stereo_matcher.h"
+#include "engine/cuda/stereo/view_planes.cuh"
 
 namespace episcope::cuda {
 
 /// StereoMatching for kernels.
 struct MatchingTables {
-  DeviceSamples samples;
-  ViewIndex reference;
+  ViewPlanes planes;
   const MatchedView* views = nullptr;
   int view_count = 0;
   int labels = 0;
@@ -24,8 +22,8 @@ struct MatchingTables {
 
   /// Views that see a pixel, where samples are not counted.
   [[nodiscard]] __device__ float views_seen(int label, int y, int x) const {
-    const float down = rows_seen[static_cast<long>(label) * samples.height + y];
-    const float along = columns_seen[static_cast<long>(label) * samples.width + x];
+    const float down = rows_seen[static_cast<long>(label) * planes.height + y];
+    const float along = columns_seen[static_cast<long>(label) * planes.width + x];
     return is_cross_hair ? along + down - 2 : along * down - 1;
   }
 };
@@ -33,8 +31,8 @@ struct MatchingTables {
 /// StereoMatching in the memory of the device.
 class DeviceMatching {
  public:
-  DeviceMatching(const StereoMatching& matching, const DeviceSamples& samples, ViewIndex reference,
-                 const float* noise, const DeviceStream& stream, const Progress& progress);
+  DeviceMatching(const StereoMatching& matching, const ViewPlanes& planes, const float* noise,
+                 const DeviceStream& stream);
 
   [[nodiscard]] const MatchingTables& tables() const { return tables_; }
 
@@ -44,6 +42,14 @@ class DeviceMatching {
   DeviceArray<float> rows_seen_, columns_seen_;
   MatchingTables tables_;
 };
+
+/// √ of a value ≥ 0 that is no denormal, correctly rounded but for very few; NaN stays NaN.
+__device__ inline float quick_root(float value) {
+  const float inverse = rsqrtf(value);
+  const float root = value * inverse;
+  const float exact = fmaf(fmaf(-root, root, value), 0.5F * inverse, root);
+  return value == 0 ? 0.0F : exact;
+}
 
 /// Costs of rows [first, first + rows) of the reference view, `[row][label][x]`: MatchingCostRows.
 void compute_costs(const MatchingTables& tables, int first, int rows, float* costs,

@@ -8,8 +8,10 @@
 #include "engine/cuda/stereo/guided_costs.cuh"
 #include "engine/cuda/stereo/matching_tables.cuh"
 #include "engine/cuda/stereo/view_noise.cuh"
+#include "engine/cuda/stereo/view_planes.cuh"
 
 #include <algorithm>
+#include <limits>
 
 namespace episcope::cuda {
 namespace {
@@ -26,13 +28,13 @@ struct StereoMatcher::State {
   std::shared_ptr<const DeviceLightField> compared, shown;
   ViewIndex view;
   DeviceStream stream;
-  DeviceArray<float> noise, guide;
+  DeviceArray<float> samples_of_views, noise, guide;
+  ViewPlanes planes;
   int radius = 0;
 
   [[nodiscard]] const DeviceSamples& samples() const { return compared->samples(); }
-  [[nodiscard]] DeviceMatching on_device(const StereoMatching& matching,
-                                         const Progress& progress) const {
-    return {matching, samples(), view, noise.data(), stream, progress};
+  [[nodiscard]] DeviceMatching on_device(const StereoMatching& matching) const {
+    return {matching, planes, noise.data(), stream};
   }
   [[nodiscard]] CostRows with_margin(const CostRows& rows) const;
   void compute(const MatchingTables& tables, const CostRows& rows, float* costs,
@@ -74,12 +76,18 @@ void StereoMatcher::State::aggregate(const CostRows& from, const float* costs, c
 }
 
 StereoMatcher::StereoMatcher(const LightField& compared, const LightField& shown, ViewIndex view,
-                             const Progress& progress)
+                             bool is_cross_hair, const Progress& progress)
     : state_(std::make_unique<State>()) {
-  state_->shown = on_device(shown, progress);
-  state_->compared =
-      &compared == &shown ? state_->shown : std::make_shared<DeviceLightField>(compared, progress);
-  state_->view = view;
+  State& s = *state_;
+  s.shown = on_device(shown, progress);
+  s.compared =
+      &compared == &shown ? s.shown : std::make_shared<DeviceLightField>(compared, progress);
+  s.view = view;
+  const DeviceSamples& samples = s.samples();
+  s.planes = {nullptr,       samples.grid,    view, is_cross_hair, samples.height,
+              samples.width, samples.channels};
+  s.samples_of_views = make_view_planes(samples, s.planes, s.stream);
+  s.planes.planes = s.samples_of_views.data();
 }
 StereoMatcher::~StereoMatcher() = default;
 
@@ -87,7 +95,7 @@ std::vector<float> StereoMatcher::least_costs(const StereoMatching& matching,
                                               const std::vector<int>& rows, float most,
                                               const Progress& progress) {
   State& s = *state_;
-  const DeviceMatching tables = s.on_device(matching, progress);
+  const DeviceMatching tables = s.on_device(matching);
   const auto on_device = upload(rows.data(), rows.size(), s.stream, progress);
   std::vector<float> least(rows.size() * s.samples().width);
   DeviceArray<float> found(least.size(), s.stream);
@@ -97,11 +105,24 @@ std::vector<float> StereoMatcher::least_costs(const StereoMatching& matching,
   return least;
 }
 
-float StereoMatcher::compensate_noise(float most, const Progress& progress) {
+void StereoMatcher::compensate_noise(float most, const Progress& progress) {
   State& s = *state_;
   progress.check();
   s.noise = local_noise_on_device(s.samples(), s.view, most, s.stream);
+}
+
+float StereoMatcher::median_noise() const {
+  const State& s = *state_;
+  if (s.noise.empty()) return 0;
   return median_on_device(s.noise.data(), static_cast<int>(s.noise.size()), s.stream);
+}
+
+float StereoMatcher::noise_variance(const Progress& progress) const {
+  progress.check();
+  const DeviceArray<float> noise =
+      local_noise_on_device(state_->shown->samples(), state_->view,
+                            std::numeric_limits<float>::infinity(), state_->stream);
+  return median_on_device(noise.data(), static_cast<int>(noise.size()), state_->stream);
 }
 
 void StereoMatcher::aggregate(int radius, double regularization) {
@@ -114,7 +135,7 @@ void StereoMatcher::choose(const StereoMatching& matching, const LabelPlaces& pl
                            ImageView<float> disparity, ImageView<float> confidence,
                            const Progress& progress) {
   State& s = *state_;
-  const DeviceMatching tables = s.on_device(matching, progress);
+  const DeviceMatching tables = s.on_device(matching);
   const int height = s.samples().height, width = s.samples().width;
   const std::size_t row_size = static_cast<std::size_t>(matching.labels) * width;
   const int fit = static_cast<int>(kBandBytes / (row_size * sizeof(float)));
@@ -142,7 +163,7 @@ void StereoMatcher::choose(const StereoMatching& matching, const LabelPlaces& pl
 
 SharedVolume StereoMatcher::volume(const StereoMatching& matching, const Progress& progress) {
   State& s = *state_;
-  const DeviceMatching tables = s.on_device(matching, progress);
+  const DeviceMatching tables = s.on_device(matching);
   const CostRows all{0, s.samples().height, matching.labels};
   const auto make = [&] {
     return std::make_shared<DeviceVolume>(all.rows, all.labels, s.samples().width);

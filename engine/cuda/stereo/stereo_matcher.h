@@ -17,7 +17,7 @@ struct alignas(16) MatchShift {
   int origin = 0;           ///< Pixels from the reference pixel to the first tap.
   int taps = 1;             ///< 1, 2 or 4.
   int first = 0, last = 0;  ///< Reference pixels whose sample lies within the image.
-  float noise_left = 1;     ///< Share of the variance of noise that the weights leave.
+  double noise_left = 1;    ///< Share of the variance of noise that the weights leave.
 };
 
 /// A view to compare with, and its ways along both axes.
@@ -50,9 +50,10 @@ struct LabelPlaces {
 /// MatchingCostRows, GuidedFilter and the local stereo methods. Not thread-safe.
 class StereoMatcher {
  public:
-  /// `compared` is matched, `shown` guides the aggregation. Throws DeviceFailure, Cancelled.
+  /// `compared` is matched, `shown` guides the aggregation; views of the row and the column of
+  /// `view` alone, or all. Throws DeviceFailure, Cancelled.
   StereoMatcher(const LightField& compared, const LightField& shown, ViewIndex view,
-                const Progress& progress);
+                bool is_cross_hair, const Progress& progress);
   ~StereoMatcher();
 
   /// The least cost over all labels of every pixel of some rows, `[row][x]`, at most `most`.
@@ -62,8 +63,12 @@ class StereoMatcher {
                                                const Progress& progress);
 
   /// Later costs are compensated for the local noise variance of the view (local_noise.h), at most
-  /// `most`. Returns its median. Throws DeviceFailure, Cancelled.
-  float compensate_noise(float most, const Progress& progress);
+  /// `most`. Throws DeviceFailure, Cancelled.
+  void compensate_noise(float most, const Progress& progress);
+  /// The median of what is compensated; 0 if nothing is. Throws DeviceFailure.
+  [[nodiscard]] float median_noise() const;
+  /// view_noise_variance of the shown view. Throws DeviceFailure, Cancelled.
+  [[nodiscard]] float noise_variance(const Progress& progress) const;
   /// Later costs are aggregated by the guided filter; as GuideImage. Throws DeviceFailure.
   void aggregate(int radius, double regularization);
 

@@ -6,7 +6,8 @@ namespace episcope::cuda {
 
 struct StereoMatcher::State {};
 
-StereoMatcher::StereoMatcher(const LightField&, const LightField&, ViewIndex, const Progress&) {
+StereoMatcher::StereoMatcher(const LightField&, const LightField&, ViewIndex, bool,
+                             const Progress&) {
   throw DeviceFailure(cuda_device().why_not);
 }
 StereoMatcher::~StereoMatcher() = default;
@@ -16,7 +17,15 @@ std::vector<float> StereoMatcher::least_costs(const StereoMatching&, const std::
   throw DeviceFailure(cuda_device().why_not);
 }
 
-float StereoMatcher::compensate_noise(float, const Progress&) {
+void StereoMatcher::compensate_noise(float, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
+float StereoMatcher::median_noise() const {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
+float StereoMatcher::noise_variance(const Progress&) const {
   throw DeviceFailure(cuda_device().why_not);
 }
 

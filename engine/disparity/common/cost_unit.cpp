@@ -2,6 +2,7 @@
 #include "engine/disparity/common/cost_unit.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/stereo/volume_costs.h"
 #include "engine/disparity/common/invalid_pixels.h"
 
 #include <algorithm>
@@ -38,11 +39,20 @@ double mean_around(VolumeView<const float> costs, int y, int x, int best, int re
   return sum / (last - first + 1);
 }
 
+// Labels on either side of the best one that count.
+int reach_of(double step) {
+  return std::max(1, static_cast<int>(std::lround(kReach / step)));
+}
+
+double per_valid_pixel(double sum, const LightField& lf, ViewIndex view) {
+  return sum / static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
+}
+
 }  // namespace
 
 double cost_unit(const LightField& lf, ViewIndex view, VolumeView<const float> costs, double step,
                  const Progress& progress) {
-  const int reach = std::max(1, static_cast<int>(std::lround(kReach / step)));
+  const int reach = reach_of(step);
   std::vector<double> sums(costs.height);
   parallel_for_workers(costs.height, progress, [&] {
     return [&, least = std::vector<float>(costs.width),
@@ -53,8 +63,13 @@ double cost_unit(const LightField& lf, ViewIndex view, VolumeView<const float> c
       }
     };
   });
-  return std::accumulate(sums.begin(), sums.end(), 0.0) /
-         static_cast<double>(std::max<std::size_t>(1, count_valid(lf, view)));
+  return per_valid_pixel(std::accumulate(sums.begin(), sums.end(), 0.0), lf, view);
+}
+
+double cost_unit(const LightField& lf, ViewIndex view, const cuda::DeviceVolume& costs, double step,
+                 const Progress& progress) {
+  const std::uint8_t* const valid = lf.valid().empty() ? nullptr : lf.valid().view(view).data;
+  return per_valid_pixel(cuda::sum_around_best(costs, valid, reach_of(step), progress), lf, view);
 }
 
 }  // namespace episcope

@@ -4,6 +4,7 @@
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/device/device_volume.h"
 
 namespace episcope {
 
@@ -16,6 +17,11 @@ namespace episcope {
 /// `costs` is `[y][label][x]` of the whole view, labels `step` px apart. Throws Cancelled.
 [[nodiscard]] double cost_unit(const LightField& light_field, ViewIndex view,
                                VolumeView<const float> costs, double step,
+                               const Progress& progress);
+
+/// The same of costs on the device. Throws DeviceFailure, Cancelled.
+[[nodiscard]] double cost_unit(const LightField& light_field, ViewIndex view,
+                               const cuda::DeviceVolume& costs, double step,
                                const Progress& progress);
 
 }  // namespace episcope

@@ -2,13 +2,17 @@
 #include "engine/disparity/common/global_labeling.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/lifted/lifted_solver.h"
+#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/lifted/lifted_labeling.h"
+#include "engine/solvers/simplex/pair_labels.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace episcope {
@@ -21,19 +25,44 @@ std::string labeling_note(const LiftedResult& result, double smoothness) {
       result.converged ? "" : " (ended early)");
 }
 
+LiftedResult solve(const GlobalLabelingData& data, const Image<float>& weights, double smoothness,
+                   const GlobalLabelingParameters& parameters, const Progress& progress) {
+  if (!data.on_device) {
+    return solve_lifted_labeling(
+        {data.cost, weights, smoothness},
+        {.max_iterations = parameters.max_iterations, .gap = parameters.gap}, progress);
+  }
+  const auto report = [&](int iterations, double gap) {
+    constexpr double half = 50;  // Iterations that about half of a run takes.
+    progress.report(1 - std::exp2(-iterations / half));
+    progress.step(labeling_gap_text(gap));
+  };
+  cuda::LiftedLabels found = cuda::solve_lifted({.cost = data.on_device,
+                                                 .g = weights,
+                                                 .smoothness = smoothness,
+                                                 .max_iterations = parameters.max_iterations,
+                                                 .gap = parameters.gap},
+                                                report, progress);
+  return {std::move(found.labels), found.iterations, found.energy, found.bound, found.converged};
+}
+
+// Solves TV-L2 of the placements.
+void smooth(const GlobalLabelingData& data, Placements placed, ImageView<const float> g,
+            double lambda, ImageView<float> disparity, const Progress& progress) {
+  if (data.on_device) {
+    cuda::solve_tv_l2(placed.disparity, placed.weight, g, lambda, progress);
+    std::ranges::copy(placed.disparity, disparity.data);
+    return;
+  }
+  TvL2Solver(disparity.height, disparity.width)
+      .solve({placed.disparity, placed.weight, g, lambda}, {}, progress, disparity);
+}
+
 void settle(const GlobalLabelingData& data, const Image<int>& labels, ImageView<const float> g,
             double settling, ImageView<float> disparity, const Progress& progress) {
   const float step = data.labels[1] - data.labels[0];
-  Image<float> placed(labels.height(), labels.width()), weights(labels.height(), labels.width());
-  parallel_for(labels.height(), progress.part(0, 0.5), [&](int y) {
-    for (int x = 0; x < labels.width(); ++x) {
-      const Placement placement = data.place(y, x, labels.at(y, x));
-      placed.at(y, x) = placement.disparity;
-      weights.at(y, x) = placement.weight;
-    }
-  });
-  TvL2Solver(labels.height(), labels.width())
-      .solve({placed, weights, g, settling * step}, {}, progress.part(0.5, 1), disparity);
+  smooth(data, data.place(labels, progress.part(0, 0.5)), g, settling * step, disparity,
+         progress.part(0.5, 1));
   for (int y = 0; y < labels.height(); ++y) {
     for (int x = 0; x < labels.width(); ++x) {
       const float label = data.labels[labels.at(y, x)];
@@ -77,6 +106,21 @@ ParameterSet plain_labeling() {
   return {{"edge_strength", 0.0}, {"settling", 0.0}};
 }
 
+Placements place_pixels(const Image<int>& labels,
+                        const std::function<Placement(int, int, int)>& place,
+                        const Progress& progress) {
+  Placements placed{Image<float>(labels.height(), labels.width()),
+                    Image<float>(labels.height(), labels.width())};
+  parallel_for(labels.height(), progress, [&](int y) {
+    for (int x = 0; x < labels.width(); ++x) {
+      const Placement placement = place(y, x, labels.at(y, x));
+      placed.disparity.at(y, x) = placement.disparity;
+      placed.weight.at(y, x) = placement.weight;
+    }
+  });
+  return placed;
+}
+
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress) {
@@ -84,11 +128,9 @@ void label_globally(const LightField& light_field, const GlobalLabelingData& dat
   const double smoothness = parameters.smoothness * data.scale;
   const Image<float> weights =
       smoothness_weights(light_field, data.view, parameters.edge_strength, data.noise_variance);
-  const LiftedProblem problem{data.cost, weights, smoothness * step};
   progress.step("labeling");
-  const LiftedResult result = solve_lifted_labeling(
-      problem, {.max_iterations = parameters.max_iterations, .gap = parameters.gap},
-      progress.part(0, 0.85));
+  const LiftedResult result =
+      solve(data, weights, smoothness * step, parameters, progress.part(0, 0.85));
   estimate.notes.push_back(labeling_note(result, smoothness));
   estimate.field.disparity =
       ViewStack<float>({1, 1}, light_field.height(), light_field.width(), 1, data.view);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/image.h"
 #include "engine/core/array/volume.h"
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/cuda/device/device_volume.h"
 
 #include <functional>
 #include <vector>
@@ -30,14 +32,24 @@ struct Placement {
   float weight = 0;     ///< In [0, 1].
 };
 
-/// The data term of one view, and how a pixel is placed once its label is known.
+/// Placements of all pixels.
+struct Placements {
+  Image<float> disparity, weight;
+};
+/// Places pixels one by one. Throws Cancelled.
+[[nodiscard]] Placements place_pixels(
+    const Image<int>& labels, const std::function<Placement(int y, int x, int label)>& place,
+    const Progress& progress);
+
+/// The data term of one view, and how pixels are placed once their labels are known.
 struct GlobalLabelingData {
   ViewIndex view;
   std::vector<float> labels;     ///< Disparities, equidistant, at least 2.
   VolumeView<const float> cost;  ///< `[y][label][x]`
   double scale = 1;              ///< Of the costs: the smoothness is multiplied by it.
-  std::function<Placement(int y, int x, int label)> place;
-  double noise_variance = 0;  ///< Of the view, to be taken off its gradient.
+  std::function<Placements(const Image<int>& labels, const Progress& progress)> place;
+  double noise_variance = 0;     ///< Of the view, to be taken off its gradient.
+  cuda::SharedVolume on_device;  ///< The costs, instead of `cost`, for the device; null = none.
 };
 
 /// Disparity of one view by a globally optimal labeling (engine/solvers/lifted/lifted_labeling.h):
@@ -48,8 +60,9 @@ struct GlobalLabelingData {
 /// Labels quantise (variance step²/12) and cause staircases; therefore the map is refined between
 /// labels: TV-L2 of the placements with their weights, g from the view as it is and λ = `settling`
 /// label steps, which smooths slopes under noise less (tests/accuracy/tuning.md), at most one step
-/// from the label. `settling` 0 keeps the labels. Throws InvalidInput, Cancelled; ends early at
-/// `progress.finish_requested()`. Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
+/// from the label. `settling` 0 keeps the labels. With costs on the device both are computed there.
+/// Throws InvalidInput, DeviceFailure, Cancelled; ends early at `progress.finish_requested()`.
+/// Reference: Pock, Cremers, Bischof, Chambolle 2010 [PCBC10].
 void label_globally(const LightField& light_field, const GlobalLabelingData& data,
                     const GlobalLabelingParameters& parameters, Estimate& estimate,
                     const Progress& progress);

@@ -124,7 +124,7 @@ Schema<EpiGParameters> epi_g_schema() {
 }
 
 Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
-                        const Progress& progress) {
+                        const Progress& progress, Device device) {
   DirectionalOrientations directions =
       estimate_directions(lf, parameters.tensor, progress.part(0, 0.06));
   if (parameters.line_check.does_anything()) {
@@ -143,11 +143,18 @@ Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
   const std::vector<float> labels = equidistant_labels(estimate.range, parameters.labels);
   const Volume<float> costs = data.costs(labels, parameters, progress.part(0.1, 0.12));
   const float step = labels[1] - labels[0];
-  const auto place = [&](int y, int x, int label) { return data.place(y, x, labels[label], step); };
+  const auto place = [&](const Image<int>& chosen, const Progress& part) {
+    return place_pixels(
+        chosen, [&](int y, int x, int label) { return data.place(y, x, labels[label], step); },
+        part);
+  };
   const double scale = data.mean_weight(std::max<std::size_t>(1, count_valid(lf, view)));
   const double noise = view_noise_variance(lf, view, progress.part(0.12, 0.121));
-  label_globally(lf, {view, labels, costs.view(), scale, place, noise}, parameters.labeling,
-                 estimate, progress.part(0.121, 1));
+  cuda::SharedVolume on_device;
+  if (device == Device::Cuda)
+    on_device = cuda::upload_volume(costs.view(), progress.part(0.121, 0.121));
+  label_globally(lf, {view, labels, costs.view(), scale, place, noise, on_device},
+                 parameters.labeling, estimate, progress.part(0.121, 1));
   return estimate;
 }
 
@@ -158,10 +165,13 @@ Estimator epi_g_estimator() {
        .summary = "Globally optimal labeling from the orientations on epipolar plane images",
        .reference = "Wanner and Goldluecke 2012 [WG12]",
        .iterative = true,
-       .revision = 6},
+       .revision = 6,
+       .devices = {Device::Cpu, Device::Cuda}},
       epi_g_schema(),
-      [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
-         const Progress& progress) { return estimate_epi_g(light_field, parameters, progress); });
+      [](const LightField& light_field, const EpiGParameters& parameters, const RunOptions& options,
+         const Progress& progress) {
+        return estimate_epi_g(light_field, parameters, progress, options.device);
+      });
 }
 
 }  // namespace episcope

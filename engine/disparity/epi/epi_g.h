@@ -41,7 +41,8 @@ struct EpiGParameters {
 /// Evidence: tests/accuracy/tuning.md.
 /// Reference: Wanner and Goldluecke 2012 [WG12], as EPI_G in the paper.
 [[nodiscard]] Estimate estimate_epi_g(const LightField& light_field,
-                                      const EpiGParameters& parameters, const Progress& progress);
+                                      const EpiGParameters& parameters, const Progress& progress,
+                                      Device device = Device::Cpu);
 
 [[nodiscard]] Estimator epi_g_estimator();
 

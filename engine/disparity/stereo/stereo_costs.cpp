@@ -93,17 +93,22 @@ std::string outlier_text(int outliers) {
   return outliers == 0 ? "" : fmt::format(" ({} of them not believed)", outliers);
 }
 
-// Where the view is smoother, the noise that interpolation removes need not be added back. Returns
-// the median of the noise.
-double compensate_noise(const LightField& lf, double residual, StereoCosts& costs,
-                        const Progress& progress) {
+// Where the view is smoother, the noise that interpolation removes need not be added back.
+void compensate_noise(const LightField& lf, double residual, StereoCosts& costs,
+                      const Progress& progress) {
   const double sigma = residual * (lf.channels() == 1 ? 2 : 1) / kResidualOfNoise;
   const auto most = static_cast<float>(sigma * sigma);
   if (costs.matcher) return costs.matcher->compensate_noise(most, progress);
   auto noise = std::make_shared<Image<float>>(local_noise_variance(lf, costs.view, progress));
   for (float& variance : *noise) variance = std::min(variance, most);
-  std::vector<float> variances(noise->begin(), noise->end());
   costs.matching.noise = std::move(noise);
+}
+
+// The median of the noise that is compensated; 0 if none is.
+double median_noise(const StereoCosts& costs) {
+  if (costs.matcher) return costs.matcher->median_noise();
+  if (!costs.matching.noise) return 0;
+  std::vector<float> variances(costs.matching.noise->begin(), costs.matching.noise->end());
   return quantile(variances, 0.5);
 }
 
@@ -124,9 +129,8 @@ void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& 
                         ", they match no better than the grid");
 }
 
-void make_guide(const LightField& lf, int radius, double noise, StereoCosts& costs,
-                const Progress& progress) {
-  const double regularization = kLeastGuideVariance + kNoiseInGuide * noise;
+void make_guide(const LightField& lf, int radius, StereoCosts& costs, const Progress& progress) {
+  const double regularization = kLeastGuideVariance + kNoiseInGuide * median_noise(costs);
   if (costs.matcher) return costs.matcher->aggregate(radius, regularization);
   costs.guide = std::make_shared<GuideImage>(lf, costs.view, radius, regularization, progress);
 }
@@ -206,8 +210,8 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   }
   const LightField& compared = costs.relative ? *costs.relative : lf;
   if (device == Device::Cuda) {
-    costs.matcher =
-        std::make_shared<cuda::StereoMatcher>(compared, lf, costs.view, progress.part(0.1, 0.1));
+    costs.matcher = std::make_shared<cuda::StereoMatcher>(
+        compared, lf, costs.view, views == MatchedViews::CrossHair, progress.part(0.1, 0.1));
   }
   costs.range = search_range(compared, parameters.range, progress.part(0.1, 0.5));
   costs.labels = equidistant_labels(costs.range, parameters.labels);
@@ -219,21 +223,20 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
   if (stated.kind == PlacesKind::Implausible) {
     costs.notes.emplace_back("positions of cameras not used: they make no grid");
   }
-  double noise = 0;
   const bool is_irregular = stated.kind == PlacesKind::Irregular;
   if (parameters.compensate_noise || parameters.epsilon == 0 || is_irregular) {
     progress.step("noise");
     Residuals residuals = find_residuals(compared, costs, progress.part(0.5, 0.7));
     if (is_irregular) choose_places(compared, stated, costs, residuals, progress.part(0.7, 0.8));
     if (parameters.compensate_noise) {
-      noise = compensate_noise(compared, residuals.lower_quartile, costs, progress.part(0.8, 0.9));
+      compensate_noise(compared, residuals.lower_quartile, costs, progress.part(0.8, 0.9));
     }
     if (parameters.epsilon == 0) {
       costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
     }
   }
   if (parameters.aggregation > 0) {
-    make_guide(lf, parameters.aggregation, noise, costs, progress.part(0.9, 1));
+    make_guide(lf, parameters.aggregation, costs, progress.part(0.9, 1));
   }
   return costs;
 }

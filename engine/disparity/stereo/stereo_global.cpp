@@ -3,6 +3,7 @@
 
 #include "engine/disparity/common/cost_unit.h"
 #include "engine/disparity/common/local_noise.h"
+#include "engine/disparity/stereo/stereo_on_device.h"
 #include "engine/disparity/stereo/volume_trust.h"
 
 namespace episcope {
@@ -22,27 +23,61 @@ Schema<StereoGlobalParameters> stereo_global_schema(MatchedViews views) {
                      {0.1, 0.2, 0.3, 0.4, 0.6, 0.8, 1.2, 1.6, 2.4});
 }
 
+namespace {
+
+void label_costs(const LightField& lf, const StereoCosts& stereo,
+                 const GlobalLabelingParameters& labeling, Estimate& estimate,
+                 const Progress& progress) {
+  const Volume<float> volume = stereo_volume(lf, stereo, progress.part(0, 0.26));
+  const VolumeView<const float> costs = volume.view();
+  const Image<float> means = mean_costs(costs, progress.part(0.26, 0.27));
+  const auto place = [&](const Image<int>& labels, const Progress& part) {
+    return place_pixels(
+        labels,
+        [&](int y, int x, int label) { return place_by_costs(stereo, costs, means, y, x, label); },
+        part);
+  };
+  const float step = stereo.labels[1] - stereo.labels[0];
+  const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.27, 0.28));
+  const double noise = view_noise_variance(lf, stereo.view, progress.part(0.28, 0.281));
+  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise}, labeling, estimate,
+                 progress.part(0.281, 0.99));
+  estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo, costs,
+                                          means, progress.part(0.99, 1));
+}
+
+void label_on_device(const LightField& lf, const StereoCosts& stereo,
+                     const GlobalLabelingParameters& labeling, Estimate& estimate,
+                     const Progress& progress) {
+  const LightField& compared = stereo.relative ? *stereo.relative : lf;
+  const cuda::SharedVolume costs =
+      stereo.matcher->volume(device_matching(compared, stereo.view, stereo.matching, stereo.labels),
+                             progress.part(0, 0.26));
+  const auto place = [&](const Image<int>& labels, const Progress& part) {
+    return place_by_costs(stereo, *costs, labels, part);
+  };
+  const float step = stereo.labels[1] - stereo.labels[0];
+  const double scale = cost_unit(lf, stereo.view, *costs, step, progress.part(0.26, 0.28));
+  const double noise = stereo.matcher->noise_variance(progress.part(0.28, 0.281));
+  label_globally(lf, {stereo.view, stereo.labels, {}, scale, place, noise, costs}, labeling,
+                 estimate, progress.part(0.281, 0.99));
+  estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo,
+                                          *costs, progress.part(0.99, 1));
+}
+
+}  // namespace
+
 Estimate estimate_stereo_global(const LightField& lf, MatchedViews views,
                                 const StereoGlobalParameters& parameters, const Progress& progress,
-                                Device) {
-  const StereoCosts stereo = prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05));
+                                Device device) {
+  const StereoCosts stereo =
+      prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.05), device);
   progress.step("matching costs");
-  const Volume<float> volume = stereo_volume(lf, stereo, progress.part(0.05, 0.3));
-  const VolumeView<const float> costs = volume.view();
-  const Image<float> means = mean_costs(costs, progress.part(0.3, 0.31));
   Estimate estimate;
   estimate.range = stereo.range;
   estimate.notes = cost_notes(stereo);
-  const float step = stereo.labels[1] - stereo.labels[0];
-  const auto place = [&](int y, int x, int label) {
-    return place_by_costs(stereo, costs, means, y, x, label);
-  };
-  const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.31, 0.32));
-  const double noise = view_noise_variance(lf, stereo.view, progress.part(0.32, 0.321));
-  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise}, parameters.labeling,
-                 estimate, progress.part(0.321, 0.99));
-  estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo, costs,
-                                          means, progress.part(0.99, 1));
+  const auto label = stereo.matcher ? label_on_device : label_costs;
+  label(lf, stereo, parameters.labeling, estimate, progress.part(0.05, 1));
   return estimate;
 }
 

@@ -19,7 +19,7 @@ std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts
     each.taps = shift.taps;
     each.first = shift.first;
     each.last = shift.last;
-    each.noise_left = static_cast<float>(shift.noise_left());
+    each.noise_left = shift.noise_left();
   }
   return result;
 }

@@ -2,6 +2,7 @@
 #include "engine/disparity/stereo/volume_trust.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/cuda/stereo/volume_costs.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/sub_label.h"
 
@@ -12,6 +13,24 @@ namespace {
 
 // No pixel gets weight 0 when it is placed between labels.
 constexpr float kMinWeight = 0.01F;
+
+float step_of(const StereoCosts& stereo) {
+  return stereo.labels[1] - stereo.labels[0];
+}
+
+// `offset` in labels.
+Placement placed(const StereoCosts& stereo, int label, float offset, float trust) {
+  return {stereo.labels[label] + offset * step_of(stereo), std::max(trust * trust, kMinWeight)};
+}
+
+bool is_between(const StereoCosts& stereo, int label) {
+  return label > 0 && label + 1 < static_cast<int>(stereo.labels.size());
+}
+
+int nearest_label(const StereoCosts& stereo, float disparity) {
+  const float place = (disparity - stereo.labels.front()) / step_of(stereo);
+  return std::clamp(static_cast<int>(place + 0.5F), 0, static_cast<int>(stereo.labels.size()) - 1);
+}
 
 }  // namespace
 
@@ -37,12 +56,25 @@ Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> cost
   const float cost = costs.at(y, label, x);
   const float trust = cost_trust(cost, means.at(y, x));
   float offset = 0;
-  if (label > 0 && label + 1 < costs.layers) {
+  if (is_between(stereo, label)) {
     offset = sub_label_offset(costs.at(y, label - 1, x), cost, costs.at(y, label + 1, x),
                               Refinement::Parabola);
   }
-  const float step = stereo.labels[1] - stereo.labels[0];
-  return {stereo.labels[label] + offset * step, std::max(trust * trust, kMinWeight)};
+  return placed(stereo, label, offset, trust);
+}
+
+Placements place_by_costs(const StereoCosts& stereo, const cuda::DeviceVolume& costs,
+                          const Image<int>& labels, const Progress& progress) {
+  const cuda::CostsAtLabels at = cuda::costs_at_labels(costs, labels, progress);
+  const auto place = [&](int y, int x, int label) {
+    const float cost = at.here.at(y, x);
+    const float offset =
+        is_between(stereo, label)
+            ? sub_label_offset(at.before.at(y, x), cost, at.after.at(y, x), Refinement::Parabola)
+            : 0;
+    return placed(stereo, label, offset, cost_trust(cost, at.mean.at(y, x)));
+  };
+  return place_pixels(labels, place, progress);
 }
 
 ViewStack<float> volume_confidence(ImageView<const float> disparity, const StereoCosts& stereo,
@@ -50,14 +82,26 @@ ViewStack<float> volume_confidence(ImageView<const float> disparity, const Stere
                                    const Progress& progress) {
   ViewStack<float> confidence({1, 1}, costs.height, costs.width, 1, stereo.view);
   const ImageView<float> map = confidence.view(stereo.view);
-  const float step = stereo.labels[1] - stereo.labels[0];
   parallel_for(costs.height, progress, [&](int y) {
     for (int x = 0; x < costs.width; ++x) {
-      const float place = (disparity.at(y, x) - stereo.labels.front()) / step;
-      const int label = std::clamp(static_cast<int>(place + 0.5F), 0, costs.layers - 1);
+      const int label = nearest_label(stereo, disparity.at(y, x));
       map.at(y, x) = cost_trust(costs.at(y, label, x), means.at(y, x));
     }
   });
+  return confidence;
+}
+
+ViewStack<float> volume_confidence(ImageView<const float> disparity, const StereoCosts& stereo,
+                                   const cuda::DeviceVolume& costs, const Progress& progress) {
+  Image<int> labels(disparity.height, disparity.width);
+  parallel_for(disparity.height, progress, [&](int y) {
+    for (int x = 0; x < disparity.width; ++x) {
+      labels.at(y, x) = nearest_label(stereo, disparity.at(y, x));
+    }
+  });
+  const cuda::CostsAtLabels at = cuda::costs_at_labels(costs, labels, progress);
+  ViewStack<float> confidence({1, 1}, disparity.height, disparity.width, 1, stereo.view);
+  std::transform(at.here.begin(), at.here.end(), at.mean.begin(), confidence.data(), cost_trust);
   return confidence;
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/image.h"
 #include "engine/core/array/volume.h"
+#include "engine/cuda/device/device_volume.h"
 #include "engine/disparity/common/global_labeling.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
@@ -25,12 +26,22 @@ namespace episcope {
 [[nodiscard]] Placement place_by_costs(const StereoCosts& stereo, VolumeView<const float> costs,
                                        const Image<float>& means, int y, int x, int label);
 
+/// The same of all pixels, for costs on the device. Throws DeviceFailure, Cancelled.
+[[nodiscard]] Placements place_by_costs(const StereoCosts& stereo, const cuda::DeviceVolume& costs,
+                                        const Image<int>& labels, const Progress& progress);
+
 /// The trust of each pixel, by the cost of the label nearest to its disparity: one view,
 /// `costs.view`. Throws Cancelled.
 [[nodiscard]] ViewStack<float> volume_confidence(ImageView<const float> disparity,
                                                  const StereoCosts& stereo,
                                                  VolumeView<const float> costs,
                                                  const Image<float>& means,
+                                                 const Progress& progress);
+
+/// The same for costs on the device. Throws DeviceFailure, Cancelled.
+[[nodiscard]] ViewStack<float> volume_confidence(ImageView<const float> disparity,
+                                                 const StereoCosts& stereo,
+                                                 const cuda::DeviceVolume& costs,
                                                  const Progress& progress);
 
 }  // namespace episcope
