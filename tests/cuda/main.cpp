@@ -21,6 +21,7 @@ constexpr int kSkipped = 77;
 struct Arguments {
   bool times = false;
   bool with_cpu = true;
+  bool only_center = false;  ///< When times are taken.
   int size = 192;
   IntervalOrAuto range;  ///< Searched when times are taken; else as methods find it.
   std::string methods;   ///< What ids begin with.
@@ -68,6 +69,7 @@ int time_all(const Arguments& arguments) {
   Scene scene = make_scene("demo", arguments.size);
   for (Case& each : cases(arguments.methods)) {
     if (arguments.range) each.values.emplace_back("range", arguments.range);
+    if (arguments.only_center) each.views = ViewSelection::Center;
     const Timing timing = time_case(each, scene, arguments.with_cpu);
     fmt::print("{}: {:.1f} ms, kernels {:.1f} ms", each.title, 1e3 * timing.seconds,
                1e3 * timing.kernel_seconds);
@@ -88,6 +90,7 @@ Arguments read_arguments(int count, char** texts) {
     const std::string text = texts[i];
     const bool has_value = i + 1 < count;
     if (text == "time") arguments.times = true;
+    if (text == "--center") arguments.only_center = true;
     if (text == "--no-cpu") arguments.with_cpu = false;
     if (text == "--size" && has_value) arguments.size = std::stoi(texts[++i]);
     if (text == "--methods" && has_value) arguments.methods = texts[++i];

@@ -40,8 +40,8 @@ void label_costs(const LightField& lf, const StereoCosts& stereo,
   const float step = stereo.labels[1] - stereo.labels[0];
   const double scale = cost_unit(lf, stereo.view, costs, step, progress.part(0.27, 0.28));
   const double noise = view_noise_variance(lf, stereo.view, progress.part(0.28, 0.281));
-  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise}, labeling, estimate,
-                 progress.part(0.281, 0.99));
+  label_globally(lf, {stereo.view, stereo.labels, costs, scale, place, noise, {}}, labeling,
+                 estimate, progress.part(0.281, 0.99));
   estimate.confidence = volume_confidence(estimate.field.disparity.view(stereo.view), stereo, costs,
                                           means, progress.part(0.99, 1));
 }
