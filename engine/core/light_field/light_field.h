@@ -86,10 +86,16 @@ class LightField {
   [[nodiscard]] Image<float> view_as_float(ViewIndex index) const;
 
   /// 64-bit FNV-1a hash of shape and samples, which identifies the light field in result files.
-  /// Linear in the size.
+  /// Linear in the size. Samples on disk are dropped from memory once they were read.
   [[nodiscard]] std::uint64_t sample_hash() const;
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
+
+  /// Whether samples are in a file that the system reads when they are looked at.
+  [[nodiscard]] bool is_on_disk() const;
+  /// Of such samples, drops what the process holds in memory; changes nothing else. A long
+  /// computation that looks at all of them may say so now and then to keep its memory bounded.
+  void forget_samples() const;
 
   /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
   [[nodiscard]] const ViewStack<std::uint8_t>& valid() const { return valid_; }
