@@ -24,13 +24,7 @@ class ViewStack {
   ViewStack() = default;
   /// Elements are uninitialised: the caller must write every one.
   ViewStack(GridShape grid, int height, int width, int channels = 1, ViewIndex first = {})
-      : grid_(grid),
-        first_(first),
-        height_(height),
-        width_(width),
-        channels_(channels),
-        strides_(dense_strides()),
-        samples_(make_large<T>(size())) {}
+      : ViewStack(grid, height, width, channels, first, allocate_large) {}
   /// In other memory than that of `make_large`: allocate_large_zeros, or part of a file.
   template <class Allocate>
   ViewStack(GridShape grid, int height, int width, int channels, ViewIndex first,

@@ -147,6 +147,17 @@ bool LightField::is_on_disk() const {
   return std::visit([](const auto& stack) { return stack.is_on_disk(); }, samples_);
 }
 
+void LightField::fetch_samples(ViewIndex index, int first_row, int end_row) const {
+  std::visit(
+      [&]<class T>(const ViewStack<T>& stack) {
+        if (!stack.is_on_disk()) return;
+        const ImageView<const T> view = stack.view(index);
+        const auto rows = static_cast<std::size_t>(end_row - first_row);
+        fetch_pages(view.row(first_row), sizeof(T) * rows * view.row_stride);
+      },
+      samples_);
+}
+
 void LightField::forget_samples() const {
   const auto forget = [](const auto& stack) {
     if (stack.is_on_disk()) forget_views(stack, 0, stack.grid().count());
@@ -163,9 +174,7 @@ std::uint64_t LightField::sample_hash() const {
         WordHash words(hash);
         for (int i = 0; i < grid_.count(); ++i) {
           // The disk reads while the last view is being hashed.
-          if (stack.is_on_disk() && i + 1 < grid_.count()) {
-            fetch_pages(stack.view(stack.view_at(i + 1)).data, view_bytes(stack));
-          }
+          if (i + 1 < grid_.count()) fetch_samples(stack.view_at(i + 1), 0, height_);
           const auto* const first = stack.view(stack.view_at(i)).data;
           words.add({reinterpret_cast<const char*>(first), view_bytes(stack)});
           if (stack.is_on_disk()) forget_views(stack, i, i + 1);

@@ -93,6 +93,15 @@ class LightField {
 
   /// Whether samples are in a file that the system reads when they are looked at.
   [[nodiscard]] bool is_on_disk() const;
+  /// Of such samples, has the system begin to read rows [first_row, end_row) of a view, without
+  /// waiting: whoever will look at several places says so of all before looking at the first.
+  void fetch_samples(ViewIndex index, int first_row, int end_row) const;
+  /// The same of all views.
+  void fetch_samples(int first_row, int end_row) const {
+    for (int i = 0; is_on_disk() && i < grid_.count(); ++i) {
+      fetch_samples(grid_.view_at(i), first_row, end_row);
+    }
+  }
   /// Of such samples, drops what the process holds in memory; changes nothing else. A long
   /// computation that looks at all of them may say so now and then to keep its memory bounded.
   void forget_samples() const;

@@ -104,17 +104,14 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
 template <class P, class F, class B>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate, B blocks) {
   Estimator estimator = make_estimator<P>(info, schema, std::move(estimate));
-  estimator.in_blocks = [info = std::move(info), schema = std::move(schema),
-                         blocks = std::move(blocks)](
-                            const LightField& light_field, const ParameterSet& values,
+  estimator.in_blocks = [=](const LightField& light_field, const ParameterSet& values,
                             const RunOptions& options, const Progress& progress) {
     require_device(options.device, info);
-    const Stopwatch watch;
     const P parameters = schema.parse(values);
-    BlockwiseRun run =
-        blocks(light_field, parameters, options.views, progress.limited_to(options.threads));
+    const Progress limited = progress.limited_to(options.threads);
+    BlockwiseRun run = blocks(light_field, parameters, options.views, limited);
     run.provenance.parameters = schema.values(parameters);
-    complete_estimate(run.provenance, info.id, light_field, watch.seconds());
+    complete_estimate(run.provenance, info.id, light_field, 0);
     return run;
   };
   return estimator;

@@ -301,6 +301,7 @@ BlockwiseRun orientations_in_blocks(const LightField& lf, const EpiLParameters& 
                                           const std::vector<double>&, const Progress& part) {
     const MapGeometry band{block.views.grid, block.views.first, block.rows(), lf.width()};
     FinishedBlock made{{{unknown_map(band), {}}, unknown_map(band)}};
+    lf.fetch_samples(block.first_row, block.end_row);
     find_orientations({lf, made.maps.field.disparity, made.maps.confidence, block.first_row},
                       parameters, range, part);
     return made;

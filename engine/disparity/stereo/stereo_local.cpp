@@ -174,6 +174,9 @@ BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
   pass.compute = [&lf, costs, refinement = parameters.refinement](
                      const MapBlock& block, const ReadBlock&, const std::vector<double>&,
                      const Progress& part) {
+    if (costs->matching.views == MatchedViews::All) {
+      lf.fetch_samples(block.first_row, block.end_row);
+    }
     return FinishedBlock{choose_labels(lf, *costs, refinement, block, part)};
   };
   run.passes.push_back(std::move(pass));

@@ -21,18 +21,22 @@ Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
           const Progress& progress) { return estimate(light_field, views, parameters, progress); });
 }
 
+// A function of `views` as one without.
+template <class Result>
+auto with_views(MatchedViews views,
+                Result (*function)(const LightField&, MatchedViews, const StereoLocalParameters&,
+                                   const Progress&)) {
+  return [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
+             const Progress& progress) {
+    return function(light_field, views, parameters, progress);
+  };
+}
+
 // A local one.
 Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
   return make_estimator<StereoLocalParameters>(
-      std::move(info), stereo_local_schema(views),
-      [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
-          const Progress& progress) {
-        return estimate_stereo_local(light_field, views, parameters, progress);
-      },
-      [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
-          const Progress& progress) {
-        return stereo_local_in_blocks(light_field, views, parameters, progress);
-      });
+      std::move(info), stereo_local_schema(views), with_views(views, estimate_stereo_local),
+      with_views(views, stereo_local_in_blocks));
 }
 
 }  // namespace

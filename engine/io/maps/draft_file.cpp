@@ -130,10 +130,16 @@ std::vector<FileBytes> DraftFile::rest() const {
   return rest;
 }
 
-void DraftFile::restore(const std::vector<FileBytes>& rest, std::uintmax_t byte_size) const {
-  for (const FileBytes& gap : rest) require(write_all_at(file_.id(), gap.bytes, gap.offset));
-  require(::ftruncate(file_.id(), static_cast<off_t>(byte_size)) == 0);
-  require(::fdatasync(file_.id()) == 0);
+void DraftFile::restore(const std::filesystem::path& path, const std::vector<FileBytes>& rest,
+                        std::uintmax_t byte_size) {
+  const FileDescriptor file(path, O_RDWR);
+  bool is_done = file.ok();
+  for (const FileBytes& gap : rest) {
+    is_done = is_done && write_all_at(file.id(), gap.bytes, gap.offset);
+  }
+  is_done = is_done && ::ftruncate(file.id(), static_cast<off_t>(byte_size)) == 0 &&
+            ::fdatasync(file.id()) == 0;
+  if (!is_done) throw write_error(path);
 }
 
 BlockMaps DraftFile::read(const MapBlock& block) const {

@@ -38,10 +38,13 @@ class DraftFile {
   DraftFile(const std::filesystem::path& path, const DraftShape& shape,
             const std::filesystem::path& target);
 
-  /// All but the maps, by which the file can be restored.
+  /// All but the maps.
   [[nodiscard]] std::vector<FileBytes> rest() const;
   [[nodiscard]] std::uintmax_t byte_size() const;
-  void restore(const std::vector<FileBytes>& rest, std::uintmax_t byte_size) const;
+  /// Makes all but the maps of a file what it was, whatever was added or is damaged. Throws IoError
+  /// that names `path`.
+  static void restore(const std::filesystem::path& path, const std::vector<FileBytes>& rest,
+                      std::uintmax_t byte_size);
 
   [[nodiscard]] BlockMaps read(const MapBlock& block) const;
   /// Is on the disk when it returns. Disparity is NaN where it is not valid.

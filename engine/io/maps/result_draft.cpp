@@ -100,16 +100,14 @@ void ResultDraft::begin(const std::string& identity) {
   std::filesystem::remove(draft_, ignored);  // makes room
   DraftFile::create(draft_, shape_, result_);
   file_ = DraftFile(draft_, shape_, result_);
-  rest_ = rest_text();
-  const std::vector<LogRecord> records{record_of(identity), record_of(rest_)};
+  const std::vector<LogRecord> records{record_of(identity), record_of(rest_text())};
   log_.emplace(log_path_, LogFraming::Lines, LogFlush::AtOnce, records);
 }
 
 void ResultDraft::continue_with(const std::vector<LogRecord>& records) {
-  rest_ = text_of(records[1]);
-  file_ = DraftFile(draft_, shape_, result_);
   try {
-    restore(rest_);
+    restore(text_of(records[1]));
+    file_ = DraftFile(draft_, shape_, result_);
     if (records.size() == kFirstStep) return;
     const Json last = parse_json<Json>(text_of(records.back()));
     progress_ = progress_in(last);
@@ -136,7 +134,7 @@ void ResultDraft::restore(const std::string& rest) const {
   for (const Json& gap : json.at("rest")) {
     gaps.push_back({gap.at(0).get<std::uintmax_t>(), gap.at(1).get<std::vector<std::uint8_t>>()});
   }
-  file_.restore(gaps, json.at("bytes").get<std::uintmax_t>());
+  DraftFile::restore(draft_, gaps, json.at("bytes").get<std::uintmax_t>());
 }
 
 void ResultDraft::note(const BlockProgress& after) {

@@ -52,7 +52,6 @@ class ResultDraft {
   Found found_ = Found::Nothing;
   std::optional<AppendLog> log_;
   DraftFile file_;
-  std::string rest_;  ///< All but the maps, as in the log.
   BlockProgress progress_;
 };
 

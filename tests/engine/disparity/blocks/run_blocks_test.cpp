@@ -220,9 +220,8 @@ void RunBlocksTest::lessThanTheSmallestBlock_isRefused() {
   const BlockwiseRun run = fetched().in_blocks(*scene.light_field, {}, {}, Progress(2));
   MemoryStore store(run.maps);
 
-  QVERIFY_EXCEPTION_THROWN(
-      static_cast<void>(run_blocks(*scene.light_field, run, store, 1000, Progress(2))),
-      InvalidInput);
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(run_blocks(*scene.light_field, run,
+                                                                      store, 1000, Progress(2))));
 }
 
 }  // namespace episcope::in_run_blocks_test

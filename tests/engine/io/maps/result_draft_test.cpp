@@ -175,11 +175,11 @@ void ResultDraftTest::endWhileItIsCompleted_isUndone() {
 void ResultDraftTest::draftThatIsBeingWritten_isRefused() {
   const ResultDraft first = draft();
 
-  QVERIFY_EXCEPTION_THROWN(static_cast<void>(draft()), IoError);
+  QVERIFY_THROWS_EXCEPTION(IoError, static_cast<void>(draft()));
 }
 
 void ResultDraftTest::missingFolder_isRefusedAndNothingIsLeft() {
-  QVERIFY_EXCEPTION_THROWN(ResultDraft(path("none") / "r.h5", {kMaps, false}, "a run"), IoError);
+  QVERIFY_THROWS_EXCEPTION(IoError, ResultDraft(path("none") / "r.h5", {kMaps, false}, "a run"));
   QVERIFY(std::filesystem::is_empty(path().parent_path()));
 }
 
