@@ -5,6 +5,7 @@
 #include "app/cli/interrupt.h"
 #include "app/cli/verbs/program_help.h"
 #include "app/cli/verbs/verbs.h"
+#include "app/session/scene/user_folders.h"
 
 #include <exception>
 #include <iostream>
@@ -49,6 +50,7 @@ int fail(const std::exception& error, int code) {
 
 int main(int argc, char** argv) {
   try {
+    episcope::use_cache_for_scratch();
     run({argv + 1, argv + argc});
     if (!std::cout.flush()) throw Error("standard output cannot be written");
     return kSuccess;

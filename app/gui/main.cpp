@@ -2,6 +2,7 @@
 #include "app/about/version_text.h"
 #include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
+#include "app/session/scene/user_folders.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/version.h"
 #include "widgets/cloud/vtk_version.h"
@@ -87,6 +88,7 @@ int main(int argc, char** argv) {
 
   QGuiApplication::setDesktopFileName("episcope");
   QApplication::setWindowIcon(episcope::program_icon());
+  episcope::use_cache_for_scratch();
   episcope::MainWindow window;
   window.show();
   window.start(inputs.isEmpty() ? QStringLiteral("demo") : inputs.front());

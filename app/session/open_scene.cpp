@@ -25,8 +25,10 @@ std::size_t byte_size(const OpenScene& scene) {
   std::size_t bytes = 0;
   if (scene.scene) {
     const GroundTruth& truth = *scene.scene->truth;
-    bytes += scene.scene->light_field->byte_size() + bytes_of(truth.field) +
-             bytes_of(truth.foreground) + bytes_of(truth.background) + bytes_of(truth.labels);
+    const LightField& light_field = *scene.scene->light_field;
+    if (!light_field.is_on_disk()) bytes += light_field.byte_size();
+    bytes += bytes_of(truth.field) + bytes_of(truth.foreground) + bytes_of(truth.background) +
+             bytes_of(truth.labels);
   }
   for (const EstimateEntry& each : scene.estimates) {
     if (each.estimate) bytes += byte_size(*each.estimate);

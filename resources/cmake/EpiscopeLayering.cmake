@@ -115,7 +115,7 @@ episcope_forbid(episcope_widgets "^episcope_(io|session|solvers|disparity|evalua
                 "^opencv")
 episcope_forbid(episcope-cli ${ui})
 episcope_floors(engine/core . array,hash,parallel,text parameter light_field space)
-episcope_floors(engine/disparity tensor common epi,stereo cuts,layers,plane)
+episcope_floors(engine/disparity tensor common blocks,epi,stereo cuts,layers,plane)
 episcope_floors(engine/capture camera,mesh calibrate,depth,pose rectify demo)
 episcope_floors(widgets style controls canvas,estimate,plot annotate,browse,cloud,collection,compare,sweep capture)
 episcope_floors(app/gui frame document,stage opening bench

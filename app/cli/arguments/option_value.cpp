@@ -11,6 +11,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 namespace episcope::cli {
 namespace {
@@ -69,6 +70,23 @@ OptionValue<double> real_value(const std::string& name, double min, double max) 
               refuse(option, text, "a number from " + to_text(min) + " to " + to_text(max));
             }
             return *number;
+          }};
+}
+
+OptionValue<std::size_t> bytes_value(const std::string& name) {
+  return {name, [](const std::string& option, const std::string& text) {
+            constexpr std::string_view kUnits = "KMGT";
+            constexpr double kMost = 1e15;
+            double unit = 1;
+            const std::size_t place =
+                text.empty() ? std::string_view::npos : kUnits.find(text.back());
+            const bool has_unit = place != std::string_view::npos;
+            for (std::size_t i = 0; has_unit && i <= place; ++i) unit *= 1024;
+            const auto number = number_in<double>(text.substr(0, text.size() - (has_unit ? 1 : 0)));
+            if (!number || !(*number * unit >= 1 && *number * unit <= kMost)) {
+              refuse(option, text, "a number of bytes, such as 4G, 800M or 1.5G");
+            }
+            return static_cast<std::size_t>(*number * unit);
           }};
 }
 

@@ -4,6 +4,7 @@
 #include "engine/core/array/indices.h"
 #include "engine/core/parameter/named.h"
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ struct OptionValue {
 /// A whole number or a number in [min, max].
 [[nodiscard]] OptionValue<int> integer_value(const std::string& name, int min, int max);
 [[nodiscard]] OptionValue<double> real_value(const std::string& name, double min, double max);
+/// A number of bytes: "4G", "1.5G", "800M", "64K" (powers of 1024), "1000000".
+[[nodiscard]] OptionValue<std::size_t> bytes_value(const std::string& name);
 /// "A,B" with A < B.
 [[nodiscard]] OptionValue<Interval> interval_value();
 /// "V,U".

@@ -9,8 +9,10 @@
 #include "app/cli/output/output_file.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/run/run_estimator.h"
+#include "app/session/run/run_in_blocks.h"
 #include "app/session/save/save_result.h"
 #include "app/session/scene/scene_summary.h"
+#include "engine/core/array/memory_budget.h"
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/disparity/registry.h"
@@ -34,6 +36,7 @@ struct Request {
   Frames frames = Frames::One;
   bool is_submission = false;
   bool is_json = false;
+  std::size_t memory = 0;  ///< 0: two thirds of what is free.
   JobOptions job;
   ReadOptions read;
 };
@@ -86,6 +89,12 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
               "Write a submission to the 2016 benchmark: DIR/disp_maps, DIR/runtimes");
   const Schema<RunOptions> run = run_schema();
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
+  parser.option(
+      "--memory", request.memory, bytes_value("SIZE"),
+      "Memory that the light field and the method may take, such as 4G; by default two "
+      "thirds of what is free. Within it, epi_l, epi_s and the local stereo methods write "
+      "their maps block by block to OUT.h5.partial, and the same command continues what was "
+      "interrupted; other methods put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
@@ -138,11 +147,10 @@ struct CoveredViews {
   std::string name;
   std::string text;
 };
-CoveredViews covered_views(const Estimate& estimate, ViewIndex center) {
-  const ViewStack<float>& stack = estimate.field.disparity;
-  if (stack.grid().count() > 1) return {name_of(ViewSelection::All), "all views"};
-  if (stack.first() == center) return {name_of(ViewSelection::Center), "the centre view"};
-  return {view_text(stack.first()), "view " + view_text(stack.first())};
+CoveredViews covered_views(const MapGeometry& maps, ViewIndex center) {
+  if (maps.grid.count() > 1) return {name_of(ViewSelection::All), "all views"};
+  if (maps.first == center) return {name_of(ViewSelection::Center), "the centre view"};
+  return {view_text(maps.first), "view " + view_text(maps.first)};
 }
 
 /// What is estimated of one light field, and where it goes.
@@ -155,24 +163,25 @@ struct Task {
 
 struct Answer {
   std::string output;
-  EstimatePtr estimate;
+  Provenance provenance;
+  MapGeometry maps;
   ViewIndex center;
 };
 
 void print_line(const Answer& answer) {
-  const Estimate& estimate = *answer.estimate;
+  const Provenance& estimate = answer.provenance;
   std::cout << answer.output << ": " << estimate.method << " of "
-            << covered_views(estimate, answer.center).text << std::fixed << std::setprecision(2)
+            << covered_views(answer.maps, answer.center).text << std::fixed << std::setprecision(2)
             << " in " << estimate.seconds << " s, disparity " << estimate.range.min << " … "
             << estimate.range.max << " px, " << std::setprecision(0) << peak_memory_mib()
             << " MiB at most\n";
 }
 
 Json answer_json(const Answer& answer) {
-  const Estimate& estimate = *answer.estimate;
+  const Provenance& estimate = answer.provenance;
   Json json;
   json["method"] = estimate.method;
-  json["views"] = covered_views(estimate, answer.center).name;
+  json["views"] = covered_views(answer.maps, answer.center).name;
   json["seconds"] = estimate.seconds;
   json["peak_mib"] = peak_memory_mib();
   json["parameters"] = parameters_json(estimate.parameters);
@@ -191,6 +200,7 @@ class Runner {
     options_.threads = job_.progress().threads();
     // The method asks as well, but not before the light field is loaded.
     require_device(options_.device, request.estimator->info);
+    if (request.memory > 0) set_memory_budget(request.memory);
   }
 
   [[nodiscard]] Job& job() { return job_; }
@@ -209,16 +219,12 @@ class Runner {
   [[nodiscard]] Answer run(const Task& task, const Progress& progress) {
     const LightFieldPtr light_field = load(task, progress.part(0, 0.3));
     const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
-    const EstimatePtr estimate =
-        run_estimator(*light_field, *request_.estimator, run, progress.part(0.3, 0.9)).estimate;
-    progress.step("writing " + task.output);
-    if (request_.is_submission) {
-      submit(task, *estimate, light_field->center());
-    } else {
-      save_result(task.output, *estimate, task.input, progress.part(0.9, 1));
-    }
-    for (const auto& sentence : estimate->notes) note(task, sentence);
-    return {task.output, estimate, light_field->center()};
+    const bool in_blocks = !request_.is_submission &&
+                           should_run_in_blocks(*light_field, *request_.estimator, options_);
+    const Answer answer = in_blocks ? run_blocks(task, run, *light_field, progress.part(0.3, 1))
+                                    : run_at_once(task, run, *light_field, progress.part(0.3, 1));
+    for (const auto& sentence : answer.provenance.notes) note(task, sentence);
+    return answer;
   }
 
  private:
@@ -232,6 +238,30 @@ class Runner {
       note(task, warning);
     }
     return scene.light_field;
+  }
+
+  [[nodiscard]] Answer run_blocks(const Task& task, const EstimateRequest& run,
+                                  const LightField& light_field, const Progress& progress) {
+    const std::size_t held = light_field.is_on_disk() ? 0 : light_field.byte_size();
+    const std::size_t budget = memory_budget();
+    const BlockRequest request{run, task.output, task.input, budget - std::min(held, budget)};
+    FinishedBlocks made = run_in_blocks(light_field, *request_.estimator, request, progress);
+    if (!made.remark.empty()) note(task, made.remark);
+    return {task.output, std::move(made.provenance), made.maps, light_field.center()};
+  }
+
+  [[nodiscard]] Answer run_at_once(const Task& task, const EstimateRequest& run,
+                                   const LightField& light_field, const Progress& progress) {
+    const EstimatePtr estimate =
+        run_estimator(light_field, *request_.estimator, run, progress.part(0, 0.85)).estimate;
+    progress.step("writing " + task.output);
+    if (request_.is_submission) {
+      submit(task, *estimate, light_field.center());
+    } else {
+      save_result(task.output, *estimate, task.input, progress.part(0.85, 1));
+    }
+    return {task.output, estimate->provenance(), geometry_of(estimate->field.disparity),
+            light_field.center()};
   }
 
   void submit(const Task& task, const Estimate& estimate, ViewIndex center) {

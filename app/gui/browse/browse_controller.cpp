@@ -36,6 +36,7 @@ BrowseController::BrowseController(const Workbench& bench)
       session_(bench.session),
       stage_(bench.stage),
       grid_(new ViewGrid(&bench.frame)),
+      epi_job_(this),
       refocus_job_(this),
       thumbnail_job_(this) {
   grid_->setContentsMargins(theme::kSpacing, theme::kSpacing, theme::kSpacing, 0);
@@ -192,6 +193,7 @@ void BrowseController::showPicture(const QImage& picture) {
 void BrowseController::showEpis() {
   const LightFieldPtr light_field = session_.light_field();
   if (!light_field) {
+    epi_job_.drop();
     stage_.horizontalEpi()->setEpi({});
     stage_.verticalEpi()->setEpi({});
     stage_.horizontalEpi()->setCrossHair(std::nullopt, 0);
@@ -205,11 +207,27 @@ void BrowseController::showEpis() {
   clearLinesOfOtherRows();
   stage_.horizontalEpi()->setFocus(focus_px);
   stage_.verticalEpi()->setFocus(focus_px);
-  const auto shade = [this](const Image<float>& epi) {
-    return to_qimage(render::shade_samples(epi, tone_.get()));
+  const auto find = [light_field, view, pixel, focus_px, tone = tone_] {
+    return EpiPictures{
+        render::shade_samples(horizontal_epi(*light_field, view, pixel.y, focus_px), tone.get()),
+        render::shade_samples(vertical_epi(*light_field, view, pixel.x, focus_px), tone.get())};
   };
-  stage_.horizontalEpi()->setEpi(shade(horizontal_epi(*light_field, view, pixel.y, focus_px)));
-  stage_.verticalEpi()->setEpi(shade(vertical_epi(*light_field, view, pixel.x, focus_px)));
+  epi_job_.drop();
+  if (!light_field->is_on_disk()) return showEpis(find(), view, pixel);
+  // The disk may take its time, in which others are looked at.
+  epi_job_.start<std::shared_ptr<EpiPictures>>(
+      [find](const Progress& progress) {
+        progress.check();
+        return std::make_shared<EpiPictures>(find());
+      },
+      [this, view, pixel](const std::shared_ptr<EpiPictures>& epis) {
+        showEpis(std::move(*epis), view, pixel);
+      });
+}
+
+void BrowseController::showEpis(EpiPictures epis, ViewIndex view, PixelIndex pixel) {
+  stage_.horizontalEpi()->setEpi(to_qimage(std::move(epis.horizontal)));
+  stage_.verticalEpi()->setEpi(to_qimage(std::move(epis.vertical)));
   stage_.horizontalEpi()->setCrossHair(pixel.x, view.u);
   stage_.verticalEpi()->setCrossHair(pixel.y, view.v);
   showSlopes();

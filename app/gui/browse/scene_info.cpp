@@ -18,7 +18,7 @@ QString text(const char* source) {
   return QCoreApplication::translate("episcope::InfoPanel", source);
 }
 
-QString sample_text(const LightField& light_field) {
+QString type_text(const LightField& light_field) {
   const QString color = light_field.channels() == 3 ? text("RGB") : text("grey");
   switch (light_field.sample_type()) {
     case SampleType::UInt8:
@@ -29,6 +29,11 @@ QString sample_text(const LightField& light_field) {
       return color + text(", float");
   }
   return color;
+}
+
+QString sample_text(const LightField& light_field) {
+  const QString type = type_text(light_field);
+  return light_field.is_on_disk() ? type + text(", on disk") : type;
 }
 
 QString coverage(const ViewStack<float>& maps, GridShape grid) {

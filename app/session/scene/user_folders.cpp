@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scene/user_folders.h"
 
+#include "engine/core/array/memory_budget.h"
+
 #include <cstdlib>
 
 namespace episcope {
@@ -21,6 +23,11 @@ std::filesystem::path user_folder(const char* variable, const char* below_home) 
 
 std::filesystem::path default_cache_folder() {
   return user_folder("XDG_CACHE_HOME", ".cache");
+}
+
+void use_cache_for_scratch() {
+  const std::filesystem::path cache = default_cache_folder();
+  if (!cache.empty()) set_scratch_folder(cache / "scratch");
 }
 
 std::filesystem::path default_state_folder() {

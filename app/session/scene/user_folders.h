@@ -9,6 +9,9 @@ namespace episcope {
 /// is known.
 [[nodiscard]] std::filesystem::path default_cache_folder();
 
+/// Has arrays that do not fit into memory go there, to a folder of their own (memory_budget.h).
+void use_cache_for_scratch();
+
 /// What a session leaves for the next: `$XDG_STATE_HOME/episcope`, else `~/.local/state/episcope`;
 /// empty if neither is known.
 [[nodiscard]] std::filesystem::path default_state_folder();

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/array/large_memory.h"
 
+#include "engine/core/array/mapped_memory.h"
+#include "engine/core/array/memory_budget.h"
 #include "engine/core/array/round_up.h"
 
+#include <atomic>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #if defined(__linux__)
@@ -15,10 +19,32 @@ namespace {
 
 constexpr std::size_t kHugePage = std::size_t{2} << 20;
 constexpr std::size_t kCacheLine = 64;
+// Less is never worth a file.
+constexpr std::size_t kLeastOnDisk = std::size_t{1} << 20;
+constexpr std::size_t kLeastUnasked = std::size_t{256} << 20;
+
+// Of arrays that could have gone to disk.
+std::atomic<std::size_t> in_memory{0};
+
+bool is_counted(std::size_t bytes) {
+  return bytes >= kLeastOnDisk;
+}
+
+bool fits_budget(std::size_t bytes) {
+  if (!is_counted(bytes)) return true;
+  if (is_memory_budget_set()) return in_memory + bytes <= memory_budget();
+  return bytes < kLeastUnasked || bytes <= memory_budget();
+}
+
+LargeMemory counted(LargeMemory memory) {
+  if (is_counted(memory.bytes)) in_memory += memory.bytes;
+  return memory;
+}
 
 }  // namespace
 
-void* allocate_large(std::size_t bytes) {
+LargeMemory allocate_large(std::size_t bytes) {
+  if (!fits_budget(bytes)) return {map_scratch(bytes), bytes, LargeKind::Scratch};
   const bool huge = bytes >= 2 * kHugePage;
   const std::size_t alignment = huge ? kHugePage : kCacheLine;
   const std::size_t rounded = round_up(bytes, alignment);
@@ -28,11 +54,28 @@ void* allocate_large(std::size_t bytes) {
   // Only a hint: where it is refused, the memory is ordinary.
   if (huge) madvise(memory, rounded, MADV_HUGEPAGE);
 #endif
+  return counted({memory, bytes, LargeKind::Heap});
+}
+
+LargeMemory allocate_large_zeros(std::size_t bytes) {
+  if (bytes >= 2 * kHugePage) return {map_zeros(bytes), bytes, LargeKind::Zeros};
+  const LargeMemory memory = allocate_large(bytes);
+  std::memset(memory.data, 0, bytes);
   return memory;
 }
 
-void release_large(void* memory) noexcept {
-  std::free(memory);
+LargeMemory large_part_of_file(const std::filesystem::path& path, std::uintmax_t offset,
+                               std::size_t bytes) {
+  return {map_file(path, offset, bytes), bytes, LargeKind::File};
+}
+
+void release_large(const LargeMemory& memory) noexcept {
+  if (memory.kind != LargeKind::Heap) {
+    unmap(memory.data, memory.bytes);
+    return;
+  }
+  std::free(memory.data);
+  if (memory.data != nullptr && is_counted(memory.bytes)) in_memory -= memory.bytes;
 }
 
 }  // namespace episcope

@@ -57,6 +57,7 @@ Image<float> gather(int rows, int width, int channels, int fixed_row, double foc
 
 Image<float> horizontal_epi(const LightField& lf, ViewIndex view, int y, double focus_px) {
   require_inside(lf, view, y, lf.height(), "row");
+  for (int u = 0; u < lf.grid().u; ++u) lf.fetch_samples({view.v, u}, y, y + 1);
   return gather(lf.grid().u, lf.width(), lf.channels(), view.u, focus_px, [&](int u, float* out) {
     lf.read_row({view.v, u}, y, 0, lf.width(), out);
   });
@@ -64,6 +65,8 @@ Image<float> horizontal_epi(const LightField& lf, ViewIndex view, int y, double 
 
 Image<float> vertical_epi(const LightField& lf, ViewIndex view, int x, double focus_px) {
   require_inside(lf, view, x, lf.width(), "column");
+  // Whole views: reading a little of each row would take the disk as long.
+  for (int v = 0; v < lf.grid().v; ++v) lf.fetch_samples({v, view.u}, 0, lf.height());
   return gather(lf.grid().v, lf.height(), lf.channels(), view.v, focus_px, [&](int v, float* out) {
     lf.read_column({v, view.u}, x, 0, lf.height(), out);
   });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/light_field/light_field.h"
 
+#include "engine/core/array/mapped_memory.h"
 #include "engine/core/error.h"
 #include "engine/core/hash/fnv1a.h"
 
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <cstring>
 #include <limits>
+#include <string_view>
 
 namespace episcope {
 namespace {
@@ -29,6 +31,50 @@ std::uint64_t next_identity() {
   static std::atomic<std::uint64_t> last = 0;
   return ++last;
 }
+
+template <class T>
+std::size_t view_bytes(const ViewStack<T>& stack) {
+  return stack.view_size() * sizeof(T);
+}
+
+template <class T>
+void forget_views(const ViewStack<T>& stack, int first, int last) {
+  for (int i = first; i < last; ++i) {
+    forget_pages(stack.view(stack.view_at(i)).data, view_bytes(stack));
+  }
+}
+
+// Hashes bytes by words, whatever pieces they come in: a byte at a time would take a second for a
+// common light field.
+class WordHash {
+ public:
+  explicit WordHash(Fnv1a& hash) : hash_(hash) {}
+
+  void add(std::string_view bytes) {
+    while (!bytes.empty() && (count_ > 0 || bytes.size() < sizeof rest_)) {
+      rest_[count_++] = bytes.front();
+      bytes.remove_prefix(1);
+      if (count_ < sizeof rest_) continue;
+      add_word(rest_);
+      count_ = 0;
+    }
+    for (; bytes.size() >= sizeof rest_; bytes.remove_prefix(sizeof rest_)) add_word(bytes.data());
+    if (!bytes.empty()) add(bytes);
+  }
+  // The last bytes, if they are no whole word.
+  void finish() { hash_.add({rest_, count_}); }
+
+ private:
+  void add_word(const char* bytes) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, bytes, sizeof word);
+    hash_.add_word(word);
+  }
+
+  Fnv1a& hash_;
+  char rest_[sizeof(std::uint64_t)];
+  std::size_t count_ = 0;
+};
 
 }  // namespace
 
@@ -107,20 +153,43 @@ Image<float> LightField::view_as_float(ViewIndex index) const {
   return image;
 }
 
+bool LightField::is_on_disk() const {
+  return std::visit([](const auto& stack) { return stack.is_on_disk(); }, samples_);
+}
+
+void LightField::fetch_samples(ViewIndex index, int first_row, int end_row) const {
+  std::visit(
+      [&]<class T>(const ViewStack<T>& stack) {
+        if (!stack.is_on_disk()) return;
+        const ImageView<const T> view = stack.view(index);
+        const auto rows = static_cast<std::size_t>(end_row - first_row);
+        fetch_pages(view.row(first_row), sizeof(T) * rows * view.row_stride);
+      },
+      samples_);
+}
+
+void LightField::forget_samples() const {
+  const auto forget = [](const auto& stack) {
+    if (stack.is_on_disk()) forget_views(stack, 0, stack.grid().count());
+  };
+  std::visit(forget, samples_);
+  if (!valid_.empty()) forget(valid_);
+}
+
 std::uint64_t LightField::sample_hash() const {
   Fnv1a hash;
   for (const int extent : {grid_.v, grid_.u, height_, width_, channels_}) hash.add_word(extent);
   std::visit(
       [&](const auto& stack) {
-        // By words: a byte at a time would take a second for a common light field.
-        const auto* bytes = reinterpret_cast<const char*>(stack.data());
-        const std::size_t size = byte_size();
-        std::size_t i = 0;
-        for (std::uint64_t word = 0; i + sizeof word <= size; i += sizeof word) {
-          std::memcpy(&word, bytes + i, sizeof word);
-          hash.add_word(word);
+        WordHash words(hash);
+        for (int i = 0; i < grid_.count(); ++i) {
+          // The disk reads while the last view is being hashed.
+          if (i + 1 < grid_.count()) fetch_samples(stack.view_at(i + 1), 0, height_);
+          const auto* const first = stack.view(stack.view_at(i)).data;
+          words.add({reinterpret_cast<const char*>(first), view_bytes(stack)});
+          if (stack.is_on_disk()) forget_views(stack, i, i + 1);
         }
-        hash.add({bytes + i, size - i});
+        words.finish();
       },
       samples_);
   return hash.value();

@@ -86,7 +86,7 @@ class LightField {
   [[nodiscard]] Image<float> view_as_float(ViewIndex index) const;
 
   /// 64-bit FNV-1a hash of shape and samples, which identifies the light field in result files.
-  /// Linear in the size.
+  /// Linear in the size. Samples on disk are dropped from memory once they were read.
   [[nodiscard]] std::uint64_t sample_hash() const;
 
   [[nodiscard]] const Samples& samples() const { return samples_; }
@@ -94,6 +94,20 @@ class LightField {
   /// Another for every light field that this program makes, kept when one is moved: for copies of
   /// the samples elsewhere, on a device, to tell whether they are still the same.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }
+  /// Whether samples are in a file that the system reads when they are looked at.
+  [[nodiscard]] bool is_on_disk() const;
+  /// Of such samples, has the system begin to read rows [first_row, end_row) of a view, without
+  /// waiting: whoever will look at several places says so of all before looking at the first.
+  void fetch_samples(ViewIndex index, int first_row, int end_row) const;
+  /// The same of all views.
+  void fetch_samples(int first_row, int end_row) const {
+    for (int i = 0; is_on_disk() && i < grid_.count(); ++i) {
+      fetch_samples(grid_.view_at(i), first_row, end_row);
+    }
+  }
+  /// Of such samples, drops what the process holds in memory; changes nothing else. A long
+  /// computation that looks at all of them may say so now and then to keep its memory bounded.
+  void forget_samples() const;
 
   /// `[v][u][y][x]`, 0 = invalid; empty if all pixels are valid.
   [[nodiscard]] const ViewStack<std::uint8_t>& valid() const { return valid_; }

@@ -43,32 +43,7 @@ void raise_steady(ImageView<const float> map, float noise, Image<float>& weights
   }
 }
 
-// Denoises every view of `estimate` in place; returns the largest relative gap.
-double denoise_views(const LightField& lf, const DenoiseParameters& parameters, float min_weight,
-                     float map_noise, Estimate& estimate, const Progress& progress) {
-  ViewStack<float>& disparity = estimate.field.disparity;
-  const GridShape grid = disparity.grid();
-  const ViewIndex first = disparity.first();
-  std::vector<double> gaps(grid.count());
-  parallel_for_workers(grid.count(), progress, [&] {
-    return [&, solver = TvL2Solver(lf.height(), lf.width()),
-            weights = Image<float>(lf.height(), lf.width())](int i) mutable {
-      const ViewIndex view = grid.view_at(i, first);
-      fill_data_weights(estimate.confidence.view(view), {parameters.weight_power, min_weight},
-                        weights);
-      if (map_noise > 0) raise_steady(disparity.view(view), map_noise, weights);
-      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
-      const ImageView<float> map = disparity.view(view);
-      gaps[i] = solver
-                    .solve({map, weights, edges, parameters.lambda},
-                           {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
-                    .relative_gap();
-    };
-  });
-  return *std::max_element(gaps.begin(), gaps.end());
-}
-
-// The same on the device.
+// `denoise` on the device.
 double denoise_on_device(const LightField& lf, const DenoiseParameters& parameters,
                          float min_weight, float map_noise, Estimate& estimate,
                          const Progress& progress) {
@@ -128,11 +103,38 @@ std::string gap_note(double largest) {
   return fmt::format("largest relative duality gap {:.1e}", largest);
 }
 
+double denoise(const LightField& lf, const DenoiseParameters& parameters,
+               const DenoiseWeights& weighing, ViewStack<float>& disparity,
+               const ViewStack<float>& confidence, const Progress& progress) {
+  const GridShape grid = disparity.grid();
+  const ViewIndex first = disparity.first();
+  std::vector<double> gaps(grid.count());
+  parallel_for_workers(grid.count(), progress, [&] {
+    return [&, solver = TvL2Solver(lf.height(), lf.width()),
+            weights = Image<float>(lf.height(), lf.width())](int i) mutable {
+      const ViewIndex view = grid.view_at(i, first);
+      fill_data_weights(confidence.view(view), {parameters.weight_power, weighing.min_weight},
+                        weights);
+      if (weighing.map_noise > 0) raise_steady(disparity.view(view), weighing.map_noise, weights);
+      const Image<float> edges = smoothness_weights(lf, view, parameters.edge_strength);
+      const ImageView<float> map = disparity.view(view);
+      gaps[i] = solver
+                    .solve({map, weights, edges, parameters.lambda},
+                           {parameters.stop.max_iterations, parameters.stop.gap}, progress, map)
+                    .relative_gap();
+    };
+  });
+  return *std::max_element(gaps.begin(), gaps.end());
+}
+
 void denoise(const LightField& lf, const DenoiseParameters& parameters, Estimate& estimate,
              const Progress& progress, float min_weight, float map_noise, Device device) {
   progress.step("denoising");
-  const auto run = device == Device::Cuda ? denoise_on_device : denoise_views;
-  const double gap = run(lf, parameters, min_weight, map_noise, estimate, progress);
+  const double gap =
+      device == Device::Cuda
+          ? denoise_on_device(lf, parameters, min_weight, map_noise, estimate, progress)
+          : denoise(lf, parameters, {min_weight, map_noise}, estimate.field.disparity,
+                    estimate.confidence, progress);
   estimate.notes.push_back(gap_note(gap));
 }
 

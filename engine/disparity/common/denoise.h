@@ -53,6 +53,17 @@ void denoise(const LightField& light_field, const DenoiseParameters& parameters,
              const Progress& progress, float min_weight = DataWeight{}.minimum, float map_noise = 0,
              Device device = Device::Cpu);
 
+/// How `denoise` weighs its data.
+struct DenoiseWeights {
+  float min_weight = DataWeight{}.minimum;
+  float map_noise = 0;
+};
+
+/// The same for maps of any views; returns the largest relative duality gap.
+double denoise(const LightField& light_field, const DenoiseParameters& parameters,
+               const DenoiseWeights& weights, ViewStack<float>& disparity,
+               const ViewStack<float>& confidence, const Progress& progress);
+
 /// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);
 

@@ -47,7 +47,7 @@ Estimate estimate_on_device(Device device, const EstimatorInfo& info,
 namespace {
 
 // For a parameter `range` that asked to find it, and for a range found that may be too narrow.
-void note_range(const LightField& light_field, Estimate& estimate) {
+void note_range(const LightField& light_field, Provenance& estimate) {
   for (const auto& [key, value] : estimate.parameters) {
     const auto* const wanted = std::get_if<IntervalOrAuto>(&value);
     if (key != "range" || !wanted) continue;
@@ -59,7 +59,7 @@ void note_range(const LightField& light_field, Estimate& estimate) {
 }
 
 // For a method without a parameter `positions`: that it takes cameras for equidistant.
-void note_positions(const LightField& light_field, Estimate& estimate) {
+void note_positions(const LightField& light_field, Provenance& estimate) {
   const auto is_choice = [](const auto& entry) { return entry.first == "positions"; };
   if (std::ranges::any_of(estimate.parameters, is_choice)) return;
   const ViewPlaces stated = view_places(light_field.info(), light_field.grid());
@@ -72,8 +72,8 @@ void note_positions(const LightField& light_field, Estimate& estimate) {
 
 }  // namespace
 
-void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
-                       double seconds) {
+void complete_estimate(Provenance& estimate, const std::string& method,
+                       const LightField& light_field, double seconds) {
   estimate.method = method;
   estimate.seconds = seconds;
   estimate.version = kVersion;

@@ -6,6 +6,7 @@
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/disparity/common/blockwise.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/run_options.h"
 
@@ -52,6 +53,13 @@ struct Estimator {
   std::function<Estimate(const LightField&, const ParameterSet& values, const RunOptions&,
                          const Progress&)>
       run;
+
+  /// The same block by block (blockwise.h), where the method can: finds what blocks have in common,
+  /// and throws likewise. The run refers to the light field. Empty if it cannot, and then what does
+  /// not fit into memory is on disk (memory_budget.h).
+  std::function<BlockwiseRun(const LightField&, const ParameterSet& values, const RunOptions&,
+                             const Progress&)>
+      in_blocks;
 };
 
 /// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`, or
@@ -61,11 +69,16 @@ struct Estimator {
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
+/// The same for a method that can also run in blocks: `blocks(light_field, P, ViewSelection,
+/// Progress)` returns a BlockwiseRun with maps, passes and range.
+template <class P, class F, class B>
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate, B blocks);
+
 /// Fills provenance (method, seconds, version, source) of an estimate begun `seconds` ago, and
 /// notes what its parameters leave open: a range that was to be found, cameras taken for
 /// equidistant.
-void complete_estimate(Estimate& estimate, const std::string& method, const LightField& light_field,
-                       double seconds);
+void complete_estimate(Provenance& estimate, const std::string& method,
+                       const LightField& light_field, double seconds);
 
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
@@ -96,6 +109,22 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
     result.parameters = schema.values(parameters);
     complete_estimate(result, info.id, light_field, watch.seconds());
     return result;
+  };
+  return estimator;
+}
+
+template <class P, class F, class B>
+Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate, B blocks) {
+  Estimator estimator = make_estimator<P>(info, schema, std::move(estimate));
+  estimator.in_blocks = [=](const LightField& light_field, const ParameterSet& values,
+                            const RunOptions& options, const Progress& progress) {
+    require_device(options.device, info);
+    const P parameters = schema.parse(values);
+    const Progress limited = progress.limited_to(options.threads);
+    BlockwiseRun run = blocks(light_field, parameters, options.views, limited);
+    run.provenance.parameters = schema.values(parameters);
+    complete_estimate(run.provenance, info.id, light_field, 0);
+    return run;
   };
   return estimator;
 }

@@ -6,12 +6,13 @@
 namespace episcope {
 namespace {
 
+// Maps of whole views or of rows from `first_row` on.
 template <class T>
-void clear(const LightField& light_field, ViewStack<T>& maps) {
+void clear(const LightField& light_field, ViewStack<T>& maps, int first_row = 0) {
   if (light_field.valid().empty() || maps.empty()) return;
   for (int i = 0; i < maps.grid().count(); ++i) {
     const ViewIndex view = maps.grid().view_at(i, maps.first());
-    const std::uint8_t* const valid = light_field.valid().view(view).data;
+    const std::uint8_t* const valid = light_field.valid().view(view).row(first_row);
     T* const map = maps.view(view).data;
     for (std::size_t n = 0; n < maps.view_size(); ++n) {
       if (valid[n] == 0) map[n] = 0;
@@ -19,7 +20,7 @@ void clear(const LightField& light_field, ViewStack<T>& maps) {
   }
 }
 
-void mark(const LightField& light_field, DisparityField& field) {
+void mark(const LightField& light_field, DisparityField& field, int first_row = 0) {
   if (light_field.valid().empty() || field.empty()) return;
   const ViewStack<float>& maps = field.disparity;
   if (field.valid.empty()) {
@@ -27,13 +28,13 @@ void mark(const LightField& light_field, DisparityField& field) {
         ViewStack<std::uint8_t>(maps.grid(), maps.height(), maps.width(), 1, maps.first());
     std::fill_n(field.valid.data(), field.valid.size(), std::uint8_t{1});
   }
-  clear(light_field, field.valid);
+  clear(light_field, field.valid, first_row);
 }
 
 }  // namespace
 
-void clear_invalid(const LightField& light_field, ViewStack<float>& maps) {
-  clear(light_field, maps);
+void clear_invalid(const LightField& light_field, ViewStack<float>& maps, int first_row) {
+  clear(light_field, maps, first_row);
 }
 
 void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps) {
@@ -46,6 +47,11 @@ void mark_invalid(const LightField& light_field, Estimate& estimate) {
   mark(light_field, estimate.layered.background);
   clear(light_field, estimate.layered.layers);
   clear(light_field, estimate.confidence);
+}
+
+void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
+  mark(light_field, block.field, first_row);
+  clear(light_field, block.confidence, first_row);
 }
 
 std::size_t count_valid(const LightField& light_field, ViewIndex view) {

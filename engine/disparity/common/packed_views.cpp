@@ -30,20 +30,44 @@ void mark_invalid(const std::uint8_t* valid, int width, std::uint32_t* out) {
   }
 }
 
+void pack_view(const LightField& lf, ViewIndex view, PackedViews& packed) {
+  const ImageView<std::uint32_t> out = packed.pixels.view(view);
+  std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
+  for (int y = 0; y < lf.height(); ++y) {
+    lf.read_row(view, y, 0, lf.width(), row.data());
+    pack_row(row.data(), lf.width(), lf.channels(), out.row(y));
+    if (packed.has_invalid) mark_invalid(lf.valid().view(view).row(y), lf.width(), out.row(y));
+  }
+}
+
+// How far outside [first, first + count) a place is.
+int beyond(int place, int first, int count) {
+  return std::max({first - place, place - (first + count - 1), 0});
+}
+
 }  // namespace
 
 PackedViews pack_views(const LightField& lf, const Progress& progress) {
   PackedViews packed{ViewStack<std::uint32_t>(lf.grid(), lf.height(), lf.width()),
                      !lf.valid().empty()};
-  parallel_for(lf.grid().count(), progress, [&](int i) {
-    const ViewIndex view = lf.grid().view_at(i);
-    const ImageView<std::uint32_t> out = packed.pixels.view(view);
-    std::vector<float> row(static_cast<std::size_t>(lf.width()) * lf.channels());
-    for (int y = 0; y < lf.height(); ++y) {
-      lf.read_row(view, y, 0, lf.width(), row.data());
-      pack_row(row.data(), lf.width(), lf.channels(), out.row(y));
-      if (packed.has_invalid) mark_invalid(lf.valid().view(view).row(y), lf.width(), out.row(y));
-    }
+  parallel_for(lf.grid().count(), progress,
+               [&](int i) { pack_view(lf, lf.grid().view_at(i), packed); });
+  return packed;
+}
+
+PackedViews pack_around(const LightField& lf, const ViewRectangle& views, int reach,
+                        const Progress& progress) {
+  const ViewIndex from{std::max(views.first.v - reach, 0), std::max(views.first.u - reach, 0)};
+  const ViewIndex to{std::min(views.first.v + views.grid.v + reach, lf.grid().v),
+                     std::min(views.first.u + views.grid.u + reach, lf.grid().u)};
+  PackedViews packed{ViewStack<std::uint32_t>({to.v - from.v, to.u - from.u}, lf.height(),
+                                              lf.width(), 1, from, allocate_large_zeros),
+                     !lf.valid().empty()};
+  parallel_for(packed.pixels.grid().count(), progress, [&](int i) {
+    const ViewIndex view = packed.pixels.view_at(i);
+    const bool is_beside = beyond(view.v, views.first.v, views.grid.v) == 0 ||
+                           beyond(view.u, views.first.u, views.grid.u) == 0;
+    if (is_beside) pack_view(lf, view, packed);
   });
   return packed;
 }

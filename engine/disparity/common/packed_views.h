@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/view_rectangle.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/disparity/common/packed_pixel.h"
@@ -20,6 +21,16 @@ struct PackedViews {
 
 /// Throws Cancelled.
 [[nodiscard]] PackedViews pack_views(const LightField& light_field, const Progress& progress);
+
+/// The views of a rectangle and up to `reach` views beside each in its row and column; `pixels`
+/// covers the rectangle around all of these, of which other views are black. Throws Cancelled.
+[[nodiscard]] PackedViews pack_around(const LightField& light_field, const ViewRectangle& views,
+                                      int reach, const Progress& progress);
+
+/// How many views that are, for one row of `count` views in the middle of a large grid.
+[[nodiscard]] inline int packed_around(int count, int reach) {
+  return count + 2 * reach + 2 * reach * count;
+}
 
 /// Channel `c` of a packed pixel, in units of 1/1023.
 [[nodiscard]] inline int packed_channel(std::uint32_t packed, int c) {

@@ -54,15 +54,13 @@ LightField smaller_views(const LightField& lf, int factor, const Progress& progr
                          ReducedViews reduced) {
   const GridShape grid = lf.grid();
   const int height = lf.height() / factor, width = lf.width() / factor;
-  ViewStack<std::uint16_t> samples(grid, height, width, lf.channels());
+  ViewStack<std::uint16_t> samples(grid, height, width, lf.channels(), {}, allocate_large_zeros);
   ViewStack<std::uint8_t> valid;
   if (!lf.valid().empty()) valid = ViewStack<std::uint8_t>(grid, height, width);
   parallel_for(grid.count(), progress, [&](int i) {
     const ViewIndex view = samples.view_at(i), center = lf.center();
     if (reduced == ReducedViews::All || view.v == center.v || view.u == center.u) {
       reduce(lf, view, factor, samples.view(view));
-    } else {
-      std::fill_n(samples.view(view).data, samples.view_size(), std::uint16_t{0});
     }
     if (!valid.empty()) reduce_valid(lf, view, factor, valid.view(view));
   });

@@ -356,7 +356,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
   estimate.notes.push_back(fmt::format(
       "ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after, 100 * before));
   if (views == ViewSelection::Center) keep_center(estimate, lf.center());
-  clamp_to_range(estimate, progress.part(0.98, 1));
+  clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
   return estimate;
 }
 

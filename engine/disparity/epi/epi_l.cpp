@@ -13,12 +13,21 @@
 namespace episcope {
 namespace {
 
+// Whole views, or a band of their rows.
 struct Maps {
   const LightField& light_field;
   ViewStack<float>& disparity;
   ViewStack<float>& confidence;
+  int first_row = 0;
   [[nodiscard]] GridShape grid() const { return disparity.grid(); }
   [[nodiscard]] ViewIndex first() const { return disparity.first(); }
+  [[nodiscard]] int rows() const { return disparity.height(); }
+  [[nodiscard]] float* disparity_at(ViewIndex view, PixelIndex at) const {
+    return disparity.view(view).row(at.y - first_row) + at.x;
+  }
+  [[nodiscard]] float* confidence_at(ViewIndex view, PixelIndex at) const {
+    return confidence.view(view).row(at.y - first_row) + at.x;
+  }
 };
 
 // Rows of a task of horizontal EPIs: many against the neighbours it shares with the next task, few
@@ -30,8 +39,8 @@ int band_rows(int height) {
 StructureTensor::Sink store_into(const Maps& maps, int v) {
   return [&maps, v](int u, PixelIndex begin, int count, const float* disparity,
                     const float* coherence) {
-    std::copy_n(disparity, count, maps.disparity.view({v, u}).row(begin.y) + begin.x);
-    std::copy_n(coherence, count, maps.confidence.view({v, u}).row(begin.y) + begin.x);
+    std::copy_n(disparity, count, maps.disparity_at({v, u}, begin));
+    std::copy_n(coherence, count, maps.confidence_at({v, u}, begin));
   };
 }
 
@@ -57,10 +66,11 @@ void take_winner(const float* disparity, const float* coherence, int count, floa
 StructureTensor::Sink merge_into(const Maps& maps, const EpiLParameters& parameters, int u) {
   return [&maps, &parameters, u](int v, PixelIndex begin, int count, const float* disparity,
                                  const float* coherence) {
-    prefetch_run(maps.disparity, {v, u}, begin, count);
-    prefetch_run(maps.confidence, {v, u}, begin, count);
-    float* const to_disparity = maps.disparity.view({v, u}).row(begin.y) + begin.x;
-    float* const to_coherence = maps.confidence.view({v, u}).row(begin.y) + begin.x;
+    const PixelIndex in_band{begin.y - maps.first_row, begin.x};
+    prefetch_run(maps.disparity, {v, u}, in_band, count);
+    prefetch_run(maps.confidence, {v, u}, in_band, count);
+    float* const to_disparity = maps.disparity_at({v, u}, begin);
+    float* const to_coherence = maps.confidence_at({v, u}, begin);
     if (parameters.fusion == Fusion::Winner) {
       take_winner(disparity, coherence, count, to_disparity, to_coherence);
     } else {
@@ -73,16 +83,17 @@ StructureTensor::Sink merge_into(const Maps& maps, const EpiLParameters& paramet
 void run_horizontal(const Maps& maps, const TensorScales& scales, const TensorSearch& search,
                     const Progress& progress) {
   const LightField& lf = maps.light_field;
-  const int rows = band_rows(lf.height());
-  const int bands = (lf.height() + rows - 1) / rows;
+  const int rows = band_rows(maps.rows());
+  const int bands = (maps.rows() + rows - 1) / rows;
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().v * bands, progress, [&] {
     return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Horizontal, scales,
                                         search)](int i) mutable {
       const int v = first.v + i / bands;
-      const int y = i % bands * rows;
-      const TensorTask task{v,          {y, 0},  std::min(rows, lf.height() - y),
-                            lf.width(), first.u, first.u + maps.grid().u};
+      const int row = i % bands * rows;
+      const TensorTask task{
+          v,       {maps.first_row + row, 0}, std::min(rows, maps.rows() - row), lf.width(),
+          first.u, first.u + maps.grid().u};
       tensor.estimate(task, store_into(maps, v));
     };
   });
@@ -106,16 +117,17 @@ void run_vertical(const Maps& maps, const TensorScales& scales, const TensorSear
   const int height = largest.height;
   const int width = largest.width;
   const int across = (lf.width() + width - 1) / width;
-  const int blocks = across * ((lf.height() + height - 1) / height);
+  const int blocks = across * ((maps.rows() + height - 1) / height);
   const ViewIndex first = maps.first();
   parallel_for_workers(maps.grid().u * blocks, progress, [&] {
     return [&, tensor = StructureTensor(lf, StructureTensor::Direction::Vertical, scales, search)](
                int i) mutable {
       const int u = first.u + i / blocks;
-      const PixelIndex begin{i % blocks / across * height, i % blocks % across * width};
+      const int row = i % blocks / across * height;
+      const PixelIndex begin{maps.first_row + row, i % blocks % across * width};
       const TensorTask task{u,
                             begin,
-                            std::min(height, lf.height() - begin.y),
+                            std::min(height, maps.rows() - row),
                             std::min(width, lf.width() - begin.x),
                             first.v,
                             first.v + maps.grid().v};
@@ -134,15 +146,24 @@ void check_views(const LightField& lf) {
   }
 }
 
+// Of whole views.
+MapGeometry selected_maps(const LightField& lf, ViewSelection views) {
+  const bool all = views == ViewSelection::All;
+  return {all ? lf.grid() : GridShape{1, 1}, all ? ViewIndex{} : lf.center(), lf.height(),
+          lf.width()};
+}
+
+ViewStack<float> unknown_map(const MapGeometry& maps) {
+  return {maps.grid, maps.height, maps.width, 1, maps.first};
+}
+
 // Maps of the right shape, not yet filled.
 Estimate unknown_maps(const LightField& lf, ViewSelection views, Interval range) {
-  const bool all = views == ViewSelection::All;
-  const GridShape grid = all ? lf.grid() : GridShape{1, 1};
-  const ViewIndex first = all ? ViewIndex{} : lf.center();
+  const MapGeometry maps = selected_maps(lf, views);
   Estimate estimate;
   estimate.range = range;
-  estimate.field.disparity = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
-  estimate.confidence = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
+  estimate.field.disparity = unknown_map(maps);
+  estimate.confidence = unknown_map(maps);
   return estimate;
 }
 
@@ -193,14 +214,67 @@ void find_direction(const LightField& lf, cuda::TensorSettings settings,
 }
 
 // What the publications call coherence is the square of the tensor's.
-void finish_confidence(const LightField& lf, Orientation orientation, ViewStack<float>& confidence,
-                       const Progress& progress) {
-  clear_invalid(lf, confidence);
+void finish_confidence(const Maps& maps, Orientation orientation, const Progress& progress) {
+  ViewStack<float>& confidence = maps.confidence;
+  clear_invalid(maps.light_field, confidence, maps.first_row);
   if (orientation == Orientation::LeastSquares) return;
   parallel_for(confidence.grid().count(), progress, [&](int i) {
     float* const view = confidence.data() + i * confidence.view_size();
     for (std::size_t n = 0; n < confidence.view_size(); ++n) view[n] *= view[n];
   });
+}
+
+// Both directions, merged.
+void find_orientations(const Maps& maps, const EpiLParameters& parameters, Interval range,
+                       const Progress& progress) {
+  const GridShape grid = maps.light_field.grid();
+  const TensorScales scales = scales_of(parameters);
+  const TensorSearch search = search_of(parameters, range);
+  // Where the vertical EPIs begin.
+  const double half = grid.v == 1 ? 1 : grid.u == 1 ? 0 : 0.5;
+  if (grid.u > 1) {
+    progress.step("horizontal EPIs");
+    run_horizontal(maps, scales, search, progress.part(0, half));
+  } else {
+    clear(maps.disparity);
+    clear(maps.confidence);
+  }
+  if (grid.v > 1) {
+    progress.step("vertical EPIs");
+    const auto merge = [&](int u) { return merge_into(maps, parameters, u); };
+    run_vertical(maps, scales, search, merge, progress.part(half, 1));
+  }
+  finish_confidence(maps, parameters.orientation, progress.part(1, 1));
+}
+
+// What a StructureTensor takes, of the direction that takes more.
+double tensor_bytes(const LightField& lf, int reach, int cross_radius) {
+  constexpr int kColumns = 64, kMostRows = 128;  // of a block of vertical EPIs
+  const double views = std::max(lf.grid().u, lf.grid().v);
+  const double lanes =
+      std::max(lf.width(), kColumns * (std::min(kMostRows, lf.height()) + 2 * reach)) + 2 * reach;
+  const double planes = 5 * lf.channels() + 3 + 4 * (2 * cross_radius + 1);
+  return sizeof(float) * views * lanes * planes;
+}
+
+// The maps, tensors of every thread, and the samples around a band.
+std::function<double(int rows)> band_bytes(const LightField& lf, const MapGeometry& maps,
+                                           const EpiLParameters& parameters, Interval range,
+                                           int threads) {
+  constexpr double kOfRay = 9;
+  const auto direction = lf.grid().v > 1 ? StructureTensor::Direction::Vertical
+                                         : StructureTensor::Direction::Horizontal;
+  const int cross_radius = gaussian_radius(parameters.cross_scale);
+  const int reach =
+      StructureTensor::reach(lf, direction, scales_of(parameters), search_of(parameters, range));
+  const double tensors = threads * tensor_bytes(lf, reach, cross_radius);
+  const double map_row = kOfRay * maps.grid.count() * maps.width;
+  const double sample_row = lf.is_on_disk() ? static_cast<double>(lf.byte_size()) / lf.height() : 0;
+  const int around = lf.grid().v > 1 ? 2 * reach : 2 * cross_radius;
+  const int height = lf.height();
+  return [=](int rows) {
+    return tensors + map_row * rows + sample_row * std::min(rows + around, height);
+  };
 }
 
 }  // namespace
@@ -211,14 +285,13 @@ Estimate estimate_epi_l(const LightField& lf, const EpiLParameters& parameters, 
     return orientations_on_device(lf, parameters, views, true, progress);
   }
   Estimate estimate = estimate_orientations(lf, parameters, views, progress.part(0, 0.97));
-  clamp_to_range(estimate, progress.part(0.97, 1));
+  clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.97, 1));
   return estimate;
 }
 
-void clamp_to_range(Estimate& estimate, const Progress& progress) {
-  const auto low = static_cast<float>(estimate.range.min);
-  const auto high = static_cast<float>(estimate.range.max);
-  ViewStack<float>& disparity = estimate.field.disparity;
+void clamp_to_range(ViewStack<float>& disparity, Interval range, const Progress& progress) {
+  const auto low = static_cast<float>(range.min);
+  const auto high = static_cast<float>(range.max);
   parallel_for(disparity.grid().count(), progress, [&](int i) {
     float* view = disparity.data() + i * disparity.view_size();
     for (std::size_t n = 0; n < disparity.view_size(); ++n) {
@@ -235,25 +308,46 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
   check_views(lf);
   const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
   Estimate estimate = unknown_maps(lf, views, range);
-  const Maps maps{lf, estimate.field.disparity, estimate.confidence};
-  const TensorScales scales = scales_of(parameters);
-  const TensorSearch search = search_of(parameters, range);
-  // Where the vertical EPIs begin.
-  const double half = lf.grid().v == 1 ? 1 : lf.grid().u == 1 ? 0.05 : 0.5;
-  if (lf.grid().u > 1) {
-    progress.step("horizontal EPIs");
-    run_horizontal(maps, scales, search, progress.part(0.05, half));
-  } else {
-    clear(estimate.field.disparity);
-    clear(estimate.confidence);
-  }
-  if (lf.grid().v > 1) {
-    progress.step("vertical EPIs");
-    const auto merge = [&](int u) { return merge_into(maps, parameters, u); };
-    run_vertical(maps, scales, search, merge, progress.part(half, 1));
-  }
-  finish_confidence(lf, parameters.orientation, estimate.confidence, progress.part(1, 1));
+  find_orientations({lf, estimate.field.disparity, estimate.confidence}, parameters, range,
+                    progress.part(0.05, 1));
   return estimate;
+}
+
+BlockwiseRun epi_l_in_blocks(const LightField& lf, const EpiLParameters& parameters,
+                             ViewSelection views, const Progress& progress) {
+  BlockwiseRun run = orientations_in_blocks(lf, parameters, views, progress);
+  BlockPass& pass = run.passes.front();
+  pass.compute = [orientations = std::move(pass.compute), range = run.provenance.range](
+                     const MapBlock& block, const ReadBlock& read, const std::vector<double>& facts,
+                     const Progress& part) {
+    FinishedBlock made = orientations(block, read, facts, part.part(0, 0.97));
+    clamp_to_range(made.maps.field.disparity, range, part.part(0.97, 1));
+    return made;
+  };
+  return run;
+}
+
+BlockwiseRun orientations_in_blocks(const LightField& lf, const EpiLParameters& parameters,
+                                    ViewSelection views, const Progress& progress) {
+  check_views(lf);
+  BlockwiseRun run;
+  const Interval range = search_range(lf, parameters.range, progress);
+  run.maps = selected_maps(lf, views);
+  run.provenance.range = range;
+  BlockPass pass;
+  pass.step = "orientations";
+  pass.bytes = band_bytes(lf, run.maps, parameters, range, progress.threads());
+  pass.compute = [&lf, parameters, range](const MapBlock& block, const ReadBlock&,
+                                          const std::vector<double>&, const Progress& part) {
+    const MapGeometry band{block.views.grid, block.views.first, block.rows(), lf.width()};
+    FinishedBlock made{{{unknown_map(band), {}}, unknown_map(band)}};
+    lf.fetch_samples(block.first_row, block.end_row);
+    find_orientations({lf, made.maps.field.disparity, made.maps.confidence, block.first_row},
+                      parameters, range, part);
+    return made;
+  };
+  run.passes.push_back(std::move(pass));
+  return run;
 }
 
 DirectionalOrientations estimate_directions(const LightField& lf, const EpiLParameters& parameters,
@@ -287,8 +381,8 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
     const auto store = [&](int u) { return store_column_into(vertical, u); };
     run_vertical(vertical, scales, search, store, progress.part(0.55, 1));
   }
-  for (Estimate* estimate : {&directions.horizontal, &directions.vertical}) {
-    finish_confidence(lf, parameters.orientation, estimate->confidence, progress.part(1, 1));
+  for (const Maps& maps : {horizontal, vertical}) {
+    finish_confidence(maps, parameters.orientation, progress.part(1, 1));
   }
   return directions;
 }
@@ -306,7 +400,8 @@ Estimator epi_l_estimator() {
       [](const LightField& lf, const EpiLParameters& parameters, const RunOptions& options,
          const Progress& progress) {
         return estimate_epi_l(lf, parameters, options.views, progress, options.device);
-      });
+      },
+      epi_l_in_blocks);
 }
 
 }  // namespace episcope

@@ -28,6 +28,15 @@ namespace episcope {
                                              const EpiLParameters& parameters, ViewSelection views,
                                              const Progress& progress, Device device = Device::Cpu);
 
+/// Both block by block: bands of rows, which depend on the samples of others within the reach of
+/// the structure tensor.
+[[nodiscard]] BlockwiseRun epi_l_in_blocks(const LightField& light_field,
+                                           const EpiLParameters& parameters, ViewSelection views,
+                                           const Progress& progress);
+[[nodiscard]] BlockwiseRun orientations_in_blocks(const LightField& light_field,
+                                                  const EpiLParameters& parameters,
+                                                  ViewSelection views, const Progress& progress);
+
 /// What the two directions say of the centre view, each for itself.
 struct DirectionalOrientations {
   Estimate horizontal, vertical;  ///< Confidence 0 everywhere if the grid has no such direction.
@@ -39,8 +48,8 @@ struct DirectionalOrientations {
                                                           const Progress& progress,
                                                           Device device = Device::Cpu);
 
-/// Clamps every disparity to `estimate.range`.
-void clamp_to_range(Estimate& estimate, const Progress& progress);
+/// Clamps every disparity to the range.
+void clamp_to_range(ViewStack<float>& disparity, Interval range, const Progress& progress);
 
 [[nodiscard]] Estimator epi_l_estimator();
 

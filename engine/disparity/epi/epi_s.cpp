@@ -1,11 +1,94 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
+#include "engine/disparity/common/packed_views.h"
+#include "engine/disparity/epi/line_residuals.h"
+#include "engine/disparity/epi/side_choice.h"
+
+#include <algorithm>
+#include <utility>
+
 namespace episcope {
 namespace {
 
 // Pixels that the views contradict should follow their neighbours.
 constexpr float kMinWeight = 0.003F;
+
+float least_weight(const EpiSParameters& parameters) {
+  return parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum;
+}
+
+// The second pass of a run in blocks: some views of a row of the grid.
+class DenoisedViews {
+ public:
+  DenoisedViews(const LightField& light_field, const EpiSParameters& parameters, Interval range)
+      : light_field_(light_field), parameters_(parameters), range_(range) {}
+
+  // The noise that sides are chosen by, then the noise that confidence is reduced by.
+  [[nodiscard]] std::vector<double> find_noise(const ReadBlock& read,
+                                               const Progress& progress) const {
+    const LineCheck& check = parameters_.line_check;
+    std::vector<double> noise(2);
+    if (!check.does_anything()) return noise;
+    const ViewIndex center = light_field_.center();
+    const MapBlock block{{center, {1, 1}}, 0, light_field_.height()};
+    const PackedViews packed = pack_around(light_field_, block.views, kMaxArmViews, progress);
+    BlockMaps maps = read(block);
+    ViewStack<float>& disparity = maps.field.disparity;
+    noise[0] = residual_noise(packed, center, disparity.view(center));
+    if (check.chooses_sides) {
+      choose_sides(packed, static_cast<float>(noise[0]), disparity, maps.confidence, progress);
+    }
+    noise[1] = residual_noise(packed, center, disparity.view(center));
+    return noise;
+  }
+
+  [[nodiscard]] FinishedBlock compute(const MapBlock& block, const ReadBlock& read,
+                                      const std::vector<double>& noise,
+                                      const Progress& progress) const {
+    FinishedBlock made{read(block)};
+    check(block.views, noise, made.maps, progress.part(0, 0.4));
+    ViewStack<float>& disparity = made.maps.field.disparity;
+    made.finding = denoise(light_field_, parameters_.denoising, {least_weight(parameters_)},
+                           disparity, made.maps.confidence, progress.part(0.4, 0.98));
+    clamp_to_range(disparity, range_, progress.part(0.98, 1));
+    return made;
+  }
+
+  // Packed views, maps, and what denoising a view takes, for as many views as there are threads.
+  [[nodiscard]] double bytes(int count, int threads) const {
+    constexpr double kPacked = 4, kMaps = 9, kDenoised = 120, kChecked = 60;
+    const double pixels = static_cast<double>(light_field_.height()) * light_field_.width();
+    const int views = packed_around(count, kMaxArmViews);
+    const double looked_at =
+        light_field_.is_on_disk()
+            ? static_cast<double>(light_field_.byte_size()) / light_field_.grid().count()
+            : 0;
+    return views * (kPacked * pixels + looked_at) +
+           pixels * (kMaps * count + kChecked + kDenoised * std::min(count, threads));
+  }
+
+ private:
+  void check(const ViewRectangle& views, const std::vector<double>& noise, BlockMaps& maps,
+             const Progress& progress) const {
+    const LineCheck& wanted = parameters_.line_check;
+    if (!wanted.does_anything()) return;
+    const PackedViews packed =
+        pack_around(light_field_, views, kMaxArmViews, progress.part(0, 0.2));
+    if (wanted.chooses_sides) {
+      choose_sides(packed, static_cast<float>(noise[0]), maps.field.disparity, maps.confidence,
+                   progress.part(0.2, 0.7));
+    }
+    if (wanted.is_on) {
+      reduce_confidence(packed, static_cast<float>(noise[1]), maps.field.disparity, maps.confidence,
+                        progress.part(0.7, 1));
+    }
+  }
+
+  const LightField& light_field_;
+  EpiSParameters parameters_;
+  Interval range_;
+};
 
 }  // namespace
 
@@ -29,10 +112,32 @@ Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, 
   Estimate estimate =
       estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4), device);
   check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5), device);
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98),
-          parameters.line_check.is_on ? kMinWeight : DataWeight{}.minimum, 0, device);
-  clamp_to_range(estimate, progress.part(0.98, 1));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), least_weight(parameters), 0,
+          device);
+  clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
   return estimate;
+}
+
+BlockwiseRun epi_s_in_blocks(const LightField& lf, const EpiSParameters& parameters,
+                             ViewSelection views, const Progress& progress) {
+  BlockwiseRun run = orientations_in_blocks(lf, parameters.tensor, views, progress);
+  const DenoisedViews denoised(lf, parameters, run.provenance.range);
+  BlockPass pass;
+  pass.step = "checking lines and denoising";
+  pass.unit = BlockUnit::Views;
+  pass.bytes = [denoised, threads = progress.threads()](int count) {
+    return denoised.bytes(count, threads);
+  };
+  pass.prepare = [denoised](const ReadBlock& read, const Progress& part) {
+    return denoised.find_noise(read, part);
+  };
+  pass.compute = [denoised](const MapBlock& block, const ReadBlock& read,
+                            const std::vector<double>& noise, const Progress& part) {
+    return denoised.compute(block, read, noise, part);
+  };
+  run.passes.push_back(std::move(pass));
+  run.notes = [](double gap) { return std::vector<std::string>{gap_note(gap)}; };
+  return run;
 }
 
 Estimator epi_s_estimator() {
@@ -49,7 +154,8 @@ Estimator epi_s_estimator() {
       [](const LightField& lf, const EpiSParameters& parameters, const RunOptions& options,
          const Progress& progress) {
         return estimate_epi_s(lf, parameters, options.views, progress, options.device);
-      });
+      },
+      epi_s_in_blocks);
 }
 
 }  // namespace episcope

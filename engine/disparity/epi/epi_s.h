@@ -32,6 +32,12 @@ struct EpiSParameters {
                                       const EpiSParameters& parameters, ViewSelection views,
                                       const Progress& progress, Device device = Device::Cpu);
 
+/// The same block by block: orientations in bands of rows, then views by themselves, which need up
+/// to 16 others each.
+[[nodiscard]] BlockwiseRun epi_s_in_blocks(const LightField& light_field,
+                                           const EpiSParameters& parameters, ViewSelection views,
+                                           const Progress& progress);
+
 [[nodiscard]] Estimator epi_s_estimator();
 
 }  // namespace episcope

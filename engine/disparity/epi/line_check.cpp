@@ -163,13 +163,18 @@ void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress&
 
 void reduce_confidence(const PackedViews& views, Estimate& estimate, const Progress& progress) {
   const ViewStack<float>& disparity = estimate.field.disparity;
-  const float variance = residual_noise(views, disparity);
+  reduce_confidence(views, residual_noise(views, disparity), disparity, estimate.confidence,
+                    progress);
+}
+
+void reduce_confidence(const PackedViews& views, float variance, const ViewStack<float>& disparity,
+                       ViewStack<float>& confidence_maps, const Progress& progress) {
   const GridShape grid = disparity.grid();
   parallel_for_workers(grid.count(), progress, [&] {
     return [&, trust = Trust(views, disparity, variance)](int i) mutable {
       const ViewIndex view = grid.view_at(i, disparity.first());
       trust.begin(view);
-      const ImageView<float> confidence = estimate.confidence.view(view);
+      const ImageView<float> confidence = confidence_maps.view(view);
       for (int y = 0; y < confidence.height; ++y) {
         if (y % 16 == 0) progress.check();
         const float* const factors = trust.row(y);

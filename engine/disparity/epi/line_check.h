@@ -38,6 +38,11 @@ void reduce_confidence(const LightField& light_field, Estimate& estimate, const 
 void reduce_confidence(const PackedViews& packed_views, Estimate& estimate,
                        const Progress& progress);
 
+/// The same for maps of any views, given the noise n².
+void reduce_confidence(const PackedViews& packed_views, float noise,
+                       const ViewStack<float>& disparity, ViewStack<float>& confidence,
+                       const Progress& progress);
+
 /// What a method does where the views contradict a local estimate.
 struct LineCheck {
   bool chooses_sides = true;  ///< choose_sides

@@ -65,12 +65,16 @@ const float* LineResiduals::row(int y, const float* disparity) {
 }
 
 float residual_noise(const PackedViews& views, const ViewStack<float>& disparity) {
-  LineResiduals residuals(views);
   const ViewIndex center = views.pixels.grid().center();
-  residuals.begin(center);
+  return residual_noise(views, center, disparity.view(center));
+}
+
+float residual_noise(const PackedViews& views, ViewIndex view, ImageView<const float> disparity) {
+  LineResiduals residuals(views);
+  residuals.begin(view);
   std::vector<float> all;
   for (int y = 0; y < views.pixels.height(); ++y) {
-    const float* const row = residuals.row(y, disparity.view(center).row(y));
+    const float* const row = residuals.row(y, disparity.row(y));
     std::copy_if(row, row + views.pixels.width(), std::back_inserter(all),
                  [](float value) { return std::isfinite(value); });
   }

@@ -36,5 +36,8 @@ class LineResiduals {
 /// The variance of the noise, summed over channels: the median residual of the centre view, which
 /// `disparity` must cover. 0 if no ray has a residual.
 [[nodiscard]] float residual_noise(const PackedViews& views, const ViewStack<float>& disparity);
+/// The median residual of another view.
+[[nodiscard]] float residual_noise(const PackedViews& views, ViewIndex view,
+                                   ImageView<const float> disparity);
 
 }  // namespace episcope

@@ -196,13 +196,17 @@ void SideChooser::choose(int j, float* disparity, float* confidence) {
 }  // namespace
 
 void choose_sides(const PackedViews& views, Estimate& estimate, const Progress& progress) {
-  ViewStack<float>& disparity = estimate.field.disparity;
-  const float variance = residual_noise(views, disparity);
+  choose_sides(views, residual_noise(views, estimate.field.disparity), estimate.field.disparity,
+               estimate.confidence, progress);
+}
+
+void choose_sides(const PackedViews& views, float variance, ViewStack<float>& disparity,
+                  ViewStack<float>& confidence, const Progress& progress) {
   const GridShape grid = disparity.grid();
   const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view = grid.view_at(i, disparity.first());
-    const ImageView<float> d = disparity.view(view), r = estimate.confidence.view(view);
+    const ImageView<float> d = disparity.view(view), r = confidence.view(view);
     const Before before{view, padded(d), padded(r)};
     const double count = grid.count();
     parallel_for_workers(bands, progress.part(i / count, (i + 1) / count), [&] {

@@ -30,4 +30,8 @@ namespace episcope {
 /// tests/accuracy/tuning.md.
 void choose_sides(const PackedViews& packed_views, Estimate& estimate, const Progress& progress);
 
+/// The same for maps of any views, given the noise n².
+void choose_sides(const PackedViews& packed_views, float noise, ViewStack<float>& disparity,
+                  ViewStack<float>& confidence, const Progress& progress);
+
 }  // namespace episcope

@@ -5,7 +5,10 @@
 #include "engine/disparity/stereo/stereo_on_device.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <memory>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -62,22 +65,28 @@ class Winners {
   std::vector<float> least_, sum_;
 };
 
-void choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
-                   Estimate& estimate, const Progress& progress) {
-  const ImageView<float> disparity = estimate.field.disparity.view(costs.view);
-  const ImageView<float> confidence = estimate.confidence.view(costs.view);
-  const int rows = stereo_band_rows(lf.height());
-  const int bands = (lf.height() + rows - 1) / rows;
+// The maps of some rows of the view that the costs are of.
+BlockMaps choose_labels(const LightField& lf, const StereoCosts& costs, Refinement refinement,
+                        const MapBlock& block, const Progress& progress) {
+  BlockMaps maps{{{{1, 1}, block.rows(), lf.width(), 1, costs.view}, {}},
+                 {{1, 1}, block.rows(), lf.width(), 1, costs.view}};
+  const ImageView<float> disparity = maps.field.disparity.view(costs.view);
+  const ImageView<float> confidence = maps.confidence.view(costs.view);
+  const int rows = stereo_band_rows(block.rows());
+  const int bands = (block.rows() + rows - 1) / rows;
+  progress.step("matching costs");
   parallel_for_workers(bands, progress, [&] {
     return [&, source = StereoCostRows(lf, costs),
             winners = Winners(costs, refinement, lf.width())](int i) mutable {
       const int y = i * rows;
-      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
+      const auto band =
+          source.compute(block.first_row + y, std::min(rows, block.rows() - y), progress);
       for (int row = 0; row < band.height; ++row) {
         winners.choose(band, row, disparity.row(y + row), confidence.row(y + row));
       }
     };
   });
+  return maps;
 }
 
 void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement refinement,
@@ -87,6 +96,26 @@ void choose_on_device(const LightField& lf, const StereoCosts& costs, Refinement
       device_matching(compared, costs.view, costs.matching, costs.labels),
       {costs.labels.front(), costs.labels[1] - costs.labels[0], device_refinement(refinement)},
       estimate.field.disparity.view(costs.view), estimate.confidence.view(costs.view), progress);
+}
+
+// The guide and the noise of the view, volumes of costs of every thread, and the samples around a
+// band, of all views that are matched.
+double band_bytes(const LightField& lf, const StereoCosts& costs, int rows, int threads) {
+  constexpr double kOfView = 64, kMaps = 9, kCost = 4, kMostBandRows = 64 + 32;
+  const double width = lf.width(), pixels = width * lf.height();
+  const double volumes = kCost * kMostBandRows * width * static_cast<double>(costs.labels.size());
+  double looked_at = 0;
+  if (lf.is_on_disk()) {
+    const bool all = costs.matching.views == MatchedViews::All;
+    const GridShape grid = lf.grid();
+    const double views = all ? grid.count() : grid.v + grid.u - 1;
+    const double steps = std::max(grid.v, grid.u);
+    const double reach =
+        steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
+    const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
+    looked_at = views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+  }
+  return kOfView * pixels + kMaps * width * rows + volumes * threads + looked_at;
 }
 
 }  // namespace
@@ -132,13 +161,44 @@ Estimate estimate_stereo_local(const LightField& lf, MatchedViews views,
       prepare_stereo(lf, views, parameters.matching, progress.part(0, 0.1), device);
   Estimate estimate;
   estimate.range = costs.range;
-  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-  estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
-  progress.step("matching costs");
-  const auto choose = costs.matcher ? choose_on_device : choose_labels;
-  choose(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  if (costs.matcher) {
+    estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    estimate.confidence = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, costs.view);
+    choose_on_device(lf, costs, parameters.refinement, estimate, progress.part(0.1, 1));
+  } else {
+    BlockMaps maps = choose_labels(lf, costs, parameters.refinement,
+                                   {{costs.view, {1, 1}}, 0, lf.height()}, progress.part(0.1, 1));
+    estimate.field = std::move(maps.field);
+    estimate.confidence = std::move(maps.confidence);
+  }
   estimate.notes = cost_notes(costs);
   return estimate;
+}
+
+BlockwiseRun stereo_local_in_blocks(const LightField& lf, MatchedViews views,
+                                    const StereoLocalParameters& parameters,
+                                    const Progress& progress) {
+  const auto costs =
+      std::make_shared<const StereoCosts>(prepare_stereo(lf, views, parameters.matching, progress));
+  BlockwiseRun run;
+  run.maps = {{1, 1}, costs->view, lf.height(), lf.width()};
+  run.provenance.range = costs->range;
+  run.provenance.notes = cost_notes(*costs);
+  BlockPass pass;
+  pass.step = "matching costs";
+  pass.bytes = [&lf, costs, threads = progress.threads()](int rows) {
+    return band_bytes(lf, *costs, rows, threads);
+  };
+  pass.compute = [&lf, costs, refinement = parameters.refinement](
+                     const MapBlock& block, const ReadBlock&, const std::vector<double>&,
+                     const Progress& part) {
+    if (costs->matching.views == MatchedViews::All) {
+      lf.fetch_samples(block.first_row, block.end_row);
+    }
+    return FinishedBlock{choose_labels(lf, *costs, refinement, block, part)};
+  };
+  run.passes.push_back(std::move(pass));
+  return run;
 }
 
 Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,

@@ -37,6 +37,11 @@ struct StereoSmoothParameters {
                                              const StereoLocalParameters& parameters,
                                              const Progress& progress, Device device = Device::Cpu);
 
+/// The same block by block: bands of rows, under costs that were prepared for all.
+[[nodiscard]] BlockwiseRun stereo_local_in_blocks(const LightField& light_field, MatchedViews views,
+                                                  const StereoLocalParameters& parameters,
+                                                  const Progress& progress);
+
 /// The same, denoised (engine/disparity/common/denoise.h); the duality gap is in the notes.
 [[nodiscard]] Estimate estimate_stereo_smooth(const LightField& light_field, MatchedViews views,
                                               const StereoSmoothParameters& parameters,

@@ -24,24 +24,42 @@ Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
                            });
 }
 
+// A function of `views` as one without.
+template <class Result>
+auto with_views(MatchedViews views,
+                Result (*function)(const LightField&, MatchedViews, const StereoLocalParameters&,
+                                   const Progress&)) {
+  return [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
+             const Progress& progress) {
+    return function(light_field, views, parameters, progress);
+  };
+}
+
+// A local one.
+Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
+  return make_estimator<StereoLocalParameters>(
+      std::move(info), stereo_local_schema(views), with_views(views, estimate_stereo_local),
+      with_views(views, stereo_local_in_blocks));
+}
+
 }  // namespace
 
 Estimator st_av_l_estimator() {
-  return stereo_estimator({.id = "st_av_l",
-                           .name = "ST_AV_L",
-                           .summary = "Local multi-view stereo over all views",
-                           .reference = kReference,
-                           .revision = 5},
-                          MatchedViews::All, stereo_local_schema, estimate_stereo_local);
+  return local_estimator({.id = "st_av_l",
+                          .name = "ST_AV_L",
+                          .summary = "Local multi-view stereo over all views",
+                          .reference = kReference,
+                          .revision = 5},
+                         MatchedViews::All);
 }
 
 Estimator st_ch_l_estimator() {
-  return stereo_estimator({.id = "st_ch_l",
-                           .name = "ST_CH_L",
-                           .summary = "Local multi-view stereo over the views of the cross-hair",
-                           .reference = kReference,
-                           .revision = 5},
-                          MatchedViews::CrossHair, stereo_local_schema, estimate_stereo_local);
+  return local_estimator({.id = "st_ch_l",
+                          .name = "ST_CH_L",
+                          .summary = "Local multi-view stereo over the views of the cross-hair",
+                          .reference = kReference,
+                          .revision = 5},
+                         MatchedViews::CrossHair);
 }
 
 Estimator st_av_s_estimator() {

@@ -41,6 +41,20 @@ int block_height(const LightField& lf) {
   return (lf.height() + blocks - 1) / blocks;
 }
 
+int largest_shear(const TensorSearch& search) {
+  int largest = 0;
+  for (const int shear : search.half_step_shears) largest = std::max(largest, std::abs(shear));
+  return largest;
+}
+
+// A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
+// along the views moves by the shear.
+int reach_along(const TensorFilterSet& set, const TensorSearch& search) {
+  const int reach =
+      (set.view_reach * largest_shear(search) + 1) / 2 + set.filters.integrate.radius + 3;
+  return reach + set.filters.smooth.radius + 4;
+}
+
 }  // namespace
 
 TensorSearch cover_range(Interval range, int step_half_px) {
@@ -120,15 +134,9 @@ StructureTensor::State::State(const LightField& lf, Direction dir, const TensorS
 void StructureTensor::State::size_block() {
   block.stride = horizontal() ? 1 : columns;
   payload_pixels = horizontal() ? light_field.width() : block_height(light_field);
-  int largest = 0;
-  for (const int shear : search.half_step_shears) {
-    largest = std::max(largest, std::abs(shear));
-    with_half = with_half || (shear & 1) != 0;
-  }
-  // A wanted row integrates over neighbours, whose gradients reach to their neighbours: each step
-  // along the views moves by the shear.
-  const int reach = (set.view_reach * largest + 1) / 2 + filters.integrate.radius + 3;
-  block.margin = (reach + filters.smooth.radius + 4) * block.stride;
+  for (const int shear : search.half_step_shears) with_half = with_half || (shear & 1) != 0;
+  const int largest = largest_shear(search);
+  block.margin = reach_along(set, search) * block.stride;
   block.tensor_margin =
       rounded((largest * block.rows / 2 + filters.integrate.radius + 2) * block.stride + kSlack);
 }
@@ -316,6 +324,12 @@ TensorExtent StructureTensor::largest_task(const LightField& lf, Direction direc
                                            const TensorScales& scales) {
   if (direction == Direction::Horizontal) return {lf.height(), lf.width()};
   return {block_height(lf), kBlockColumns - 2 * gaussian_radius(scales.across)};
+}
+
+int StructureTensor::reach(const LightField& lf, Direction direction, const TensorScales& scales,
+                           const TensorSearch& search) {
+  return reach_along(make_tensor_filters(views_along(lf, direction), lf.channels(), scales),
+                     search);
 }
 
 void StructureTensor::estimate(const TensorTask& task, const Sink& sink) {

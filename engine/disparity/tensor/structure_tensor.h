@@ -85,6 +85,11 @@ class StructureTensor {
   [[nodiscard]] static TensorExtent largest_task(const LightField& light_field, Direction direction,
                                                  const TensorScales& scales);
 
+  /// How far the samples that an estimate depends on are from its pixel, along the EPI, in px;
+  /// across it depends on those within the radius of the cross scale.
+  [[nodiscard]] static int reach(const LightField& light_field, Direction direction,
+                                 const TensorScales& scales, const TensorSearch& search);
+
   void estimate(const TensorTask& task, const Sink& sink);
 
  private:

@@ -7,12 +7,12 @@
 #include "engine/io/archive/archive_extras.h"
 #include "engine/io/archive/archive_labels.h"
 #include "engine/io/archive/archive_layout.h"
+#include "engine/io/archive/archive_samples.h"
 #include "engine/io/archive/companions.h"
 #include "engine/io/labels/label_list.h"
 #include "engine/io/labels/scribble_dataset.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/assemble_scene.h"
-#include "engine/io/open/center_preview.h"
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
@@ -43,65 +43,6 @@ void compare_sizes(const Hdf5Input& file, ConventionReport& report) {
         "The attribute {} says {}, but LF has {} along that axis; the shape of LF is used.",
         names[axis], whole(*stated), shape[axis]));
   }
-}
-
-template <class T>
-ViewStack<T> read_views(const Hdf5Input& file, const ArchiveLayout& layout,
-                        const std::function<void(ImageView<const T>)>& on_center,
-                        const Progress& progress) {
-  const FieldShape& shape = layout.shape;
-  ViewStack<T> stack(shape.grid, shape.height, shape.width, layout.channels);
-  const auto read = [&](ViewIndex view) {
-    Hdf5Block block{
-        {static_cast<std::size_t>(view.v), static_cast<std::size_t>(view.u), 0, 0},
-        {1, 1, static_cast<std::size_t>(shape.height), static_cast<std::size_t>(shape.width)}};
-    if (layout.has_channel_axis) {
-      block.start.push_back(0);
-      block.count.push_back(static_cast<std::size_t>(layout.channels));
-    }
-    file.read(kArchiveLightField, block, stack.view(view).data);
-  };
-  const ViewIndex center = shape.grid.center();
-  progress.check();
-  read(center);
-  on_center(stack.view(center));
-  for (int i = 0; i < shape.grid.count(); ++i) {
-    progress.check();
-    const ViewIndex view = shape.grid.view_at(i);
-    if (!(view == center)) read(view);
-    progress.report((i + 1.0) / shape.grid.count());
-  }
-  return stack;
-}
-
-/// Samples in their stored type. Wider integers are taken as bytes if the centre view fits.
-LightField::Samples read_samples(const Hdf5Input& file, ArchiveLayout layout,
-                                 const OpenOptions& options, const LightFieldInfo& info,
-                                 const Progress& progress) {
-  if (layout.type == Hdf5Type::Integer) {
-    const ViewStack<std::uint16_t> probe = [&] {
-      ArchiveLayout center = layout;
-      center.shape.grid = {1, 1};
-      return read_views<std::uint16_t>(
-          file, center, [](const auto&) {}, Progress(1));
-    }();
-    const bool fits = std::all_of(probe.data(), probe.data() + probe.size(),
-                                  [](std::uint16_t sample) { return sample <= 255; });
-    layout.type = fits ? Hdf5Type::UInt8 : Hdf5Type::UInt16;
-  }
-  const auto read = [&]<class T>(T) -> LightField::Samples {
-    return read_views<T>(
-        file, layout,
-        [&](ImageView<const T> center) {
-          if (options.on_center_view) {
-            options.on_center_view(preview_rgb(center), info, layout.shape.grid);
-          }
-        },
-        progress);
-  };
-  if (layout.type == Hdf5Type::UInt8) return read(std::uint8_t{});
-  if (layout.type == Hdf5Type::UInt16) return read(std::uint16_t{});
-  return read(float{});
 }
 
 ExpectedOrder expected_order(const Hdf5Input& file) {
@@ -161,7 +102,8 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
 
   read_positions(file, grid, info);
   progress.step("reading views");
-  LightField::Samples samples = read_samples(file, layout, options, info, progress.part(0, 0.55));
+  LightField::Samples samples =
+      read_archive_samples(file, layout, options, info, progress.part(0, 0.55));
   ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, progress.part(0.55, 0.6));
   scale_float_samples(samples, report);
   progress.step("reading depth");

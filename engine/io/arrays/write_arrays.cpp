@@ -2,6 +2,7 @@
 #include "engine/io/arrays/write_arrays.h"
 
 #include "engine/io/arrays/npy_file.h"
+#include "engine/io/arrays/ordered_stack.h"
 #include "engine/io/arrays/zip_writer.h"
 
 #include <limits>
@@ -29,9 +30,10 @@ void add_stack(ZipWriter& zip, const std::string& name, const ViewStack<T>& stac
                bool has_channels) {
   if (stack.empty()) return;
   const std::string header = npy_header(shape_of(stack, has_channels), number_type_of<T>());
-  zip.add(name + ".npy",
-          {{reinterpret_cast<const std::uint8_t*>(header.data()), header.size()},
-           {reinterpret_cast<const std::uint8_t*>(stack.data()), stack.size() * sizeof(T)}});
+  const OrderedStack<T> ordered(stack);
+  zip.add(name + ".npy", {{reinterpret_cast<const std::uint8_t*>(header.data()), header.size()},
+                          {reinterpret_cast<const std::uint8_t*>(ordered.get().data()),
+                           stack.size() * sizeof(T)}});
 }
 
 }  // namespace
@@ -49,7 +51,8 @@ void write_npy(const std::filesystem::path& path, const Scene& scene, const Prog
   progress.check();
   std::visit(
       [&]<class T>(const ViewStack<T>& stack) {
-        write_npy<T>(path, shape_of(stack, true), {stack.data(), stack.size()});
+        const OrderedStack<T> ordered(stack);
+        write_npy<T>(path, shape_of(stack, true), {ordered.get().data(), stack.size()});
       },
       scene.light_field->samples());
   progress.report(1);

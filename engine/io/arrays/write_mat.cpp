@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/error.h"
 #include "engine/io/arrays/move_block.h"
+#include "engine/io/arrays/ordered_stack.h"
 #include "engine/io/arrays/write_arrays.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/file_descriptor.h"
@@ -116,8 +117,9 @@ void write_mat(const std::filesystem::path& path, const Scene& scene, const Prog
   AtomicFile target(path, light_field.byte_size());
   Hdf5Output file(target, kUserBytes);
   std::visit(
-      [&](const auto& stack) {
-        write_light_field(file, stack, light_field.valid(), progress.part(0, 0.8));
+      [&]<class T>(const ViewStack<T>& stack) {
+        write_light_field(file, OrderedStack<T>(stack).get(), light_field.valid(),
+                          progress.part(0, 0.8));
       },
       light_field.samples());
   write_map(file, "disparity", disparity_with_nan(scene.truth->field));

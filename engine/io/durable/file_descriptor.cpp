@@ -35,6 +35,30 @@ bool write_all(int descriptor, std::span<const std::uint8_t> bytes) {
   return true;
 }
 
+bool write_all_at(int descriptor, std::span<const std::uint8_t> bytes, std::uintmax_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uintmax_t>(count);
+  }
+  return true;
+}
+
+bool read_all_at(int descriptor, std::span<std::uint8_t> bytes, std::uintmax_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uintmax_t>(count);
+  }
+  return true;
+}
+
 bool read_all(int descriptor, std::vector<std::uint8_t>& bytes) {
   std::array<std::uint8_t, 1 << 16> block{};
   for (;;) {

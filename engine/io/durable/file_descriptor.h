@@ -28,6 +28,13 @@ class FileDescriptor {
 /// Writes all bytes; false leaves the reason in `errno`.
 [[nodiscard]] bool write_all(int descriptor, std::span<const std::uint8_t> bytes);
 
+/// The same at `offset` of the file.
+[[nodiscard]] bool write_all_at(int descriptor, std::span<const std::uint8_t> bytes,
+                                std::uintmax_t offset);
+/// Fills `bytes` from there; false also if the file ends before.
+[[nodiscard]] bool read_all_at(int descriptor, std::span<std::uint8_t> bytes,
+                               std::uintmax_t offset);
+
 /// Reads from here to the end; false leaves the reason in `errno`.
 [[nodiscard]] bool read_all(int descriptor, std::vector<std::uint8_t>& bytes);
 

@@ -281,6 +281,30 @@ template void Hdf5Input::read(const std::string&, const Hdf5Block&, std::int32_t
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, float*) const;
 template void Hdf5Input::read(const std::string&, const Hdf5Block&, double*) const;
 
+template <class T>
+std::optional<std::uintmax_t> Hdf5Input::place_in_file(const std::string& name) const {
+  const Hdf5Lock session;
+  const hid_t id = open_dataset(name);
+  const Hdf5Handle creation(H5Dget_create_plist(id), H5Pclose);
+  const Hdf5Handle type(H5Dget_type(id), H5Tclose);
+  const Hdf5Handle space(H5Dget_space(id), H5Sclose);
+  const bool is_array = H5Pget_layout(creation) == H5D_CONTIGUOUS &&
+                        H5Pget_nfilters(creation) == 0 && H5Tequal(type, native_type<T>()) > 0;
+  const haddr_t offset = H5Dget_offset(id);
+  const auto samples = static_cast<hsize_t>(H5Sget_simple_extent_npoints(space));
+  if (!is_array || offset == HADDR_UNDEF || offset % sizeof(T) != 0 ||
+      H5Dget_storage_size(id) != samples * sizeof(T)) {
+    return std::nullopt;
+  }
+  return offset;
+}
+
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint8_t>(
+    const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint16_t>(
+    const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<float>(const std::string&) const;
+
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
   const Hdf5Lock session;
   return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();

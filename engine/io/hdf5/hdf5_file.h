@@ -67,6 +67,12 @@ class Hdf5Input {
   template <class T>
   void read(const std::string& name, const Hdf5Block& block, T* out) const;
 
+  /// Where in the file the samples of a dataset begin if they are stored there as an array of T
+  /// would be in memory: one after the other, uncompressed, of the type and byte order of this
+  /// machine, all of them written. T: uint8, uint16 or float. Throws IoError as `dataset`.
+  template <class T>
+  [[nodiscard]] std::optional<std::uintmax_t> place_in_file(const std::string& name) const;
+
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
   /// Attribute of any numeric type, a scalar or an array of length 1; empty if there is none.
   [[nodiscard]] std::optional<double> number(const std::string& object,
@@ -94,6 +100,9 @@ class Hdf5Output {
  public:
   /// `user_bytes`: room for other contents in front: 0, 512 or a power of two above.
   explicit Hdf5Output(const AtomicFile& file, std::size_t user_bytes = 0);
+  /// Adds to a file that such an output made; failures name `target`. What it finds there must be
+  /// whole: if the program ends before `close` has returned, it is not any more.
+  Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target);
   ~Hdf5Output();
   Hdf5Output(const Hdf5Output&) = delete;
   Hdf5Output& operator=(const Hdf5Output&) = delete;
@@ -105,6 +114,10 @@ class Hdf5Output {
   template <class T>
   void add_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
                    const std::string& units);
+  /// The same, and gives it its place in the file, which others fill (Hdf5Input::place_in_file).
+  template <class T>
+  void reserve_dataset(const std::string& name, const Hdf5Shape& shape, const std::string& axes,
+                       const std::string& units);
   template <class T>
   void write(const std::string& name, const Hdf5Block& block, const T* in);
 
@@ -121,6 +134,8 @@ class Hdf5Output {
   void close();
 
  private:
+  template <class T>
+  void create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved);
   void set_attribute(const std::string& object, const std::string& name, std::int64_t type,
                      const Hdf5Shape& shape, const void* value);
 

@@ -23,6 +23,17 @@ Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(f
   require(file_ >= 0);
 }
 
+Hdf5Output::Hdf5Output(const std::filesystem::path& file, const std::filesystem::path& target)
+    : path_(target) {
+  const Hdf5Lock session;
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+  use_logging_write_driver(access, log_);
+  file_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access);
+  require(file_ >= 0);
+}
+
 Hdf5Output::~Hdf5Output() {
   const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
@@ -37,20 +48,32 @@ void Hdf5Output::add_group(const std::string& name) {
 }
 
 template <class T>
+void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape, bool is_reserved) {
+  const Hdf5Lock session;
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
+                         H5Sclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
+  if (is_reserved) H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
+  const hid_t id =
+      H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  require(id >= 0);
+  datasets_[name] = id;
+}
+
+template <class T>
 void Hdf5Output::add_dataset(const std::string& name, const Hdf5Shape& shape,
                              const std::string& axes, const std::string& units) {
-  {
-    const Hdf5Lock session;
-    const std::vector<hsize_t> extent(shape.begin(), shape.end());
-    const Hdf5Handle space(
-        H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
-    const hid_t id = H5Dcreate2(file_, name.c_str(), native_type<T>(), space, H5P_DEFAULT, creation,
-                                H5P_DEFAULT);
-    require(id >= 0);
-    datasets_[name] = id;
-  }
+  create_dataset<T>(name, shape, false);
+  set_text(name, "axes", axes);
+  if (!units.empty()) set_text(name, "units", units);
+}
+
+template <class T>
+void Hdf5Output::reserve_dataset(const std::string& name, const Hdf5Shape& shape,
+                                 const std::string& axes, const std::string& units) {
+  create_dataset<T>(name, shape, true);
   set_text(name, "axes", axes);
   if (!units.empty()) set_text(name, "units", units);
 }
@@ -73,6 +96,10 @@ template void Hdf5Output::add_dataset<std::int32_t>(const std::string&, const Hd
                                                     const std::string&, const std::string&);
 template void Hdf5Output::add_dataset<float>(const std::string&, const Hdf5Shape&,
                                              const std::string&, const std::string&);
+template void Hdf5Output::reserve_dataset<std::uint8_t>(const std::string&, const Hdf5Shape&,
+                                                        const std::string&, const std::string&);
+template void Hdf5Output::reserve_dataset<float>(const std::string&, const Hdf5Shape&,
+                                                 const std::string&, const std::string&);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint8_t*);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::uint16_t*);
 template void Hdf5Output::write(const std::string&, const Hdf5Block&, const std::int32_t*);

@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
 #include <cerrno>
@@ -41,13 +42,17 @@ void note_failure(DriverFile& file) {
 H5FD_t* open_file(const char* name, unsigned flags, hid_t access, haddr_t) {
   const auto* info = static_cast<const DriverInfo*>(H5Pget_driver_info(access));
   if (info == nullptr || (flags & H5F_ACC_RDWR) == 0) return nullptr;
-  const int descriptor = ::open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
+  const bool is_new = (flags & H5F_ACC_TRUNC) != 0;
+  const int descriptor = ::open(name, O_RDWR | O_CLOEXEC | (is_new ? O_CREAT | O_TRUNC : 0), 0666);
+  struct stat facts {};
+  if (descriptor < 0 || ::fstat(descriptor, &facts) != 0) {
     info->log->first_error = errno;
+    if (descriptor >= 0) ::close(descriptor);
     return nullptr;
   }
   auto file = std::make_unique<DriverFile>();
   file->descriptor = descriptor;
+  file->end_of_file = static_cast<haddr_t>(facts.st_size);
   file->log = info->log;
   return &file.release()->base;
 }

@@ -10,10 +10,10 @@ struct Hdf5WriteLog {
   int first_error = 0;  ///< `errno` of the first failed system call; 0 = none.
 };
 
-/// Makes files created with the access property list `access` tell HDF5 that every write succeeded,
-/// and note the first failure in `log`, which must outlive the file; nothing is written after that.
-/// HDF5 1.10 cannot close a file whose last writes fail and crashes at exit, as on a full disk.
-/// The caller must hold the lock of the library.
+/// Makes files created or opened with the access property list `access` tell HDF5 that every write
+/// succeeded, and note the first failure in `log`, which must outlive the file; nothing is written
+/// after that. HDF5 1.10 cannot close a file whose last writes fail and crashes at exit, as on a
+/// full disk. The caller must hold the lock of the library.
 void use_logging_write_driver(std::int64_t access, Hdf5WriteLog& log);
 
 }  // namespace episcope::io

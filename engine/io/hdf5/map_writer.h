@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/map_block.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/io/hdf5/hdf5_file.h"
 
@@ -16,19 +16,6 @@ namespace episcope::io {
 
 /// "y,x" or "v,u,y,x".
 [[nodiscard]] const char* map_axes(GridShape grid);
-
-/// Size of a stack of maps and its place in the grid.
-struct MapGeometry {
-  GridShape grid;
-  ViewIndex first;
-  int height = 0;
-  int width = 0;
-};
-
-template <class T>
-[[nodiscard]] MapGeometry geometry_of(const ViewStack<T>& stack) {
-  return {stack.grid(), stack.first(), stack.height(), stack.width()};
-}
 
 /// Adds a dataset and writes it view by view: `samples(view)` gives those of each. T: uint8, int32
 /// or float.

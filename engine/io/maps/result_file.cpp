@@ -4,11 +4,11 @@
 #include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
 #include "engine/core/hash/fnv1a.h"
-#include "engine/core/version.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/maps/foreign_result.h"
 #include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/result_provenance.h"
 #include "engine/io/maps/stored_reading.h"
 
 #include <fmt/format.h>
@@ -17,12 +17,6 @@
 
 namespace episcope::io {
 namespace {
-
-constexpr const char* kGroup = "estimate";
-
-std::string in_group(const char* name) {
-  return std::string(kGroup) + "/" + name;
-}
 
 /// Bytes of all maps, with some room for the structure of the file.
 std::uintmax_t result_bytes(const Estimate& estimate) {
@@ -37,12 +31,6 @@ std::uintmax_t result_bytes(const Estimate& estimate) {
   return bytes;
 }
 
-std::string join_lines(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
-  return text;
-}
-
 std::vector<std::string> split_lines(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -51,29 +39,6 @@ std::vector<std::string> split_lines(const std::string& text) {
     begin = end + 1;
   }
   return lines;
-}
-
-void write_provenance(Hdf5Output& file, const Estimate& estimate, const std::string& source) {
-  file.set_text(kGroup, "method", estimate.method);
-  file.set_text(kGroup, "parameters", parameters_to_json(estimate.parameters));
-  file.set_number(kGroup, "seconds", estimate.seconds);
-  file.set_text(kGroup, "version", estimate.version.empty() ? kVersion : estimate.version);
-  file.set_text(kGroup, "source", source);
-  if (estimate.source_hash != 0) {
-    file.set_text(kGroup, "source_hash", hash_digits(estimate.source_hash));
-  }
-  write_reading(file, kGroup, estimate.reading);
-  if (!(estimate.range == Interval{})) {
-    file.set_numbers(kGroup, "range", {estimate.range.min, estimate.range.max});
-  }
-  const ViewStack<float>& disparity = estimate.field.disparity;
-  if (disparity.grid().count() == 1) {
-    file.set_integers(kGroup, "view", {disparity.first().v, disparity.first().u});
-  } else if (!(disparity.first() == ViewIndex{})) {
-    file.set_integers(kGroup, "first_view", {disparity.first().v, disparity.first().u});
-  }
-  if (!estimate.notes.empty()) file.set_text(kGroup, "notes", join_lines(estimate.notes));
-  if (estimate.border_px > 0) file.set_number(kGroup, "border_px", estimate.border_px);
 }
 
 void write_layers(Hdf5Output& file, const LayeredDisparity& layered, const Progress& progress) {
@@ -107,7 +72,7 @@ class ResultReader {
 
  private:
   [[nodiscard]] ViewIndex first_view(bool is_single) const {
-    const std::vector<double> view = file_.numbers(kGroup, is_single ? "view" : "first_view");
+    const std::vector<double> view = file_.numbers(kResultGroup, is_single ? "view" : "first_view");
     if (view.size() == 2) return {whole_int(view[0]).value_or(-1), whole_int(view[1]).value_or(-1)};
     return is_single ? grid_.center() : ViewIndex{};
   }
@@ -158,19 +123,19 @@ class ResultReader {
   }
 
   void read_provenance(Estimate& estimate) const {
-    const auto text = [&](const char* name) { return file_.text(kGroup, name).value_or(""); };
+    const auto text = [&](const char* name) { return file_.text(kResultGroup, name).value_or(""); };
     estimate.method = text("method");
     estimate.parameters = parameters_from_json(text("parameters"));
-    estimate.seconds = file_.number(kGroup, "seconds").value_or(0);
+    estimate.seconds = file_.number(kResultGroup, "seconds").value_or(0);
     estimate.version = text("version");
     estimate.source = text("source");
     estimate.source_hash = hash_from_digits(text("source_hash"));
-    estimate.reading = reading_in(file_, kGroup);
+    estimate.reading = reading_in(file_, kResultGroup);
     estimate.notes = split_lines(text("notes"));
     constexpr int widest = 1 << 16;
-    const double border_px = file_.number(kGroup, "border_px").value_or(0);
+    const double border_px = file_.number(kResultGroup, "border_px").value_or(0);
     estimate.border_px = std::clamp(whole_int(border_px).value_or(0), 0, widest);
-    const std::vector<double> range = file_.numbers(kGroup, "range");
+    const std::vector<double> range = file_.numbers(kResultGroup, "range");
     if (range.size() == 2) estimate.range = {range[0], range[1]};
   }
 
@@ -186,7 +151,7 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
   progress.check();
   AtomicFile target(path, result_bytes(estimate));
   Hdf5Output file(target);
-  file.add_group(kGroup);
+  file.add_group(kResultGroup);
   write_disparity(file, in_group("disparity"), estimate.field, progress.part(0, 0.5));
   if (!estimate.field.valid.empty()) {
     write_stack(file, in_group("valid"), estimate.field.valid, "", progress.part(0.5, 0.6));
@@ -195,7 +160,8 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
     write_stack(file, in_group("confidence"), estimate.confidence, "", progress.part(0.6, 0.9));
   }
   write_layers(file, estimate.layered, progress.part(0.9, 1));
-  write_provenance(file, estimate, source.value_or(estimate.source));
+  write_provenance(file, estimate, geometry_of(estimate.field.disparity),
+                   source.value_or(estimate.source));
   file.close();
   progress.check();
   target.commit();
@@ -207,12 +173,12 @@ Estimate read_result(const std::filesystem::path& path, GridShape grid, const st
 }
 
 Reading read_reading(const std::filesystem::path& path) {
-  return is_result_file(path) ? reading_in(Hdf5Input(path), kGroup) : Reading{};
+  return is_result_file(path) ? reading_in(Hdf5Input(path), kResultGroup) : Reading{};
 }
 
 bool is_result_file(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path) || !has_hdf5_signature(path)) return false;
-  return Hdf5Input(path).has(kGroup);
+  return Hdf5Input(path).has(kResultGroup);
 }
 
 }  // namespace episcope::io

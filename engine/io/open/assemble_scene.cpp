@@ -15,6 +15,17 @@
 namespace episcope::io {
 namespace {
 
+std::string place_text(const LightField::Samples& samples) {
+  switch (std::visit([](const auto& stack) { return stack.kind(); }, samples)) {
+    case LargeKind::File:
+      return "; mapped: read from the file when they are looked at";
+    case LargeKind::Scratch:
+      return "; unpacked to a scratch file, too large for memory";
+    default:
+      return "";
+  }
+}
+
 void crop_positions(std::vector<CameraPosition>& positions, const ViewCrop& crop) {
   if (positions.size() != static_cast<std::size_t>(crop.stored.count())) return;
   std::vector<CameraPosition> kept;
@@ -38,12 +49,27 @@ ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBright
   return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
 }
 
+bool are_on_disk(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.is_on_disk(); }, samples);
+}
+
+/// All of a light field that is on disk would take as long to look at as to read: where a first
+/// look finds nothing dark, that is all.
+ViewBrightness find_brightness(const SceneParts& parts, const Progress& progress) {
+  if (are_on_disk(parts.samples)) {
+    ViewBrightness brightness =
+        measure_brightness(parts.samples, parts.valid, BrightnessRows::Few, progress);
+    if (!brightness.has_dark_parts()) return brightness;
+  }
+  return measure_brightness(parts.samples, parts.valid, BrightnessRows::EverySecond, progress);
+}
+
 /// Leaves out views that are dark, or that the user does not want, and marks dark pixels of the
 /// others.
 void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                         const Progress& progress) {
   progress.step("looking for dark views");
-  ViewBrightness brightness = measure_brightness(parts.samples, parts.valid, progress);
+  ViewBrightness brightness = find_brightness(parts, progress);
   const ViewCrop crop = find_crop(options.crop, grid_of(parts.samples), brightness);
   if (crop.leaves_out()) {
     if (options.crop.empty()) report.warnings.push_back(crop_text(crop, brightness));
@@ -75,6 +101,7 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   equalise_views(parts, options.equalise, scene.convention, progress);
   std::string& samples_text = scene.convention.samples;
   if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
+  samples_text += place_text(parts.samples);
   parts.info.reading.options = given_options(options);
   parts.info.reading.set_focus(0);  // baked in afterwards, if at all
   scene.light_field = std::make_shared<LightField>(std::move(parts.samples), std::move(parts.info),

@@ -28,6 +28,10 @@ double largest_difference(const ViewGains& gains) {
   return largest;
 }
 
+bool is_mapped(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return stack.kind() == LargeKind::File; }, samples);
+}
+
 int count_unknown(const ViewGains& gains) {
   int unknown = 0;
   for (const double gain : gains.overall) unknown += std::isnan(gain) ? 1 : 0;
@@ -38,6 +42,10 @@ int count_unknown(const ViewGains& gains) {
 
 void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
                     const Progress& progress) {
+  if (!is_wanted && is_mapped(parts.samples)) {
+    report.gain = "not measured, since that would read the whole file";
+    return;
+  }
   const ViewGains gains =
       measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1));
   const int views = gains.grid.count();

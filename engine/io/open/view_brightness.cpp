@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/open/view_brightness.h"
 
+#include "engine/core/array/mapped_memory.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -33,12 +34,36 @@ float sum_of(const T* pixel, int channels) {
   return std::isfinite(sum) ? sum : 0;
 }
 
+/// Every other row, or one through the middle of each row of cells.
+std::vector<int> looked_at(int height, int cell_rows, BrightnessRows wanted) {
+  std::vector<int> rows;
+  if (wanted == BrightnessRows::Few) {
+    for (int row = 0; row < cell_rows; ++row)
+      rows.push_back((2 * row + 1) * height / (2 * cell_rows));
+  } else {
+    for (int y = 0; y < height; y += kStep) rows.push_back(y);
+  }
+  return rows;
+}
+
+/// Has the disk read them together rather than one after the other.
+template <class T>
+void fetch_rows(const ViewStack<T>& stack, const std::vector<int>& rows) {
+  if (!stack.is_on_disk()) return;
+  for (int i = 0; i < stack.grid().count(); ++i) {
+    const ImageView<const T> view = stack.view(stack.view_at(i));
+    const std::size_t bytes = sizeof(T) * view.width * view.channels;
+    for (const int y : rows) fetch_pages(view.row(y), bytes);
+  }
+}
+
 /// `valid` may be empty.
 template <class T>
-void measure(ImageView<const T> view, ImageView<const std::uint8_t> valid, ImageView<float> cells) {
+void measure(ImageView<const T> view, ImageView<const std::uint8_t> valid,
+             const std::vector<int>& rows, ImageView<float> cells) {
   std::vector<float> sums(cells.size());
   std::vector<int> counts(cells.size());
-  for (int y = 0; y < view.height; y += kStep) {
+  for (const int y : rows) {
     const int row = y * cells.height / view.height;
     for (int x = 0; x < view.width; x += kStep) {
       const std::size_t cell =
@@ -119,8 +144,20 @@ bool ViewBrightness::is_filled(ViewIndex view) const {
   return relative(view) >= kFilled && empty <= kMostEmpty * static_cast<double>(cells.view_size());
 }
 
+bool ViewBrightness::has_dark_parts() const {
+  for (int i = 0; i < cells.grid().count(); ++i) {
+    const ViewIndex view = cells.view_at(i);
+    if (!is_filled(view)) return true;
+    for (int n = 0; n < static_cast<int>(cells.view_size()); ++n) {
+      if (is_empty(view, n / cells.width(), n % cells.width())) return true;
+    }
+  }
+  return false;
+}
+
 ViewBrightness measure_brightness(const LightField::Samples& samples,
-                                  const ViewStack<std::uint8_t>& valid, const Progress& progress) {
+                                  const ViewStack<std::uint8_t>& valid, BrightnessRows wanted,
+                                  const Progress& progress) {
   ViewBrightness found;
   std::visit(
       [&](const auto& stack) {
@@ -128,10 +165,12 @@ ViewBrightness measure_brightness(const LightField::Samples& samples,
             std::max(std::min(stack.height(), stack.width()) / kCellsAcross, kSmallestCell);
         found.cells = ViewStack<float>(stack.grid(), std::max(stack.height() / cell, 1),
                                        std::max(stack.width() / cell, 1));
+        const std::vector<int> rows = looked_at(stack.height(), found.cells.height(), wanted);
+        if (wanted == BrightnessRows::Few) fetch_rows(stack, rows);
         parallel_for(stack.grid().count(), progress, [&](int i) {
           const ViewIndex view = stack.view_at(i);
           measure(stack.view(view),
-                  valid.empty() ? ImageView<const std::uint8_t>() : valid.view(view),
+                  valid.empty() ? ImageView<const std::uint8_t>() : valid.view(view), rows,
                   found.cells.view(view));
         });
       },

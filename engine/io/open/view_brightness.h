@@ -25,12 +25,18 @@ struct ViewBrightness {
   /// Whether a view is filled: at least half as bright as the reference, and at most a quarter of
   /// its cells are empty.
   [[nodiscard]] bool is_filled(ViewIndex view) const;
+  /// Whether any view is not filled or has an empty cell.
+  [[nodiscard]] bool has_dark_parts() const;
 };
 
-/// A cell is a twentieth of the shorter side of the views, at least 8 px; every second pixel of
-/// every second row is looked at. `valid` may be empty. Throws Cancelled.
+/// How many rows are looked at: every second one, or one in the middle of each cell, for a first
+/// look at samples that are on disk.
+enum class BrightnessRows { EverySecond, Few };
+
+/// A cell is a twentieth of the shorter side of the views, at least 8 px; every second pixel of the
+/// rows is looked at. `valid` may be empty. Throws Cancelled.
 [[nodiscard]] ViewBrightness measure_brightness(const LightField::Samples& samples,
                                                 const ViewStack<std::uint8_t>& valid,
-                                                const Progress& progress);
+                                                BrightnessRows rows, const Progress& progress);
 
 }  // namespace episcope::io

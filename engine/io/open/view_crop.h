@@ -30,8 +30,13 @@ template <class T>
   const ViewIndex to{std::min(stack.first().v + grid.v, crop.first.v + crop.kept.v),
                      std::min(stack.first().u + grid.u, crop.first.u + crop.kept.u)};
   if (from.v >= to.v || from.u >= to.u) return {};
-  ViewStack<T> kept({to.v - from.v, to.u - from.u}, stack.height(), stack.width(), stack.channels(),
-                    {from.v - crop.first.v, from.u - crop.first.u});
+  const GridShape left{to.v - from.v, to.u - from.u};
+  const ViewIndex first{from.v - crop.first.v, from.u - crop.first.u};
+  if (stack.kind() == LargeKind::File) {
+    stack.keep_in_place(from, left, first);
+    return stack;
+  }
+  ViewStack<T> kept(left, stack.height(), stack.width(), stack.channels(), first);
   for (int i = 0; i < kept.grid().count(); ++i) {
     const ViewIndex view = kept.view_at(i);
     const ViewIndex stored{view.v + crop.first.v, view.u + crop.first.u};

@@ -41,6 +41,7 @@ AxisEvidence evidence_along(const LightField::Samples& samples, bool is_v,
 template <class T>
 void swap_axes(ViewStack<T>& stack) {
   if (stack.empty()) return;
+  if (stack.kind() == LargeKind::File) return stack.transpose_in_place();
   const GridShape grid = stack.grid();
   const ViewIndex first = stack.first();
   if (grid.u == grid.v && first.u == first.v) {

@@ -34,13 +34,15 @@ struct ViewFlip {
   return {flip.v ? grid.v - 1 - view.v : view.v, flip.u ? grid.u - 1 - view.u : view.u};
 }
 
-/// Reverses the order of views in place; `grid` is that of the whole light field, of which `stack`
-/// may cover a part, which then moves to its mirrored place.
+/// Reverses the order of views, in memory unless it is that of a file; `grid` is that of the whole
+/// light field, of which `stack` may cover a part, which then moves to its mirrored place.
 template <class T>
 void reverse_views(ViewStack<T>& stack, GridShape grid, ViewFlip flip) {
   if (stack.empty() || flip == ViewFlip{}) return;
   const GridShape part = stack.grid();
   const ViewIndex first = stack.first();
+  if (stack.kind() == LargeKind::File && part == grid)
+    return stack.reverse_in_place(flip.v, flip.u);
   for (int v = 0; v < part.v; ++v) {
     for (int u = 0; u < part.u; ++u) {
       const ViewIndex other = flipped({v, u}, part, flip);

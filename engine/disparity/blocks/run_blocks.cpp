@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/disparity/blocks/run_blocks.h"
+
+#include "engine/core/error.h"
+#include "engine/core/parallel/stopwatch.h"
+#include "engine/disparity/common/invalid_pixels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace episcope {
+namespace {
+
+// Bands of fewer rows would mostly compute what they need around them.
+constexpr int kFewestRows = 8;
+
+class Blocks {
+ public:
+  Blocks(const LightField& light_field, const BlockwiseRun& run, BlockStore& store,
+         std::size_t memory)
+      : light_field_(light_field),
+        run_(run),
+        store_(store),
+        memory_(static_cast<double>(memory)),
+        state_(store.progress()),
+        seconds_before_(state_.seconds) {}
+
+  void make(const Progress& progress) {
+    const auto passes = static_cast<double>(run_.passes.size());
+    while (state_.pass < static_cast<int>(run_.passes.size())) {
+      make_pass(progress.part(state_.pass / passes, (state_.pass + 1) / passes));
+    }
+  }
+
+  [[nodiscard]] Provenance provenance() const {
+    Provenance made = run_.provenance;
+    made.seconds = state_.seconds;
+    if (!run_.notes) return made;
+    const std::vector<std::string> notes = run_.notes(last_finding());
+    made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
+    return made;
+  }
+
+ private:
+  [[nodiscard]] double last_finding() const { return state_.finding; }
+  [[nodiscard]] bool is_last() const {
+    return state_.pass + 1 == static_cast<int>(run_.passes.size());
+  }
+  [[nodiscard]] int count_of(const BlockPass& pass) const {
+    return pass.unit == BlockUnit::Rows ? run_.maps.height : run_.maps.grid.count();
+  }
+
+  // How many rows or views at once.
+  [[nodiscard]] int block_size(const BlockPass& pass) const {
+    const int all = pass.unit == BlockUnit::Rows ? run_.maps.height : run_.maps.grid.u;
+    const int fewest = std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, all);
+    if (pass.bytes(fewest) > memory_) {
+      constexpr double kMegabyte = 1e6;
+      throw InvalidInput(
+          fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
+                      "MB may be used; allow more",
+                      run_.provenance.method, pass.bytes(fewest) / kMegabyte, memory_ / kMegabyte));
+    }
+    int few = fewest, many = all + 1;  // that fit, and that do not
+    while (many - few > 1) {
+      const int middle = few + (many - few) / 2;
+      (pass.bytes(middle) <= memory_ ? few : many) = middle;
+    }
+    return few;
+  }
+
+  // The next block: bands of all views, or views of one row of the grid.
+  [[nodiscard]] MapBlock next_block(const BlockPass& pass, int size) const {
+    const MapGeometry& maps = run_.maps;
+    if (pass.unit == BlockUnit::Rows) {
+      return {{maps.first, maps.grid}, state_.done, std::min(state_.done + size, maps.height)};
+    }
+    const ViewIndex view = maps.grid.view_at(state_.done, maps.first);
+    const int left = maps.first.u + maps.grid.u - view.u;
+    return {{view, {1, std::min(size, left)}}, 0, maps.height};
+  }
+
+  void begin_pass(const BlockPass& pass, const Progress& progress) {
+    if (state_.done > 0 || !state_.facts.empty() || !pass.prepare) return;
+    state_.facts = pass.prepare(read_, progress);
+    light_field_.forget_samples();
+    state_.seconds = seconds();
+    store_.note(state_);
+  }
+
+  void make_pass(const Progress& progress) {
+    const BlockPass& pass = run_.passes[static_cast<std::size_t>(state_.pass)];
+    progress.step(pass.step);
+    begin_pass(pass, progress.part(0, 0.02));
+    const int size = block_size(pass), count = count_of(pass);
+    while (state_.done < count) {
+      const MapBlock block = next_block(pass, size);
+      const int done =
+          state_.done + (pass.unit == BlockUnit::Rows ? block.rows() : block.views.grid.count());
+      const auto share = [&](int of) { return 0.02 + 0.98 * of / count; };
+      make_block(pass, block, done, progress.part(share(state_.done), share(done)));
+    }
+    if (is_last()) {
+      ++state_.pass;
+      return;
+    }
+    state_ = {.pass = state_.pass + 1, .seconds = seconds()};
+    store_.note(state_);
+  }
+
+  void make_block(const BlockPass& pass, const MapBlock& block, int done,
+                  const Progress& progress) {
+    progress.check();
+    FinishedBlock made = pass.compute(block, read_, state_.facts, progress);
+    progress.check();
+    if (is_last()) mark_invalid(light_field_, block.first_row, made.maps);
+    light_field_.forget_samples();
+    state_.done = done;
+    state_.finding = std::max(state_.finding, made.finding);
+    state_.seconds = seconds();
+    store_.write(block, made.maps, state_, state_.pass > 0);
+  }
+
+  [[nodiscard]] double seconds() const { return seconds_before_ + watch_.seconds(); }
+
+  const LightField& light_field_;
+  const BlockwiseRun& run_;
+  BlockStore& store_;
+  double memory_;
+  BlockProgress state_;
+  double seconds_before_;
+  Stopwatch watch_;
+  ReadBlock read_ = [this](const MapBlock& block) { return store_.read(block); };
+};
+
+}  // namespace
+
+Provenance run_blocks(const LightField& lf, const BlockwiseRun& run, BlockStore& store,
+                      std::size_t memory, const Progress& progress) {
+  Blocks blocks(lf, run, store, memory);
+  blocks.make(progress);
+  return blocks.provenance();
+}
+
+}  // namespace episcope

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/light_field.h"
+#include "engine/disparity/common/blockwise.h"
+
+#include <cstddef>
+
+namespace episcope {
+
+/// Keeps the maps of an estimate while it is made, and how far it has come, both beyond the end of
+/// the program.
+class BlockStore {
+ public:
+  virtual ~BlockStore() = default;
+  /// How far a former program has come.
+  [[nodiscard]] virtual BlockProgress progress() const = 0;
+  [[nodiscard]] virtual BlockMaps read(const MapBlock& block) const = 0;
+  /// Nothing changes but what is known of the progress.
+  virtual void note(const BlockProgress& after) = 0;
+  /// Keeps a block, then notes the progress; `replaces` if the pass needs what was there to make
+  /// the block again. If the program ends in between, either both or neither is found again.
+  virtual void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
+                     bool replaces) = 0;
+};
+
+/// Makes what is missing of an estimate, with blocks as large as `memory` bytes allow (for maps,
+/// samples on disk and intermediate results; the program itself and a light field in memory come
+/// on top), and returns its notes and seconds. Pixels that are not valid are marked so in the last
+/// pass. Throws InvalidInput if the smallest block exceeds the memory, with the number; Cancelled;
+/// what the method and the store throw.
+[[nodiscard]] Provenance run_blocks(const LightField& light_field, const BlockwiseRun& run,
+                                    BlockStore& store, std::size_t memory,
+                                    const Progress& progress);
+
+}  // namespace episcope

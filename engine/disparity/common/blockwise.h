@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/light_field/estimate.h"
+#include "engine/core/light_field/map_block.h"
+#include "engine/core/parallel/progress.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace episcope {
+
+/// Reads what has been made of a block so far: the maps of the pass before, as long as the pass has
+/// not replaced them.
+using ReadBlock = std::function<BlockMaps(const MapBlock&)>;
+
+/// How the maps are cut: into bands of rows of all views, or into views.
+enum class BlockUnit { Rows, Views };
+
+/// What a block becomes.
+struct FinishedBlock {
+  BlockMaps maps;
+  double finding = 0;  ///< Something of which the largest of all blocks is wanted.
+};
+
+/// One pass over all maps. What it makes of a block depends on samples, on the facts, and on the
+/// maps that the pass before left of the same block: not on how the maps are cut.
+struct BlockPass {
+  std::string step;  ///< For Progress.
+  BlockUnit unit = BlockUnit::Rows;
+  /// Bytes of memory that a block of so many rows or views takes, samples that have to be looked at
+  /// included if they are on disk.
+  std::function<double(int count)> bytes;
+  /// What all blocks have to know, found before the first; may be empty.
+  std::function<std::vector<double>(const ReadBlock&, const Progress&)> prepare;
+  /// Throws Cancelled.
+  std::function<FinishedBlock(const MapBlock&, const ReadBlock&, const std::vector<double>& facts,
+                              const Progress&)>
+      compute;
+};
+
+/// An estimate that can be made block by block, equal bit by bit to the one that is made at once.
+/// Refers to its light field.
+struct BlockwiseRun {
+  MapGeometry maps;
+  Provenance provenance;  ///< With the range; the notes are completed by `notes`.
+  std::vector<BlockPass> passes;
+  /// Of the largest finding of the last pass; may be empty.
+  std::function<std::vector<std::string>(double finding)> notes;
+};
+
+}  // namespace episcope

@@ -1,0 +1,81 @@
+# --memory: maps are made block by block and equal those of the run at once, also where the program was
+# killed; what cannot be cut goes to disk.
+include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
+find_program(sh sh REQUIRED)
+
+run_cli(synthesize edge -o lf.h5 --views 5x6 --size 210x190 -q)
+if(NOT exit_code EQUAL 0)
+  message(FATAL_ERROR "synthesize: ${err}")
+endif()
+
+function(expect_same name a b)
+  execute_process(COMMAND "${SAME_RESULTS}" ${a} ${b} 5 6 WORKING_DIRECTORY "${WORK}"
+                  RESULT_VARIABLE code OUTPUT_VARIABLE differences ERROR_VARIABLE err)
+  if(NOT code EQUAL 0)
+    fail_case("${name}: ${differences}${err}")
+  endif()
+endfunction()
+
+file(MAKE_DIRECTORY "${WORK}/made")
+foreach(method epi_l epi_s st_av_l st_ch_l)
+  expect("${method} at once" 0 ERR "" ARGS estimate ${method} lf.h5 -o ${method}.h5 -q)
+  expect("${method} in blocks" 0 OUT "${method} of " ARGS estimate ${method} lf.h5
+         -o made/${method}.h5 --memory 40M -q)
+  expect_same("${method} in blocks" ${method}.h5 made/${method}.h5)
+endforeach()
+expect_files(made epi_l.h5 epi_s.h5 st_av_l.h5 st_ch_l.h5)
+
+# The samples stay in their file where they are large beside the memory.
+expect("mapped samples" 0 OUT "epi_l of all views" ARGS estimate epi_l lf.h5 -o mapped.h5
+       --memory 10M --threads 1 -q)
+expect_same("mapped samples" epi_l.h5 mapped.h5)
+
+# A method that is not cut: what does not fit goes to disk.
+expect("at once" 0 ARGS estimate epi_c lf.h5 -o epi_c.h5 -q)
+expect("on disk" 0 ARGS estimate epi_c lf.h5 -o disk.h5 --memory 3M -q)
+expect_same("on disk" epi_c.h5 disk.h5)
+
+expect("too little memory" 1 ERR "needs [0-9]+ MB of memory at least" ARGS estimate epi_s lf.h5
+       -o none.h5 --memory 1M)
+expect("no size" 2 ERR "--memory is 'lots'.*4G, 800M" ARGS estimate epi_l lf.h5 -o none.h5
+       --memory lots)
+expect("nothing" 2 ERR "--memory" ARGS estimate epi_l lf.h5 -o none.h5 --memory 0)
+
+# Killed after so many steps were noted, then continued. A machine that is done before it is killed
+# has nothing to continue: the scene is one that takes much longer than a step.
+run_cli(synthesize edge -o large.h5 --views 5x6 --size 420x410 -q)
+expect("at once" 0 ARGS estimate epi_s large.h5 -o large_at_once.h5 -q)
+file(MAKE_DIRECTORY "${WORK}/killed")
+set(continued 0)
+foreach(steps 3 4 6 9 12 16)
+  set(run "'${CLI}' estimate epi_s large.h5 -o killed/r.h5 --memory 56M --threads 1")
+  set(script "${run} -q & cli=$!
+    until [ $(wc -l < killed/r.h5.partial.log 2>/dev/null || echo 0) -ge ${steps} ]; do
+      kill -0 $cli 2>/dev/null || break; sleep 0.01; done
+    kill -9 $cli; wait $cli 2>/dev/null; [ -e killed/r.h5 ] || ${run} --json")
+  execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
+                  ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 240)
+  if(NOT code EQUAL 0)
+    fail_case("continued after ${steps} steps: ${code} ${out} ${err}")
+  endif()
+  if(err MATCHES "r.h5.partial was continued")
+    math(EXPR continued "${continued} + 1")
+  endif()
+  expect_same("continued after ${steps} steps" large_at_once.h5 killed/r.h5)
+  expect_files(killed r.h5)
+  file(REMOVE "${WORK}/killed/r.h5")
+endforeach()
+if(continued EQUAL 0)
+  fail_case("no run was killed before it was done")
+endif()
+
+# What another run left is replaced.
+set(script "'${CLI}' estimate epi_s large.h5 -o killed/r.h5 --memory 56M --threads 1 -q & cli=$!
+    until [ $(wc -l < killed/r.h5.partial.log 2>/dev/null || echo 0) -ge 3 ]; do
+      kill -0 $cli 2>/dev/null || break; sleep 0.01; done
+    kill -9 $cli")
+execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
+                ERROR_VARIABLE err TIMEOUT 240)
+expect("another run" 0 ERR "partial, which another run had left unfinished, was replaced" ARGS
+       estimate epi_l large.h5 -o killed/r.h5 --memory 56M)
+expect_files(killed r.h5)

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// An estimate that is made in blocks equals the one that is made at once bit by bit, however it is
+// cut and wherever it was interrupted: data-driven over the methods that can.
+#include "engine/disparity/blocks/run_blocks.h"
+
+#include "engine/core/error.h"
+#include "engine/disparity/registry.h"
+#include "tests/engine/disparity/light_fields.h"
+#include "tests/test_main.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace episcope::in_run_blocks_test {
+
+using namespace episcope::test;
+
+namespace {
+
+struct Ended {};
+
+// Keeps maps in memory; ends the program, as it were, before the write that exceeds `writes`.
+class MemoryStore : public BlockStore {
+ public:
+  explicit MemoryStore(const MapGeometry& maps)
+      : disparity_(maps.grid, maps.height, maps.width, 1, maps.first),
+        confidence_(maps.grid, maps.height, maps.width, 1, maps.first),
+        valid_(maps.grid, maps.height, maps.width, 1, maps.first) {
+    std::fill_n(valid_.data(), valid_.size(), std::uint8_t{1});
+  }
+
+  int writes = 1 << 20;
+  int blocks = 0;
+
+  [[nodiscard]] BlockProgress progress() const override { return progress_; }
+  [[nodiscard]] BlockMaps read(const MapBlock& block) const override {
+    const ViewRectangle& views = block.views;
+    BlockMaps maps{{{views.grid, block.rows(), disparity_.width(), 1, views.first}, {}},
+                   {views.grid, block.rows(), disparity_.width(), 1, views.first}};
+    copy(disparity_, block, block.first_row, maps.field.disparity, 0);
+    copy(confidence_, block, block.first_row, maps.confidence, 0);
+    return maps;
+  }
+  void note(const BlockProgress& after) override { progress_ = after; }
+  void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
+             bool) override {
+    if (writes-- == 0) throw Ended();
+    ++blocks;
+    copy(maps.field.disparity, block, 0, disparity_, block.first_row);
+    copy(maps.confidence, block, 0, confidence_, block.first_row);
+    if (!maps.field.valid.empty()) copy(maps.field.valid, block, 0, valid_, block.first_row);
+    note(after);
+  }
+
+  [[nodiscard]] bool equals(const Estimate& estimate) const {
+    const std::uint8_t* const valid = valid_.data();
+    const bool same_mask =
+        estimate.field.valid.empty()
+            ? std::count(valid, valid + valid_.size(), 0) == 0
+            : std::memcmp(valid, estimate.field.valid.data(), valid_.size()) == 0;
+    return same_mask && same_bytes(disparity_, estimate.field.disparity) &&
+           same_bytes(confidence_, estimate.confidence);
+  }
+
+ private:
+  template <class T>
+  static void copy(const ViewStack<T>& from, const MapBlock& block, int from_row, ViewStack<T>& to,
+                   int to_row) {
+    for (int i = 0; i < block.views.grid.count(); ++i) {
+      const ViewIndex view = block.views.grid.view_at(i, block.views.first);
+      for (int y = 0; y < block.rows(); ++y) {
+        std::copy_n(from.view(view).row(from_row + y), from.width(), to.view(view).row(to_row + y));
+      }
+    }
+  }
+
+  ViewStack<float> disparity_, confidence_;
+  ViewStack<std::uint8_t> valid_;
+  BlockProgress progress_;
+};
+
+// Awkward sizes: no multiple of a vector, of a band or of a block.
+Scene scene_of(GridShape grid) {
+  return render("edge", 83, 71, grid);
+}
+
+LightField with_holes(const LightField& lf) {
+  ViewStack<std::uint8_t> valid(lf.grid(), lf.height(), lf.width());
+  for (int i = 0; i < lf.grid().count(); ++i) {
+    const auto view = valid.view(lf.grid().view_at(i));
+    for (std::size_t n = 0; n < view.size(); ++n) view.data[n] = (n + i) % 97 == 0 ? 0 : 1;
+  }
+  return {std::get<ViewStack<std::uint8_t>>(lf.samples()).clone(), lf.info(), std::move(valid)};
+}
+
+// So much that bands have few rows.
+std::size_t scarce(const BlockwiseRun& run, int rows) {
+  double bytes = 0;
+  for (const BlockPass& pass : run.passes) {
+    bytes = std::max(bytes, pass.bytes(pass.unit == BlockUnit::Rows ? rows : 1));
+  }
+  return static_cast<std::size_t>(bytes) + 1;
+}
+
+void add_methods() {
+  QTest::addColumn<QString>("id");
+  for (const Estimator& estimator : registered_estimators()) {
+    if (estimator.in_blocks) QTest::newRow(estimator.info.id.c_str()) << estimator.info.id.c_str();
+  }
+}
+
+Estimator fetched() {
+  QFETCH(QString, id);
+  return find_estimator(id.toStdString());
+}
+
+// Whether the method gives the same in blocks as at once.
+bool agrees(const LightField& lf, const Estimator& method, const ParameterSet& values,
+            ViewSelection views, int rows) {
+  const RunOptions options{.views = views, .threads = 2};
+  const Estimate at_once = method.run(lf, values, options, Progress(2));
+  const BlockwiseRun run = method.in_blocks(lf, values, options, Progress(2));
+  MemoryStore store(run.maps);
+  const Provenance made = run_blocks(lf, run, store, scarce(run, rows), Progress(2));
+  return store.equals(at_once) && made.notes == at_once.notes && made.range == at_once.range &&
+         made.parameters == at_once.parameters && made.method == at_once.method;
+}
+
+}  // namespace
+
+class RunBlocksTest : public QObject {
+  Q_OBJECT
+
+ private slots:
+  void localMethodsAndEpiS_runInBlocks();
+  void blocks_equalTheRunAtOnce_data() { add_methods(); }
+  void blocks_equalTheRunAtOnce();
+  void centerOnly_equalsTheRunAtOnce_data() { add_methods(); }
+  void centerOnly_equalsTheRunAtOnce();
+  void profileOfThePaper_equalsTheRunAtOnce_data() { add_methods(); }
+  void profileOfThePaper_equalsTheRunAtOnce();
+  void invalidPixels_areMarkedAlike_data() { add_methods(); }
+  void invalidPixels_areMarkedAlike();
+  void singleRowOrColumnOfViews_equalsTheRunAtOnce_data() { add_methods(); }
+  void singleRowOrColumnOfViews_equalsTheRunAtOnce();
+  void interruption_losesNothing_data() { add_methods(); }
+  void interruption_losesNothing();
+  void lessThanTheSmallestBlock_isRefused_data() { add_methods(); }
+  void lessThanTheSmallestBlock_isRefused();
+};
+
+void RunBlocksTest::localMethodsAndEpiS_runInBlocks() {
+  for (const char* id : {"epi_l", "epi_s", "st_av_l", "st_ch_l"}) {
+    QVERIFY2(find_estimator(id).in_blocks, id);
+  }
+}
+
+void RunBlocksTest::blocks_equalTheRunAtOnce() {
+  const Scene scene = scene_of({6, 7});
+
+  for (const int rows : {8, 9, 23, 82, 83}) {
+    QVERIFY2(agrees(*scene.light_field, fetched(), {}, ViewSelection::All, rows),
+             std::to_string(rows).c_str());
+  }
+}
+
+void RunBlocksTest::centerOnly_equalsTheRunAtOnce() {
+  const Scene scene = scene_of({5, 5});
+
+  QVERIFY(agrees(*scene.light_field, fetched(), {}, ViewSelection::Center, 11));
+}
+
+void RunBlocksTest::profileOfThePaper_equalsTheRunAtOnce() {
+  const Scene scene = scene_of({5, 5});
+
+  QVERIFY(agrees(*scene.light_field, fetched(), {{"profile", std::string("paper")}},
+                 ViewSelection::All, 10));
+}
+
+void RunBlocksTest::invalidPixels_areMarkedAlike() {
+  const Scene scene = scene_of({5, 5});
+  const LightField lf = with_holes(*scene.light_field);
+
+  QVERIFY(agrees(lf, fetched(), {}, ViewSelection::All, 13));
+}
+
+void RunBlocksTest::singleRowOrColumnOfViews_equalsTheRunAtOnce() {
+  for (const GridShape grid : {GridShape{1, 7}, GridShape{7, 1}}) {
+    const Scene scene = scene_of(grid);
+
+    QVERIFY(agrees(*scene.light_field, fetched(), {}, ViewSelection::All, 9));
+  }
+}
+
+void RunBlocksTest::interruption_losesNothing() {
+  const Scene scene = scene_of({3, 4});
+  const Estimator method = fetched();
+  const Estimate at_once = method.run(*scene.light_field, {}, {}, Progress(2));
+  const BlockwiseRun run = method.in_blocks(*scene.light_field, {}, {}, Progress(2));
+  const std::size_t memory = scarce(run, 20);
+  MemoryStore store(run.maps);
+
+  int ends = 0;
+  for (bool is_done = false; !is_done; ++ends) {
+    store.writes = 1;
+    try {
+      static_cast<void>(run_blocks(*scene.light_field, run, store, memory, Progress(2)));
+      is_done = true;
+    } catch (const Ended&) {
+    }
+  }
+
+  QVERIFY(ends > 3);
+  QVERIFY(store.equals(at_once));
+  QVERIFY(store.blocks <= ends);  // nothing was made twice
+}
+
+void RunBlocksTest::lessThanTheSmallestBlock_isRefused() {
+  const Scene scene = scene_of({3, 3});
+  const BlockwiseRun run = fetched().in_blocks(*scene.light_field, {}, {}, Progress(2));
+  MemoryStore store(run.maps);
+
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(run_blocks(*scene.light_field, run,
+                                                                      store, 1000, Progress(2))));
+}
+
+}  // namespace episcope::in_run_blocks_test
+
+EPISCOPE_TEST(run_blocks_test, RunBlocksTest)
+#include "run_blocks_test.moc"
