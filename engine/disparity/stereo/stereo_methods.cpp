@@ -24,22 +24,19 @@ Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
                            });
 }
 
-// A function of `views` as one without.
-template <class Result>
-auto with_views(MatchedViews views,
-                Result (*function)(const LightField&, MatchedViews, const StereoLocalParameters&,
-                                   const Progress&)) {
-  return [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
-             const Progress& progress) {
-    return function(light_field, views, parameters, progress);
-  };
-}
-
-// A local one.
+// A local one, which can run in blocks.
 Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
+  info.devices = {Device::Cpu, Device::Cuda};
   return make_estimator<StereoLocalParameters>(
-      std::move(info), stereo_local_schema(views), with_views(views, estimate_stereo_local),
-      with_views(views, stereo_local_in_blocks));
+      std::move(info), stereo_local_schema(views),
+      [=](const LightField& light_field, const StereoLocalParameters& parameters,
+          const RunOptions& options, const Progress& progress) {
+        return estimate_stereo_local(light_field, views, parameters, progress, options.device);
+      },
+      [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
+          const Progress& progress) {
+        return stereo_local_in_blocks(light_field, views, parameters, progress);
+      });
 }
 
 }  // namespace
