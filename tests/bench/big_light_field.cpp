@@ -44,8 +44,6 @@ void write(const char* path, const LightField& tile, Extent size) {
   io::Hdf5Output file(target);
   file.set_text("/", "convention", "as Episcope writes it");
   file.set_text("/", "name", "big");
-  file.set_number("/", "disp_min", tile.info().disparity_range->min);
-  file.set_number("/", "disp_max", tile.info().disparity_range->max);
   file.add_dataset<std::uint8_t>("LF",
                                  {length(grid.v), length(grid.u), length(size.second),
                                   length(size.first), length(tile.channels())},

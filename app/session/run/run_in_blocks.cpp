@@ -77,7 +77,7 @@ std::string remark_on(const io::ResultDraft& draft, const std::filesystem::path&
 
 bool should_run_in_blocks(const LightField& lf, const Estimator& estimator,
                           const RunOptions& options) {
-  if (!estimator.in_blocks) return false;
+  if (!estimator.in_blocks || options.device == Device::Cuda) return false;
   if (is_memory_budget_set()) return true;
   constexpr double kOfMaps = 9, kBesideThem = 4;  // bytes of a ray
   const bool all = estimator.info.all_views && options.views == ViewSelection::All;

@@ -21,12 +21,12 @@ struct BlockRequest {
 struct FinishedBlocks {
   Provenance provenance;  ///< As of the same run at once, but for the seconds.
   MapGeometry maps;
-  std::string
-      remark{};  ///< What became of a file that an earlier run left; empty if there was none.
+  std::string remark{};  ///< What became of a file that an earlier run left, if there was one.
 };
 
-/// Whether a run should be made in blocks: the method can, and its maps and what it takes beside
-/// them may exceed what is free, or a budget is set (memory_budget.h).
+/// Whether a run should be made in blocks, which is done by the processor: the method can, no other
+/// device is asked for, and its maps and what it takes beside them may exceed what is free, or a
+/// budget is set (memory_budget.h).
 [[nodiscard]] bool should_run_in_blocks(const LightField& light_field, const Estimator& estimator,
                                         const RunOptions& options);
 

@@ -57,7 +57,7 @@ class DenoisedViews {
 
   // Packed views, maps, and what denoising a view takes, for as many views as there are threads.
   [[nodiscard]] double bytes(int count, int threads) const {
-    constexpr double kPacked = 4, kMaps = 9, kDenoised = 120, kChecked = 60;
+    constexpr double kPacked = 4, kMaps = 9, kDenoised = 96, kChecked = 24;
     const double pixels = static_cast<double>(light_field_.height()) * light_field_.width();
     const int views = packed_around(count, kMaxArmViews);
     const double looked_at =

@@ -8,6 +8,23 @@
 #include <utility>
 
 namespace episcope::io {
+namespace {
+
+// Repeats pread or pwrite with what is left until nothing is.
+template <class Transfer, class Byte>
+bool transfer_all(Transfer transfer, int descriptor, std::span<Byte> bytes, std::uintmax_t offset) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        transfer(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(count));
+    offset += static_cast<std::uintmax_t>(count);
+  }
+  return true;
+}
+
+}  // namespace
 
 FileDescriptor::FileDescriptor(const std::filesystem::path& path, int flags)
     : id_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
@@ -36,27 +53,11 @@ bool write_all(int descriptor, std::span<const std::uint8_t> bytes) {
 }
 
 bool write_all_at(int descriptor, std::span<const std::uint8_t> bytes, std::uintmax_t offset) {
-  while (!bytes.empty()) {
-    const ssize_t count =
-        ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    offset += static_cast<std::uintmax_t>(count);
-  }
-  return true;
+  return transfer_all(::pwrite, descriptor, bytes, offset);
 }
 
 bool read_all_at(int descriptor, std::span<std::uint8_t> bytes, std::uintmax_t offset) {
-  while (!bytes.empty()) {
-    const ssize_t count =
-        ::pread(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-    if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(count));
-    offset += static_cast<std::uintmax_t>(count);
-  }
-  return true;
+  return transfer_all(::pread, descriptor, bytes, offset);
 }
 
 bool read_all(int descriptor, std::vector<std::uint8_t>& bytes) {

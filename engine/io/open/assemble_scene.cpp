@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/open/assemble_scene.h"
 
+#include "engine/core/array/mapped_memory.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/black_corners.h"
 #include "engine/io/open/empty_pixels.h"
@@ -44,6 +45,17 @@ void crop_parts(SceneParts& parts, const ViewCrop& crop) {
   parts.valid = cropped(std::move(parts.valid), crop);
 }
 
+/// What was looked at so far of views that are on disk need not be held.
+void forget(const LightField::Samples& samples) {
+  std::visit(
+      []<class T>(const ViewStack<T>& stack) {
+        for (int i = 0; stack.is_on_disk() && i < stack.grid().count(); ++i) {
+          forget_pages(stack.view(stack.view_at(i)).data, stack.view_size() * sizeof(T));
+        }
+      },
+      samples);
+}
+
 ViewCrop find_crop(const std::string& option, GridShape stored, const ViewBrightness& brightness) {
   if (option == "all") return central_crop(stored, stored);
   return option.empty() ? filled_crop(brightness) : parse_crop(option, stored);
@@ -70,6 +82,7 @@ void keep_what_was_seen(SceneParts& parts, const OpenOptions& options, Conventio
                         const Progress& progress) {
   progress.step("looking for dark views");
   ViewBrightness brightness = find_brightness(parts, progress);
+  forget(parts.samples);
   const ViewCrop crop = find_crop(options.crop, grid_of(parts.samples), brightness);
   if (crop.leaves_out()) {
     if (options.crop.empty()) report.warnings.push_back(crop_text(crop, brightness));

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/epi_slopes.h"
 
+#include "engine/core/array/transposed.h"
 #include "engine/io/order/warp_check.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <variant>
 #include <vector>
 
 namespace episcope::io {
@@ -24,24 +26,20 @@ struct Triple {
   Image<float> after;
 };
 
-Image<float> crop(const Image<float>& image, bool is_transposed) {
-  const int height = std::min(image.height(), kLargestArea);
-  const int width = std::min(image.width(), kLargestArea);
-  const int top = (image.height() - height) / 2;
-  const int left = (image.width() - width) / 2;
-  Image<float> part(is_transposed ? width : height, is_transposed ? height : width);
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      (is_transposed ? part.at(x, y) : part.at(y, x)) = image.at(top + y, left + x);
-    }
-  }
-  return part;
+/// Of a view of the given size.
+PixelRect looked_at(int height, int width) {
+  const int rows = std::min(height, kLargestArea), columns = std::min(width, kLargestArea);
+  const int top = (height - rows) / 2, left = (width - columns) / 2;
+  return {top, left, top + rows, left + columns};
 }
 
 Triple load_triple(const LightField::Samples& samples, ViewIndex center, int step, bool is_v) {
+  const PixelRect part = std::visit(
+      [](const auto& stack) { return looked_at(stack.height(), stack.width()); }, samples);
   const auto load = [&](int offset) {
     const ViewIndex view{center.v + (is_v ? offset : 0), center.u + (is_v ? 0 : offset)};
-    return crop(grey_levels(samples, view), is_v);
+    const Image<float> grey = grey_levels(samples, view, part);
+    return is_v ? transposed(grey) : grey;
   };
   return {load(-step), load(0), load(step)};
 }

@@ -61,9 +61,15 @@ Image<float> middle_of(const Image<float>& picture, int side) {
   return part;
 }
 
+int reduction(int larger, int side) {
+  return std::max((larger + side - 1) / side, 1);
+}
+
 Image<float> reduced(const Image<float>& picture, int side) {
-  const int larger = std::max(picture.height(), picture.width());
-  const int k = std::max((larger + side - 1) / side, 1);
+  return reduced_by(picture, reduction(std::max(picture.height(), picture.width()), side));
+}
+
+Image<float> reduced_by(const Image<float>& picture, int k) {
   Image<float> small(std::max(picture.height() / k, 1), std::max(picture.width() / k, 1));
   for (int y = 0; y < small.height(); ++y) {
     for (int x = 0; x < small.width(); ++x) {

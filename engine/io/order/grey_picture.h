@@ -14,6 +14,10 @@ namespace episcope::io {
 /// most `side` px.
 [[nodiscard]] Image<float> reduced(const Image<float>& picture, int side);
 
+/// The least whole k that brings a side to at most `side` px, and means over squares of such k.
+[[nodiscard]] int reduction(int larger, int side);
+[[nodiscard]] Image<float> reduced_by(const Image<float>& picture, int k);
+
 /// A Gaussian blur of 0.7 px, against noise and aliasing; the border is repeated.
 [[nodiscard]] Image<float> smoothed(const Image<float>& picture);
 

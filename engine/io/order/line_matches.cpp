@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <variant>
 
 namespace episcope::io {
 namespace {
@@ -55,9 +57,20 @@ class Axis {
   }
 
  private:
+  // What is looked at of a view: the squares that become the middle of the reduced one.
   [[nodiscard]] Image<float> as_stored(int offset) const {
     const ViewIndex at{center_.v + (is_v_ ? offset : 0), center_.u + (is_v_ ? 0 : offset)};
-    Image<float> grey = middle_of(reduced(grey_levels(samples_, at), side_), kArea);
+    const auto [height, width] = std::visit(
+        [](const auto& stack) { return std::pair(stack.height(), stack.width()); }, samples_);
+    const int k = reduction(std::max(height, width), side_);
+    const auto middle = [k](int length) {
+      const int all = std::max(length / k, 1), kept = std::min(all, kArea);
+      const int first = (all - kept) / 2;
+      return std::pair(first * k, std::min((first + kept) * k, length));
+    };
+    const auto [y0, y1] = middle(height);
+    const auto [x0, x1] = middle(width);
+    const Image<float> grey = reduced_by(grey_levels(samples_, at, {y0, x0, y1, x1}), k);
     return smoothed(is_v_ ? transposed(grey) : grey);
   }
 

@@ -82,6 +82,30 @@ AxisErrors axis_errors(const LightField::Samples& samples, ViewIndex at, bool is
   return errors;
 }
 
+/// Sums of the channels of a row.
+template <class T>
+void add_channels(const T* samples, int width, int channels, float* sums) {
+  for (int x = 0; x < width; ++x) {
+    const T* const pixel = samples + static_cast<std::ptrdiff_t>(x) * channels;
+    sums[x] = 0;
+    for (int c = 0; c < channels; ++c) sums[x] += static_cast<float>(pixel[c]);
+  }
+}
+
+/// The same of floats: one that is not finite counts as the last before it that is.
+void add_channels(const float* samples, int width, int channels, float* sums) {
+  std::array<float, 4> last{};
+  for (int x = 0; x < width; ++x) {
+    sums[x] = 0;
+    for (int c = 0; c < channels; ++c) {
+      const float value = samples[static_cast<std::ptrdiff_t>(x) * channels + c];
+      float& kept = last[static_cast<std::size_t>(c)];
+      if (std::isfinite(value)) kept = value;
+      sums[x] += kept;
+    }
+  }
+}
+
 }  // namespace
 
 bool AxisErrors::is_decided() const {
@@ -105,23 +129,25 @@ double WarpErrors::best() const {
 }
 
 Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view) {
+  const PixelRect all = std::visit(
+      [](const auto& stack) {
+        return PixelRect{0, 0, stack.height(), stack.width()};
+      },
+      samples);
+  return grey_levels(samples, view, all);
+}
+
+Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
+                         const PixelRect& part) {
   return std::visit(
-      [view]<class T>(const ViewStack<T>& stack) {
+      [&]<class T>(const ViewStack<T>& stack) {
         const auto image = stack.view(view);
         const float scale = 255.0F / white_of(stack) / static_cast<float>(image.channels);
-        Image<float> grey(image.height, image.width);
-        for (int y = 0; y < image.height; ++y) {
-          std::array<float, 4> last{};
-          for (int x = 0; x < image.width; ++x) {
-            float sum = 0;
-            for (int c = 0; c < image.channels; ++c) {
-              const auto value = static_cast<float>(image.at(y, x, c));
-              float& kept = last[static_cast<std::size_t>(c)];
-              if (std::isfinite(value)) kept = value;
-              sum += kept;
-            }
-            grey.at(y, x) = scale * sum;
-          }
+        Image<float> grey(part.y1 - part.y0, part.x1 - part.x0);
+        for (int y = 0; y < grey.height(); ++y) {
+          const T* const row = image.row(part.y0 + y) + part.x0 * image.channels;
+          add_channels(row, grey.width(), image.channels, grey.row(y));
+          for (int x = 0; x < grey.width(); ++x) grey.row(y)[x] *= scale;
         }
         return grey;
       },

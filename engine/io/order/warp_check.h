@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/array/pixel_rect.h"
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/core/light_field/light_field.h"
 
@@ -33,6 +34,9 @@ struct WarpErrors {
 /// A view as grey values in 0…255, of 16-bit samples by as many bits as are used; a sample that is
 /// not finite takes the value to its left.
 [[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view);
+/// The same of a part of the view, which lies within it.
+[[nodiscard]] Image<float> grey_levels(const LightField::Samples& samples, ViewIndex view,
+                                       const PixelRect& part);
 
 /// Warps the up to four neighbours of `at` onto it. Only pixels with a valid disparity whose
 /// targets lie inside the image for both orders count, so that both are judged on the same pixels.
