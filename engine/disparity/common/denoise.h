@@ -5,6 +5,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/common/run_options.h"
 
 #include <string>
@@ -52,6 +53,11 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight, Ima
 void denoise(const LightField& light_field, const DenoiseParameters& parameters, Estimate& estimate,
              const Progress& progress, float min_weight = DataWeight{}.minimum, float map_noise = 0,
              Device device = Device::Cpu);
+
+/// The same parameters, for the device.
+[[nodiscard]] cuda::MapDenoising map_denoising(const DenoiseParameters& parameters,
+                                               float min_weight = DataWeight{}.minimum,
+                                               float map_noise = 0);
 
 /// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);
