@@ -58,10 +58,9 @@ void check_lines(const LightField& lf, const LineCheckSteps& steps, ViewStack<fl
 
 void check_lines(const LightField& lf, const LineCheckSteps& steps, DeviceMaps& maps,
                  const Progress& progress) {
-  const auto light_field = on_device(lf, progress.part(0, 0));
   MapMemory& memory = maps.memory();
   check_lines_on_device(
-      light_field->samples(), steps,
+      memory.samples(lf, progress), steps,
       {memory.grid, memory.first, memory.disparity.data(), memory.confidence.data()}, memory.stream,
       progress);
 }

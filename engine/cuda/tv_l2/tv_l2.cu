@@ -32,9 +32,8 @@ std::vector<double> denoise_maps(const LightField& lf, const MapDenoising& denoi
 
 std::vector<double> denoise_maps(const LightField& lf, const MapDenoising& denoising,
                                  DeviceMaps& maps, const Progress& progress) {
-  const auto light_field = on_device(lf, progress);
   MapMemory& memory = maps.memory();
-  return denoise_on_device(light_field->samples(), {memory.grid, memory.first}, denoising,
+  return denoise_on_device(memory.samples(lf, progress), {memory.grid, memory.first}, denoising,
                            memory.confidence.data(), memory.disparity.data(), memory.stream,
                            progress);
 }
