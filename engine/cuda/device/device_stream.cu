@@ -32,4 +32,12 @@ void DeviceStream::wait() const {
   check(cudaStreamSynchronize(stream_));
 }
 
+void DeviceStream::wait_for(const DeviceStream& other) const {
+  cudaEvent_t reached = nullptr;
+  check(cudaEventCreateWithFlags(&reached, cudaEventDisableTiming));
+  check(cudaEventRecord(reached, other.get()));
+  check(cudaStreamWaitEvent(stream_, reached));
+  check(cudaEventDestroy(reached));  // when it is reached
+}
+
 }  // namespace episcope::cuda

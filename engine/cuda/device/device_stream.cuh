@@ -18,6 +18,8 @@ class DeviceStream {
   [[nodiscard]] cudaStream_t get() const { return stream_; }
   /// Waits for what was begun. Throws DeviceFailure if any of it failed.
   void wait() const;
+  /// What is begun from now on waits for what was begun on the other. Throws DeviceFailure.
+  void wait_for(const DeviceStream& other) const;
 
  private:
   cudaStream_t stream_ = nullptr;

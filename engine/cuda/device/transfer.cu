@@ -13,10 +13,11 @@ namespace {
 constexpr std::size_t kBufferBytes = std::size_t{32} << 20;
 constexpr std::size_t kPieceBytes = std::size_t{1} << 20;
 
-// Two pinned buffers: while one is copied by the device, the other is by the host. Pinning takes
+// Pinned buffers: while one is copied by the device, another is by the host. Pinning takes
 // milliseconds, so the program keeps them.
 class PinnedBuffers {
  public:
+  static constexpr std::size_t kCount = 3;
   PinnedBuffers() {
     for (Buffer& buffer : buffers_) {
       check(cudaHostAlloc(&buffer.memory, kBufferBytes, cudaHostAllocDefault));
@@ -30,7 +31,7 @@ class PinnedBuffers {
   [[nodiscard]] Buffer& buffer(std::size_t chunk) { return buffers_[chunk % buffers_.size()]; }
 
  private:
-  std::array<Buffer, 2> buffers_;  // never freed: the driver may be gone before static objects
+  std::array<Buffer, kCount> buffers_;  // never freed: the driver may be gone before static objects
 };
 
 std::mutex buffers_lock;
@@ -100,6 +101,37 @@ void download_bytes(void* host, const void* device, std::size_t bytes, const Dev
     copy_on_host(static_cast<char*>(host) + chunk.first, buffer.memory, chunk.bytes, progress);
   }
   stream.wait();
+}
+
+PipelinedDownload::PipelinedDownload(const DeviceStream& computed, const Progress& progress)
+    : lock_(buffers_lock), computed_(computed), progress_(progress) {}
+
+void PipelinedDownload::add(void* host, const void* device, std::size_t bytes) {
+  PinnedBuffers& buffers = pinned_buffers();
+  copies_.wait_for(computed_);
+  const std::size_t chunks = (bytes + kBufferBytes - 1) / kBufferBytes;
+  for (std::size_t i = 0; i < chunks; ++i) {
+    while (pending_.size() >= PinnedBuffers::kCount) complete_oldest();
+    const Chunk chunk = chunk_of(i, bytes);
+    auto& buffer = buffers.buffer(begun_);
+    check(cudaMemcpyAsync(buffer.memory, static_cast<const char*>(device) + chunk.first,
+                          chunk.bytes, cudaMemcpyDeviceToHost, copies_.get()));
+    check(cudaEventRecord(buffer.copied, copies_.get()));
+    pending_.push_back({begun_++, static_cast<char*>(host) + chunk.first, chunk.bytes});
+  }
+}
+
+void PipelinedDownload::complete_oldest() {
+  const Piece piece = pending_.front();
+  auto& buffer = pinned_buffers().buffer(piece.number);
+  check(cudaEventSynchronize(buffer.copied));
+  copy_on_host(piece.host, buffer.memory, piece.bytes, progress_);
+  pending_.pop_front();
+}
+
+void PipelinedDownload::finish() {
+  while (!pending_.empty()) complete_oldest();
+  copies_.wait();
 }
 
 }  // namespace episcope::cuda

@@ -6,6 +6,8 @@
 #include "engine/cuda/device/device_array.cuh"
 
 #include <cstddef>
+#include <deque>
+#include <mutex>
 
 namespace episcope::cuda {
 
@@ -33,5 +35,33 @@ void download(ViewStack<T>& host, const DeviceArray<T>& array, const DeviceStrea
               const Progress& progress) {
   download_bytes(host.data(), array.data(), array.byte_size(), stream, progress);
 }
+
+/// Copies from the device piece by piece, while it computes what follows. One at a time in the
+/// program, and no other transfer meanwhile.
+class PipelinedDownload {
+ public:
+  /// Of what `computed` is told to do. Throws DeviceFailure.
+  PipelinedDownload(const DeviceStream& computed, const Progress& progress);
+  /// A piece that is ready when what the stream was told so far is done. Returns before, but may
+  /// wait for pieces before it. Throws DeviceFailure, Cancelled.
+  void add(void* host, const void* device, std::size_t bytes);
+  /// Returns when all pieces are there. Throws DeviceFailure, Cancelled.
+  void finish();
+
+ private:
+  struct Piece {
+    std::size_t number;  // among all
+    char* host;
+    std::size_t bytes;
+  };
+  void complete_oldest();
+
+  std::unique_lock<std::mutex> lock_;
+  const DeviceStream& computed_;
+  Progress progress_;
+  DeviceStream copies_;
+  std::size_t begun_ = 0;
+  std::deque<Piece> pending_;
+};
 
 }  // namespace episcope::cuda

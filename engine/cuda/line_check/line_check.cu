@@ -6,6 +6,7 @@
 #include "engine/cuda/line_check/residual_noise.cuh"
 #include "engine/cuda/line_check/see_through.cuh"
 #include "engine/cuda/line_check/side_choice.cuh"
+#include "engine/cuda/maps/map_memory.cuh"
 
 namespace episcope::cuda {
 namespace {
@@ -53,6 +54,15 @@ void check_lines(const LightField& lf, const LineCheckSteps& steps, ViewStack<fl
                         progress);
   download(disparity, d, stream, silent);
   download(confidence, r, stream, silent);
+}
+
+void check_lines(const LightField& lf, const LineCheckSteps& steps, DeviceMaps& maps,
+                 const Progress& progress) {
+  MapMemory& memory = maps.memory();
+  check_lines_on_device(
+      memory.samples(lf, progress), steps,
+      {memory.grid, memory.first, memory.disparity.data(), memory.confidence.data()}, memory.stream,
+      progress);
 }
 
 void replace_occluded(const LightField& lf, ViewStack<float>& disparity,

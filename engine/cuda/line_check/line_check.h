@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/maps/device_maps.h"
 
 namespace episcope::cuda {
 
@@ -17,6 +18,10 @@ struct LineCheckSteps {
 /// them, as check_lines of the CPU. Throws DeviceFailure, Cancelled.
 void check_lines(const LightField& light_field, const LineCheckSteps& steps,
                  ViewStack<float>& disparity, ViewStack<float>& confidence,
+                 const Progress& progress);
+
+/// The same of maps on the device.
+void check_lines(const LightField& light_field, const LineCheckSteps& steps, DeviceMaps& maps,
                  const Progress& progress);
 
 /// Replaces the disparity of rays that other views see through, as replace_occluded of the CPU;

@@ -9,6 +9,10 @@ void check_lines(const LightField&, const LineCheckSteps&, ViewStack<float>&, Vi
   throw DeviceFailure(cuda_device().why_not);
 }
 
+void check_lines(const LightField&, const LineCheckSteps&, DeviceMaps&, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
 void replace_occluded(const LightField&, ViewStack<float>&, const ViewStack<float>&,
                       const Progress&) {
   throw DeviceFailure(cuda_device().why_not);

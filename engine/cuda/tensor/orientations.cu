@@ -2,9 +2,19 @@
 #include "engine/cuda/tensor/orientations.h"
 
 #include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/maps/map_memory.cuh"
 #include "engine/cuda/tensor/tensor_run.cuh"
 
 namespace episcope::cuda {
+
+void find_orientations(const LightField& lf, const TensorSettings& settings, DeviceMaps& maps,
+                       const Progress& progress) {
+  MapMemory& memory = maps.memory();
+  find_orientations_on_device(
+      memory.samples(lf, progress), settings,
+      {memory.grid, memory.first, memory.disparity.data(), memory.confidence.data()}, memory.stream,
+      progress);
+}
 
 void find_orientations(const LightField& lf, const TensorSettings& settings,
                        ViewStack<float>& disparity, ViewStack<float>& confidence,
@@ -12,11 +22,16 @@ void find_orientations(const LightField& lf, const TensorSettings& settings,
   const auto light_field = on_device(lf, progress.part(0, 0));
   const DeviceStream stream;
   DeviceArray<float> d(disparity.size(), stream), r(confidence.size(), stream);
+  PipelinedDownload downloads(stream, progress.part(0, 0));
+  const auto begin_download = [&](int first, int count) {
+    const std::size_t from = first * disparity.view_size(), size = count * disparity.view_size();
+    downloads.add(disparity.data() + from, d.data() + from, size * sizeof(float));
+    downloads.add(confidence.data() + from, r.data() + from, size * sizeof(float));
+  };
   find_orientations_on_device(light_field->samples(), settings,
                               {disparity.grid(), disparity.first(), d.data(), r.data()}, stream,
-                              progress.part(0, 0.9));
-  download(disparity, d, stream, progress);
-  download(confidence, r, stream, progress);
+                              progress, begin_download);
+  downloads.finish();
 }
 
 }  // namespace episcope::cuda

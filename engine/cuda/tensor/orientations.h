@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/maps/device_maps.h"
 
 #include <vector>
 
@@ -49,5 +50,9 @@ struct TensorSettings {
 void find_orientations(const LightField& light_field, const TensorSettings& settings,
                        ViewStack<float>& disparity, ViewStack<float>& confidence,
                        const Progress& progress);
+
+/// The same, left on the device.
+void find_orientations(const LightField& light_field, const TensorSettings& settings,
+                       DeviceMaps& maps, const Progress& progress);
 
 }  // namespace episcope::cuda

@@ -9,4 +9,8 @@ void find_orientations(const LightField&, const TensorSettings&, ViewStack<float
   throw DeviceFailure(cuda_device().why_not);
 }
 
+void find_orientations(const LightField&, const TensorSettings&, DeviceMaps&, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
 }  // namespace episcope::cuda

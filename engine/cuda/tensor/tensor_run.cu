@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/tensor/tensor_run.cuh"
 
-#include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/device/device_array.cuh"
 #include "engine/cuda/tensor/best_tensors.cuh"
 #include "engine/cuda/tensor/derivative_planes.cuh"
 #include "engine/cuda/tensor/tensor_average.cuh"
 
 #include <algorithm>
+#include <array>
 
 namespace episcope::cuda {
 namespace {
@@ -15,13 +16,41 @@ namespace {
 constexpr double kShare = 0.5;
 constexpr double kMostBytes = 768e6;
 
+// Keeps the host at most two bands ahead of the device, so that a stop request is soon obeyed.
+class Pace {
+ public:
+  explicit Pace(const DeviceStream& stream) : stream_(stream) {
+    for (cudaEvent_t& event : events_) {
+      check(cudaEventCreateWithFlags(&event, cudaEventDisableTiming));
+    }
+  }
+  ~Pace() {
+    for (cudaEvent_t event : events_) cudaEventDestroy(event);
+  }
+  Pace(const Pace&) = delete;
+  Pace& operator=(const Pace&) = delete;
+
+  // Before a band is begun.
+  void wait() {
+    cudaEvent_t event = events_[bands_++ % events_.size()];
+    check(cudaEventSynchronize(event));
+    check(cudaEventRecord(event, stream_.get()));
+  }
+
+ private:
+  const DeviceStream& stream_;
+  std::array<cudaEvent_t, 2> events_{};
+  std::size_t bands_ = 0;
+};
+
 // The EPIs of one direction, one line of cameras after the other.
 class DirectionRun {
  public:
   DirectionRun(const DeviceSamples& samples, const TensorSettings& settings, bool is_vertical,
                const OrientationMaps& maps, const DeviceStream& stream);
 
-  void run(const AverageSettings& averages, const Progress& progress);
+  void run(const AverageSettings& averages, const Progress& progress,
+           const std::function<void(int line)>& on_line);
 
  private:
   [[nodiscard]] int last_epi() const {
@@ -44,6 +73,7 @@ class DirectionRun {
   DeviceArray<ViewFilter> filters_;
   DeviceArray<float2> planes_;
   DeviceArray<float> best_;
+  Pace pace_;
 };
 
 DirectionRun::DirectionRun(const DeviceSamples& samples, const TensorSettings& settings,
@@ -53,7 +83,8 @@ DirectionRun::DirectionRun(const DeviceSamples& samples, const TensorSettings& s
       settings_(settings),
       is_vertical_(is_vertical),
       maps_(maps),
-      stream_(stream) {
+      stream_(stream),
+      pace_(stream) {
   const ViewFilters& filters = is_vertical ? settings.vertical : settings.horizontal;
   search_.first_shear = settings.first_shear;
   search_.shear_step = settings.shear_step;
@@ -87,7 +118,10 @@ void DirectionRun::upload_filters(const ViewFilters& filters) {
   for (const auto* each : {&filters.smooth, &filters.derivative, &filters.integrate}) {
     all.insert(all.end(), each->begin(), each->end());
   }
-  filters_ = upload(all.data(), all.size(), stream_, Progress());
+  filters_ = DeviceArray<ViewFilter>(all.size(), stream_);
+  // From memory that is not pinned: the host's may go when the call returns.
+  check(cudaMemcpyAsync(filters_.data(), all.data(), filters_.byte_size(), cudaMemcpyHostToDevice,
+                        stream_.get()));
   search_.smooth = filters_.data();
   search_.derivative = search_.smooth + filters.views();
   search_.integrate = search_.derivative + filters.views();
@@ -124,15 +158,17 @@ void DirectionRun::run_band(int line, int first, const AverageSettings& averages
                   maps_, stream_);
 }
 
-void DirectionRun::run(const AverageSettings& averages, const Progress& progress) {
+void DirectionRun::run(const AverageSettings& averages, const Progress& progress,
+                       const std::function<void(int line)>& on_line) {
   const int first_line = is_vertical_ ? maps_.first.u : maps_.first.v;
   const int lines = is_vertical_ ? maps_.grid.u : maps_.grid.v;
   for (int line = 0; line < lines; ++line) {
     for (int first = 0; first <= last_epi(); first += results_) {
       progress.check();
+      pace_.wait();
       run_band(first_line + line, first, averages);
-      stream_.wait();
     }
+    if (on_line) on_line(line);
     progress.report(static_cast<double>(line + 1) / lines);
   }
 }
@@ -157,7 +193,7 @@ AverageSettings averages_of(const TensorSettings& settings) {
 // Vertical EPIs come first, so that rows of views are done one after the other.
 void find_orientations_on_device(const DeviceSamples& samples, const TensorSettings& settings,
                                  const OrientationMaps& maps, const DeviceStream& stream,
-                                 const Progress& progress) {
+                                 const Progress& progress, const MapsBegun& on_maps) {
   const bool has_horizontal = settings.horizontal.views() > 0;
   const bool has_vertical = settings.vertical.views() > 0;
   const double half = !has_vertical ? 0 : !has_horizontal ? 1 : 0.5;
@@ -166,13 +202,19 @@ void find_orientations_on_device(const DeviceSamples& samples, const TensorSetti
     progress.step("vertical EPIs");
     averages.is_last = !has_horizontal;
     if (averages.is_last && settings.merges) averages.outcome = Outcome::MergedIntoNothing;
-    DirectionRun(samples, settings, true, maps, stream).run(averages, progress.part(0, half));
+    DirectionRun(samples, settings, true, maps, stream).run(averages, progress.part(0, half), {});
   }
   if (has_horizontal) {
     progress.step("horizontal EPIs");
     averages.is_last = true;
     averages.outcome = has_vertical ? Outcome::MergedWithStored : Outcome::Stored;
-    DirectionRun(samples, settings, false, maps, stream).run(averages, progress.part(half, 1));
+    const auto on_line = [&](int line) {
+      if (on_maps) on_maps(line * maps.grid.u, maps.grid.u);
+    };
+    DirectionRun(samples, settings, false, maps, stream)
+        .run(averages, progress.part(half, 1), on_line);
+  } else if (on_maps) {
+    on_maps(0, maps.grid.count());
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/cuda/device/transfer.cuh"
 #include "engine/cuda/light_field/device_light_field.cuh"
+#include "engine/cuda/maps/map_memory.cuh"
 #include "engine/cuda/tv_l2/denoise_maps.cuh"
 #include "engine/cuda/tv_l2/tv_l2_solver.cuh"
 
@@ -27,6 +28,14 @@ std::vector<double> denoise_maps(const LightField& lf, const MapDenoising& denoi
                         weights.data(), maps.data(), stream, progress);
   download(disparity, maps, stream, progress);
   return gaps;
+}
+
+std::vector<double> denoise_maps(const LightField& lf, const MapDenoising& denoising,
+                                 DeviceMaps& maps, const Progress& progress) {
+  MapMemory& memory = maps.memory();
+  return denoise_on_device(memory.samples(lf, progress), {memory.grid, memory.first}, denoising,
+                           memory.confidence.data(), memory.disparity.data(), memory.stream,
+                           progress);
 }
 
 void solve_tv_l2(Image<float>& f, const Image<float>& w, ImageView<const float> g, double lambda,

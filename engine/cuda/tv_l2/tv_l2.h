@@ -5,6 +5,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/maps/device_maps.h"
 
 #include <vector>
 
@@ -28,6 +29,11 @@ struct MapDenoising {
                                                const MapDenoising& denoising,
                                                const ViewStack<float>& confidence,
                                                ViewStack<float>& disparity,
+                                               const Progress& progress);
+
+/// The same of maps on the device.
+[[nodiscard]] std::vector<double> denoise_maps(const LightField& light_field,
+                                               const MapDenoising& denoising, DeviceMaps& maps,
                                                const Progress& progress);
 
 /// One problem of TvL2Solver on the device, with its default iterations and gap: `f` becomes the

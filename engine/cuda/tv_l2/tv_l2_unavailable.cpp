@@ -9,6 +9,11 @@ std::vector<double> denoise_maps(const LightField&, const MapDenoising&, const V
   throw DeviceFailure(cuda_device().why_not);
 }
 
+std::vector<double> denoise_maps(const LightField&, const MapDenoising&, DeviceMaps&,
+                                 const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
 void solve_tv_l2(Image<float>&, const Image<float>&, ImageView<const float>, double,
                  const Progress&) {
   throw DeviceFailure(cuda_device().why_not);

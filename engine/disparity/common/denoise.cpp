@@ -2,7 +2,6 @@
 #include "engine/disparity/common/denoise.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/common/local_noise.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
@@ -47,11 +46,9 @@ void raise_steady(ImageView<const float> map, float noise, Image<float>& weights
 double denoise_on_device(const LightField& lf, const DenoiseParameters& parameters,
                          float min_weight, float map_noise, Estimate& estimate,
                          const Progress& progress) {
-  const std::vector<double> gaps = cuda::denoise_maps(
-      lf,
-      {parameters.lambda, parameters.weight_power, min_weight, parameters.edge_strength, map_noise,
-       parameters.stop.max_iterations, parameters.stop.gap},
-      estimate.confidence, estimate.field.disparity, progress);
+  const std::vector<double> gaps =
+      cuda::denoise_maps(lf, map_denoising(parameters, min_weight, map_noise), estimate.confidence,
+                         estimate.field.disparity, progress);
   return *std::max_element(gaps.begin(), gaps.end());
 }
 
@@ -97,6 +94,11 @@ void fill_data_weights(ImageView<const float> confidence, DataWeight weight,
     raise_row(confidence.row(y), weight.power, confidence.width, w);
     for (int x = 0; x < confidence.width; ++x) w[x] = std::max(w[x], weight.minimum);
   }
+}
+
+cuda::MapDenoising map_denoising(const DenoiseParameters& p, float min_weight, float map_noise) {
+  return {p.lambda,  p.weight_power,        min_weight, p.edge_strength,
+          map_noise, p.stop.max_iterations, p.stop.gap};
 }
 
 std::string gap_note(double largest) {

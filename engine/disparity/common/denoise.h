@@ -5,6 +5,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
+#include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/common/run_options.h"
 
 #include <string>
@@ -63,6 +64,11 @@ struct DenoiseWeights {
 double denoise(const LightField& light_field, const DenoiseParameters& parameters,
                const DenoiseWeights& weights, ViewStack<float>& disparity,
                const ViewStack<float>& confidence, const Progress& progress);
+
+/// The same parameters, for the device.
+[[nodiscard]] cuda::MapDenoising map_denoising(const DenoiseParameters& parameters,
+                                               float min_weight = DataWeight{}.minimum,
+                                               float map_noise = 0);
 
 /// The note about the largest relative duality gap of several solutions.
 [[nodiscard]] std::string gap_note(double largest);

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -75,6 +77,27 @@ std::optional<Interval> range_of_smaller_views(const LightField& lf, int factor,
   return Interval{factor * found->min + inset, factor * found->max - inset};
 }
 
+// The range found last, for runs that follow on the same light field: nothing else decides it.
+class KeptRange {
+ public:
+  template <class Find>
+  Interval of(const LightField& lf, const Find& find) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (identity_ == lf.identity()) return range_;
+    }
+    const Interval found = find();
+    const std::lock_guard lock(mutex_);
+    identity_ = lf.identity();
+    return range_ = found;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::uint64_t identity_ = 0;
+  Interval range_;
+};
+
 // An end that is hardly farther out is the same end, less exact.
 Interval widened(Interval range, Interval coarse) {
   constexpr double worth = 0.25;
@@ -130,8 +153,11 @@ Interval search_range(const LightField& lf, const IntervalOrAuto& wanted,
   const RangeSource source = range_source(lf, wanted);
   if (source == RangeSource::Given) return *wanted;
   if (source == RangeSource::Promised) return *lf.info().disparity_range;
-  progress.step("disparity range");
-  return find_disparity_range(lf, progress);
+  static KeptRange kept;
+  return kept.of(lf, [&] {
+    progress.step("disparity range");
+    return find_disparity_range(lf, progress);
+  });
 }
 
 }  // namespace episcope

@@ -30,7 +30,8 @@ inline constexpr const char* kRangeHelp =
 
 /// The disparity range that an estimator should search, px per view step: `wanted` if given, else
 /// what the files promise (LightFieldInfo::disparity_range) unless it is to be found, else found
-/// from the light field itself. No estimator ever sees the truth. Throws Cancelled.
+/// from the light field itself, once for the runs that follow on it. No estimator ever sees the
+/// truth. Thread-safe. Throws Cancelled.
 [[nodiscard]] Interval search_range(const LightField& light_field, const IntervalOrAuto& wanted,
                                     const Progress& progress);
 

@@ -179,25 +179,14 @@ TensorSearch search_of(const EpiLParameters& p, Interval range) {
   return search;
 }
 
-cuda::TensorSettings device_settings(const LightField& lf, const EpiLParameters& p,
-                                     Interval range) {
-  cuda::TensorSettings settings = device_tensor_settings(lf, scales_of(p), search_of(p, range));
-  settings.takes_winner = p.fusion == Fusion::Winner;
-  settings.fusion_power = p.fusion_power;
-  settings.squares_coherence = p.orientation == Orientation::Eigenvector;
-  return settings;
-}
-
 // The whole of EPI_L on the device, or before it is clamped.
 Estimate orientations_on_device(const LightField& lf, const EpiLParameters& parameters,
                                 ViewSelection views, bool clamps, const Progress& progress) {
-  check_views(lf);
-  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
-  Estimate estimate = unknown_maps(lf, views, range);
-  cuda::TensorSettings settings = device_settings(lf, parameters, range);
+  Estimate estimate = begin_orientations(lf, parameters, views, progress.part(0, 0.05));
+  cuda::TensorSettings settings = orientation_settings(lf, parameters, estimate.range);
   settings.clamps = clamps;
-  settings.clamp_min = static_cast<float>(range.min);
-  settings.clamp_max = static_cast<float>(range.max);
+  settings.clamp_min = static_cast<float>(estimate.range.min);
+  settings.clamp_max = static_cast<float>(estimate.range.max);
   cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence,
                           progress.part(0.05, 1));
   return estimate;
@@ -305,10 +294,8 @@ Estimate estimate_orientations(const LightField& lf, const EpiLParameters& param
   if (device == Device::Cuda) {
     return orientations_on_device(lf, parameters, views, false, progress);
   }
-  check_views(lf);
-  const Interval range = search_range(lf, parameters.range, progress.part(0, 0.05));
-  Estimate estimate = unknown_maps(lf, views, range);
-  find_orientations({lf, estimate.field.disparity, estimate.confidence}, parameters, range,
+  Estimate estimate = begin_orientations(lf, parameters, views, progress.part(0, 0.05));
+  find_orientations({lf, estimate.field.disparity, estimate.confidence}, parameters, estimate.range,
                     progress.part(0.05, 1));
   return estimate;
 }
@@ -350,6 +337,21 @@ BlockwiseRun orientations_in_blocks(const LightField& lf, const EpiLParameters& 
   return run;
 }
 
+Estimate begin_orientations(const LightField& lf, const EpiLParameters& parameters,
+                            ViewSelection views, const Progress& progress) {
+  check_views(lf);
+  return unknown_maps(lf, views, search_range(lf, parameters.range, progress));
+}
+
+cuda::TensorSettings orientation_settings(const LightField& lf, const EpiLParameters& p,
+                                          Interval range) {
+  cuda::TensorSettings settings = device_tensor_settings(lf, scales_of(p), search_of(p, range));
+  settings.takes_winner = p.fusion == Fusion::Winner;
+  settings.fusion_power = p.fusion_power;
+  settings.squares_coherence = p.orientation == Orientation::Eigenvector;
+  return settings;
+}
+
 DirectionalOrientations estimate_directions(const LightField& lf, const EpiLParameters& parameters,
                                             const Progress& progress, Device device) {
   check_views(lf);
@@ -365,7 +367,7 @@ DirectionalOrientations estimate_directions(const LightField& lf, const EpiLPara
   };
   const Maps horizontal = maps_of(directions.horizontal), vertical = maps_of(directions.vertical);
   if (device == Device::Cuda) {
-    const cuda::TensorSettings settings = device_settings(lf, parameters, range);
+    const cuda::TensorSettings settings = orientation_settings(lf, parameters, range);
     find_direction(lf, settings, &cuda::TensorSettings::vertical, directions.horizontal,
                    progress.part(0.1, 0.55));
     find_direction(lf, settings, &cuda::TensorSettings::horizontal, directions.vertical,

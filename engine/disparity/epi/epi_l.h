@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/cuda/tensor/orientations.h"
 #include "engine/disparity/common/estimator.h"
 #include "engine/disparity/epi/epi_l_parameters.h"
 
@@ -36,6 +37,17 @@ namespace episcope {
 [[nodiscard]] BlockwiseRun orientations_in_blocks(const LightField& light_field,
                                                   const EpiLParameters& parameters,
                                                   ViewSelection views, const Progress& progress);
+
+/// Where `estimate_orientations` begins: an estimate with its range, and maps of the right shape
+/// that are not filled yet.
+[[nodiscard]] Estimate begin_orientations(const LightField& light_field,
+                                          const EpiLParameters& parameters, ViewSelection views,
+                                          const Progress& progress);
+
+/// What it looks for in a range, for the device.
+[[nodiscard]] cuda::TensorSettings orientation_settings(const LightField& light_field,
+                                                        const EpiLParameters& parameters,
+                                                        Interval range);
 
 /// What the two directions say of the centre view, each for itself.
 struct DirectionalOrientations {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
+#include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/epi/line_residuals.h"
 #include "engine/disparity/epi/side_choice.h"
@@ -90,6 +91,26 @@ class DenoisedViews {
   Interval range_;
 };
 
+// On the device from the samples to the result.
+Estimate estimate_on_gpu(const LightField& lf, const EpiSParameters& parameters,
+                         ViewSelection views, const Progress& progress) {
+  Estimate estimate = begin_orientations(lf, parameters.tensor, views, progress.part(0, 0.05));
+  const Interval range = estimate.range;
+  cuda::DeviceMaps maps(estimate.field.disparity);
+  cuda::find_orientations(lf, orientation_settings(lf, parameters.tensor, range), maps,
+                          progress.part(0.05, 0.15));
+  const LineCheck& lines = parameters.line_check;
+  cuda::check_lines(lf, {lines.chooses_sides, lines.is_on}, maps, progress.part(0.15, 0.25));
+  progress.step("denoising");
+  const std::vector<double> gaps =
+      cuda::denoise_maps(lf, map_denoising(parameters.denoising, least_weight(parameters)), maps,
+                         progress.part(0.25, 0.9));
+  estimate.notes.push_back(gap_note(*std::ranges::max_element(gaps)));
+  maps.clamp(static_cast<float>(range.min), static_cast<float>(range.max));
+  maps.download(estimate.field.disparity, estimate.confidence, progress.part(0.9, 1));
+  return estimate;
+}
+
 }  // namespace
 
 Schema<EpiSParameters> epi_s_schema() {
@@ -109,11 +130,10 @@ Schema<EpiSParameters> epi_s_schema() {
 
 Estimate estimate_epi_s(const LightField& lf, const EpiSParameters& parameters, ViewSelection views,
                         const Progress& progress, Device device) {
-  Estimate estimate =
-      estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4), device);
-  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5), device);
-  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), least_weight(parameters), 0,
-          device);
+  if (device == Device::Cuda) return estimate_on_gpu(lf, parameters, views, progress);
+  Estimate estimate = estimate_orientations(lf, parameters.tensor, views, progress.part(0, 0.4));
+  check_lines(lf, parameters.line_check, estimate, progress.part(0.4, 0.5));
+  denoise(lf, parameters.denoising, estimate, progress.part(0.5, 0.98), least_weight(parameters));
   clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
   return estimate;
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/cuda/device/cuda_device.h"
+#include "engine/cuda/maps/device_maps.h"
+
+namespace episcope::cuda {
+
+struct MapMemory {};
+
+DeviceMaps::DeviceMaps(const ViewStack<float>&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+DeviceMaps::~DeviceMaps() = default;
+DeviceMaps::DeviceMaps(DeviceMaps&&) noexcept = default;
+
+void DeviceMaps::clamp(float, float) {}
+
+void DeviceMaps::download(ViewStack<float>&, ViewStack<float>&, const Progress&) const {}
+
+}  // namespace episcope::cuda
