@@ -2,15 +2,12 @@
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/lifted/lifted_fields.cuh"
 
-#include <cstdint>
-
 namespace episcope::cuda {
 namespace {
 
 constexpr float kRelaxation = 1.9F;
 constexpr int kThreads = 128;
-// Of shared memory, what a column of values and of block sizes may take in a block.
-constexpr int kColumnBytes = sizeof(float) + sizeof(std::uint16_t);
+// Of shared memory, what the columns of a block may take.
 constexpr int kBlockBytes = 64 << 10;
 
 // Duals at the pixels around one, of its layers; 0 beyond the border.
@@ -57,28 +54,27 @@ struct Summits {
 };
 
 // Projects layers [begin, end) of a column to non-increasing sequences by pooling adjacent
-// violators. The sums of the blocks take the place of the values.
-__device__ void pool(float* values, std::uint16_t* counts, int stride, int begin, int end) {
+// violators. The sums of the blocks take the place of the values; `counts` holds their sizes.
+__device__ void pool(float* values, int stride, float* counts, int pitch, int begin, int end) {
   int blocks = begin;
   for (int l = begin; l < end; ++l) {
-    float sum = values[l * stride];
-    int count = 1;
-    while (blocks > begin && values[(blocks - 1) * stride] * static_cast<float>(count) <=
-                                 sum * static_cast<float>(counts[(blocks - 1) * stride])) {
+    float sum = values[l * stride], count = 1;
+    while (blocks > begin && values[(blocks - 1) * stride] * count <=
+                                 sum * counts[static_cast<long>(blocks - 1) * pitch]) {
       --blocks;
       sum += values[blocks * stride];
-      count += counts[blocks * stride];
+      count += counts[static_cast<long>(blocks) * pitch];
     }
     values[blocks * stride] = sum;
-    counts[blocks * stride] = static_cast<std::uint16_t>(count);
+    counts[static_cast<long>(blocks) * pitch] = count;
     ++blocks;
   }
   // Backwards: a block's values end at or behind where its sum is.
   int l = end;
   for (int block = blocks; --block >= begin;) {
-    const int count = counts[block * stride];
-    const float mean = values[block * stride] / static_cast<float>(count);
-    for (int i = 0; i < count; ++i) values[--l * stride] = mean;
+    const float count = counts[static_cast<long>(block) * pitch];
+    const float mean = values[block * stride] / count;
+    for (int i = 0; i < static_cast<int>(count); ++i) values[--l * stride] = mean;
   }
 }
 
@@ -86,8 +82,6 @@ __global__ void move_primal(LiftedFields fields) {
   extern __shared__ float shared[];
   const int stride = static_cast<int>(blockDim.x), thread = static_cast<int>(threadIdx.x);
   float* const values = shared + thread;
-  auto* const counts =
-      reinterpret_cast<std::uint16_t*>(shared + static_cast<long>(fields.steps) * stride) + thread;
   const int x = static_cast<int>(blockIdx.x) * stride + thread, y = static_cast<int>(blockIdx.y);
   const int width = fields.width();
   if (x >= width) return;
@@ -97,7 +91,7 @@ __global__ void move_primal(LiftedFields fields) {
   const Around duals(fields, y, x);
   Summits summits;
   float lower = cost[0];
-#pragma unroll 4
+#pragma unroll 8
   for (int l = 0; l < fields.steps; ++l) {
     const long i = static_cast<long>(l) * width;
     const float upper = cost[i + width];
@@ -107,7 +101,7 @@ __global__ void move_primal(LiftedFields fields) {
     summits.add(value, l + 1);
   }
   if (summits.empty - summits.full > 1) {
-    pool(values, counts, stride, summits.full, summits.empty);
+    pool(values, stride, ahead, width, summits.full, summits.empty);
   }
 #pragma unroll 4
   for (int l = 0; l < fields.steps; ++l) {
@@ -194,7 +188,8 @@ dim3 rows_of(const LiftedFields& fields, int threads) {
 // Threads of a block whose columns fit into shared memory.
 int threads_for(int steps) {
   int threads = kThreads;
-  while (threads > 32 && threads * steps * kColumnBytes > kBlockBytes) threads /= 2;
+  while (threads > 32 && threads * steps * static_cast<int>(sizeof(float)) > kBlockBytes)
+    threads /= 2;
   return threads;
 }
 
@@ -217,7 +212,7 @@ void start_lifting(const LiftedFields& fields, const DeviceStream& stream) {
 void iterate_lifting(const LiftedFields& fields, const DeviceStream& stream) {
   const auto values = static_cast<double>(fields.cost.size());
   const int threads = threads_for(fields.steps);
-  const int bytes = threads * fields.steps * kColumnBytes;
+  const int bytes = threads * fields.steps * static_cast<int>(sizeof(float));
   check(cudaFuncSetAttribute(move_primal, cudaFuncAttributeMaxDynamicSharedMemorySize, bytes));
   launch(stream, {"lifted: primal", values * 32, values * 22},
          [&] { move_primal<<<rows_of(fields, threads), threads, bytes, stream.get()>>>(fields); });

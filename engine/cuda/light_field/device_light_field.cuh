@@ -24,15 +24,16 @@ struct DeviceSamples {
   [[nodiscard]] __host__ __device__ long pixel(int v, int u, int y, int x) const {
     return ((static_cast<long>(v) * grid.u + u) * height + y) * width + x;
   }
-  /// A sample in [0, 1], as LightField::read_row gives it.
+  /// A sample in [0, 1], rounded as LightField::read_row gives it.
   [[nodiscard]] __device__ float at(long pixel, int channel) const {
     const long index = pixel * channels + channel;
     switch (type) {
       case SampleType::UInt8:
-        return (1.0F / 255) * static_cast<float>(static_cast<const std::uint8_t*>(samples)[index]);
+        return __fmul_rn(1.0F / 255,
+                         static_cast<float>(static_cast<const std::uint8_t*>(samples)[index]));
       case SampleType::UInt16:
-        return (1.0F / 65535) *
-               static_cast<float>(static_cast<const std::uint16_t*>(samples)[index]);
+        return __fmul_rn(1.0F / 65535,
+                         static_cast<float>(static_cast<const std::uint16_t*>(samples)[index]));
       default:
         return static_cast<const float*>(samples)[index];
     }

@@ -23,8 +23,10 @@ __global__ void fill_guide(DeviceSamples samples, ViewIndex view, int radius, do
   if (x >= width || y >= height) return;
   const int top = max(0, y - radius), bottom = min(height - 1, y + radius);
   const int left = max(0, x - radius), right = min(width - 1, x + radius);
-  double means[kChannels + kProducts<kChannels>] = {};
+  constexpr int kSums = kChannels + kProducts<kChannels>;
+  double means[kSums] = {};
   for (int j = left; j <= right; ++j) {
+    double down[kSums] = {};
     for (int i = top; i <= bottom; ++i) {
       const long at = samples.pixel(view.v, view.u, i, j);
       float sample[kChannels];
@@ -33,13 +35,15 @@ __global__ void fill_guide(DeviceSamples samples, ViewIndex view, int radius, do
       int product = kChannels;
 #pragma unroll
       for (int a = 0; a < kChannels; ++a) {
-        means[a] += static_cast<double>(sample[a]);
+        down[a] += static_cast<double>(sample[a]);
 #pragma unroll
         for (int b = a; b < kChannels; ++b) {
-          means[product++] += static_cast<double>(__fmul_rn(sample[a], sample[b]));
+          down[product++] += static_cast<double>(__fmul_rn(sample[a], sample[b]));
         }
       }
     }
+#pragma unroll
+    for (int k = 0; k < kSums; ++k) means[k] += down[k];
   }
   const double count = static_cast<double>(right - left + 1) * (bottom - top + 1);
 #pragma unroll
@@ -53,7 +57,8 @@ __global__ void fill_guide(DeviceSamples samples, ViewIndex view, int radius, do
     out[(kChannels + c) * plane] = static_cast<float>(means[c]);
   }
   if constexpr (kChannels == 1) {
-    out[2 * plane] = static_cast<float>(1 / (means[1] - means[0] * means[0] + regularization));
+    out[2 * plane] =
+        static_cast<float>(1 / (means[1] - __dmul_rn(means[0], means[0]) + regularization));
   } else {
     double m[6];
     int product = 0;
@@ -61,19 +66,22 @@ __global__ void fill_guide(DeviceSamples samples, ViewIndex view, int radius, do
     for (int a = 0; a < 3; ++a) {
 #pragma unroll
       for (int b = a; b < 3; ++b, ++product) {
-        m[product] = means[3 + product] - means[a] * means[b] + (a == b ? regularization : 0.0);
+        m[product] =
+            means[3 + product] - __dmul_rn(means[a], means[b]) + (a == b ? regularization : 0.0);
       }
     }
-    const double a = m[3] * m[5] - m[4] * m[4];
-    const double b = m[2] * m[4] - m[1] * m[5];
-    const double c = m[1] * m[4] - m[2] * m[3];
-    const double scale = 1 / (m[0] * a + m[1] * b + m[2] * c);
+    // Products are rounded as on the CPU: little is left of their differences.
+    const auto minor = [&](int i, int j, int k, int l) {
+      return __dmul_rn(m[i], m[j]) - __dmul_rn(m[k], m[l]);
+    };
+    const double a = minor(3, 5, 4, 4), b = minor(2, 4, 1, 5), c = minor(1, 4, 2, 3);
+    const double scale = 1 / (__dmul_rn(m[0], a) + __dmul_rn(m[1], b) + __dmul_rn(m[2], c));
     const double inverse[6] = {a * scale,
                                b * scale,
                                c * scale,
-                               (m[0] * m[5] - m[2] * m[2]) * scale,
-                               (m[1] * m[2] - m[0] * m[4]) * scale,
-                               (m[0] * m[3] - m[1] * m[1]) * scale};
+                               minor(0, 5, 2, 2) * scale,
+                               minor(1, 2, 0, 4) * scale,
+                               minor(0, 3, 1, 1) * scale};
 #pragma unroll
     for (int i = 0; i < 6; ++i) out[(6 + i) * plane] = static_cast<float>(inverse[i]);
   }
@@ -83,38 +91,44 @@ __global__ void fill_guide(DeviceSamples samples, ViewIndex view, int radius, do
 template <int kChannels>
 using Planes = float[kChannels + 1];
 
-// Rows of a block in shared memory, `[plane][thread]`, and the last 2·radius + 1 sums of each
-// thread, `[slot][plane][thread]`.
-template <int kChannels>
+// A row of a block in shared memory, `[plane][thread]`, and of each thread the last 2·radius + 1
+// sums along a row, `[slot][plane][thread]`. The radius is known to the compiler unless kRadius is
+// 0.
+template <int kChannels, int kRadius>
 struct Rows {
   float* row;
   float* sums;
-  int window;
+  int radius;
+  int base;  ///< Row whose sums are in slot 0, of the last rows; at first the first one.
 
+  [[nodiscard]] __device__ int reach() const { return kRadius > 0 ? kRadius : radius; }
+  [[nodiscard]] __device__ float* slot(int y) const {
+    const int i = y < base ? y - base + 2 * reach() + 1 : y - base;
+    return sums + i * (kChannels + 1) * kThreads + threadIdx.x;
+  }
   __device__ void put(const Planes<kChannels>& values) {
 #pragma unroll
     for (int p = 0; p <= kChannels; ++p) row[p * kThreads + threadIdx.x] = values[p];
   }
-  [[nodiscard]] __device__ float* slot(int y) {
-    return sums + y % window * (kChannels + 1) * kThreads + threadIdx.x;
-  }
-  // Sums of the row along x, kept as those of row y.
-  __device__ void keep_sums(int y, int radius) {
+  // Sums of the row along x, kept as those of row y, which must be asked for in order.
+  __device__ void keep_sums(int y) {
+    if (y - base > 2 * reach()) base = y;
     float* const to = slot(y);
 #pragma unroll
     for (int p = 0; p <= kChannels; ++p) {
       const float* const from = row + p * kThreads + threadIdx.x;
-      float sum = from[-radius];
-      for (int i = 1 - radius; i <= radius; ++i) sum += from[i];
+      float sum = from[-reach()];
+      for (int i = 1 - reach(); i <= reach(); ++i) sum += from[i];
       to[p * kThreads] = sum;
     }
   }
-  // Sums of the kept rows [top, bottom].
-  __device__ void sum_down(int top, int bottom, Planes<kChannels>& out) {
+  // Sums of the kept rows about y that lie in [0, height).
+  __device__ void sum_down(int y, int height, Planes<kChannels>& out) const {
 #pragma unroll
-    for (int p = 0; p <= kChannels; ++p) out[p] = slot(top)[p * kThreads];
-    for (int y = top + 1; y <= bottom; ++y) {
-      const float* const from = slot(y);
+    for (int p = 0; p <= kChannels; ++p) out[p] = 0;
+    for (int i = y - reach(); i <= y + reach(); ++i) {
+      if (i < 0 || i >= height) continue;
+      const float* const from = slot(i);
 #pragma unroll
       for (int p = 0; p <= kChannels; ++p) out[p] += from[p * kThreads];
     }
@@ -152,20 +166,21 @@ __device__ void solve(const DeviceGuide& guide, long at, float scale, Planes<kCh
 
 // A block goes down its rows: sums of a row, the model a radius above it, and the result another
 // radius above follow each other, as in GuidedFilter.
-template <int kChannels>
+template <int kChannels, int kRadius>
 __global__ void filter(DeviceGuide guide, CostRows from, const float* costs, CostRows to,
                        float* filtered) {
   extern __shared__ float shared[];
-  const int radius = guide.radius, window = 2 * radius + 1;
+  const int radius = kRadius > 0 ? kRadius : guide.radius;
   const int row_floats = (kChannels + 1) * kThreads;
-  Rows<kChannels> products{shared, shared + row_floats, window};
-  float* const second = shared + row_floats * (1 + window);
-  Rows<kChannels> models{second, second + row_floats, window};
+  float* const second = shared + row_floats * (2 + 2 * radius);
   const int thread = static_cast<int>(threadIdx.x), width = guide.width, height = guide.height;
   const int x = static_cast<int>(blockIdx.x) * (kThreads - 4 * radius) - 2 * radius + thread;
   const int label = static_cast<int>(blockIdx.z);
   const int begin = to.first + static_cast<int>(blockIdx.y) * kChunk;
   const int end = min(begin + kChunk, to.first + to.rows);
+  Rows<kChannels, kRadius> products{shared, shared + row_floats, radius,
+                                    max(begin - 2 * radius, 0)};
+  Rows<kChannels, kRadius> models{second, second + row_floats, radius, max(begin - radius, 0)};
   const bool is_inside = x >= 0 && x < width;
   const bool has_window = thread >= radius && thread < kThreads - radius;
   const bool has_both = thread >= 2 * radius && thread < kThreads - 2 * radius;
@@ -187,24 +202,24 @@ __global__ void filter(DeviceGuide guide, CostRows from, const float* costs, Cos
       products.put(values);
     }
     __syncthreads();
-    if (row < height && has_window) products.keep_sums(row, radius);
+    if (row < height && has_window) products.keep_sums(row);
     const int middle = row - radius;
     const bool has_model = middle >= max(begin - radius, 0) && middle < height;
     if (has_model && has_window) {
       Planes<kChannels> model = {};
       if (is_inside) {
-        products.sum_down(max(middle - radius, 0), min(middle + radius, height - 1), model);
+        products.sum_down(middle, height, model);
         solve<kChannels>(guide, static_cast<long>(middle) * width + x,
                          share * (1.0F / static_cast<float>(rows_about(middle))), model);
       }
       models.put(model);
     }
     __syncthreads();
-    if (has_model && has_both) models.keep_sums(middle, radius);
+    if (has_model && has_both) models.keep_sums(middle);
     const int done = row - 2 * radius;
     if (done < begin || done >= end || !has_both || !is_inside) continue;
     Planes<kChannels> model;
-    models.sum_down(max(done - radius, 0), min(done + radius, height - 1), model);
+    models.sum_down(done, height, model);
     float sum = model[0];
 #pragma unroll
     for (int c = 0; c < kChannels; ++c) {
@@ -215,19 +230,20 @@ __global__ void filter(DeviceGuide guide, CostRows from, const float* costs, Cos
   }
 }
 
-template <int kChannels>
+template <int kChannels, int kRadius>
 void launch_filter(const DeviceGuide& guide, const CostRows& from, const float* costs,
                    const CostRows& to, float* filtered, const DeviceStream& stream) {
   const dim3 grid(blocks_for(guide.width, kThreads - 4 * guide.radius), blocks_for(to.rows, kChunk),
                   static_cast<unsigned>(to.labels));
   const std::size_t bytes = sizeof(float) * (kChannels + 1) * kThreads * 2 *
                             (2 + 2 * static_cast<std::size_t>(guide.radius));
-  check(cudaFuncSetAttribute(filter<kChannels>, cudaFuncAttributeMaxDynamicSharedMemorySize,
-                             static_cast<int>(bytes)));
+  check(cudaFuncSetAttribute(filter<kChannels, kRadius>,
+                             cudaFuncAttributeMaxDynamicSharedMemorySize, static_cast<int>(bytes)));
   const double values = static_cast<double>(to.rows) * to.labels * guide.width;
   const double each = 4.0 * (kChannels + 1) * (2 * guide.radius + 1) + 40;
   launch(stream, {"stereo: guided filter", values * 8, values * each}, [&] {
-    filter<kChannels><<<grid, kThreads, bytes, stream.get()>>>(guide, from, costs, to, filtered);
+    filter<kChannels, kRadius>
+        <<<grid, kThreads, bytes, stream.get()>>>(guide, from, costs, to, filtered);
   });
 }
 
@@ -252,7 +268,11 @@ DeviceArray<float> make_guide_planes(const DeviceSamples& samples, ViewIndex vie
 
 void filter_costs(const DeviceGuide& guide, const CostRows& from, const float* costs,
                   const CostRows& to, float* filtered, const DeviceStream& stream) {
-  const auto run = guide.channels == 3 ? launch_filter<3> : launch_filter<1>;
+  constexpr int kUsual = 2;
+  const bool is_usual = guide.radius == kUsual;
+  const auto run = guide.channels == 3
+                       ? (is_usual ? launch_filter<3, kUsual> : launch_filter<3, 0>)
+                       : (is_usual ? launch_filter<1, kUsual> : launch_filter<1, 0>);
   run(guide, from, costs, to, filtered, stream);
 }
 

@@ -22,14 +22,15 @@ struct Sampled {
       return plane[static_cast<long>(from_y) * width + from_x];
     };
     if (row.taps == 1) return tap(0);
-    float sum = row.weights[0] * tap(0);
-    for (int i = 1; i < row.taps; ++i) sum += row.weights[i] * tap(i);
+    float sum = row.weights[0] * tap(0) + row.weights[1] * tap(1);
+    for (int i = 2; i < row.taps; ++i) sum += row.weights[i] * tap(i);
     return sum;
   }
   [[nodiscard]] __device__ float operator()(const float* plane) const {
     if (column.taps == 1) return between_rows(plane, 0);
-    float sum = column.weights[0] * between_rows(plane, 0);
-    for (int j = 1; j < column.taps; ++j) sum += column.weights[j] * between_rows(plane, j);
+    float sum =
+        column.weights[0] * between_rows(plane, 0) + column.weights[1] * between_rows(plane, 1);
+    for (int j = 2; j < column.taps; ++j) sum += column.weights[j] * between_rows(plane, j);
     return sum;
   }
 };

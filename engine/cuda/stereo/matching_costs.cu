@@ -4,8 +4,6 @@
 
 #include <cuda_pipeline.h>
 
-#include <climits>
-
 namespace episcope::cuda {
 namespace {
 
@@ -16,53 +14,63 @@ constexpr int kWarps = 4;
 constexpr int kThreads = 32 * kWarps;
 constexpr int kTileRows = kRows * kWarps;
 constexpr int kTileColumns = 29;
-constexpr int kLabels = 4;  // Of a block: they share what is read of a view.
+constexpr int kLabels = kGroupLabels;  // Of a block: they share what is read of a view.
 constexpr int kTaps = 4;
 // Samples that fit into shared memory, along each axis, and how far labels may lie apart for it.
 constexpr int kWindow = 48;
 constexpr int kSpread = kWindow - kTileRows - kTaps + 1;
 constexpr unsigned kAllLanes = 0xffffffff;
 
-// Samples of a view around the tile: offsets of the first from the tile's first pixel.
-struct Window {
-  int top = INT_MAX, left = INT_MAX;
-  int bottom = INT_MIN, right = INT_MIN;  // Last offsets of first taps.
-  int end = 0;                            // Label behind the last one that it is for.
-
-  [[nodiscard]] __device__ Window with(const MatchShift& row, const MatchShift& column) const {
-    return {min(top, row.origin), min(left, column.origin), max(bottom, row.origin),
-            max(right, column.origin), end};
-  }
-  [[nodiscard]] __device__ bool fits() const {
-    return bottom - top <= kSpread && right - left <= kSpread;
-  }
-};
-
 // What the block works on.
 struct Tile {
   int y = 0, x = 0, label = 0;
 
-  [[nodiscard]] __device__ bool is_seen(const MatchShift& row, const MatchShift& column) const {
-    return row.first < y + kTileRows && row.last > y && column.first < x + kTileColumns &&
-           column.last > x;
+  // Whether no sample of the tile lies outside the image.
+  [[nodiscard]] __device__ bool is_inside(const MatchShift& row, const MatchShift& column) const {
+    return row.first <= y && row.last >= y + kTileRows && column.first <= x &&
+           column.last >= x + kTileColumns;
   }
 };
 
-// The window for as many labels as share one, from `begin` on; none if no more is seen.
-__device__ Window next_window(const Tile& tile, const MatchShift* rows, const MatchShift* columns,
-                              int labels, int& begin) {
-  const auto is_seen = [&](int l) {
-    return l < kLabels && tile.label + l < labels && tile.is_seen(rows[l], columns[l]);
-  };
-  while (begin < kLabels && !is_seen(begin)) ++begin;
-  Window window;
-  for (window.end = begin; is_seen(window.end); ++window.end) {
-    const Window wider = window.with(rows[window.end], columns[window.end]);
-    if (!wider.fits()) break;
-    window.top = wider.top, window.left = wider.left;
-    window.bottom = wider.bottom, window.right = wider.right;
+// A view and those labels, of the block's, that share a window of samples around the tile; top and
+// left are offsets of the window from the tile's first pixel.
+struct Stage {
+  int view = 0;
+  int begin = 0, end = 0;  // Labels.
+  int top = 0, left = 0;
+  int rows = 0, columns = 0;
+};
+
+// The stage after label `begin` of a view; `view` = their number: none. All labels of the block
+// share a window, unless they lie too far apart.
+__device__ Stage find_stage(const MatchingTables& tables, const Tile& tile, int view, int begin) {
+  const int groups = (tables.labels + kLabels - 1) / kLabels, group = tile.label / kLabels;
+  const int labels = min(kLabels, tables.labels - tile.label);
+  if (begin >= labels) {
+    ++view;
+    begin = 0;
   }
-  return window;
+  for (; view < tables.view_count; ++view, begin = 0) {
+    const MatchedView each = tables.views[view];
+    const GroupShift row = tables.row_groups[each.row * groups + group];
+    const GroupShift column = tables.column_groups[each.column * groups + group];
+    if (!row.sees(tile.y, tile.y + kTileRows) || !column.sees(tile.x, tile.x + kTileColumns)) {
+      continue;
+    }
+    const int down = row.high - row.low, along = column.high - column.low;
+    if (down <= kSpread && along <= kSpread) {
+      return {view, 0, labels, row.low, column.low, down + kTileRows + kTaps - 1, along + 32};
+    }
+    const int label = tile.label + begin;
+    return {view,
+            begin,
+            begin + 1,
+            tables.rows[each.row * tables.labels + label].origin,
+            tables.columns[each.column * tables.labels + label].origin,
+            kTileRows + kTaps - 1,
+            32};
+  }
+  return {view};
 }
 
 template <int kChannels>
@@ -71,45 +79,23 @@ using Samples = float[kChannels][kWindow][kWindow];
 // Begins to read a window; the border of the view is repeated.
 template <int kChannels>
 __device__ void begin_to_read(const ViewPlanes& planes, ViewIndex view, const Tile& tile,
-                              const Window& window, Samples<kChannels>& out) {
-  const int rows = window.bottom - window.top + kTileRows + kTaps - 1;
-  const int columns = window.right - window.left + 32;
+                              const Stage& stage, Samples<kChannels>& out) {
   const int lane = static_cast<int>(threadIdx.x) % 32;
-  const int left = tile.x + window.left + lane;
+  const int left = tile.x + stage.left + lane;
   const int x = min(max(left, 0), planes.width - 1);
   const int further = min(max(left + 32, 0), planes.width - 1);
   const float* const of_view = planes.of(view, 0);
-  for (int i = static_cast<int>(threadIdx.x) / 32; i < rows; i += kWarps) {
-    const int y = min(max(tile.y + window.top + i, 0), planes.height - 1);
+  for (int i = static_cast<int>(threadIdx.x) / 32; i < stage.rows; i += kWarps) {
+    const int y = min(max(tile.y + stage.top + i, 0), planes.height - 1);
     const float* row = of_view + static_cast<long>(y) * planes.width;
 #pragma unroll
     for (int c = 0; c < kChannels; ++c, row += planes.plane_size()) {
       __pipeline_memcpy_async(&out[c][i][lane], row + x, sizeof(float));
-      if (lane + 32 < columns) {
+      if (lane + 32 < stage.columns) {
         __pipeline_memcpy_async(&out[c][i][lane + 32], row + further, sizeof(float));
       }
     }
   }
-}
-
-// A view and labels that share a window of it.
-struct Stage {
-  int view = 0;
-  int begin = 0;
-  Window window;
-};
-
-// The first stage from label `begin` of a view on; `view` = their number: none.
-__device__ Stage find_stage(const MatchingTables& tables, const Tile& tile, int view, int begin) {
-  Stage stage{view, begin, {}};
-  for (; stage.view < tables.view_count; ++stage.view, stage.begin = 0) {
-    const MatchedView& each = tables.views[stage.view];
-    const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
-    const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
-    stage.window = next_window(tile, rows, columns, tables.labels, stage.begin);
-    if (stage.window.end > stage.begin) break;
-  }
-  return stage;
 }
 
 // A column of samples interpolated between rows.
@@ -187,8 +173,12 @@ struct Sums {
   float costs[kRows] = {};
   float counts[kIsCounted ? kRows : 1] = {};
 
-  __device__ void add(const float (&distances)[kRows], const MatchShift& row,
-                      const MatchShift& column, int y, int x, float cap) {
+  __device__ void add(const float (&distances)[kRows], float cap) {
+#pragma unroll
+    for (int r = 0; r < kRows; ++r) costs[r] += fminf(distances[r], cap);
+  }
+  __device__ void add_seen(const float (&distances)[kRows], const MatchShift& row,
+                           const MatchShift& column, int y, int x, float cap) {
     const bool in_columns = x >= column.first && x < column.last;
 #pragma unroll
     for (int r = 0; r < kRows; ++r) {
@@ -239,6 +229,16 @@ __device__ Lane<kChannels> read_lane(const MatchingTables& tables, int y, int x)
   return lane;
 }
 
+// The sums of the next label come first: so the loop over labels needs no copy of its code for
+// each.
+template <bool kIsCounted>
+__device__ void rotate(Sums<kIsCounted> (&sums)[kLabels]) {
+  const Sums<kIsCounted> first = sums[0];
+#pragma unroll
+  for (int l = 0; l + 1 < kLabels; ++l) sums[l] = sums[l + 1];
+  sums[kLabels - 1] = first;
+}
+
 template <int kChannels, bool kIsCounted>
 __device__ void add_stage(const MatchingTables& tables, const Tile& tile, const Stage& stage,
                           const Samples<kChannels>& samples, const Lane<kChannels>& lane,
@@ -246,15 +246,21 @@ __device__ void add_stage(const MatchingTables& tables, const Tile& tile, const 
   const MatchedView each = tables.views[stage.view];
   const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
   const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
-#pragma unroll
+#pragma unroll 1
   for (int l = 0; l < kLabels; ++l) {
-    if (l < stage.begin || l >= stage.window.end) continue;
-    const MatchShift row = rows[l], column = columns[l];
-    const int y = lane.y - tile.y + row.origin - stage.window.top;
-    const int x = lane.x - tile.x + column.origin - stage.window.left;
-    float distances[kRows];
-    find_distances<kChannels>(row, column, &samples[0][y][x], lane, distances);
-    sums[l].add(distances, row, column, lane.y, lane.x, tables.cap);
+    if (l >= stage.begin && l < stage.end) {
+      const MatchShift row = rows[l], column = columns[l];
+      const int y = lane.y - tile.y + row.origin - stage.top;
+      const int x = lane.x - tile.x + column.origin - stage.left;
+      float distances[kRows];
+      find_distances<kChannels>(row, column, &samples[0][y][x], lane, distances);
+      if (!kIsCounted && tile.is_inside(row, column)) {
+        sums[0].add(distances, tables.cap);
+      } else {
+        sums[0].add_seen(distances, row, column, lane.y, lane.x, tables.cap);
+      }
+    }
+    rotate(sums);
   }
 }
 
@@ -275,14 +281,14 @@ __global__ __launch_bounds__(kThreads, kIsCounted ? 3 : 4) void match(MatchingTa
   Stage stage = find_stage(tables, tile, 0, 0);
   const auto begin_stage = [&](const Stage& begun, int number) {
     if (begun.view < tables.view_count) {
-      begin_to_read<kChannels>(tables.planes, tables.views[begun.view].view, tile, begun.window,
+      begin_to_read<kChannels>(tables.planes, tables.views[begun.view].view, tile, begun,
                                windows[number % 2]);
     }
     __pipeline_commit();
   };
   begin_stage(stage, 0);
   for (int number = 0; stage.view < tables.view_count; ++number) {
-    const Stage next = find_stage(tables, tile, stage.view, stage.window.end);
+    const Stage next = find_stage(tables, tile, stage.view, stage.end);
     begin_stage(next, number + 1);
     __pipeline_wait_prior(1);
     __syncthreads();

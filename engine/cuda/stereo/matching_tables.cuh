@@ -6,6 +6,19 @@
 
 namespace episcope::cuda {
 
+/// Labels that a block of `compute_costs` works on together.
+inline constexpr int kGroupLabels = 4;
+
+/// The shifts of such a group along one axis: of their first taps, and the pixels that any sees.
+struct alignas(16) GroupShift {
+  int low = 0, high = 0;
+  int first = 0, last = 0;
+
+  [[nodiscard]] __device__ bool sees(int begin, int end) const {
+    return first < end && last > begin;
+  }
+};
+
 /// StereoMatching for kernels.
 struct MatchingTables {
   ViewPlanes planes;
@@ -14,6 +27,8 @@ struct MatchingTables {
   int labels = 0;
   const MatchShift* rows = nullptr;  ///< `[way][label]`
   const MatchShift* columns = nullptr;
+  const GroupShift* row_groups = nullptr;  ///< `[way][group]`
+  const GroupShift* column_groups = nullptr;
   const float* rows_seen = nullptr;     ///< `[label][y]`; null = samples are counted.
   const float* columns_seen = nullptr;  ///< `[label][x]`
   bool is_cross_hair = false;
@@ -39,6 +54,7 @@ class DeviceMatching {
  private:
   DeviceArray<MatchedView> views_;
   DeviceArray<MatchShift> rows_, columns_;
+  DeviceArray<GroupShift> row_groups_, column_groups_;
   DeviceArray<float> rows_seen_, columns_seen_;
   MatchingTables tables_;
 };

@@ -37,7 +37,7 @@ __global__ void square_differences(ViewSamples view, float* squares) {
     for (int c = 0; c < view.samples.channels; ++c) {
       const float d = view.at(row - down, column - along, c) - 2 * view.at(row, column, c) +
                       view.at(row + down, column + along, c);
-      sum += d * d;
+      sum = __fadd_rn(sum, __fmul_rn(d, d));  // as the CPU rounds
     }
     squares[(static_cast<long>(i) * height + y) * width + x] = sum * scale;
   }
