@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_l_parameters.h"
 
+#include <cmath>
+
 #include "engine/disparity/common/disparity_range.h"
 
 namespace episcope {
@@ -90,6 +92,41 @@ Schema<EpiLParameters> epi_l_schema() {
       .preset_search(kProfileKey, kPaperProfile, "inner_scale", {0.4, 0.6, 0.8, 1, 1.2})
       .preset_search(kProfileKey, kPaperProfile, "outer_scale", {0.5, 0.8, 1, 1.3, 1.6, 2})
       .preset_search(kProfileKey, kPaperProfile, "view_scale", {0.8, 1.3});
+}
+
+TensorScales scales_of(const EpiLParameters& p) {
+  return {p.inner_scale, p.outer_scale, p.view_scale, p.cross_scale, p.contrast, p.noise};
+}
+
+TensorSearch search_of(const EpiLParameters& p, Interval range) {
+  const int half_steps = static_cast<int>(std::lround(2 * p.shear_step));
+  TensorSearch search =
+      half_steps > 0 ? cover_range(range, half_steps) : cover_range_sparsely(range);
+  search.eigenvector = p.orientation == Orientation::Eigenvector;
+  return search;
+}
+
+// The whole of EPI_L on the device, or before it is clamped.
+Estimate orientations_on_device(const LightField& lf, const EpiLParameters& parameters,
+                                ViewSelection views, bool clamps, const Progress& progress) {
+  Estimate estimate = begin_orientations(lf, parameters, views, progress.part(0, 0.05));
+  cuda::TensorSettings settings = orientation_settings(lf, parameters, estimate.range);
+  settings.clamps = clamps;
+  settings.clamp_min = static_cast<float>(estimate.range.min);
+  settings.clamp_max = static_cast<float>(estimate.range.max);
+  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence,
+                          progress.part(0.05, 1));
+  return estimate;
+}
+
+// One direction of the centre view: the filters along the other are left out.
+void find_direction(const LightField& lf, cuda::TensorSettings settings,
+                    cuda::ViewFilters cuda::TensorSettings::*other, Estimate& estimate,
+                    const Progress& progress) {
+  settings.*other = {};
+  settings.merges = false;
+  if (settings.horizontal.views() + settings.vertical.views() == 0) return;
+  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence, progress);
 }
 
 }  // namespace episcope

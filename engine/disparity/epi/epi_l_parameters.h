@@ -4,6 +4,7 @@
 #include "engine/core/parameter/named.h"
 #include "engine/core/parameter/schema.h"
 #include "engine/disparity/common/profile.h"
+#include "engine/disparity/tensor/structure_tensor.h"
 
 namespace episcope {
 
@@ -39,5 +40,9 @@ struct EpiLParameters {
 [[nodiscard]] Schema<EpiLParameters> epi_l_schema();
 /// The same without the profile, for a method that the paper does not have.
 [[nodiscard]] Schema<EpiLParameters> orientation_schema();
+
+/// What the structure tensor takes of them.
+[[nodiscard]] TensorScales scales_of(const EpiLParameters& parameters);
+[[nodiscard]] TensorSearch search_of(const EpiLParameters& parameters, Interval range);
 
 }  // namespace episcope
