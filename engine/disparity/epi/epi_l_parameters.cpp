@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_l_parameters.h"
 
-#include <cmath>
-
 #include "engine/disparity/common/disparity_range.h"
+
+#include <cmath>
 
 namespace episcope {
 namespace {
