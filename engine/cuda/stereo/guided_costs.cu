@@ -135,19 +135,24 @@ struct Rows {
   }
 };
 
+// What a model is solved with.
+template <int kChannels>
+struct Moments {
+  float means[kChannels] = {};
+  float inverse[kProducts<kChannels>] = {};
+};
+
 // b, and a of each channel, with a·guide + b ≈ values in the window whose sums these are.
 template <int kChannels>
-__device__ void solve(const DeviceGuide& guide, long at, float scale, Planes<kChannels>& sums) {
-  const float mean = sums[0] * scale;
-  float means[kChannels], covariance[kChannels], inverse[kProducts<kChannels>];
+__device__ void solve(const Moments<kChannels>& moments, float scale, Planes<kChannels>& sums) {
+  const float mean = __fmul_rn(sums[0], scale);
+  const auto& inverse = moments.inverse;
+  float covariance[kChannels];
 #pragma unroll
   for (int c = 0; c < kChannels; ++c) {
-    means[c] = guide.plane(kChannels + c)[at];
     // What is left of two products: rounded as on the CPU.
-    covariance[c] = __fmaf_rn(sums[c + 1], scale, -__fmul_rn(means[c], mean));
+    covariance[c] = __fmaf_rn(sums[c + 1], scale, -__fmul_rn(moments.means[c], mean));
   }
-#pragma unroll
-  for (int i = 0; i < kProducts<kChannels>; ++i) inverse[i] = guide.plane(2 * kChannels + i)[at];
   float a[kChannels];
   if constexpr (kChannels == 1) {
     a[0] = inverse[0] * covariance[0];
@@ -159,74 +164,108 @@ __device__ void solve(const DeviceGuide& guide, long at, float scale, Planes<kCh
   sums[0] = mean;
 #pragma unroll
   for (int c = 0; c < kChannels; ++c) {
-    sums[0] -= a[c] * means[c];
+    sums[0] = __fmaf_rn(-a[c], moments.means[c], sums[0]);
     sums[c + 1] = a[c];
   }
 }
 
+// What a thread reads and writes: column x of one label; 0 beyond the image.
+template <int kChannels>
+struct Column {
+  const DeviceGuide& guide;
+  const CostRows& from;
+  const CostRows& to;
+  const float* costs;
+  float* filtered;
+  int label, x;
+
+  [[nodiscard]] __device__ bool has(int y) const {
+    return x >= 0 && x < guide.width && y >= 0 && y < guide.height;
+  }
+  [[nodiscard]] __device__ float guide_at(int plane, int y) const {
+    return guide.plane(plane)[static_cast<long>(y) * guide.width + x];
+  }
+  __device__ void read_values(int y, Planes<kChannels>& values) const {
+    const bool is_there = has(y) && y < from.first + from.rows;
+    const long row = static_cast<long>(y - from.first) * from.labels + label;
+    values[0] = is_there ? costs[row * guide.width + x] : 0.0F;
+#pragma unroll
+    for (int c = 0; c < kChannels; ++c) values[c + 1] = is_there ? guide_at(c, y) : 0.0F;
+  }
+  [[nodiscard]] __device__ Moments<kChannels> read_moments(int y) const {
+    Moments<kChannels> moments;
+    if (!has(y)) return moments;
+#pragma unroll
+    for (int c = 0; c < kChannels; ++c) moments.means[c] = guide_at(kChannels + c, y);
+#pragma unroll
+    for (int i = 0; i < kProducts<kChannels>; ++i) {
+      moments.inverse[i] = guide_at(2 * kChannels + i, y);
+    }
+    return moments;
+  }
+  // The mean model of the window, applied to the guide.
+  __device__ void write(int y, const Planes<kChannels>& model, float share,
+                        float share_down) const {
+    float sum = model[0];
+#pragma unroll
+    for (int c = 0; c < kChannels; ++c) sum += model[c + 1] * guide_at(c, y);
+    const long row = static_cast<long>(y - to.first) * to.labels + label;
+    filtered[row * guide.width + x] = sum * share * share_down;
+  }
+};
+
+// 1 / how many of the pixels about `at` lie within the extent of an axis.
+__device__ float share_of(int at, int radius, int extent) {
+  const int count = min(at + radius, extent - 1) - max(at - radius, 0) + 1;
+  return 1.0F / static_cast<float>(count);
+}
+
 // A block goes down its rows: sums of a row, the model a radius above it, and the result another
-// radius above follow each other, as in GuidedFilter.
+// radius above follow each other, as in GuidedFilter. What the next step needs of the device's
+// memory is asked for before threads wait for each other.
 template <int kChannels, int kRadius>
 __global__ void filter(DeviceGuide guide, CostRows from, const float* costs, CostRows to,
                        float* filtered) {
   extern __shared__ float shared[];
   const int radius = kRadius > 0 ? kRadius : guide.radius;
-  const int row_floats = (kChannels + 1) * kThreads;
+  const int row_floats = (kChannels + 1) * kThreads, thread = static_cast<int>(threadIdx.x);
   float* const second = shared + row_floats * (2 + 2 * radius);
-  const int thread = static_cast<int>(threadIdx.x), width = guide.width, height = guide.height;
   const int x = static_cast<int>(blockIdx.x) * (kThreads - 4 * radius) - 2 * radius + thread;
-  const int label = static_cast<int>(blockIdx.z);
+  const Column<kChannels> column{guide, from, to, costs, filtered, static_cast<int>(blockIdx.z), x};
   const int begin = to.first + static_cast<int>(blockIdx.y) * kChunk;
   const int end = min(begin + kChunk, to.first + to.rows);
-  Rows<kChannels, kRadius> products{shared, shared + row_floats, radius,
-                                    max(begin - 2 * radius, 0)};
-  Rows<kChannels, kRadius> models{second, second + row_floats, radius, max(begin - radius, 0)};
-  const bool is_inside = x >= 0 && x < width;
+  const int first = max(begin - 2 * radius, 0), first_model = max(begin - radius, 0);
+  Rows<kChannels, kRadius> products{shared, shared + row_floats, radius, first};
+  Rows<kChannels, kRadius> models{second, second + row_floats, radius, first_model};
   const bool has_window = thread >= radius && thread < kThreads - radius;
   const bool has_both = thread >= 2 * radius && thread < kThreads - 2 * radius;
-  const int columns = min(x + radius, width - 1) - max(x - radius, 0) + 1;
-  const float share = 1.0F / static_cast<float>(columns);
-  const auto rows_about = [&](int y) {
-    return min(y + radius, height - 1) - max(y - radius, 0) + 1;
-  };
-  for (int row = max(begin - 2 * radius, 0); row < end + 2 * radius; ++row) {
-    if (row < height) {
-      Planes<kChannels> values = {};
-      if (is_inside) {
-        values[0] = costs[(static_cast<long>(row - from.first) * from.labels + label) * width + x];
+  const float share = share_of(x, radius, guide.width);
+  Planes<kChannels> values;
+  column.read_values(first, values);
+  for (int row = first; row < end + 2 * radius; ++row) {
 #pragma unroll
-        for (int c = 0; c < kChannels; ++c) {
-          values[c + 1] = values[0] * guide.plane(c)[static_cast<long>(row) * width + x];
-        }
-      }
-      products.put(values);
-    }
+    for (int c = 0; c < kChannels; ++c) values[c + 1] *= values[0];
+    products.put(values);
+    const int middle = row - radius, done = row - 2 * radius;
+    const Moments<kChannels> moments = column.read_moments(middle);
+    column.read_values(row + 1, values);
     __syncthreads();
-    if (row < height && has_window) products.keep_sums(row);
-    const int middle = row - radius;
-    const bool has_model = middle >= max(begin - radius, 0) && middle < height;
+    if (has_window) products.keep_sums(row);
+    const bool has_model = middle >= first_model && middle < guide.height;
     if (has_model && has_window) {
       Planes<kChannels> model = {};
-      if (is_inside) {
-        products.sum_down(middle, height, model);
-        solve<kChannels>(guide, static_cast<long>(middle) * width + x,
-                         share * (1.0F / static_cast<float>(rows_about(middle))), model);
+      if (column.has(middle)) {
+        products.sum_down(middle, guide.height, model);
+        solve<kChannels>(moments, share * share_of(middle, radius, guide.height), model);
       }
       models.put(model);
     }
     __syncthreads();
     if (has_model && has_both) models.keep_sums(middle);
-    const int done = row - 2 * radius;
-    if (done < begin || done >= end || !has_both || !is_inside) continue;
+    if (done < begin || !has_both || !column.has(done)) continue;
     Planes<kChannels> model;
-    models.sum_down(done, height, model);
-    float sum = model[0];
-#pragma unroll
-    for (int c = 0; c < kChannels; ++c) {
-      sum += model[c + 1] * guide.plane(c)[static_cast<long>(done) * width + x];
-    }
-    filtered[(static_cast<long>(done - to.first) * to.labels + label) * width + x] =
-        sum * share * (1.0F / static_cast<float>(rows_about(done)));
+    models.sum_down(done, guide.height, model);
+    column.write(done, model, share, share_of(done, radius, guide.height));
   }
 }
 
