@@ -106,27 +106,4 @@ TensorSearch search_of(const EpiLParameters& p, Interval range) {
   return search;
 }
 
-// The whole of EPI_L on the device, or before it is clamped.
-Estimate orientations_on_device(const LightField& lf, const EpiLParameters& parameters,
-                                ViewSelection views, bool clamps, const Progress& progress) {
-  Estimate estimate = begin_orientations(lf, parameters, views, progress.part(0, 0.05));
-  cuda::TensorSettings settings = orientation_settings(lf, parameters, estimate.range);
-  settings.clamps = clamps;
-  settings.clamp_min = static_cast<float>(estimate.range.min);
-  settings.clamp_max = static_cast<float>(estimate.range.max);
-  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence,
-                          progress.part(0.05, 1));
-  return estimate;
-}
-
-// One direction of the centre view: the filters along the other are left out.
-void find_direction(const LightField& lf, cuda::TensorSettings settings,
-                    cuda::ViewFilters cuda::TensorSettings::*other, Estimate& estimate,
-                    const Progress& progress) {
-  settings.*other = {};
-  settings.merges = false;
-  if (settings.horizontal.views() + settings.vertical.views() == 0) return;
-  cuda::find_orientations(lf, settings, estimate.field.disparity, estimate.confidence, progress);
-}
-
 }  // namespace episcope
