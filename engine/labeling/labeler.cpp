@@ -12,6 +12,7 @@
 #include "engine/labeling/predict_view.h"
 #include "engine/labeling/rays/disparity_trust.h"
 #include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/surface_support.h"
 
 #include <fmt/format.h>
 
@@ -187,7 +188,11 @@ struct Labeler::State {
       guides.disparity = filled.view();
       if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
       guides.trust = trust.view();
-      guides.surfaces = &surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
+      LabelSurfaces& own = surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
+      if (!trust.empty()) {
+        own.set_support(surface_support(learned.forest, features, own, trust, progress));
+      }
+      guides.surfaces = &own;
     }
     const StrokeDistances distances(strokes, labels, guides, progress);
     StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};

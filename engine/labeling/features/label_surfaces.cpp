@@ -127,8 +127,9 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
   constexpr float kBase = kNoise_px * kNoise_px;
   const float* const disparity = disparity_.row(y);
   const float* const doubt = doubt_.row(y);
+  float* first = out;
   for (const Surface& surface : surfaces_) {
-    float* misfit = out++;
+    float* misfit = first++;
     if (!surface.is_known) {
       for (int x = 0; x < disparity_.width; ++x, misfit += pitch) *misfit = kMostMisfit / 2;
       continue;
@@ -148,6 +149,16 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
       const float miss = disparity[x] - at - across * dx;
       const float spread = variance + miss * miss;
       *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);
+    }
+  }
+  if (!support_.empty()) relieve(pitch, out);
+}
+
+void LabelSurfaces::relieve(int pitch, float* misfits) const {
+  for (int x = 0; x < disparity_.width; ++x, misfits += pitch) {
+    const float least = *std::min_element(misfits, misfits + support_.size());
+    for (std::size_t l = 0; l < support_.size(); ++l) {
+      misfits[l] = std::lerp(least, misfits[l], support_[l]);
     }
   }
 }

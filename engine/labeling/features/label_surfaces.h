@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -33,6 +34,11 @@ class LabelSurfaces {
   /// Most that a single pixel's disparity can speak against a label.
   static constexpr float kMostMisfit = 3;
 
+  /// How far the surface of each label holds away from its strokes, `[label]` in [0, 1]
+  /// (engine/labeling/surface_support.h): from now on misfits exceed the least one of their pixel
+  /// by this share only. Before, all hold.
+  void set_support(std::vector<float> support) { support_ = std::move(support); }
+
   /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
   /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.
   /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch` apart.
@@ -57,11 +63,13 @@ class LabelSurfaces {
   static Surface fit(const std::vector<Sample>& samples, double ridge_px2);
   static void solve(const std::vector<Sample>& samples, const std::vector<double>& weights,
                     double ridge_px2, Surface& surface);
+  void relieve(int pitch, float* misfits) const;
 
   ImageView<const float> disparity_;
   ImageView<const float> trust_;
   Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
+  std::vector<float> support_;  // Empty = 1.
 };
 
 }  // namespace episcope

@@ -78,6 +78,23 @@ class LabelSurfacesTest : public QObject {
     QCOMPARE(room.misfit(5, 5, 2, 3), LabelSurfaces::kMostMisfit / 2);
   }
 
+  void support_scalesWhatSpeaksAgainstALabel() {
+    const Room room;
+    LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view());
+    surfaces.set_support({0.25F, 1});
+    std::vector<float> row(static_cast<std::size_t>(kWidth) * 16);
+
+    surfaces.misfits(20, 16, row.data());
+
+    // On the card, and on the ground.
+    const float* at = row.data() + static_cast<std::ptrdiff_t>(80) * 16;
+    const float all = room.misfit(20, 80, 0) - room.misfit(20, 80, 1);
+    QVERIFY(std::abs(at[0] - at[1] - 0.25F * all) < 1e-5F);
+    at = row.data() + static_cast<std::ptrdiff_t>(30) * 16;
+    QCOMPARE(at[0], room.misfit(20, 30, 0));
+    QCOMPARE(at[1], room.misfit(20, 30, 1));
+  }
+
   void weighing_keepsTheSum() {
     const Room room;
     const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view());
