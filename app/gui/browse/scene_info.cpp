@@ -96,7 +96,7 @@ QString gpu_text() {
   const auto gibibytes = [](std::size_t bytes) {
     return QString::number(static_cast<double>(bytes) / (1 << 30), 'f', 1);
   };
-  if (!device.is_available) return text("none: %1").arg(QString::fromStdString(device.why_not));
+  if (!device.is_available) return text("none: %1").arg(schema_text(device.why_not));
   return text("%1, %2 of %3 GiB free")
       .arg(QString::fromStdString(device.name), gibibytes(device.free_memory),
            gibibytes(device.memory));
