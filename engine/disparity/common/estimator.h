@@ -62,10 +62,10 @@ struct Estimator {
       in_blocks;
 };
 
-/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`, or
-/// for a method with a choice of devices `estimate(light_field, P, RunOptions, Progress)`, whose
-/// device is never Auto, returns an Estimate with maps, confidence, range and notes; the rest is
-/// filled in here. Pixels that the light field marks as invalid get no valid result.
+/// Adapts a typed method to the interface. `estimate(light_field, P, ViewSelection, Progress)`,
+/// followed by a Device that is never Auto where the method has a choice of devices, returns an
+/// Estimate with maps, confidence, range and notes; the rest is filled in here. Pixels that the
+/// light field marks as invalid get no valid result.
 template <class P, class F>
 Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate);
 
@@ -94,12 +94,11 @@ Estimator make_estimator(EstimatorInfo info, Schema<P> schema, F estimate) {
     const P parameters = schema.parse(values);
     const Progress limited = progress.limited_to(options.threads);
     constexpr bool knows_devices =
-        std::is_invocable_v<F, const LightField&, const P&, const RunOptions&, const Progress&>;
+        std::is_invocable_v<F, const LightField&, const P&, ViewSelection, const Progress&, Device>;
     Estimate result = [&] {
       if constexpr (knows_devices) {
         return estimate_on_device(options.device, info, [&](Device device) {
-          return estimate(light_field, parameters, {options.views, device, options.threads},
-                          limited);
+          return estimate(light_field, parameters, options.views, limited, device);
         });
       } else {
         return estimate(light_field, parameters, options.views, limited);

@@ -370,11 +370,7 @@ Estimator epi_c_estimator() {
        .iterative = true,
        .revision = 5,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_c_schema(),
-      [](const LightField& lf, const EpiCParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_epi_c(lf, parameters, options.views, progress, options.device);
-      });
+      epi_c_schema(), estimate_epi_c);
 }
 
 }  // namespace episcope

@@ -168,10 +168,9 @@ Estimator epi_g_estimator() {
        .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
       epi_g_schema(),
-      [](const LightField& light_field, const EpiGParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_epi_g(light_field, parameters, progress, options.device);
-      });
+      [](const LightField& light_field, const EpiGParameters& parameters, ViewSelection,
+         const Progress& progress,
+         Device device) { return estimate_epi_g(light_field, parameters, progress, device); });
 }
 
 }  // namespace episcope

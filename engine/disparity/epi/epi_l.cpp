@@ -386,12 +386,7 @@ Estimator epi_l_estimator() {
        .all_views = true,
        .revision = 3,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_l_schema(),
-      [](const LightField& lf, const EpiLParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_epi_l(lf, parameters, options.views, progress, options.device);
-      },
-      epi_l_in_blocks);
+      epi_l_schema(), estimate_epi_l, epi_l_in_blocks);
 }
 
 }  // namespace episcope

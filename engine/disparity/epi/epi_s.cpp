@@ -170,12 +170,7 @@ Estimator epi_s_estimator() {
        .iterative = true,
        .revision = 5,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_s_schema(),
-      [](const LightField& lf, const EpiSParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_epi_s(lf, parameters, options.views, progress, options.device);
-      },
-      epi_s_in_blocks);
+      epi_s_schema(), estimate_epi_s, epi_s_in_blocks);
 }
 
 }  // namespace episcope

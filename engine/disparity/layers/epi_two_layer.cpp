@@ -363,11 +363,7 @@ Estimator epi_two_layer_estimator() {
        .iterative = true,
        .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_two_layer_schema(),
-      [](const LightField& lf, const EpiTwoLayerParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_epi_two_layer(lf, parameters, options.views, progress, options.device);
-      });
+      epi_two_layer_schema(), estimate_epi_two_layer);
 }
 
 }  // namespace episcope

@@ -254,11 +254,7 @@ Estimator plane_pm_estimator() {
        .iterative = true,
        .revision = 6,
        .devices = {Device::Cpu, Device::Cuda}},
-      plane_pm_schema(),
-      [](const LightField& lf, const PlaneParameters& parameters, const RunOptions& options,
-         const Progress& progress) {
-        return estimate_planes(lf, parameters, options.views, progress, options.device);
-      });
+      plane_pm_schema(), estimate_planes);
 }
 
 }  // namespace episcope

@@ -9,19 +9,24 @@ namespace {
 
 constexpr const char* kReference = "Wanner, Meister and Goldluecke 2013 [WMG13]";
 
+template <class P>
+using StereoFunction = Estimate (*)(const LightField&, MatchedViews, const P&, const Progress&,
+                                    Device);
+
+// `estimate` of `views`, in the form that make_estimator takes.
+template <class P>
+auto with_views(MatchedViews views, StereoFunction<P> estimate) {
+  return [=](const LightField& light_field, const P& parameters, ViewSelection,
+             const Progress& progress,
+             Device device) { return estimate(light_field, views, parameters, progress, device); };
+}
+
 // A method from its schema and its function of `views`.
 template <class P>
 Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
-                           Schema<P> (*schema)(MatchedViews),
-                           Estimate (*estimate)(const LightField&, MatchedViews, const P&,
-                                                const Progress&, Device)) {
+                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate) {
   info.devices = {Device::Cpu, Device::Cuda};
-  return make_estimator<P>(std::move(info), schema(views),
-                           [=](const LightField& light_field, const P& parameters,
-                               const RunOptions& options, const Progress& progress) {
-                             return estimate(light_field, views, parameters, progress,
-                                             options.device);
-                           });
+  return make_estimator<P>(std::move(info), schema(views), with_views(views, estimate));
 }
 
 // A local one, which can run in blocks.
@@ -29,10 +34,7 @@ Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
   info.devices = {Device::Cpu, Device::Cuda};
   return make_estimator<StereoLocalParameters>(
       std::move(info), stereo_local_schema(views),
-      [=](const LightField& light_field, const StereoLocalParameters& parameters,
-          const RunOptions& options, const Progress& progress) {
-        return estimate_stereo_local(light_field, views, parameters, progress, options.device);
-      },
+      with_views<StereoLocalParameters>(views, estimate_stereo_local),
       [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
           const Progress& progress) {
         return stereo_local_in_blocks(light_field, views, parameters, progress);
