@@ -13,9 +13,8 @@ std::string version_text(const std::string& program, const std::vector<LibraryVe
   std::string text = fmt::format("{} {}\ncommit {}\n", program, kVersion, kCommit);
   std::vector<LibraryVersion> libraries = io::library_versions();
   libraries.insert(libraries.end(), others.begin(), others.end());
-  if (const CudaDevice device = cuda_device(); !device.runtime.empty()) {
-    libraries.push_back({"CUDA", device.runtime});
-  }
+  const std::string cuda = cuda_runtime_version();
+  if (!cuda.empty()) libraries.push_back({"CUDA", cuda});
   for (const auto& [name, version] : libraries) text += fmt::format("{} {}\n", name, version);
   return text;
 }

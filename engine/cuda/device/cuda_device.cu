@@ -15,11 +15,14 @@ constexpr int kOldestMajor = 8;
 
 }  // namespace
 
+std::string cuda_runtime_version() {
+  return version_text(CUDART_VERSION);
+}
+
 CudaDevice cuda_device() {
   CudaDevice device;
-  int driver = 0, runtime = 0, count = 0;
-  cudaRuntimeGetVersion(&runtime);
-  device.runtime = version_text(runtime);
+  int driver = 0, count = 0;
+  device.runtime = cuda_runtime_version();
   if (cudaDriverGetVersion(&driver) != cudaSuccess || driver == 0) {
     device.why_not = "there is no NVIDIA driver";
     return device;
@@ -48,11 +51,6 @@ CudaDevice cuda_device() {
   }
   device.is_available = true;
   return device;
-}
-
-bool has_cuda_device() {
-  static const bool has_device = cuda_device().is_available;
-  return has_device;
 }
 
 }  // namespace episcope

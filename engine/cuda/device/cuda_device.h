@@ -27,7 +27,17 @@ struct CudaDevice {
 /// Asks for the device: the first call starts the driver, which takes up to a second. Never throws.
 [[nodiscard]] CudaDevice cuda_device();
 
-/// Whether there is one. Asked once, then remembered.
-[[nodiscard]] bool has_cuda_device();
+/// The device as it was when first asked for.
+[[nodiscard]] inline const CudaDevice& known_cuda_device() {
+  static const CudaDevice device = cuda_device();
+  return device;
+}
+
+[[nodiscard]] inline bool has_cuda_device() {
+  return known_cuda_device().is_available;
+}
+
+/// The version of CUDA that this build carries, without asking the driver; empty if it has none.
+[[nodiscard]] std::string cuda_runtime_version();
 
 }  // namespace episcope

@@ -9,8 +9,8 @@ CudaDevice cuda_device() {
   return device;
 }
 
-bool has_cuda_device() {
-  return false;
+std::string cuda_runtime_version() {
+  return {};
 }
 
 }  // namespace episcope

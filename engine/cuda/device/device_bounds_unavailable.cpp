@@ -6,7 +6,7 @@
 namespace episcope {
 
 DeviceBounds measure_device_bounds() {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope

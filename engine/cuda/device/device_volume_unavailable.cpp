@@ -5,7 +5,7 @@
 namespace episcope::cuda {
 
 SharedVolume upload_volume(VolumeView<const float>, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

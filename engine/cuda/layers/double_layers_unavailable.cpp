@@ -6,7 +6,7 @@ namespace episcope::cuda {
 
 void measure_double_layers(const LightField&, const std::vector<DoublePass>&, const DoubleShears&,
                            const DoubleResults&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

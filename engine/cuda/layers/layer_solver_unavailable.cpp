@@ -6,7 +6,7 @@ namespace episcope::cuda {
 
 std::vector<double> solve_layers(const LightField&, const LayerSmoothing&, const LayerMaps&,
                                  const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -6,7 +6,7 @@ namespace episcope::cuda {
 
 LiftedLabels solve_lifted(const LiftedTask&, const std::function<void(int, double)>&,
                           const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -6,16 +6,16 @@ namespace episcope::cuda {
 
 void check_lines(const LightField&, const LineCheckSteps&, ViewStack<float>&, ViewStack<float>&,
                  const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 void check_lines(const LightField&, const LineCheckSteps&, DeviceMaps&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 void replace_occluded(const LightField&, ViewStack<float>&, const ViewStack<float>&,
                       const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -7,7 +7,7 @@ namespace episcope::cuda {
 struct MapMemory {};
 
 DeviceMaps::DeviceMaps(const ViewStack<float>&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 DeviceMaps::~DeviceMaps() = default;
 DeviceMaps::DeviceMaps(DeviceMaps&&) noexcept = default;

@@ -5,7 +5,7 @@
 namespace episcope::cuda {
 
 MessageAnswer solve_by_messages(const MessageTask&, int, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

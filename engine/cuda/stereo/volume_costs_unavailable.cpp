@@ -5,11 +5,11 @@
 namespace episcope::cuda {
 
 CostsAtLabels costs_at_labels(const DeviceVolume&, const Image<int>&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 double sum_around_best(const DeviceVolume&, const std::uint8_t*, int, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -6,11 +6,11 @@ namespace episcope::cuda {
 
 void find_orientations(const LightField&, const TensorSettings&, ViewStack<float>&,
                        ViewStack<float>&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 void find_orientations(const LightField&, const TensorSettings&, DeviceMaps&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -5,7 +5,7 @@
 namespace episcope::cuda {
 
 void solve_tgv_l2(Image<float>&, const TgvTask&, int, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

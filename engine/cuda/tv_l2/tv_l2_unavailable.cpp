@@ -6,17 +6,17 @@ namespace episcope::cuda {
 
 std::vector<double> denoise_maps(const LightField&, const MapDenoising&, const ViewStack<float>&,
                                  ViewStack<float>&, const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 std::vector<double> denoise_maps(const LightField&, const MapDenoising&, DeviceMaps&,
                                  const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 void solve_tv_l2(Image<float>&, const Image<float>&, ImageView<const float>, double,
                  const Progress&) {
-  throw DeviceFailure(cuda_device().why_not);
+  throw DeviceFailure(known_cuda_device().why_not);
 }
 
 }  // namespace episcope::cuda

@@ -19,8 +19,8 @@ void require_device(Device device, const EstimatorInfo& info) {
     throw Unavailable(fmt::format("{} runs on the CPU only; use --device cpu or auto", info.name));
   }
   if (device != Device::Cuda || has_cuda_device()) return;
-  throw Unavailable(
-      fmt::format("there is no GPU to use: {}; use --device cpu or auto", cuda_device().why_not));
+  throw Unavailable(fmt::format("there is no GPU to use: {}; use --device cpu or auto",
+                                known_cuda_device().why_not));
 }
 
 Device chosen_device(Device device, const EstimatorInfo& info) {
@@ -34,7 +34,7 @@ Estimate estimate_on_device(Device device, const EstimatorInfo& info,
   if (chosen_device(device, info) == Device::Cpu) return estimate(Device::Cpu);
   try {
     Estimate result = estimate(Device::Cuda);
-    result.notes.push_back(fmt::format("computed on {}", cuda_device().name));
+    result.notes.push_back(fmt::format("computed on {}", known_cuda_device().name));
     return result;
   } catch (const DeviceFailure& failure) {
     if (device == Device::Cuda) throw;
