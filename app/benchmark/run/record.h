@@ -27,8 +27,7 @@ struct BenchmarkRun {
   int revision = 1;         ///< EstimatorInfo::revision.
   ParameterSet parameters;  ///< All of the method.
   ViewSelection views = ViewSelection::Center;
-  /// Cuda if it was demanded, of a method that can; else Auto. Results of either count as the same
-  /// only for Auto.
+  /// What was demanded, if the method computes there; else Auto.
   Device device = Device::Auto;
 };
 

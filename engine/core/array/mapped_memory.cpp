@@ -11,13 +11,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <new>
-
-#include <array>
-#include <atomic>
 #include <utility>
 
 namespace episcope {
