@@ -15,11 +15,11 @@ void copy(const float* from, float* to, std::size_t count, const DeviceStream& s
   check(cudaMemcpyAsync(to, from, count * sizeof(float), cudaMemcpyDeviceToDevice, stream.get()));
 }
 
-void choose_sides_in_place(const PackedField& field, const CheckedMaps& maps,
+void choose_sides_in_place(const PackedField& field, const MapPointers& maps,
                            const DeviceStream& stream) {
   const std::size_t size = static_cast<std::size_t>(maps.grid.count()) * field.height * field.width;
   DeviceArray<float> disparity(size, stream), confidence(size, stream);
-  const CheckedMaps before{maps.grid, maps.first, disparity.data(), confidence.data()};
+  const MapPointers before{maps.grid, maps.first, disparity.data(), confidence.data()};
   copy(maps.disparity, before.disparity, size, stream);
   copy(maps.confidence, before.confidence, size, stream);
   choose_sides(field, before, residual_noise(field, before, stream), maps, stream);
@@ -28,7 +28,7 @@ void choose_sides_in_place(const PackedField& field, const CheckedMaps& maps,
 }  // namespace
 
 void check_lines_on_device(const DeviceSamples& samples, const LineCheckSteps& steps,
-                           const CheckedMaps& maps, const DeviceStream& stream,
+                           const MapPointers& maps, const DeviceStream& stream,
                            const Progress& progress) {
   if (!steps.chooses_sides && !steps.reduces_confidence) return;
   progress.step("checking lines");
@@ -59,10 +59,8 @@ void check_lines(const LightField& lf, const LineCheckSteps& steps, ViewStack<fl
 void check_lines(const LightField& lf, const LineCheckSteps& steps, DeviceMaps& maps,
                  const Progress& progress) {
   MapMemory& memory = maps.memory();
-  check_lines_on_device(
-      memory.samples(lf, progress), steps,
-      {memory.grid, memory.first, memory.disparity.data(), memory.confidence.data()}, memory.stream,
-      progress);
+  check_lines_on_device(memory.samples(lf, progress), steps, memory.pointers(), memory.stream,
+                        progress);
 }
 
 void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
@@ -73,7 +71,7 @@ void replace_occluded(const LightField& lf, ViewStack<float>& disparity,
   auto r = upload(confidence.data(), confidence.size(), stream, progress);
   DeviceArray<float> out(disparity.size(), stream);
   const PackedFieldMemory packed(light_field->samples(), stream);
-  const CheckedMaps maps{disparity.grid(), disparity.first(), d.data(), r.data()};
+  const MapPointers maps{disparity.grid(), disparity.first(), d.data(), r.data()};
   const float variance = residual_noise(packed.field(), maps, stream);
   replace_seen_through(packed.field(), maps, variance, out.data(), stream);
   download(disparity, out, stream, progress);

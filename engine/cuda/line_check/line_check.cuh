@@ -9,7 +9,7 @@ namespace episcope::cuda {
 
 /// `check_lines` of maps on the device, on a stream. Throws DeviceFailure, Cancelled.
 void check_lines_on_device(const DeviceSamples& samples, const LineCheckSteps& steps,
-                           const CheckedMaps& maps, const DeviceStream& stream,
+                           const MapPointers& maps, const DeviceStream& stream,
                            const Progress& progress);
 
 }  // namespace episcope::cuda

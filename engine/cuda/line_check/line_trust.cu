@@ -58,7 +58,7 @@ __device__ float window_mean(const PackedField& field, const float (&mean)[kHigh
   return sum / static_cast<float>(columns) / static_cast<float>(rows);
 }
 
-__global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, CheckedMaps maps,
+__global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, MapPointers maps,
                                                           float variance) {
   __shared__ float mean[kHigh][kWide];
   const int place = static_cast<int>(blockIdx.z);
@@ -88,7 +88,7 @@ __global__ __launch_bounds__(kColumns* kRows) void reduce(PackedField field, Che
 
 }  // namespace
 
-void reduce_confidence(const PackedField& field, const CheckedMaps& maps, float variance,
+void reduce_confidence(const PackedField& field, const MapPointers& maps, float variance,
                        const DeviceStream& stream) {
   const dim3 grid(blocks_for(field.width, kColumns), blocks_for(field.height, kRows),
                   static_cast<unsigned>(maps.grid.count()));

@@ -7,7 +7,7 @@ namespace episcope::cuda {
 
 /// Multiplies confidences by the trust in the maps' disparities, `variance` being residual_noise of
 /// these; see reduce_confidence.
-void reduce_confidence(const PackedField& field, const CheckedMaps& maps, float variance,
+void reduce_confidence(const PackedField& field, const MapPointers& maps, float variance,
                        const DeviceStream& stream);
 
 }  // namespace episcope::cuda

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/cuda/light_field/device_light_field.cuh"
+#include "engine/cuda/maps/map_pointers.cuh"
 
 #include <cstdint>
 
@@ -47,13 +48,7 @@ __device__ inline bool is_valid(std::uint32_t packed) {
   return (packed >> kPackedInvalidBit & 1) == 0;
 }
 
-/// Maps `[v][u][y][x]` of a rectangle of views on the device, and a pixel of one of them.
-struct CheckedMaps {
-  GridShape grid;
-  ViewIndex first;
-  float* disparity = nullptr;
-  float* confidence = nullptr;
-};
+/// A pixel of a view.
 struct RayPlace {
   int v, u, y, x;
 };

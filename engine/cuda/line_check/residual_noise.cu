@@ -36,12 +36,11 @@ T fetch(const T* from, const DeviceStream& stream) {
 
 }  // namespace
 
-float residual_noise(const PackedField& field, const CheckedMaps& maps,
+float residual_noise(const PackedField& field, const MapPointers& maps,
                      const DeviceStream& stream) {
   const ViewIndex center = field.grid.center();
   const int count = field.height * field.width;
-  const long place =
-      static_cast<long>(center.v - maps.first.v) * maps.grid.u + (center.u - maps.first.u);
+  const long place = maps.index(center.v, center.u);
   DeviceArray<float> residuals(count, stream), sorted(count, stream);
   DeviceArray<int> finite(1, stream);
   finite.clear();

@@ -36,7 +36,7 @@ struct Farther {
 };
 
 // Looks along the line of a ray in a view `k` steps away. Whether that view exists.
-__device__ bool look_along(const PackedField& field, const CheckedMaps& maps, const RayPlace& ray,
+__device__ bool look_along(const PackedField& field, const MapPointers& maps, const RayPlace& ray,
                            bool vertical, int k, float own, float confidence, Farther& farther) {
   const int v = ray.v + (vertical ? k : 0), u = ray.u + (vertical ? 0 : k);
   if (!field.contains(v, u)) return false;
@@ -55,7 +55,7 @@ __device__ bool look_along(const PackedField& field, const CheckedMaps& maps, co
   return true;
 }
 
-__device__ float replaced(const PackedField& field, const CheckedMaps& maps, const RayPlace& ray,
+__device__ float replaced(const PackedField& field, const MapPointers& maps, const RayPlace& ray,
                           float own, float confidence, float tolerance) {
   Farther farther;
   farther.count = 0;
@@ -71,7 +71,7 @@ __device__ float replaced(const PackedField& field, const CheckedMaps& maps, con
   return fits ? other : own;
 }
 
-__global__ __launch_bounds__(kThreads) void replace(PackedField field, CheckedMaps maps,
+__global__ __launch_bounds__(kThreads) void replace(PackedField field, MapPointers maps,
                                                     float tolerance, float* out) {
   const int size = field.height * field.width;
   const int inside = static_cast<int>(blockIdx.x * kThreads + threadIdx.x);
@@ -85,7 +85,7 @@ __global__ __launch_bounds__(kThreads) void replace(PackedField field, CheckedMa
 
 }  // namespace
 
-void replace_seen_through(const PackedField& field, const CheckedMaps& maps, float variance,
+void replace_seen_through(const PackedField& field, const MapPointers& maps, float variance,
                           float* out, const DeviceStream& stream) {
   const int size = field.height * field.width;
   const dim3 grid(blocks_for(size, kThreads), static_cast<unsigned>(field.grid.count()));

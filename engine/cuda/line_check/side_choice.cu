@@ -153,8 +153,8 @@ __device__ float2 decide(const Sides& sides, const Votes& votes) {
   return {sides.own, sides.own_confidence * (is_doubtful ? kept_share(votes) : 1)};
 }
 
-__global__ __launch_bounds__(kThreads) void choose(PackedField field, CheckedMaps before, float cap,
-                                                   float sharpness, CheckedMaps after) {
+__global__ __launch_bounds__(kThreads) void choose(PackedField field, MapPointers before, float cap,
+                                                   float sharpness, MapPointers after) {
   __shared__ Ballots ballots;
   const long size = static_cast<long>(field.height) * field.width;
   const int number = static_cast<int>(blockIdx.z);
@@ -192,8 +192,8 @@ __global__ __launch_bounds__(kThreads) void choose(PackedField field, CheckedMap
 
 }  // namespace
 
-void choose_sides(const PackedField& field, const CheckedMaps& before, float variance,
-                  const CheckedMaps& after, const DeviceStream& stream) {
+void choose_sides(const PackedField& field, const MapPointers& before, float variance,
+                  const MapPointers& after, const DeviceStream& stream) {
   const dim3 grid(blocks_for(field.width, kColumns), blocks_for(field.height, kRows),
                   static_cast<unsigned>(before.grid.count()));
   const float cap = kCap * (variance + kMinDifference * kMinDifference);

@@ -8,7 +8,7 @@ namespace episcope::cuda {
 /// Decides for every ray near a jump of `before` to which side of it the ray belongs, and writes
 /// disparity and confidence of all rays to `after`, which is another; see choose_sides. `variance`
 /// is residual_noise of `before`.
-void choose_sides(const PackedField& field, const CheckedMaps& before, float variance,
-                  const CheckedMaps& after, const DeviceStream& stream);
+void choose_sides(const PackedField& field, const MapPointers& before, float variance,
+                  const MapPointers& after, const DeviceStream& stream);
 
 }  // namespace episcope::cuda

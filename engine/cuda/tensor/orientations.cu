@@ -10,10 +10,8 @@ namespace episcope::cuda {
 void find_orientations(const LightField& lf, const TensorSettings& settings, DeviceMaps& maps,
                        const Progress& progress) {
   MapMemory& memory = maps.memory();
-  find_orientations_on_device(
-      memory.samples(lf, progress), settings,
-      {memory.grid, memory.first, memory.disparity.data(), memory.confidence.data()}, memory.stream,
-      progress);
+  find_orientations_on_device(memory.samples(lf, progress), settings, memory.pointers(),
+                              memory.stream, progress);
 }
 
 void find_orientations(const LightField& lf, const TensorSettings& settings,

@@ -90,7 +90,7 @@ __device__ Orientation merged(const Orientation& vertical, const Orientation& ho
 
 // Writes the estimate of a pixel of the maps; `pixel` is the same one of the samples.
 __device__ void write(const DeviceSamples& samples, Orientation found,
-                      const AverageSettings& settings, const OrientationMaps& maps, long at,
+                      const AverageSettings& settings, const MapPointers& maps, long at,
                       long pixel) {
   if (settings.outcome == Outcome::MergedIntoNothing) found = merged(found, {0, 0}, settings);
   if (settings.outcome == Outcome::MergedWithStored) {
@@ -109,7 +109,7 @@ __device__ void write(const DeviceSamples& samples, Orientation found,
 
 __device__ void write_at(const DeviceSamples& samples, const EpiBand& band, int view, int y, int x,
                          const Orientation& found, const AverageSettings& settings,
-                         const OrientationMaps& maps) {
+                         const MapPointers& maps) {
   const int v = band.is_vertical ? view : band.line, u = band.is_vertical ? band.line : view;
   const long inside = static_cast<long>(y) * samples.width + x;
   const long size = static_cast<long>(samples.height) * samples.width;
@@ -121,7 +121,7 @@ template <bool kVertical>
 __global__ __launch_bounds__(kTile* kRows) void average(DeviceSamples samples, AveragedBand band,
                                                         WantedViews wanted, const float* best,
                                                         AverageSettings settings,
-                                                        OrientationMaps maps) {
+                                                        MapPointers maps) {
   __shared__ float2 tile[kTile][kTile + 1];
   const int view = static_cast<int>(blockIdx.z);
   const int first_lane = static_cast<int>(blockIdx.x) * kTile;
@@ -155,7 +155,7 @@ __global__ __launch_bounds__(kTile* kRows) void average(DeviceSamples samples, A
 
 void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
                      const float* best, const AverageSettings& settings,
-                     const OrientationMaps& maps, const DeviceStream& stream) {
+                     const MapPointers& maps, const DeviceStream& stream) {
   const bool is_vertical = band.band.is_vertical;
   const dim3 grid(blocks_for(band.band.length, kTile), blocks_for(band.count, kTile),
                   static_cast<unsigned>(wanted.count()));

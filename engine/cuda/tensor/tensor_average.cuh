@@ -36,6 +36,6 @@ struct AveragedBand {
 /// to the maps; see OrientationKernel::resolve and merge.
 void average_tensors(const DeviceSamples& samples, const AveragedBand& band, WantedViews wanted,
                      const float* best, const AverageSettings& settings,
-                     const OrientationMaps& maps, const DeviceStream& stream);
+                     const MapPointers& maps, const DeviceStream& stream);
 
 }  // namespace episcope::cuda

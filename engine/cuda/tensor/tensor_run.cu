@@ -47,7 +47,7 @@ class Pace {
 class DirectionRun {
  public:
   DirectionRun(const DeviceSamples& samples, const TensorSettings& settings, bool is_vertical,
-               const OrientationMaps& maps, const DeviceStream& stream);
+               const MapPointers& maps, const DeviceStream& stream);
 
   void run(const AverageSettings& averages, const Progress& progress,
            const std::function<void(int line)>& on_line);
@@ -63,7 +63,7 @@ class DirectionRun {
   const DeviceSamples& samples_;
   const TensorSettings& settings_;
   bool is_vertical_;
-  const OrientationMaps& maps_;
+  const MapPointers& maps_;
   const DeviceStream& stream_;
   TensorSearchFilters search_;
   NineViewFilters nine_;
@@ -77,7 +77,7 @@ class DirectionRun {
 };
 
 DirectionRun::DirectionRun(const DeviceSamples& samples, const TensorSettings& settings,
-                           bool is_vertical, const OrientationMaps& maps,
+                           bool is_vertical, const MapPointers& maps,
                            const DeviceStream& stream)
     : samples_(samples),
       settings_(settings),
@@ -192,7 +192,7 @@ AverageSettings averages_of(const TensorSettings& settings) {
 
 // Vertical EPIs come first, so that rows of views are done one after the other.
 void find_orientations_on_device(const DeviceSamples& samples, const TensorSettings& settings,
-                                 const OrientationMaps& maps, const DeviceStream& stream,
+                                 const MapPointers& maps, const DeviceStream& stream,
                                  const Progress& progress, const MapsBegun& on_maps) {
   const bool has_horizontal = settings.horizontal.views() > 0;
   const bool has_vertical = settings.vertical.views() > 0;
