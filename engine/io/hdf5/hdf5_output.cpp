@@ -10,6 +10,17 @@
 #include <utility>
 
 namespace episcope::io {
+namespace {
+
+// How an object of class `type` is created, to be closed: without its time, so that the same
+// content is the same bytes.
+hid_t creation_of(hid_t type) {
+  const hid_t creation = H5Pcreate(type);
+  H5Pset_obj_track_times(creation, false);
+  return creation;
+}
+
+}  // namespace
 
 Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(file.target()) {
   const Hdf5Lock session;
@@ -17,7 +28,7 @@ Hdf5Output::Hdf5Output(const AtomicFile& file, std::size_t user_bytes) : path_(f
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
   use_logging_write_driver(access, log_);
-  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  const Hdf5Handle creation(creation_of(H5P_FILE_CREATE), H5Pclose);
   H5Pset_userblock(creation, user_bytes);
   file_ = H5Fcreate(file.temporary().c_str(), H5F_ACC_TRUNC, creation, access);
   require(file_ >= 0);
@@ -42,7 +53,8 @@ Hdf5Output::~Hdf5Output() {
 
 void Hdf5Output::add_group(const std::string& name) {
   const Hdf5Lock session;
-  const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+  const Hdf5Handle creation(creation_of(H5P_GROUP_CREATE), H5Pclose);
+  const Hdf5Handle group(H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT),
                          H5Gclose);
   require(group.ok());
 }
@@ -53,7 +65,7 @@ void Hdf5Output::create_dataset(const std::string& name, const Hdf5Shape& shape,
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Hdf5Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr),
                          H5Sclose);
-  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  const Hdf5Handle creation(creation_of(H5P_DATASET_CREATE), H5Pclose);
   H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER);
   if (is_reserved) H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY);
   const hid_t id =
