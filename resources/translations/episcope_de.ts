@@ -4348,7 +4348,7 @@ s</translation>
     </message>
     <message>
         <source>%1 was estimated with%2: its errors may be meaningless. Choose the same in Conventions…</source>
-        <translation>%1 wurde mit%2 geschätzt: seine Fehler sind womöglich bedeutungslos. Dasselbe unter Konventionen… wählen</translation>
+        <translation>%1 wurde mit%2 geschätzt: seine Fehler sind womöglich bedeutungslos. Dasselbe wählen unter Konventionen…</translation>
     </message>
     <message>
         <source>%1 was estimated from different samples than those of this light field: its errors may be meaningless.</source>

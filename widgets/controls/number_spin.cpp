@@ -3,6 +3,7 @@
 
 #include "widgets/style/number_text.h"
 
+#include <QLocale>
 #include <QToolTip>
 
 namespace episcope {
