@@ -218,6 +218,11 @@ void LanguageTest::mnemonics_areUniqueInAMenu() {
 
   QVERIFY(apply_language("de"));
   WindowFixture f;
+  const auto* bar = f.window.findChild<QMenuBar*>();
+  QVERIFY(bar && bar->actions().size() > 4);
+  QSet<QString> keys;
+  for (const QAction* menu : bar->actions()) keys << menu->text().section('&', 1).left(1).toLower();
+  QCOMPARE(keys.size(), bar->actions().size());
   const QList<QMenu*> menus = f.window.findChildren<QMenu*>();
   QVERIFY(menus.size() > 6);
   for (const QMenu* menu : menus) QCOMPARE(shared_mnemonics(*menu).join(" | "), QString());
