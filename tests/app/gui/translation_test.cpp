@@ -159,7 +159,10 @@ class Wrapper : public QTranslator {
   [[nodiscard]] QString translate(const char* context, const char* source,
                                   const char* disambiguation, int n) const override {
     QString text = QString::fromUtf8(source);
-    if (has_german_ && QLatin1String(context).startsWith(QLatin1String("episcope::")) &&
+    const QLatin1String place(context);
+    const bool is_of_program = place.startsWith(QLatin1String("episcope::")) &&
+                               !place.startsWith(QLatin1String("episcope::in_"));
+    if (has_german_ && is_of_program &&
         german_.translate(context, source, disambiguation, n).isNull() &&
         !is_composed(context, text)) {
       without_german_ << QString("%1: %2").arg(context, text);
