@@ -3666,7 +3666,7 @@ s</translation>
     </message>
     <message>
         <source>Focus plane</source>
-        <translation>Fokusebene</translation>
+        <translation>Fokus</translation>
     </message>
     <message>
         <source> px</source>
@@ -6291,7 +6291,7 @@ s</translation>
     </message>
     <message>
         <source>Middle drag, Space+drag</source>
-        <translation>Ziehen mit mittlerer Taste, Leertaste+Ziehen</translation>
+        <translation>Mittlere Taste, Leertaste+Ziehen</translation>
     </message>
     <message>
         <source>Pans</source>
@@ -6449,7 +6449,7 @@ s</translation>
     </message>
     <message>
         <source>Bad if off by more than</source>
-        <translation>Schlecht bei Fehlern über</translation>
+        <translation>Schlecht über</translation>
     </message>
     <message>
         <source>Visible judged pixels that are off by more than the threshold</source>
@@ -6551,7 +6551,7 @@ s</translation>
     </message>
     <message>
         <source>%1 runs on the centre view, the present values first</source>
-        <translation>%1 läuft auf der mittleren Ansicht, mit den jetzigen Werten zuerst</translation>
+        <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
     </message>
     <message>
         <source>Sweep of %1</source>
@@ -6967,7 +6967,7 @@ s</translation>
     <name>episcope::render</name>
     <message>
         <source>Background</source>
-        <translation>Hintergrund</translation>
+        <translation>Hinten</translation>
     </message>
     <message>
         <source>Bad</source>
