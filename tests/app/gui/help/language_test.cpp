@@ -249,6 +249,8 @@ void LanguageTest::noText_isCut() {
     QCoreApplication::processEvents();
     QCOMPARE(cut_texts(f.window), QStringList());
   }
+  const auto* surplus = f.window.findChild<QWidget*>("qt_toolbar_ext_button");
+  QVERIFY(surplus && !surplus->isVisible());
 }
 
 }  // namespace episcope::in_language_test
