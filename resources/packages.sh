@@ -8,7 +8,8 @@ LIBRARY_PACKAGES="libhdf5-dev libopencv-core-dev
   libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev
   pkg-config libavfilter-dev libavformat-dev libavcodec-dev"
 ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
-WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev libvtk9-dev libgl1-mesa-dri"
+WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev qt6-l10n-tools libvtk9-dev
+  libgl1-mesa-dri"
 WAYLAND_PACKAGES="qt6-wayland"
 TEST_PACKAGES="ccache libbenchmark-dev libopencv-contrib-dev xvfb xauth"
 # What making the manual takes, beside a display.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/about/version_text.h"
+#include "app/gui/help/language_choice.h"
 #include "app/gui/help/theme_choice.h"
 #include "app/gui/main_window.h"
 #include "app/session/scene/user_folders.h"
@@ -28,7 +29,7 @@ int fail(const QString& sentence) {
 
 QString no_option(const QString& name) {
   const std::string nearest =
-      episcope::nearest_name(name.toStdString(), {"theme", "help", "version"});
+      episcope::nearest_name(name.toStdString(), {"theme", "language", "help", "version"});
   const QString sentence = QString("there is no option '--%1'; ").arg(name);
   return sentence + (nearest.empty() ? QString("see episcope --help")
                                      : QString("did you mean '--%1'?").arg(nearest.c_str()));
@@ -46,6 +47,16 @@ bool asks_for_text(int argc, char** argv) {
 std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
   if (asks_for_text(argc, argv)) return std::make_unique<QCoreApplication>(argc, argv);
   return std::make_unique<QApplication>(argc, argv);
+}
+
+QCommandLineOption theme_option() {
+  return {"theme", "Colours: light, dark or those of the desktop.", "light|dark|system",
+          episcope::remembered_theme()};
+}
+
+QCommandLineOption language_option() {
+  return {"language", "Language of the window: that of the desktop, or one of its own.",
+          "system|" + episcope::languages().join('|'), episcope::remembered_language()};
 }
 
 int show_version() {
@@ -71,9 +82,9 @@ int main(int argc, char** argv) {
       "INPUT",
       "an lf.h5, a scene folder, an image grid, a project (*.episcope), demo or demo:<scene>",
       "[INPUT]");
-  const QCommandLineOption theme("theme", "Colours: light, dark or those of the desktop.",
-                                 "light|dark|system", episcope::remembered_theme());
-  parser.addOption(theme);
+  const QCommandLineOption theme = theme_option();
+  const QCommandLineOption language = language_option();
+  parser.addOptions({theme, language});
   if (!parser.parse(QCoreApplication::arguments())) {
     const QStringList unknown = parser.unknownOptionNames();
     return fail(unknown.isEmpty() ? parser.errorText() : no_option(unknown.front()));
@@ -81,9 +92,12 @@ int main(int argc, char** argv) {
   if (parser.isSet(help)) parser.showHelp();
   if (parser.isSet(version)) return show_version();
   const QStringList inputs = parser.positionalArguments();
-  if (!episcope::apply_theme(parser.value(theme)) || inputs.size() > 1) {
-    return fail(inputs.size() > 1 ? "give one INPUT; a project (*.episcope) holds several"
-                                  : "--theme must be light, dark or system");
+  if (inputs.size() > 1) return fail("give one INPUT; a project (*.episcope) holds several");
+  if (!episcope::apply_theme(parser.value(theme))) {
+    return fail("--theme must be light, dark or system");
+  }
+  if (!episcope::apply_language(parser.value(language))) {
+    return fail("--language must be system, " + episcope::languages().join(" or "));
   }
 
   QGuiApplication::setDesktopFileName("episcope");

@@ -39,7 +39,7 @@ if(EPISCOPE_GUI)
 endif()
 episcope_debian_package(dev libepiscope-dev)
 set(CPACK_DEBIAN_WINDOW_PACKAGE_DEPENDS "episcope-cli (= ${PROJECT_VERSION})")
-set(CPACK_DEBIAN_WINDOW_PACKAGE_RECOMMENDS "qt6-wayland, libgl1-mesa-dri")
+set(CPACK_DEBIAN_WINDOW_PACKAGE_RECOMMENDS "qt6-wayland, libgl1-mesa-dri, qt6-translations-l10n")
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 execute_process(COMMAND sh -c ". resources/packages.sh; echo $LIBRARY_PACKAGES"
                 WORKING_DIRECTORY "${CMAKE_SOURCE_DIR}" OUTPUT_VARIABLE libraries

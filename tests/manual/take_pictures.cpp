@@ -3,6 +3,7 @@
 // and keys, and writes its pictures to FOLDER. resources/manual/pictures.txt has the steps.
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
+#include "app/gui/help/language_choice.h"
 #include "tests/app/gui/window_fixture.h"
 
 #include <QAbstractButton>
@@ -172,8 +173,13 @@ int play_file(const QString& steps, const QString& folder) {
 int main(int argc, char** argv) {
   const QApplication application(argc, argv);
   const QStringList arguments = QApplication::arguments();
-  if (arguments.size() != 3) {
-    std::fprintf(stderr, "usage: take_pictures STEPS FOLDER\n");
+  const bool has_language = arguments.size() == 4;
+  if (arguments.size() != 3 && !has_language) {
+    std::fprintf(stderr, "usage: take_pictures STEPS FOLDER [LANGUAGE]\n");
+    return 2;
+  }
+  if (has_language && !episcope::apply_language(arguments[3])) {
+    std::fprintf(stderr, "there is no language %s\n", qPrintable(arguments[3]));
     return 2;
   }
   return episcope::manual::play_file(arguments[1], arguments[2]);

@@ -48,10 +48,11 @@ OverlayBar::OverlayBar(QWidget* parent)
   }
   opacity_->setObjectName("overlay.opacity");
   opacity_->setRange(0, 100);
-  opacity_->setFixedWidth(70);
+  opacity_->setMinimumWidth(40);
+  opacity_->setMaximumWidth(70);
   opacity_->setToolTip(tr("Opacity of the overlay"));
   focus_slider_->setObjectName("overlay.focusSlider");
-  focus_slider_->setMinimumWidth(60);
+  focus_slider_->setMinimumWidth(44);
   focus_slider_->setMaximumWidth(220);
   focus_slider_->setToolTip(
       tr("Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, "

@@ -3,12 +3,16 @@
 
 #include "widgets/style/number_text.h"
 
+#include <QLocale>
 #include <QToolTip>
 
 namespace episcope {
 namespace {
 
-QString with_hyphen(QString text) {
+// As QDoubleSpinBox reads it: a hyphen for the minus, and a point for the decimal comma that the
+// keypads of some languages have.
+QString readable(QString text) {
+  if (QLocale().decimalPoint() == ",") text.replace(',', '.');
   return text.replace(kMinus, '-');
 }
 
@@ -32,11 +36,11 @@ QString NumberSpin::textFromValue(double value) const {
 }
 
 double NumberSpin::valueFromText(const QString& text) const {
-  return QDoubleSpinBox::valueFromText(with_hyphen(text));
+  return QDoubleSpinBox::valueFromText(readable(text));
 }
 
 QValidator::State NumberSpin::validate(QString& text, int& position) const {
-  QString plain = with_hyphen(text);
+  QString plain = readable(text);
   const QValidator::State state = QDoubleSpinBox::validate(plain, position);
   const auto number = typed(text);
   const bool is_beyond = number && (*number < minimum() || *number > maximum());
@@ -44,7 +48,7 @@ QValidator::State NumberSpin::validate(QString& text, int& position) const {
 }
 
 std::optional<double> NumberSpin::typed(const QString& text) const {
-  QString plain = with_hyphen(text);
+  QString plain = readable(text);
   if (!suffix().isEmpty() && plain.endsWith(suffix())) plain.chop(suffix().size());
   bool is_number = false;
   const double number = plain.trimmed().toDouble(&is_number);

@@ -8,8 +8,8 @@
 namespace episcope {
 
 /// A field for a number with a decimal point, whatever the language, and a true minus; a hyphen may
-/// be typed for it. Any number can be typed: one beyond the range becomes the limit, which a tool
-/// tip says.
+/// be typed for it, and a comma for the point where the language has one. Any number can be typed:
+/// one beyond the range becomes the limit, which a tool tip says.
 class NumberSpin : public QDoubleSpinBox {
   Q_OBJECT
 

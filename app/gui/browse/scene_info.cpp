@@ -14,46 +14,47 @@
 namespace episcope {
 namespace {
 
-QString text(const char* source) {
-  return QCoreApplication::translate("episcope::InfoPanel", source);
-}
+struct Text {
+  Q_DECLARE_TR_FUNCTIONS(episcope::InfoPanel)
+};
 
 QString type_text(const LightField& light_field) {
-  const QString color = light_field.channels() == 3 ? text("RGB") : text("grey");
+  const QString color = light_field.channels() == 3 ? Text::tr("RGB") : Text::tr("grey");
   switch (light_field.sample_type()) {
     case SampleType::UInt8:
-      return color + text(", 8 bit");
+      return color + Text::tr(", 8 bit");
     case SampleType::UInt16:
-      return color + text(", 16 bit");
+      return color + Text::tr(", 16 bit");
     case SampleType::Float32:
-      return color + text(", float");
+      return color + Text::tr(", float");
   }
   return color;
 }
 
 QString sample_text(const LightField& light_field) {
   const QString type = type_text(light_field);
-  return light_field.is_on_disk() ? type + text(", on disk") : type;
+  return light_field.is_on_disk() ? type + Text::tr(", on disk") : type;
 }
 
 QString coverage(const ViewStack<float>& maps, GridShape grid) {
-  return maps.grid() == grid ? text("all views")
-                             : text("%1 of %2 views").arg(maps.grid().count()).arg(grid.count());
+  return maps.grid() == grid
+             ? Text::tr("all views")
+             : Text::tr("%1 of %2 views").arg(maps.grid().count()).arg(grid.count());
 }
 
 QString truth_text(const GroundTruth& truth, GridShape grid) {
   QStringList parts;
   if (truth.has_disparity()) {
-    parts << text("disparity (%1)").arg(coverage(truth.field.disparity, grid));
+    parts << Text::tr("disparity (%1)").arg(coverage(truth.field.disparity, grid));
   }
-  if (truth.has_layers()) parts << text("two layers");
-  if (!truth.labels.empty()) parts << text("labels");
+  if (truth.has_layers()) parts << Text::tr("two layers");
+  if (!truth.labels.empty()) parts << Text::tr("labels");
   if (!truth.regions.empty()) {
     const int regions = static_cast<int>(truth.regions.size());
-    parts << (regions == 1 ? text("1 region mask") : text("%1 region masks").arg(regions));
+    parts << (regions == 1 ? Text::tr("1 region mask") : Text::tr("%1 region masks").arg(regions));
   }
-  if (truth.high_res) parts << text("ten times the resolution for metrics");
-  return parts.isEmpty() ? text("none") : parts.join(", ");
+  if (truth.high_res) parts << Text::tr("ten times the resolution for metrics");
+  return parts.isEmpty() ? Text::tr("none") : parts.join(", ");
 }
 
 // Four digits, and no exponent where whole numbers say as much.
@@ -63,10 +64,10 @@ QString measure(double value) {
 }
 
 QString camera_text(const CameraGrid& camera) {
-  if (!camera.is_known()) return text("unknown: disparity only, no depth");
-  QString line = text("B·f %1, shift %2 px")
+  if (!camera.is_known()) return Text::tr("unknown: disparity only, no depth");
+  QString line = Text::tr("B·f %1, shift %2 px")
                      .arg(measure(camera.baseline * camera.focal_length), measure(camera.shift));
-  if (camera.cam_distance) line += text(", Z₀ %1").arg(measure(*camera.cam_distance));
+  if (camera.cam_distance) line += Text::tr(", Z₀ %1").arg(measure(*camera.cam_distance));
   return line;
 }
 
@@ -77,7 +78,7 @@ QString megabytes(std::size_t bytes) {
 
 QString by_whom(const std::string& finding, bool was_chosen) {
   const QString shown = with_minus(QString::fromStdString(finding));
-  return was_chosen ? text("%1 (set by you)").arg(shown) : shown;
+  return was_chosen ? Text::tr("%1 (set by you)").arg(shown) : shown;
 }
 
 // Names of an image grid that were given; empty if they were found.
@@ -85,9 +86,9 @@ QString names_text(const Reading& reading) {
   const ParameterValue* pattern = reading.find("pattern");
   const bool is_snake = reading.find("snake") != nullptr;
   if (!pattern && !is_snake) return {};
-  QString names = pattern ? QString::fromStdString(to_text(*pattern)) : text("automatic");
-  if (is_snake) names += text(", snake");
-  return text("%1 (set by you)").arg(names);
+  QString names = pattern ? QString::fromStdString(to_text(*pattern)) : Text::tr("automatic");
+  if (is_snake) names += Text::tr(", snake");
+  return Text::tr("%1 (set by you)").arg(names);
 }
 
 // The GPU that methods compute on, or why there is none.
@@ -96,8 +97,8 @@ QString gpu_text() {
   const auto gibibytes = [](std::size_t bytes) {
     return QString::number(static_cast<double>(bytes) / (1 << 30), 'f', 1);
   };
-  if (!device.is_available) return text("none: %1").arg(schema_text(device.why_not));
-  return text("%1, %2 of %3 GiB free")
+  if (!device.is_available) return Text::tr("none: %1").arg(schema_text(device.why_not));
+  return Text::tr("%1, %2 of %3 GiB free")
       .arg(QString::fromStdString(device.name), gibibytes(device.free_memory),
            gibibytes(device.memory));
 }
@@ -105,16 +106,17 @@ QString gpu_text() {
 void add_conventions(SceneInfo& info, const CameraGrid& camera,
                      const ConventionReport& convention) {
   const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
-  info.rows.push_back({text("Order"), by_whom(convention.order, convention.order_was_chosen),
+  info.rows.push_back({Text::tr("Order"), by_whom(convention.order, convention.order_was_chosen),
                        with_minus(utf8(convention.order_check)), "order"});
-  info.rows.push_back({text("Sign"), convention.sign.empty() ? text("not known") : text("checked"),
+  info.rows.push_back({Text::tr("Sign"),
+                       convention.sign.empty() ? Text::tr("not known") : Text::tr("checked"),
                        with_minus(utf8(convention.sign_check)), "sign"});
-  info.rows.push_back({text("Camera"), camera_text(camera), {}, "camera"});
+  info.rows.push_back({Text::tr("Camera"), camera_text(camera), {}, "camera"});
   if (!convention.units.empty()) {
-    info.rows.push_back({text("Depth"), by_whom(convention.units, convention.units_were_chosen),
+    info.rows.push_back({Text::tr("Depth"), by_whom(convention.units, convention.units_were_chosen),
                          with_minus(utf8(convention.units_check)), "units"});
   }
-  info.rows.push_back({text("Format"), utf8(convention.format), {}, "format"});
+  info.rows.push_back({Text::tr("Format"), utf8(convention.format), {}, "format"});
 }
 
 }  // namespace
@@ -126,46 +128,47 @@ SceneInfo describe(const Scene& scene) {
   const auto utf8 = [](const std::string& each) { return QString::fromStdString(each); };
   SceneInfo info;
   info.title = utf8(light_field.info().name);
-  info.rows.push_back({text("Views"), text("%1×%2").arg(grid.v).arg(grid.u), {}});
-  info.rows.push_back({text("Size"),
-                       text("%1×%2 px, %3 MB")
+  info.rows.push_back({Text::tr("Views"), Text::tr("%1×%2").arg(grid.v).arg(grid.u), {}});
+  info.rows.push_back({Text::tr("Size"),
+                       Text::tr("%1×%2 px, %3 MB")
                            .arg(light_field.width())
                            .arg(light_field.height())
                            .arg(megabytes(light_field.byte_size())),
                        {}});
-  info.rows.push_back({text("Samples"), sample_text(light_field), utf8(samples_text(scene))});
+  info.rows.push_back({Text::tr("Samples"), sample_text(light_field), utf8(samples_text(scene))});
   if (!light_field.valid().empty()) {
-    info.rows.push_back({text("Valid"),
-                         text("%1 % of the pixels").arg(number_text(valid_percent(light_field), 1)),
-                         text("The others are dark or empty and do not count.")});
+    info.rows.push_back(
+        {Text::tr("Valid"),
+         Text::tr("%1 % of the pixels").arg(number_text(valid_percent(light_field), 1)),
+         Text::tr("The others are dark or empty and do not count.")});
   }
   if (!convention.gain.empty()) {
-    info.rows.push_back({text("Brightness"), with_minus(utf8(convention.gain)), {}, "gain"});
+    info.rows.push_back({Text::tr("Brightness"), with_minus(utf8(convention.gain)), {}, "gain"});
   }
   if (const Interval range = known_disparity_range(scene); range.length() > 0) {
     info.rows.push_back(
-        {text("Disparity"),
-         text("%1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2)),
+        {Text::tr("Disparity"),
+         Text::tr("%1 … %2 px").arg(number_text(range.min, 2), number_text(range.max, 2)),
          {}});
   }
   if (convention.focus_px != 0) {
-    info.rows.push_back({text("Focus"),
-                         text("%1 px applied").arg(number_text(convention.focus_px, 2)),
-                         text("All views but the centre one are interpolated.")});
+    info.rows.push_back({Text::tr("Focus"),
+                         Text::tr("%1 px applied").arg(number_text(convention.focus_px, 2)),
+                         Text::tr("All views but the centre one are interpolated.")});
   }
-  info.rows.push_back({text("Truth"), truth_text(*scene.truth, grid), {}});
+  info.rows.push_back({Text::tr("Truth"), truth_text(*scene.truth, grid), {}});
   add_conventions(info, light_field.info().camera, convention);
   if (const QString names = names_text(light_field.info().reading); !names.isEmpty()) {
-    info.rows.push_back({text("Names"), names, {}, "names"});
+    info.rows.push_back({Text::tr("Names"), names, {}, "names"});
   }
   for (const Companion& companion : scene.companions) {
     info.rows.push_back({schema_text(companion_name(companion.kind)), utf8(companion.shape), {}});
   }
   if (const std::string files = files_text(convention); !files.empty()) {
-    info.rows.push_back({text("Files"), utf8(files), {}, "files"});
+    info.rows.push_back({Text::tr("Files"), utf8(files), {}, "files"});
   }
-  info.rows.push_back({text("Source"), utf8(light_field.info().source), {}, "source"});
-  info.rows.push_back({text("GPU"), gpu_text(), {}, "gpu"});
+  info.rows.push_back({Text::tr("Source"), utf8(light_field.info().source), {}, "source"});
+  info.rows.push_back({Text::tr("GPU"), gpu_text(), {}, "gpu"});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
   return info;
 }

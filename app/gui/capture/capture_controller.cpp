@@ -178,10 +178,11 @@ void CaptureController::loadMesh(const QString& path) {
         mesh_ = loaded.mesh;
         mesh_file_ = path_of(path);
         vertex_.reset();
-        panel_->setMesh(tr("%1 · %2 faces")
-                            .arg(QFileInfo(path).fileName(),
-                                 QLocale().toString(static_cast<qulonglong>(mesh_->faces.size()))),
-                        *loaded.cloud);
+        panel_->setMesh(
+            tr("%1 · %2 faces")
+                .arg(QFileInfo(path).fileName(),
+                     QLocale::c().toString(static_cast<qulonglong>(mesh_->faces.size()))),
+            *loaded.cloud);
         changed();
       });
 }

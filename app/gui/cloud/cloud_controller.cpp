@@ -175,7 +175,7 @@ QString CloudController::summary(const Made& made) const {
   for (const CloudPart& part : *made.parts) points += part.all.positions.size();
   QString text =
       tr("%1: %2 points")
-          .arg(requests_.title(choice), QLocale().toString(static_cast<quint64>(points)));
+          .arg(requests_.title(choice), QLocale::c().toString(static_cast<quint64>(points)));
   if (choice.coloring == CloudColoring::Source && made.parts->size() > 1) {
     text += tr(", in orange and blue");
   }

@@ -99,9 +99,9 @@ constexpr MetricName kNames[] = {
                        "Pixels with the correct number of layers, one or two, in %"),
      1}};
 
-QString text(const char* source) {
-  return QCoreApplication::translate("episcope::MetricTable", source);
-}
+struct Text {
+  Q_DECLARE_TR_FUNCTIONS(episcope::MetricTable)
+};
 
 // What a number is of, where the end of its key says so; a key may have several such ends.
 struct PartName {
@@ -160,20 +160,21 @@ MetricColumn metric_column(Protocol protocol, const std::string& key) {
   const MetricName* found = name_of(split.base);
   const bool is_known = found != std::end(kNames);
   const QString full_key = QString(protocol_name(protocol)) + '.' + QString::fromStdString(key);
-  QString label = is_known ? text(found->label) : QString::fromStdString(key);
-  const QString year = protocol == Protocol::Vmv2013 ? text("2013") : text("2016");
-  const QString rules = protocol == Protocol::Vmv2013
-                            ? text("Protocol vmv2013: all pixels with ground truth, centre view")
-                            : text(
-                                  "Protocol benchmark2016: without a border of 15 px, centre "
-                                  "view");
+  QString label = is_known ? Text::tr(found->label) : QString::fromStdString(key);
+  const QString year = protocol == Protocol::Vmv2013 ? Text::tr("2013") : Text::tr("2016");
+  const QString rules =
+      protocol == Protocol::Vmv2013
+          ? Text::tr("Protocol vmv2013: all pixels with ground truth, centre view")
+          : Text::tr(
+                "Protocol benchmark2016: without a border of 15 px, centre "
+                "view");
   const bool is_share =
       key.starts_with("density") || key.starts_with("shown") || key == "layers_right";
-  QString help = is_known ? text(found->help) : QString();
+  QString help = is_known ? Text::tr(found->help) : QString();
   for (const std::size_t part : split.parts) {
     if (!is_known) break;
-    label += ' ' + text(kParts[part].label);
-    help += '\n' + text(kParts[part].help);
+    label += ' ' + Text::tr(kParts[part].label);
+    help += '\n' + Text::tr(kParts[part].help);
   }
   return {full_key, year + '\n' + label, QStringList{help, rules, full_key}.join('\n'),
           is_known ? found->decimals : 3, is_share ? BestValue::Greatest : BestValue::Least};

@@ -28,8 +28,8 @@ std::vector<ParameterDescription> random_parameters() {
   const scenes::RenderOptions defaults;
   ParameterDescription seed{
       .key = "seed",
-      .label = "Seed",
-      .help = "Each number is another scene",
+      .label = QT_TRANSLATE_NOOP("episcope::Schema", "Seed"),
+      .help = QT_TRANSLATE_NOOP("episcope::Schema", "Each number is another scene"),
       .unit = "",
       .default_value = static_cast<int>(defaults.seed),
       .min = 0,
@@ -37,8 +37,8 @@ std::vector<ParameterDescription> random_parameters() {
   };
   ParameterDescription kind{
       .key = "kind",
-      .label = "Kind",
-      .help = "What the scene is made of; any is a mixture",
+      .label = QT_TRANSLATE_NOOP("episcope::Schema", "Kind"),
+      .help = QT_TRANSLATE_NOOP("episcope::Schema", "What the scene is made of; any is a mixture"),
       .unit = "",
       .default_value = scenes::random_kind_name(defaults.kind),
       .choices = scenes::random_kind_names(),

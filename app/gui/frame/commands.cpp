@@ -35,6 +35,17 @@ std::optional<QList<QKeySequence>> remembered_keys(const QString& id) {
   return keys;
 }
 
+// Underlines the first letter that no title before has, in whatever language.
+QString with_mnemonic(QString title, QString& used) {
+  for (qsizetype i = 0; i < title.size(); ++i) {
+    const QChar key = title[i].toLower();
+    if (!key.isLetter() || used.contains(key)) continue;
+    used += key;
+    return title.insert(i, '&');
+  }
+  return title;
+}
+
 }  // namespace
 
 Commands::Commands(QWidget* window, QWidget* viewer)
@@ -194,10 +205,10 @@ bool Commands::hearHeld(const Command& command, const QKeyEvent& event) {
 
 void Commands::fillMenus(QMenuBar& bar) const {
   std::map<Menu, QMenu*> made;
+  QString used;
   for (const MenuInfo& info : menus()) {
-    QMenu* menu = info.is_submenu
-                      ? new QMenu(menu_text(info.menu), made.at(info.parent))
-                      : bar.addMenu('&' + menu_text(info.menu));  // all begin differently
+    QMenu* menu = info.is_submenu ? new QMenu(menu_text(info.menu), made.at(info.parent))
+                                  : bar.addMenu(with_mnemonic(menu_text(info.menu), used));
     menu->setObjectName("menu." + menu_path(info.menu));
     menu->setToolTipsVisible(true);
     made[info.menu] = menu;

@@ -2,6 +2,7 @@
 #include "app/gui/frame/jobs.h"
 
 #include "app/gui/frame/queued_post.h"
+#include "widgets/style/schema_text.h"
 
 #include <algorithm>
 #include <new>
@@ -38,7 +39,7 @@ void Jobs::attach(quint64 id, JobId runner_id) {
 
 void Jobs::report(quint64 id, const ProgressState& state) {
   if (jobs_.contains(id)) {
-    emit progressed(id, state.fraction, QString::fromStdString(state.step));
+    emit progressed(id, state.fraction, schema_text(state.step));
   }
 }
 

@@ -14,6 +14,7 @@ constexpr MenuInfo kMenus[] = {
     {Menu::File, QT_TRANSLATE_NOOP("episcope::Menu", "File")},
     {Menu::View, QT_TRANSLATE_NOOP("episcope::Menu", "View")},
     {Menu::Colours, QT_TRANSLATE_NOOP("episcope::Menu", "Colours"), true, Menu::View},
+    {Menu::Language, QT_TRANSLATE_NOOP("episcope::Menu", "Language"), true, Menu::View},
     {Menu::Panes, QT_TRANSLATE_NOOP("episcope::Menu", "Panes"), true, Menu::View},
     {Menu::Estimate, QT_TRANSLATE_NOOP("episcope::Menu", "Estimate")},
     {Menu::Compare, QT_TRANSLATE_NOOP("episcope::Menu", "Compare")},

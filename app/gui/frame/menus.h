@@ -11,8 +11,9 @@ namespace episcope {
 enum class Menu {
   File,
   View,
-  Colours,  ///< In View,
-  Panes,    ///< as is this one.
+  Colours,   ///< In View,
+  Language,  ///< as is this one,
+  Panes,     ///< and this one.
   Estimate,
   Compare,
   Annotate,

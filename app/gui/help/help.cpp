@@ -3,6 +3,7 @@
 
 #include "app/gui/frame/commands.h"
 #include "app/gui/help/command_palette.h"
+#include "app/gui/help/language_choice.h"
 #include "app/gui/help/shortcut_window.h"
 #include "app/gui/help/theme_choice.h"
 #include "engine/core/version.h"
@@ -42,6 +43,7 @@ void add_help(const Workbench& bench) {
   QWidget& window = bench.window;
   auto* palette = new CommandPalette(commands, &window);
   add_theme_commands(commands);
+  add_language_commands(commands, bench.messages);
   commands.add({.id = "help.keys",
                 .menu = Menu::Help,
                 .text = Text::tr("Keys and mouse"),

@@ -13,7 +13,10 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QTreeWidget>
+#include <QTreeWidgetItemIterator>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace episcope {
 namespace {
@@ -61,7 +64,12 @@ ShortcutWindow::ShortcutWindow(Commands& commands, QWidget* parent)
   fillGestures();
   fillCommands();
   showKeys();
-  tree_->setColumnWidth(0, 190);
+  // Fonts draw the dots of capital umlauts above their height.
+  for (QTreeWidgetItemIterator item(tree_); *item; ++item) {
+    (*item)->setSizeHint(1, QSize(0, fontMetrics().height() + 4));
+  }
+  tree_->resizeColumnToContents(0);
+  tree_->setColumnWidth(0, std::clamp(tree_->columnWidth(0), 190, 330));
   connect(tree_, &QTreeWidget::itemSelectionChanged, this, [this] {
     const QSignalBlocker blocker(edit_);
     edit_->clear();

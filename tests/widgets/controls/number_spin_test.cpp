@@ -45,6 +45,21 @@ class NumberSpinTest : public QObject {
     QCOMPARE(spin.value(), value);
   }
 
+  void typedComma_isAPoint_whereTheLanguageHasOne() {
+    const QLocale before;
+    QLocale::setDefault(QLocale("de"));
+    NumberSpin spin;
+    spin.setRange(-5, 5);
+    auto* edit = spin.findChild<QLineEdit*>();
+
+    edit->setText("-2,25");
+    spin.interpretText();
+
+    QLocale::setDefault(before);
+    QCOMPARE(spin.value(), -2.25);
+    QCOMPARE(spin.text(), QStringLiteral("−2.25"));
+  }
+
   void numberBeyondTheRange_becomesTheLimit_data() {
     QTest::addColumn<QString>("typed");
     QTest::addColumn<double>("value");

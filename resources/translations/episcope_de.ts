@@ -1,0 +1,7177 @@
+<?xml version="1.0" encoding="utf-8"?>
+<!DOCTYPE TS>
+<TS version="2.1" language="de_DE" sourcelanguage="en">
+<context>
+    <name>episcope::AnnotateController</name>
+    <message>
+        <source>Annotate</source>
+        <translation>Annotieren</translation>
+    </message>
+    <message>
+        <source>Annotate tab</source>
+        <translation>Reiter Annotieren</translation>
+    </message>
+    <message>
+        <source>Shows the labels and painting tools</source>
+        <translation>Zeigt die Labels und die Malwerkzeuge</translation>
+    </message>
+    <message>
+        <source>stroke</source>
+        <translation>Strich</translation>
+    </message>
+    <message>
+        <source>erasing</source>
+        <translation>Radieren</translation>
+    </message>
+    <message>
+        <source>fill</source>
+        <translation>Füllung</translation>
+    </message>
+    <message>
+        <source>new label</source>
+        <translation>neues Label</translation>
+    </message>
+    <message>
+        <source>label name</source>
+        <translation>Name des Labels</translation>
+    </message>
+    <message>
+        <source>label colour</source>
+        <translation>Farbe des Labels</translation>
+    </message>
+    <message>
+        <source>label removal</source>
+        <translation>Entfernen des Labels</translation>
+    </message>
+    <message>
+        <source>import</source>
+        <translation>Import</translation>
+    </message>
+    <message>
+        <source>smooth boundaries</source>
+        <translation>Glätten der Grenzen</translation>
+    </message>
+    <message>
+        <source>polygon</source>
+        <translation>Polygon</translation>
+    </message>
+    <message>
+        <source>lasso</source>
+        <translation>Lasso</translation>
+    </message>
+    <message>
+        <source>Switches between painting labels and browsing</source>
+        <translation>Wechselt zwischen Malen und Betrachten</translation>
+    </message>
+    <message>
+        <source>Ctrl+B</source>
+        <translation>Ctrl+B</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>Undoes the last stroke or change of labels, on whichever view it was made</source>
+        <translation>Nimmt den letzten Strich oder die letzte Änderung der Labels zurück, gleich in welcher Ansicht</translation>
+    </message>
+    <message>
+        <source>Ctrl+Z</source>
+        <translation>Ctrl+Z</translation>
+    </message>
+    <message>
+        <source>Undo %1</source>
+        <translation>Rückgängig: %1</translation>
+    </message>
+    <message>
+        <source>Redo</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source>Redoes the last undone change</source>
+        <translation>Stellt die zuletzt zurückgenommene Änderung wieder her</translation>
+    </message>
+    <message>
+        <source>Ctrl+Y</source>
+        <translation>Ctrl+Y</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+Z</source>
+        <translation>Ctrl+Shift+Z</translation>
+    </message>
+    <message>
+        <source>Redo %1</source>
+        <translation>Wiederherstellen: %1</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pinsel</translation>
+    </message>
+    <message>
+        <source>Paints the current label; the right button erases</source>
+        <translation>Malt das aktuelle Label; die rechte Maustaste radiert</translation>
+    </message>
+    <message>
+        <source>Eraser</source>
+        <translation>Radierer</translation>
+    </message>
+    <message>
+        <source>Erases what is painted</source>
+        <translation>Radiert Gemaltes</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Füllen</translation>
+    </message>
+    <message>
+        <source>Fills a region up to its edges; the right button clears it</source>
+        <translation>Füllt ein Gebiet bis zu seinen Kanten; die rechte Maustaste leert es</translation>
+    </message>
+    <message>
+        <source>Polygon</source>
+        <translation>Polygon</translation>
+    </message>
+    <message>
+        <source>Paints what is inside a polygon: click its corners, then double-click or press Return; begun with the right button, it erases</source>
+        <translation>Malt das Innere eines Polygons: die Ecken anklicken, dann doppelklicken oder Eingabe drücken; mit der rechten Maustaste begonnen, radiert es</translation>
+    </message>
+    <message>
+        <source>Lasso</source>
+        <translation>Lasso</translation>
+    </message>
+    <message>
+        <source>Paints what a drag goes around; the right button erases it</source>
+        <translation>Malt, was beim Ziehen umrundet wird; die rechte Maustaste radiert es</translation>
+    </message>
+    <message>
+        <source>Pick label</source>
+        <translation>Label aufnehmen</translation>
+    </message>
+    <message>
+        <source>Selects the label under the cursor</source>
+        <translation>Wählt das Label unter dem Mauszeiger</translation>
+    </message>
+    <message>
+        <source>Close the polygon</source>
+        <translation>Polygon schließen</translation>
+    </message>
+    <message>
+        <source>Paints what is inside the polygon that is being drawn</source>
+        <translation>Malt das Innere des Polygons, das gerade gezeichnet wird</translation>
+    </message>
+    <message>
+        <source>Take the last corner back</source>
+        <translation>Letzte Ecke zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Removes the corner of the polygon that was set last</source>
+        <translation>Entfernt die zuletzt gesetzte Ecke des Polygons</translation>
+    </message>
+    <message>
+        <source>Larger brush</source>
+        <translation>Größerer Pinsel</translation>
+    </message>
+    <message>
+        <source>Enlarges the brush, or the eraser while it is in use</source>
+        <translation>Vergrößert den Pinsel oder den Radierer, wenn er in Gebrauch ist</translation>
+    </message>
+    <message>
+        <source>Smaller brush</source>
+        <translation>Kleinerer Pinsel</translation>
+    </message>
+    <message>
+        <source>Shrinks the brush, or the eraser while it is in use</source>
+        <translation>Verkleinert den Pinsel oder den Radierer, wenn er in Gebrauch ist</translation>
+    </message>
+    <message>
+        <source>Protect other labels</source>
+        <translation>Andere Labels schützen</translation>
+    </message>
+    <message>
+        <source>Paints only unpainted pixels and erases only the current label; holding Shift does the same</source>
+        <translation>Malt nur auf unbemalte Pixel und radiert nur das aktuelle Label, wie mit gehaltener Umschalttaste</translation>
+    </message>
+    <message>
+        <source> and </source>
+        <translation> und </translation>
+    </message>
+    <message>
+        <source>“%1” is locked: unlock it to paint it, or choose another label.</source>
+        <translation>„%1“ ist gesperrt: zum Malen entsperren oder ein anderes Label wählen.</translation>
+    </message>
+    <message>
+        <source>There is an edge here. Click beside it, or raise the edge threshold of the fill.</source>
+        <translation>Hier ist eine Kante. Daneben klicken oder die Kantenschwelle der Füllung erhöhen.</translation>
+    </message>
+    <message>
+        <source>Nothing is painted here.</source>
+        <translation>Hier ist nichts gemalt.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::AnnotationBar</name>
+    <message>
+        <source>Carry to all views by</source>
+        <translation>In alle Ansichten übertragen mit</translation>
+    </message>
+    <message>
+        <source>Shows the scribbles of every view on all others, as stripes: carried along the rays, except where they are occluded. They never replace what you painted.</source>
+        <translation>Zeigt die Striche jeder Ansicht gestreift in allen anderen: entlang der Strahlen übertragen, außer wo sie verdeckt sind. Gemaltes wird dadurch nie ersetzt.</translation>
+    </message>
+    <message>
+        <source>the shown estimate</source>
+        <translation>der angezeigten Schätzung</translation>
+    </message>
+    <message>
+        <source>the ground truth</source>
+        <translation>der Referenz</translation>
+    </message>
+    <message>
+        <source>Disparity along which scribbles are carried</source>
+        <translation>Disparität, mit der Striche übertragen werden</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::AnnotationFiles</name>
+    <message>
+        <source>Save scribbles</source>
+        <translation>Striche speichern</translation>
+    </message>
+    <message>
+        <source>Saves labels and scribbles, beside the light field if that folder is writable</source>
+        <translation>Speichert Labels und Striche, neben dem Lichtfeld, falls dessen Ordner beschreibbar ist</translation>
+    </message>
+    <message>
+        <source>Save scribbles as…</source>
+        <translation>Striche speichern unter…</translation>
+    </message>
+    <message>
+        <source>Saves labels and scribbles to another file</source>
+        <translation>Speichert Labels und Striche in einer anderen Datei</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+S</source>
+        <translation>Ctrl+Shift+S</translation>
+    </message>
+    <message>
+        <source>Import scribbles…</source>
+        <translation>Striche importieren…</translation>
+    </message>
+    <message>
+        <source>Adds scribbles from another file wherever nothing is painted</source>
+        <translation>Fügt Striche aus einer anderen Datei hinzu, wo noch nichts gemalt ist</translation>
+    </message>
+    <message>
+        <source>Compare with true labels…</source>
+        <translation>Mit wahren Labels vergleichen…</translation>
+    </message>
+    <message>
+        <source>Compares the segmentation with the GT_LABELS of another file</source>
+        <translation>Vergleicht die Segmentierung mit den GT_LABELS einer anderen Datei</translation>
+    </message>
+    <message>
+        <source>Export scribbles as images…</source>
+        <translation>Striche als Bilder exportieren…</translation>
+    </message>
+    <message>
+        <source>Writes a PNG image of each painted view</source>
+        <translation>Schreibt von jeder bemalten Ansicht ein PNG-Bild</translation>
+    </message>
+    <message>
+        <source>no file yet</source>
+        <translation>noch keine Datei</translation>
+    </message>
+    <message>
+        <source>saving …</source>
+        <translation>wird gespeichert …</translation>
+    </message>
+    <message>
+        <source>%1 · not saved</source>
+        <translation>%1 · nicht gespeichert</translation>
+    </message>
+    <message>
+        <source>Archive labels (*.h5)</source>
+        <translation>Labels des Archivs (*.h5)</translation>
+    </message>
+    <message>
+        <source>Reading %1</source>
+        <translation>%1 wird gelesen</translation>
+    </message>
+    <message>
+        <source>Reloaded: %1</source>
+        <translation>Neu geladen: %1</translation>
+    </message>
+    <message>
+        <source>Saving %1</source>
+        <translation>%1 wird gespeichert</translation>
+    </message>
+    <message>
+        <source>Nothing is painted yet: there are no scribbles to export.</source>
+        <translation>Noch ist nichts gemalt: es gibt keine Striche zu exportieren.</translation>
+    </message>
+    <message>
+        <source>Folder for the images of the painted views</source>
+        <translation>Ordner für die Bilder der bemalten Ansichten</translation>
+    </message>
+    <message>
+        <source>Writing scribble images</source>
+        <translation>Bilder der Striche werden geschrieben</translation>
+    </message>
+    <message>
+        <source>Import scribbles</source>
+        <translation>Striche importieren</translation>
+    </message>
+    <message>
+        <source>Archive labels or exported scribble images (*.h5 *.hdf5 scribbles_*.png);;All files (*)</source>
+        <translation>Labels des Archivs oder exportierte Bilder von Strichen (*.h5 *.hdf5 scribbles_*.png);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Importing %1</source>
+        <translation>%1 wird importiert</translation>
+    </message>
+    <message>
+        <source>Imported: %1</source>
+        <translation>Importiert: %1</translation>
+    </message>
+    <message>
+        <source>%1 contains no new scribbles.</source>
+        <translation>%1 enthält keine neuen Striche.</translation>
+    </message>
+    <message>
+        <source>Compare with true labels</source>
+        <translation>Mit wahren Labels vergleichen</translation>
+    </message>
+    <message>
+        <source>Archive labels (*.h5 *.hdf5);;All files (*)</source>
+        <translation>Labels des Archivs (*.h5 *.hdf5);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Labels are now compared with %1</source>
+        <translation>Labels werden nun mit %1 verglichen</translation>
+    </message>
+    <message>
+        <source>Unsaved scribbles</source>
+        <translation>Nicht gespeicherte Striche</translation>
+    </message>
+    <message>
+        <source>The scribbles on “%1” have not been saved.</source>
+        <translation>Die Striche in „%1“ sind nicht gespeichert.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Autosave</name>
+    <message>
+        <source>Results cannot be kept for a crash: %1</source>
+        <translation>Ergebnisse können nicht für den Fall eines Absturzes gesichert werden: %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::BatchDialog</name>
+    <message>
+        <source>Run on several light fields</source>
+        <translation>Auf mehrere Lichtfelder anwenden</translation>
+    </message>
+    <message>
+        <source>Methods</source>
+        <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>Light fields</source>
+        <translation>Lichtfelder</translation>
+    </message>
+    <message>
+        <source>Run (%1)</source>
+        <translation>Starten (%1)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::BrowseController</name>
+    <message>
+        <source>%1, to the end</source>
+        <translation>%1, bis ans Ende</translation>
+    </message>
+    <message>
+        <source>%1, at the end of the grid</source>
+        <translation>%1, am Ende des Rasters</translation>
+    </message>
+    <message>
+        <source>View to the left</source>
+        <translation>Ansicht links</translation>
+    </message>
+    <message>
+        <source>Shows the view to the left</source>
+        <translation>Zeigt die Ansicht links daneben</translation>
+    </message>
+    <message>
+        <source>View to the right</source>
+        <translation>Ansicht rechts</translation>
+    </message>
+    <message>
+        <source>Shows the view to the right</source>
+        <translation>Zeigt die Ansicht rechts daneben</translation>
+    </message>
+    <message>
+        <source>View above</source>
+        <translation>Ansicht darüber</translation>
+    </message>
+    <message>
+        <source>Shows the view above</source>
+        <translation>Zeigt die Ansicht darüber</translation>
+    </message>
+    <message>
+        <source>View below</source>
+        <translation>Ansicht darunter</translation>
+    </message>
+    <message>
+        <source>Shows the view below</source>
+        <translation>Zeigt die Ansicht darunter</translation>
+    </message>
+    <message>
+        <source>Centre view</source>
+        <translation>Mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Shows the view in the middle of the grid</source>
+        <translation>Zeigt die Ansicht in der Mitte des Rasters</translation>
+    </message>
+    <message>
+        <source>Play</source>
+        <translation>Abspielen</translation>
+    </message>
+    <message>
+        <source>Plays the views one after the other, or pauses</source>
+        <translation>Spielt die Ansichten nacheinander ab oder hält an</translation>
+    </message>
+    <message>
+        <source>Zoom in</source>
+        <translation>Vergrößern</translation>
+    </message>
+    <message>
+        <source>Enlarges the picture</source>
+        <translation>Vergrößert das Bild</translation>
+    </message>
+    <message>
+        <source>Ctrl++</source>
+        <translation>Ctrl++</translation>
+    </message>
+    <message>
+        <source>Zoom out</source>
+        <translation>Verkleinern</translation>
+    </message>
+    <message>
+        <source>Shrinks the picture</source>
+        <translation>Verkleinert das Bild</translation>
+    </message>
+    <message>
+        <source>Ctrl+-</source>
+        <translation>Ctrl+-</translation>
+    </message>
+    <message>
+        <source>Fit</source>
+        <translation>Einpassen</translation>
+    </message>
+    <message>
+        <source>Fits the whole picture into its pane</source>
+        <translation>Passt das ganze Bild in seinen Platz ein</translation>
+    </message>
+    <message>
+        <source>100 %</source>
+        <translation>100 %</translation>
+    </message>
+    <message>
+        <source>Shows each image pixel as one screen pixel</source>
+        <translation>Zeigt jedes Bildpixel als ein Bildschirmpixel</translation>
+    </message>
+    <message>
+        <source>Ctrl+0</source>
+        <translation>Ctrl+0</translation>
+    </message>
+    <message>
+        <source>Focus nearer</source>
+        <translation>Fokus näher</translation>
+    </message>
+    <message>
+        <source>Moves the focus plane to larger disparities</source>
+        <translation>Verschiebt die Fokusebene zu größeren Disparitäten</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+Up</source>
+        <translation>Ctrl+Alt+Up</translation>
+    </message>
+    <message>
+        <source>Focus farther</source>
+        <translation>Fokus ferner</translation>
+    </message>
+    <message>
+        <source>Moves the focus plane to smaller disparities</source>
+        <translation>Verschiebt die Fokusebene zu kleineren Disparitäten</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+Down</source>
+        <translation>Ctrl+Alt+Down</translation>
+    </message>
+    <message>
+        <source>Focus at zero</source>
+        <translation>Fokus auf null</translation>
+    </message>
+    <message>
+        <source>Moves the focus plane back to zero disparity</source>
+        <translation>Setzt die Fokusebene auf Disparität null zurück</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+0</source>
+        <translation>Ctrl+Alt+0</translation>
+    </message>
+    <message>
+        <source>Refocus the view</source>
+        <translation>Ansicht refokussieren</translation>
+    </message>
+    <message>
+        <source>Refocuses the view too, as the mean of all views at the focus plane; otherwise only the EPIs are sheared</source>
+        <translation>Refokussiert auch die Ansicht, als Mittel aller Ansichten in der Fokusebene; sonst werden nur die EPIs geschert</translation>
+    </message>
+    <message>
+        <source>The disparity of this pixel is not known: run a method first, or move the slider.</source>
+        <translation>Die Disparität dieses Pixels ist nicht bekannt: erst ein Verfahren ausführen oder den Regler verschieben.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::BrushPanel</name>
+    <message>
+        <source>Protect other labels</source>
+        <translation>Andere Labels schützen</translation>
+    </message>
+    <message>
+        <source>Brush</source>
+        <translation>Pinsel</translation>
+    </message>
+    <message>
+        <source>Eraser</source>
+        <translation>Radierer</translation>
+    </message>
+    <message>
+        <source>Opacity of what is painted</source>
+        <translation>Deckkraft des Gemalten</translation>
+    </message>
+    <message>
+        <source>Opacity</source>
+        <translation>Deckkraft</translation>
+    </message>
+    <message>
+        <source>The brush paints only unpainted pixels, and the eraser erases only the current label. Holding Shift does the same.</source>
+        <translation>Der Pinsel bemalt nur unbemalte Pixel, der Radierer entfernt nur das aktuelle Label. Dasselbe bewirkt die gehaltene Umschalttaste.</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>up to edges</source>
+        <translation>bis zu Kanten</translation>
+    </message>
+    <message>
+        <source>its segment</source>
+        <translation>sein Segment</translation>
+    </message>
+    <message>
+        <source>What bounds a fill: edges of the view, or the segment of the current segmentation</source>
+        <translation>Was eine Füllung begrenzt: Kanten der Ansicht oder das Segment der aktuellen Segmentierung</translation>
+    </message>
+    <message>
+        <source>Edge threshold: the change of colour from pixel to pixel that counts as an edge, in grey levels (0 … 255)</source>
+        <translation>Kantenschwelle: Farbänderung von Pixel zu Pixel, die als Kante gilt, in Graustufen (0 … 255)</translation>
+    </message>
+    <message>
+        <source>Fill</source>
+        <translation>Füllen</translation>
+    </message>
+    <message>
+        <source>Diameter in pixels of the view (%1)</source>
+        <translation>Durchmesser in Pixeln der Ansicht (%1)</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+wheel</source>
+        <translation>Strg+Umschalt+Mausrad</translation>
+    </message>
+    <message>
+        <source>%1, or Ctrl+Shift+wheel</source>
+        <translation>%1 oder Strg+Umschalt+Mausrad</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::BuiltinDialog</name>
+    <message>
+        <source>Built-in scenes</source>
+        <translation>Eingebaute Szenen</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+    <message>
+        <source>On a command line: %1</source>
+        <translation>Auf der Befehlszeile: %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CaptureController</name>
+    <message>
+        <source>Capture</source>
+        <translation>Aufnahme</translation>
+    </message>
+    <message>
+        <source>Capture tab</source>
+        <translation>Reiter Aufnahme</translation>
+    </message>
+    <message>
+        <source>Makes ground truth from a mesh</source>
+        <translation>Erzeugt Referenzdaten aus einem Dreiecksnetz</translation>
+    </message>
+    <message>
+        <source>Open a mesh</source>
+        <translation>Netz öffnen</translation>
+    </message>
+    <message>
+        <source>Meshes (*.ply *.obj *.stl)</source>
+        <translation>Dreiecksnetze (*.ply *.obj *.stl)</translation>
+    </message>
+    <message>
+        <source>Import pairs</source>
+        <translation>Punktpaare importieren</translation>
+    </message>
+    <message>
+        <source>Pairs (*.csv)</source>
+        <translation>Punktpaare (*.csv)</translation>
+    </message>
+    <message>
+        <source>Export pairs</source>
+        <translation>Punktpaare exportieren</translation>
+    </message>
+    <message>
+        <source>Save the pose</source>
+        <translation>Pose speichern</translation>
+    </message>
+    <message>
+        <source>Pose (*.json)</source>
+        <translation>Pose (*.json)</translation>
+    </message>
+    <message>
+        <source>Write the light field with its ground truth</source>
+        <translation>Lichtfeld mit seiner Referenz schreiben</translation>
+    </message>
+    <message>
+        <source>Light field (*.h5)</source>
+        <translation>Lichtfeld (*.h5)</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+    <message>
+        <source>%1 · %2 faces</source>
+        <translation>%1 · %2 Dreiecke</translation>
+    </message>
+    <message>
+        <source>Depth of the mesh</source>
+        <translation>Tiefe des Netzes</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>This light field does not tell its focal length and centre in pixels, which a pose needs. Rectify photographs with their calibrated lens; pairs are carried over.</source>
+        <translation>Dieses Lichtfeld nennt weder Brennweite noch Bildmitte in Pixeln, die für eine Pose nötig sind. Die Fotos mit ihrem kalibrierten Objektiv rektifizieren; Punktpaare werden übernommen.</translation>
+    </message>
+    <message>
+        <source>corner</source>
+        <translation>Ecke</translation>
+    </message>
+    <message>
+        <source>blob</source>
+        <translation>Fleck</translation>
+    </message>
+    <message>
+        <source>%1 (no mark beside it)</source>
+        <translation>%1 (keine Marke in der Nähe)</translation>
+    </message>
+    <message>
+        <source>go to the centre view (Home)</source>
+        <translation>zur mittleren Ansicht gehen (Pos1)</translation>
+    </message>
+    <message>
+        <source>%1 of at least 4 pairs; 10 are better.</source>
+        <translation>%1 von mindestens 4 Punktpaaren; 10 sind besser.</translation>
+    </message>
+    <message>
+        <source>Mean reprojection error %1 px; depth to ± %2 (unit of the mesh)</source>
+        <translation>Mittlerer Rückprojektionsfehler %1 px; Tiefe auf ± %2 (Einheit des Netzes)</translation>
+    </message>
+    <message>
+        <source>, ± %1 px of disparity</source>
+        <translation>, ± %1 px Disparität</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CaptureFiles</name>
+    <message>
+        <source>%1 is there already; name a new file, so that no light field is lost</source>
+        <translation>%1 gibt es schon; eine neue Datei angeben, damit kein Lichtfeld verloren geht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CapturePanel</name>
+    <message>
+        <source>Snap</source>
+        <translation>Einrasten</translation>
+    </message>
+    <message>
+        <source>Add pair</source>
+        <translation>Paar hinzufügen</translation>
+    </message>
+    <message>
+        <source>The cross-hair and the marked point of the mesh are the same point</source>
+        <translation>Das Fadenkreuz und der markierte Punkt des Netzes sind derselbe Punkt</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>Takes back the last change</source>
+        <translation>Nimmt die letzte Änderung zurück</translation>
+    </message>
+    <message>
+        <source>Takes the corner or the centre of the blob beside the cross-hair, to a fraction of a pixel</source>
+        <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
+    </message>
+    <message>
+        <source>Open mesh…</source>
+        <translation>Netz öffnen…</translation>
+    </message>
+    <message>
+        <source>A scan of what the light field shows: PLY, OBJ or STL</source>
+        <translation>Ein Scan dessen, was das Lichtfeld zeigt: PLY, OBJ oder STL</translation>
+    </message>
+    <message>
+        <source>Open a mesh of what the light field shows. Then set the cross-hair in the centre view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
+
+Without a gantry at hand, “Lens” makes a demo to try it with.</source>
+        <translation>Ein Dreiecksnetz dessen öffnen, was das Lichtfeld zeigt. Dann das Fadenkreuz in der mittleren Ansicht setzen, hier denselben Punkt des Netzes anklicken und das Paar hinzufügen. Vier Paare ergeben seine Pose.
+
+Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translation>
+    </message>
+    <message>
+        <source>Picked pairs</source>
+        <translation>Gewählte Punktpaare</translation>
+    </message>
+    <message>
+        <source>Pair</source>
+        <translation>Paar</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Mesh</source>
+        <translation>Netz</translation>
+    </message>
+    <message>
+        <source>Off by</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Removes the chosen pairs</source>
+        <translation>Entfernt die ausgewählten Paare</translation>
+    </message>
+    <message>
+        <source>Import…</source>
+        <translation>Importieren…</translation>
+    </message>
+    <message>
+        <source>Adds pairs from CSV</source>
+        <translation>Fügt Paare aus einer CSV-Datei hinzu</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
+    </message>
+    <message>
+        <source>Writes all pairs as CSV</source>
+        <translation>Schreibt alle Paare als CSV</translation>
+    </message>
+    <message>
+        <source>Show over view</source>
+        <translation>Über der Ansicht zeigen</translation>
+    </message>
+    <message>
+        <source>Adds the disparity of the mesh to the results, to be drawn over the view, wiped and compared</source>
+        <translation>Fügt die Disparität des Netzes den Ergebnissen hinzu, um sie über die Ansicht zu legen, zu wischen und zu vergleichen</translation>
+    </message>
+    <message>
+        <source>Save pose…</source>
+        <translation>Pose speichern…</translation>
+    </message>
+    <message>
+        <source>Writes pose, pairs and errors as JSON</source>
+        <translation>Schreibt Pose, Paare und Fehler als JSON</translation>
+    </message>
+    <message>
+        <source>Write ground truth…</source>
+        <translation>Referenz schreiben…</translation>
+    </message>
+    <message>
+        <source>Writes the light field with the depth of the mesh in all views</source>
+        <translation>Schreibt das Lichtfeld mit der Tiefe des Netzes in allen Ansichten</translation>
+    </message>
+    <message>
+        <source>No mesh</source>
+        <translation>Kein Netz</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>%1, wrong?</source>
+        <translation>%1, falsch?</translation>
+    </message>
+    <message>
+        <source>View %1 · mesh %2</source>
+        <translation>Ansicht %1 · Netz %2</translation>
+    </message>
+    <message>
+        <source>–</source>
+        <translation>–</translation>
+    </message>
+    <message>
+        <source>(click a point)</source>
+        <translation>(einen Punkt anklicken)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ChangedFile</name>
+    <message>
+        <source>The file has changed</source>
+        <translation>Die Datei wurde geändert</translation>
+    </message>
+    <message>
+        <source>Another program has written %1 since it was read here. Saving replaces what that program wrote; reloading replaces the labels and strokes that are open here.</source>
+        <translation>Ein anderes Programm hat %1 geschrieben, seit die Datei hier gelesen wurde. Speichern ersetzt, was dieses Programm schrieb; Neuladen ersetzt die hier geöffneten Labels und Striche.</translation>
+    </message>
+    <message>
+        <source>Save to another file…</source>
+        <translation>In anderer Datei speichern…</translation>
+    </message>
+    <message>
+        <source>Overwrite</source>
+        <translation>Überschreiben</translation>
+    </message>
+    <message>
+        <source>Reload</source>
+        <translation>Neu laden</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CheckPanel</name>
+    <message>
+        <source>Regions in doubt</source>
+        <translation>Zweifelhafte Gebiete</translation>
+    </message>
+    <message>
+        <source>Label</source>
+        <translation>Label</translation>
+    </message>
+    <message>
+        <source>or perhaps</source>
+        <translation>oder vielleicht</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Labels of this view</source>
+        <translation>Labels dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Share</source>
+        <translation>Anteil</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>Min</source>
+        <translation>Min</translation>
+    </message>
+    <message>
+        <source>Max</source>
+        <translation>Max</translation>
+    </message>
+    <message>
+        <source>Islands</source>
+        <translation>Inseln</translation>
+    </message>
+    <message>
+        <source>Holes</source>
+        <translation>Löcher</translation>
+    </message>
+    <message>
+        <source>Islands and holes</source>
+        <translation>Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>Where a stroke would help most</source>
+        <translation>Wo ein Strich am meisten hilft</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CloudController</name>
+    <message>
+        <source>3D in the place of the view</source>
+        <translation>3D anstelle der Ansicht</translation>
+    </message>
+    <message>
+        <source>Shows the 3D view large, in the place of the view, or puts it back into its tab</source>
+        <translation>Zeigt die 3D-Ansicht groß anstelle der Ansicht oder wieder in ihrem Reiter</translation>
+    </message>
+    <message>
+        <source>3D in its own window</source>
+        <translation>3D im eigenen Fenster</translation>
+    </message>
+    <message>
+        <source>Gives the 3D view with its controls a window of its own, or takes it back</source>
+        <translation>Gibt der 3D-Ansicht mit ihren Bedienelementen ein eigenes Fenster oder holt sie zurück</translation>
+    </message>
+    <message>
+        <source>Shift+F4</source>
+        <translation>Shift+F4</translation>
+    </message>
+    <message>
+        <source>Save 3D view…</source>
+        <translation>3D-Ansicht speichern…</translation>
+    </message>
+    <message>
+        <source>Writes the points or surfaces that the 3D view shows, in their colours, as PLY</source>
+        <translation>Schreibt die Punkte oder Flächen der 3D-Ansicht in ihren Farben als PLY</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+E</source>
+        <translation>Ctrl+Alt+E</translation>
+    </message>
+    <message>
+        <source>3D</source>
+        <translation>3D</translation>
+    </message>
+    <message>
+        <source>3D tab</source>
+        <translation>Reiter 3D</translation>
+    </message>
+    <message>
+        <source>Shows the result in 3D, as points or as a surface</source>
+        <translation>Zeigt das Ergebnis in 3D, als Punkte oder als Fläche</translation>
+    </message>
+    <message>
+        <source>The 3D view is in the place of the view.</source>
+        <translation>Die 3D-Ansicht steht anstelle der Ansicht.</translation>
+    </message>
+    <message>
+        <source>Measuring distances …</source>
+        <translation>Abstände werden gemessen …</translation>
+    </message>
+    <message>
+        <source>This result has no valid pixels in this view.</source>
+        <translation>Dieses Ergebnis hat in dieser Ansicht keine gültigen Pixel.</translation>
+    </message>
+    <message>
+        <source>%1: %2 points</source>
+        <translation>%1: %2 Punkte</translation>
+    </message>
+    <message>
+        <source>, in orange and blue</source>
+        <translation>, in Orange und Blau</translation>
+    </message>
+    <message>
+        <source>. From its points to the nearest of %1, in units of the scene: mean %2, median %3, 95 % below %4</source>
+        <translation>. Von seinen Punkten zum nächsten von %1, in Einheiten der Szene: Mittel %2, Median %3, 95 % unter %4</translation>
+    </message>
+    <message>
+        <source>Save what the 3D view shows</source>
+        <translation>Inhalt der 3D-Ansicht speichern</translation>
+    </message>
+    <message>
+        <source>Point cloud or surface (*.ply)</source>
+        <translation>Punktwolke oder Fläche (*.ply)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CloudControls</name>
+    <message>
+        <source>Surface</source>
+        <translation>Fläche</translation>
+    </message>
+    <message>
+        <source>Lit</source>
+        <translation>Beleuchtet</translation>
+    </message>
+    <message>
+        <source>Colour of the points</source>
+        <translation>Farbe der Punkte</translation>
+    </message>
+    <message>
+        <source>Colour</source>
+        <translation>Farbe</translation>
+    </message>
+    <message>
+        <source>view</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>error</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>one each</source>
+        <translation>je eine</translation>
+    </message>
+    <message>
+        <source>How far each point is from the nearest point of the truth, or of what is shown with it, in units of the scene</source>
+        <translation>Abstand jedes Punkts zum nächsten Punkt der Referenz oder dessen, was mit ihm gezeigt wird, in Einheiten der Szene</translation>
+    </message>
+    <message>
+        <source>What is shown with the result</source>
+        <translation>Was mit dem Ergebnis gezeigt wird</translation>
+    </message>
+    <message>
+        <source>Shown with the result</source>
+        <translation>Mit dem Ergebnis gezeigt</translation>
+    </message>
+    <message>
+        <source>nothing else</source>
+        <translation>nichts weiter</translation>
+    </message>
+    <message>
+        <source>the truth</source>
+        <translation>die Referenz</translation>
+    </message>
+    <message>
+        <source>B</source>
+        <translation>B</translation>
+    </message>
+    <message>
+        <source>Where the two stand</source>
+        <translation>Wo die beiden stehen</translation>
+    </message>
+    <message>
+        <source>Arrangement</source>
+        <translation>Anordnung</translation>
+    </message>
+    <message>
+        <source>in one place</source>
+        <translation>an einem Ort</translation>
+    </message>
+    <message>
+        <source>side by side</source>
+        <translation>nebeneinander</translation>
+    </message>
+    <message>
+        <source>With</source>
+        <translation>Mit</translation>
+    </message>
+    <message>
+        <source>Joins neighbouring points to a surface, which is cut at jumps</source>
+        <translation>Verbindet benachbarte Punkte zu einer Fläche, die an Sprüngen geschnitten wird</translation>
+    </message>
+    <message>
+        <source>Lights the surface from where you look</source>
+        <translation>Beleuchtet die Fläche aus der Blickrichtung</translation>
+    </message>
+    <message>
+        <source>Jump at which the surface is cut</source>
+        <translation>Sprung, an dem die Fläche geschnitten wird</translation>
+    </message>
+    <message>
+        <source>Points are not joined if their disparities differ by more than this, in px per pixel between them</source>
+        <translation>Punkte werden nicht verbunden, wenn ihre Disparitäten um mehr als diesen Wert voneinander abweichen, in px je Pixel Abstand</translation>
+    </message>
+    <message>
+        <source>cut over </source>
+        <translation>Schnitt ab </translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Point size</source>
+        <translation>Punktgröße</translation>
+    </message>
+    <message>
+        <source>Size of the points, in pixels</source>
+        <translation>Größe der Punkte in Pixeln</translation>
+    </message>
+    <message>
+        <source>Stretch z</source>
+        <translation>z strecken</translation>
+    </message>
+    <message>
+        <source>Stretch along the line of sight</source>
+        <translation>Streckung entlang der Blickrichtung</translation>
+    </message>
+    <message>
+        <source>Cut nearer than</source>
+        <translation>Näheres abschneiden</translation>
+    </message>
+    <message>
+        <source>Leaves out what is nearer</source>
+        <translation>Lässt weg, was näher ist</translation>
+    </message>
+    <message>
+        <source>Cut farther than</source>
+        <translation>Ferneres abschneiden</translation>
+    </message>
+    <message>
+        <source>Leaves out what is farther</source>
+        <translation>Lässt weg, was ferner ist</translation>
+    </message>
+    <message>
+        <source>No stretch and no cut</source>
+        <translation>Ohne Streckung und Schnitt</translation>
+    </message>
+    <message>
+        <source>Points</source>
+        <translation>Punkte</translation>
+    </message>
+    <message>
+        <source>Near</source>
+        <translation>Nah</translation>
+    </message>
+    <message>
+        <source>Far</source>
+        <translation>Fern</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CloudRequests</name>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>Run a method: its disparity appears here in 3D.</source>
+        <translation>Ein Verfahren ausführen: seine Disparität erscheint hier in 3D.</translation>
+    </message>
+    <message>
+        <source>%1 has no map of this view. Go to the centre view (Home).</source>
+        <translation>%1 hat keine Karte dieser Ansicht. Zur mittleren Ansicht gehen (Pos1).</translation>
+    </message>
+    <message>
+        <source>the ground truth</source>
+        <translation>die Referenz</translation>
+    </message>
+    <message>
+        <source>Ground truth</source>
+        <translation>Referenz (Ground Truth)</translation>
+    </message>
+    <message>
+        <source>%1 and the ground truth</source>
+        <translation>%1 und die Referenz</translation>
+    </message>
+    <message>
+        <source>%1 and %2</source>
+        <translation>%1 und %2</translation>
+    </message>
+    <message>
+        <source>%1 [%2]</source>
+        <translation>%1 [%2]</translation>
+    </message>
+    <message>
+        <source>distance</source>
+        <translation>Abstand</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CollectionController</name>
+    <message>
+        <source>%1 frames</source>
+        <translation>%1 Einzelbilder</translation>
+    </message>
+    <message>
+        <source>%1 views</source>
+        <translation>%1 Ansichten</translation>
+    </message>
+    <message>
+        <source>grey</source>
+        <translation>grau</translation>
+    </message>
+    <message>
+        <source>16 bit</source>
+        <translation>16 Bit</translation>
+    </message>
+    <message>
+        <source>float</source>
+        <translation>Gleitkomma</translation>
+    </message>
+    <message>
+        <source>cannot be opened</source>
+        <translation>kann nicht geöffnet werden</translation>
+    </message>
+    <message>
+        <source>1 result</source>
+        <translation>1 Ergebnis</translation>
+    </message>
+    <message>
+        <source>%1 results</source>
+        <translation>%1 Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Scenes</source>
+        <translation>Szenen</translation>
+    </message>
+    <message>
+        <source>Scenes tab</source>
+        <translation>Reiter Szenen</translation>
+    </message>
+    <message>
+        <source>Shows the light fields of a folder</source>
+        <translation>Zeigt die Lichtfelder eines Ordners</translation>
+    </message>
+    <message>
+        <source>Open collection…</source>
+        <translation>Sammlung öffnen…</translation>
+    </message>
+    <message>
+        <source>Lists every light field in a folder and in the folders inside</source>
+        <translation>Listet alle Lichtfelder eines Ordners und seiner Unterordner auf</translation>
+    </message>
+    <message>
+        <source>Open a folder of light fields</source>
+        <translation>Ordner mit Lichtfeldern öffnen</translation>
+    </message>
+    <message>
+        <source>Next scene</source>
+        <translation>Nächste Szene</translation>
+    </message>
+    <message>
+        <source>Opens the next light field of the collection</source>
+        <translation>Öffnet das nächste Lichtfeld der Sammlung</translation>
+    </message>
+    <message>
+        <source>Previous scene</source>
+        <translation>Vorige Szene</translation>
+    </message>
+    <message>
+        <source>Opens the light field before in the collection</source>
+        <translation>Öffnet das vorige Lichtfeld der Sammlung</translation>
+    </message>
+    <message>
+        <source>Listing %1</source>
+        <translation>%1 wird aufgelistet</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ColorBar</name>
+    <message>
+        <source>Lower end of the range</source>
+        <translation>Unteres Ende des Bereichs</translation>
+    </message>
+    <message>
+        <source>Upper end of the range</source>
+        <translation>Oberes Ende des Bereichs</translation>
+    </message>
+    <message>
+        <source>Lock the range: it stays when the result changes</source>
+        <translation>Bereich festhalten: er bleibt, wenn das Ergebnis wechselt</translation>
+    </message>
+    <message>
+        <source>Automatic range of the visible values</source>
+        <translation>Automatischer Bereich der sichtbaren Werte</translation>
+    </message>
+    <message>
+        <source>Default range of the quantity</source>
+        <translation>Standardbereich der Größe</translation>
+    </message>
+    <message>
+        <source>Colour of pixels without a value</source>
+        <translation>Farbe von Pixeln ohne Wert</translation>
+    </message>
+    <message>
+        <source>%1 [%2]</source>
+        <translation>%1 [%2]</translation>
+    </message>
+    <message>
+        <source>invalid</source>
+        <translation>ungültig</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CommandPalette</name>
+    <message>
+        <source>Name of a command</source>
+        <translation>Name eines Befehls</translation>
+    </message>
+    <message>
+        <source>Type the name of a command</source>
+        <translation>Name eines Befehls eingeben</translation>
+    </message>
+    <message>
+        <source>Commands</source>
+        <translation>Befehle</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CompareBar</name>
+    <message>
+        <source>A: the result shown</source>
+        <translation>A: das angezeigte Ergebnis</translation>
+    </message>
+    <message>
+        <source>B: the result it is compared with</source>
+        <translation>B: das Ergebnis, mit dem verglichen wird</translation>
+    </message>
+    <message>
+        <source>no result</source>
+        <translation>kein Ergebnis</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CompareController</name>
+    <message>
+        <source>Compare</source>
+        <translation>Vergleichen</translation>
+    </message>
+    <message>
+        <source>Compare tab</source>
+        <translation>Reiter Vergleichen</translation>
+    </message>
+    <message>
+        <source>Shows the table of metrics</source>
+        <translation>Zeigt die Tabelle der Fehlermaße</translation>
+    </message>
+    <message>
+        <source>Next map</source>
+        <translation>Nächste Karte</translation>
+    </message>
+    <message>
+        <source>Shows the next map over the view</source>
+        <translation>Zeigt die nächste Karte über der Ansicht</translation>
+    </message>
+    <message>
+        <source>Flip to B</source>
+        <translation>Auf B umschalten</translation>
+    </message>
+    <message>
+        <source>Shows B, the compared result, while the key is held in the view or a list</source>
+        <translation>Zeigt B, das Vergleichsergebnis, solange die Taste in der Ansicht oder einer Liste gehalten wird</translation>
+    </message>
+    <message>
+        <source>Difference A − B</source>
+        <translation>Differenz A − B</translation>
+    </message>
+    <message>
+        <source>Shows A minus B, the result shown minus the one it is compared with</source>
+        <translation>Zeigt A minus B, das angezeigte Ergebnis minus das Vergleichsergebnis</translation>
+    </message>
+    <message>
+        <source>Swap A and B</source>
+        <translation>A und B tauschen</translation>
+    </message>
+    <message>
+        <source>Shows B and compares it with A</source>
+        <translation>Zeigt B und vergleicht es mit A</translation>
+    </message>
+    <message>
+        <source>Wipe</source>
+        <translation>Wischen</translation>
+    </message>
+    <message>
+        <source>Shows A to the left and B to the right of a divider that can be dragged</source>
+        <translation>Zeigt A links und B rechts einer Trennlinie, die sich ziehen lässt</translation>
+    </message>
+    <message>
+        <source>Side by side</source>
+        <translation>Nebeneinander</translation>
+    </message>
+    <message>
+        <source>Shows A beside B</source>
+        <translation>Zeigt A neben B</translation>
+    </message>
+    <message>
+        <source>Tiles</source>
+        <translation>Kacheln</translation>
+    </message>
+    <message>
+        <source>Shows the view, the ground truth and every result</source>
+        <translation>Zeigt die Ansicht, die Referenz und alle Ergebnisse</translation>
+    </message>
+    <message>
+        <source>%1 · MSE×100 %2</source>
+        <translation>%1 · MSE×100 %2</translation>
+    </message>
+    <message>
+        <source>view</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>ground truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>%1 · no such map for this view</source>
+        <translation>%1 · keine solche Karte für diese Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ConventionsDialog</name>
+    <message>
+        <source>Conventions</source>
+        <translation>Konventionen</translation>
+    </message>
+    <message>
+        <source>The file will be read again and your choice remembered. Results of this light field will be removed from the list.</source>
+        <translation>Die Datei wird neu gelesen und die Wahl gemerkt. Ergebnisse dieses Lichtfelds werden aus der Liste entfernt.</translation>
+    </message>
+    <message>
+        <source>Read again</source>
+        <translation>Neu lesen</translation>
+    </message>
+    <message>
+        <source>All automatic</source>
+        <translation>Alles automatisch</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Dialogs</name>
+    <message>
+        <source>%1 was not written: its name must end in .%2.</source>
+        <translation>%1 wurde nicht geschrieben: der Name muss auf .%2 enden.</translation>
+    </message>
+    <message>
+        <source> or .</source>
+        <translation> oder .</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <translation>%1 wird geschrieben</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::DocumentController</name>
+    <message>
+        <source>What was painted on “%1” belongs to a light field of another size; it is kept in the project.</source>
+        <translation>Was in „%1“ gemalt wurde, gehört zu einem Lichtfeld anderer Größe; es bleibt im Projekt erhalten.</translation>
+    </message>
+    <message>
+        <source>The scribbles of this light field cannot be edited: %1. They are left unchanged, and what you paint is saved to another file.</source>
+        <translation>Die Striche dieses Lichtfelds können nicht bearbeitet werden: %1. Sie bleiben unverändert, und neu Gemaltes wird in einer anderen Datei gespeichert.</translation>
+    </message>
+    <message>
+        <source>What you paint can no longer be recovered after a crash, so save it soon: %1</source>
+        <translation>Gemaltes kann nach einem Absturz nicht mehr wiederhergestellt werden, also bald speichern: %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::EdgeSource</name>
+    <message>
+        <source>Boundaries follow the edge weights of the file beside the light field.</source>
+        <translation>Grenzen folgen den Kantengewichten der Datei neben dem Lichtfeld.</translation>
+    </message>
+    <message>
+        <source>Boundaries follow edges computed from the image and, where it is known, the disparity.</source>
+        <translation>Grenzen folgen Kanten, die aus dem Bild und, wo bekannt, der Disparität berechnet werden.</translation>
+    </message>
+    <message>
+        <source>%1. Edges are computed instead.</source>
+        <translation>%1. Stattdessen werden Kanten berechnet.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::EpiPane</name>
+    <message>
+        <source>Horizontal EPI</source>
+        <translation>Horizontales EPI</translation>
+    </message>
+    <message>
+        <source>Vertical EPI</source>
+        <translation>Vertikales EPI</translation>
+    </message>
+    <message>
+        <source>Epipolar plane image through the cross-hair. Drag along a line to measure its disparity; click to move the cross-hair; wheel to zoom.</source>
+        <translation>Epipolarebenenbild durch das Fadenkreuz. Entlang einer Linie ziehen, um ihre Disparität zu messen; klicken, um das Fadenkreuz zu versetzen; mit dem Mausrad zoomen.</translation>
+    </message>
+    <message>
+        <source>u ↓  x →</source>
+        <translation>u ↓  x →</translation>
+    </message>
+    <message>
+        <source>v →  y ↓</source>
+        <translation>v →  y ↓</translation>
+    </message>
+    <message>
+        <source>one column of views</source>
+        <translation>eine Spalte von Ansichten</translation>
+    </message>
+    <message>
+        <source>one row of views</source>
+        <translation>eine Zeile von Ansichten</translation>
+    </message>
+    <message>
+        <source>measured</source>
+        <translation>gemessen</translation>
+    </message>
+    <message>
+        <source>truth behind</source>
+        <translation>Referenz dahinter</translation>
+    </message>
+    <message>
+        <source>truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>estimate behind</source>
+        <translation>Schätzung dahinter</translation>
+    </message>
+    <message>
+        <source>estimate</source>
+        <translation>Schätzung</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::EpiStripView</name>
+    <message>
+        <source>EPIs through the label</source>
+        <translation>EPIs durch das Label</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ErrorPlotController</name>
+    <message>
+        <source>Errors</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>Errors tab</source>
+        <translation>Reiter Fehler</translation>
+    </message>
+    <message>
+        <source>Plots errors against the true disparity</source>
+        <translation>Trägt Fehler über der wahren Disparität auf</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+B</source>
+        <translation>Ctrl+Alt+B</translation>
+    </message>
+    <message>
+        <source>Open a light field with ground truth and run a method.</source>
+        <translation>Ein Lichtfeld mit Referenz (Ground Truth) öffnen und ein Verfahren ausführen.</translation>
+    </message>
+    <message>
+        <source>This light field has no ground truth to compare results with.</source>
+        <translation>Dieses Lichtfeld hat keine Referenz (Ground Truth), mit der sich Ergebnisse vergleichen ließen.</translation>
+    </message>
+    <message>
+        <source>Run a method: its errors by true disparity appear here.</source>
+        <translation>Ein Verfahren ausführen: seine Fehler über der wahren Disparität erscheinen hier.</translation>
+    </message>
+    <message>
+        <source>%1 has no map of the view that the ground truth is of.</source>
+        <translation>%1 hat keine Karte der Ansicht, von der die Referenz ist.</translation>
+    </message>
+    <message>
+        <source>True disparity [px]</source>
+        <translation>Wahre Disparität [px]</translation>
+    </message>
+    <message>
+        <source>MSE×100 [px²]</source>
+        <translation>MSE×100 [px²]</translation>
+    </message>
+    <message>
+        <source>Off by more than %1 px [%]</source>
+        <translation>Um mehr als %1 px falsch [%]</translation>
+    </message>
+    <message>
+        <source>No pixel of the %1 is judged.</source>
+        <translation>Kein Pixel wird bewertet: %1.</translation>
+    </message>
+    <message>
+        <source>%1 · %2, %3 px</source>
+        <translation>%1 · %2, %3 px</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ErrorPlotPanel</name>
+    <message>
+        <source>Mean squared error by true disparity</source>
+        <translation>Mittlerer quadratischer Fehler über der wahren Disparität</translation>
+    </message>
+    <message>
+        <source>Bad pixels by true disparity</source>
+        <translation>Schlechte Pixel über der wahren Disparität</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::EstimateController</name>
+    <message>
+        <source>Run</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Runs the chosen method with the parameters of the form</source>
+        <translation>Führt das gewählte Verfahren mit den Parametern des Formulars aus</translation>
+    </message>
+    <message>
+        <source>Ctrl+Return</source>
+        <translation>Ctrl+Return</translation>
+    </message>
+    <message>
+        <source>Run on several…</source>
+        <translation>Auf mehrere anwenden…</translation>
+    </message>
+    <message>
+        <source>Runs one or several methods on light fields that are open</source>
+        <translation>Wendet ein oder mehrere Verfahren auf geöffnete Lichtfelder an</translation>
+    </message>
+    <message>
+        <source>Shift+F5</source>
+        <translation>Shift+F5</translation>
+    </message>
+    <message>
+        <source>Sweep parameters…</source>
+        <translation>Parameter variieren…</translation>
+    </message>
+    <message>
+        <source>Runs the method with several values of one or two parameters</source>
+        <translation>Führt das Verfahren mit mehreren Werten eines oder zweier Parameter aus</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Cancels the current gesture, mode or job</source>
+        <translation>Bricht die aktuelle Geste, den Modus oder den Auftrag ab</translation>
+    </message>
+    <message>
+        <source>Copy as command</source>
+        <translation>Als Befehl kopieren</translation>
+    </message>
+    <message>
+        <source>Copies the command line that runs the method with the parameters of the form</source>
+        <translation>Kopiert die Befehlszeile, die das Verfahren mit den Parametern des Formulars ausführt</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+C</source>
+        <translation>Ctrl+Shift+C</translation>
+    </message>
+    <message>
+        <source>Note on result…</source>
+        <translation>Notiz zum Ergebnis…</translation>
+    </message>
+    <message>
+        <source>Writes a note on the shown result, kept with the project</source>
+        <translation>Schreibt eine Notiz zum angezeigten Ergebnis, die im Projekt bleibt</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+N</source>
+        <translation>Ctrl+Alt+N</translation>
+    </message>
+    <message>
+        <source>Next result</source>
+        <translation>Nächstes Ergebnis</translation>
+    </message>
+    <message>
+        <source>Shows the next result of the list</source>
+        <translation>Zeigt das nächste Ergebnis der Liste</translation>
+    </message>
+    <message>
+        <source>Ctrl+PgDown</source>
+        <translation>Ctrl+PgDown</translation>
+    </message>
+    <message>
+        <source>Previous result</source>
+        <translation>Voriges Ergebnis</translation>
+    </message>
+    <message>
+        <source>Shows the previous result of the list</source>
+        <translation>Zeigt das vorige Ergebnis der Liste</translation>
+    </message>
+    <message>
+        <source>Ctrl+PgUp</source>
+        <translation>Ctrl+PgUp</translation>
+    </message>
+    <message>
+        <source>Remove result</source>
+        <translation>Ergebnis entfernen</translation>
+    </message>
+    <message>
+        <source>Removes the shown result from the list</source>
+        <translation>Entfernt das angezeigte Ergebnis aus der Liste</translation>
+    </message>
+    <message>
+        <source>Ctrl+Delete</source>
+        <translation>Ctrl+Delete</translation>
+    </message>
+    <message>
+        <source>Restore removed result</source>
+        <translation>Entferntes Ergebnis zurückholen</translation>
+    </message>
+    <message>
+        <source>Brings back the result that was removed last</source>
+        <translation>Holt das zuletzt entfernte Ergebnis zurück</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+Delete</source>
+        <translation>Ctrl+Shift+Delete</translation>
+    </message>
+    <message>
+        <source>Export result…</source>
+        <translation>Ergebnis exportieren…</translation>
+    </message>
+    <message>
+        <source>Writes the shown result: HDF5, PFM, TIFF or PLY</source>
+        <translation>Schreibt das angezeigte Ergebnis: HDF5, PFM, TIFF oder PLY</translation>
+    </message>
+    <message>
+        <source>Ctrl+E</source>
+        <translation>Ctrl+E</translation>
+    </message>
+    <message>
+        <source>Export for submission…</source>
+        <translation>Für Einreichung exportieren…</translation>
+    </message>
+    <message>
+        <source>Adds the shown result to a submission to the 2016 benchmark</source>
+        <translation>Fügt das angezeigte Ergebnis einer Einreichung zum Benchmark von 2016 hinzu</translation>
+    </message>
+    <message>
+        <source>ended early</source>
+        <translation>vorzeitig beendet</translation>
+    </message>
+    <message>
+        <source>defaults</source>
+        <translation>Standardwerte</translation>
+    </message>
+    <message>
+        <source>One view</source>
+        <translation>Eine Ansicht</translation>
+    </message>
+    <message>
+        <source>%1×%2 views</source>
+        <translation>%1×%2 Ansichten</translation>
+    </message>
+    <message>
+        <source>Searched %1 … %2 px</source>
+        <translation>Abgesucht: %1 … %2 px</translation>
+    </message>
+    <message>
+        <source>Estimate</source>
+        <translation>Schätzen</translation>
+    </message>
+    <message>
+        <source>Estimate tab</source>
+        <translation>Reiter Schätzen</translation>
+    </message>
+    <message>
+        <source>Shows methods and results</source>
+        <translation>Zeigt Verfahren und Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Note on %1:</source>
+        <translation>Notiz zu %1:</translation>
+    </message>
+    <message>
+        <source>Removed: %1</source>
+        <translation>Entfernt: %1</translation>
+    </message>
+    <message>
+        <source>Undo</source>
+        <translation>Rückgängig</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>Copied: %1</source>
+        <translation>Kopiert: %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::FileController</name>
+    <message>
+        <source>Open file…</source>
+        <translation>Datei öffnen…</translation>
+    </message>
+    <message>
+        <source>Opens a light field, a result or a project</source>
+        <translation>Öffnet ein Lichtfeld, ein Ergebnis oder ein Projekt</translation>
+    </message>
+    <message>
+        <source>Open folder…</source>
+        <translation>Ordner öffnen…</translation>
+    </message>
+    <message>
+        <source>Opens a folder: an archive scene, a benchmark scene, an image grid, or a folder of several</source>
+        <translation>Öffnet einen Ordner: eine Szene des Archivs oder des Benchmarks, ein Bildraster oder einen Ordner mit mehreren davon</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+O</source>
+        <translation>Ctrl+Shift+O</translation>
+    </message>
+    <message>
+        <source>Read again</source>
+        <translation>Neu lesen</translation>
+    </message>
+    <message>
+        <source>Reads what is open again, as a program that is still writing it has left it by now</source>
+        <translation>Liest das Geöffnete noch einmal, so wie ein Programm, das noch daran schreibt, es inzwischen hinterlassen hat</translation>
+    </message>
+    <message>
+        <source>Ctrl+F5</source>
+        <translation>Ctrl+F5</translation>
+    </message>
+    <message>
+        <source>Open result…</source>
+        <translation>Ergebnis öffnen…</translation>
+    </message>
+    <message>
+        <source>Adds a result from a file to the list</source>
+        <translation>Fügt der Liste ein Ergebnis aus einer Datei hinzu</translation>
+    </message>
+    <message>
+        <source>Ctrl+R</source>
+        <translation>Ctrl+R</translation>
+    </message>
+    <message>
+        <source>Open recent</source>
+        <translation>Zuletzt geöffnet</translation>
+    </message>
+    <message>
+        <source>Reopens a recent light field</source>
+        <translation>Öffnet ein kürzlich geöffnetes Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Open demo</source>
+        <translation>Demo öffnen</translation>
+    </message>
+    <message>
+        <source>Opens the built-in demo scene</source>
+        <translation>Öffnet die eingebaute Demoszene</translation>
+    </message>
+    <message>
+        <source>Built-in scenes…</source>
+        <translation>Eingebaute Szenen…</translation>
+    </message>
+    <message>
+        <source>Opens one of the built-in scenes, or a random one of a seed</source>
+        <translation>Öffnet eine der eingebauten Szenen oder eine zufällige zu einem Startwert</translation>
+    </message>
+    <message>
+        <source>Save light field as</source>
+        <translation>Lichtfeld speichern als</translation>
+    </message>
+    <message>
+        <source>Writes the light field, its truth and its labels in another form</source>
+        <translation>Schreibt das Lichtfeld, seine Referenz und seine Labels in anderer Form</translation>
+    </message>
+    <message>
+        <source>Close</source>
+        <translation>Schließen</translation>
+    </message>
+    <message>
+        <source>Closes the light field</source>
+        <translation>Schließt das Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Ctrl+W</source>
+        <translation>Ctrl+W</translation>
+    </message>
+    <message>
+        <source>Quit</source>
+        <translation>Beenden</translation>
+    </message>
+    <message>
+        <source>Quits Episcope</source>
+        <translation>Beendet Episcope</translation>
+    </message>
+    <message>
+        <source>Ctrl+Q</source>
+        <translation>Ctrl+Q</translation>
+    </message>
+    <message>
+        <source>Open a light field</source>
+        <translation>Lichtfeld öffnen</translation>
+    </message>
+    <message>
+        <source>Light fields, results and projects (*.h5 *.hdf5 *.pfm *.tif *.tiff *.episcope);;All files (*)</source>
+        <translation>Lichtfelder, Ergebnisse und Projekte (*.h5 *.hdf5 *.pfm *.tif *.tiff *.episcope);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Open the folder of a light field</source>
+        <translation>Ordner eines Lichtfelds öffnen</translation>
+    </message>
+    <message>
+        <source>Open a result</source>
+        <translation>Ergebnis öffnen</translation>
+    </message>
+    <message>
+        <source>Results (*.h5 *.hdf5 *.pfm *.tif *.tiff);;All files (*)</source>
+        <translation>Ergebnisse (*.h5 *.hdf5 *.pfm *.tif *.tiff);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>Clear list</source>
+        <translation>Liste leeren</translation>
+    </message>
+    <message>
+        <source>%1[*] — Episcope</source>
+        <translation>%1[*] — Episcope</translation>
+    </message>
+    <message>
+        <source>Open a light field, or drop a file or a folder here.</source>
+        <translation>Ein Lichtfeld öffnen oder eine Datei oder einen Ordner hier ablegen.</translation>
+    </message>
+    <message>
+        <source>Open a light field with %1, or drop a file or a folder here.</source>
+        <translation>Ein Lichtfeld mit %1 öffnen oder eine Datei oder einen Ordner hier ablegen.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::FocusController</name>
+    <message>
+        <source>Apply focus plane</source>
+        <translation>Fokusebene anwenden</translation>
+    </message>
+    <message>
+        <source>Shifts all disparities, those of results and ground truth too, so that what is in focus has 0</source>
+        <translation>Verschiebt alle Disparitäten, auch die von Ergebnissen und Referenz, sodass scharf Gestelltes 0 hat</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+Return</source>
+        <translation>Ctrl+Alt+Return</translation>
+    </message>
+    <message>
+        <source>Undo applied focus plane</source>
+        <translation>Angewandte Fokusebene zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Restores the disparities of the files</source>
+        <translation>Stellt die Disparitäten der Dateien wieder her</translation>
+    </message>
+    <message>
+        <source>A method is still running on this light field: wait for it to finish, or cancel it.</source>
+        <translation>Auf diesem Lichtfeld läuft noch ein Verfahren: warten, bis es fertig ist, oder es abbrechen.</translation>
+    </message>
+    <message>
+        <source>There are unsaved scribbles on this light field: save or undo them first.</source>
+        <translation>Auf diesem Lichtfeld sind Striche nicht gespeichert: erst speichern oder zurücknehmen.</translation>
+    </message>
+    <message>
+        <source>Moving results to the focus plane</source>
+        <translation>Ergebnisse werden in die Fokusebene verschoben</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Frame</name>
+    <message>
+        <source>In a window of its own</source>
+        <translation>In einem eigenen Fenster</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::FrameController</name>
+    <message>
+        <source>Next frame</source>
+        <translation>Nächstes Einzelbild</translation>
+    </message>
+    <message>
+        <source>Opens the next frame of the sequence</source>
+        <translation>Öffnet das nächste Einzelbild der Sequenz</translation>
+    </message>
+    <message>
+        <source>Alt+Right</source>
+        <translation>Alt+Right</translation>
+    </message>
+    <message>
+        <source>Previous frame</source>
+        <translation>Voriges Einzelbild</translation>
+    </message>
+    <message>
+        <source>Opens the frame before in the sequence</source>
+        <translation>Öffnet das vorige Einzelbild der Sequenz</translation>
+    </message>
+    <message>
+        <source>Alt+Left</source>
+        <translation>Alt+Left</translation>
+    </message>
+    <message>
+        <source>Play frames</source>
+        <translation>Sequenz abspielen</translation>
+    </message>
+    <message>
+        <source>Plays the frames of the sequence, or pauses</source>
+        <translation>Spielt die Einzelbilder der Sequenz ab oder hält an</translation>
+    </message>
+    <message>
+        <source>Ctrl+Space</source>
+        <translation>Ctrl+Space</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Help</name>
+    <message>
+        <source>About Episcope</source>
+        <translation>Über Episcope</translation>
+    </message>
+    <message>
+        <source>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Views, EPIs, disparity and labels of 4D light fields.&lt;/p&gt;&lt;p&gt;BSD 3-Clause licence.&lt;/p&gt;</source>
+        <translation>&lt;b&gt;Episcope %1&lt;/b&gt;&lt;p&gt;Ansichten, EPIs, Disparität und Labels von 4D-Lichtfeldern.&lt;/p&gt;&lt;p&gt;BSD-Lizenz (3 Klauseln).&lt;/p&gt;</translation>
+    </message>
+    <message>
+        <source>Keys and mouse</source>
+        <translation>Tastatur und Maus</translation>
+    </message>
+    <message>
+        <source>Lists every key and mouse gesture</source>
+        <translation>Listet alle Tasten und Mausgesten auf</translation>
+    </message>
+    <message>
+        <source>Find a command…</source>
+        <translation>Befehl suchen…</translation>
+    </message>
+    <message>
+        <source>Finds any command by its name</source>
+        <translation>Findet jeden Befehl anhand seines Namens</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+P</source>
+        <translation>Ctrl+Shift+P</translation>
+    </message>
+    <message>
+        <source>Shows version and licence</source>
+        <translation>Zeigt Version und Lizenz</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::HistogramView</name>
+    <message>
+        <source>Visible values. Drag the handles to change the colour range.</source>
+        <translation>Sichtbare Werte. Die Griffe ziehen, um den Farbbereich zu ändern.</translation>
+    </message>
+    <message>
+        <source>No visible values</source>
+        <translation>Keine sichtbaren Werte</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::InfoController</name>
+    <message>
+        <source>Conventions…</source>
+        <translation>Konventionen…</translation>
+    </message>
+    <message>
+        <source>Overrides the order of views, the units or the file names that were found</source>
+        <translation>Legt die Reihenfolge der Ansichten, die Einheiten oder die Dateinamen anders als gefunden fest</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+R</source>
+        <translation>Ctrl+Shift+R</translation>
+    </message>
+    <message>
+        <source>Reverse near and far</source>
+        <translation>Nah und fern vertauschen</translation>
+    </message>
+    <message>
+        <source>Reverses the order of views along both axes: what was near is far</source>
+        <translation>Kehrt die Reihenfolge der Ansichten in beiden Achsen um: was nah war, ist fern</translation>
+    </message>
+    <message>
+        <source>Opening …</source>
+        <translation>Wird geöffnet …</translation>
+    </message>
+    <message>
+        <source>Nothing is open</source>
+        <translation>Nichts geöffnet</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::InfoPanel</name>
+    <message>
+        <source>RGB</source>
+        <translation>RGB</translation>
+    </message>
+    <message>
+        <source>grey</source>
+        <translation>grau</translation>
+    </message>
+    <message>
+        <source>, 8 bit</source>
+        <translation>, 8 Bit</translation>
+    </message>
+    <message>
+        <source>, 16 bit</source>
+        <translation>, 16 Bit</translation>
+    </message>
+    <message>
+        <source>, float</source>
+        <translation>, Gleitkomma</translation>
+    </message>
+    <message>
+        <source>, on disk</source>
+        <translation>, auf der Platte</translation>
+    </message>
+    <message>
+        <source>all views</source>
+        <translation>alle Ansichten</translation>
+    </message>
+    <message>
+        <source>%1 of %2 views</source>
+        <translation>%1 von %2 Ansichten</translation>
+    </message>
+    <message>
+        <source>disparity (%1)</source>
+        <translation>Disparität (%1)</translation>
+    </message>
+    <message>
+        <source>two layers</source>
+        <translation>zwei Schichten</translation>
+    </message>
+    <message>
+        <source>labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>1 region mask</source>
+        <translation>1 Gebietsmaske</translation>
+    </message>
+    <message>
+        <source>%1 region masks</source>
+        <translation>%1 Gebietsmasken</translation>
+    </message>
+    <message>
+        <source>ten times the resolution for metrics</source>
+        <translation>zehnfache Auflösung für Fehlermaße</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>unknown: disparity only, no depth</source>
+        <translation>unbekannt: nur Disparität, keine Tiefe</translation>
+    </message>
+    <message>
+        <source>B·f %1, shift %2 px</source>
+        <translation>B·f %1, Versatz %2 px</translation>
+    </message>
+    <message>
+        <source>, Z₀ %1</source>
+        <translation>, Z₀ %1</translation>
+    </message>
+    <message>
+        <source>%1 (set by you)</source>
+        <translation>%1 (selbst gesetzt)</translation>
+    </message>
+    <message>
+        <source>automatic</source>
+        <translation>automatisch</translation>
+    </message>
+    <message>
+        <source>, snake</source>
+        <translation>, Schlangenlinie</translation>
+    </message>
+    <message>
+        <source>none: %1</source>
+        <translation>keine: %1</translation>
+    </message>
+    <message>
+        <source>%1, %2 of %3 GiB free</source>
+        <translation>%1, %2 von %3 GiB frei</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>Reihenfolge</translation>
+    </message>
+    <message>
+        <source>Sign</source>
+        <translation>Vorzeichen</translation>
+    </message>
+    <message>
+        <source>not known</source>
+        <translation>nicht bekannt</translation>
+    </message>
+    <message>
+        <source>checked</source>
+        <translation>geprüft</translation>
+    </message>
+    <message>
+        <source>Camera</source>
+        <translation>Kamera</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>Format</source>
+        <translation>Format</translation>
+    </message>
+    <message>
+        <source>Views</source>
+        <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>%1×%2</source>
+        <translation>%1×%2</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>%1×%2 px, %3 MB</source>
+        <translation>%1×%2 px, %3 MB</translation>
+    </message>
+    <message>
+        <source>Samples</source>
+        <translation>Samples</translation>
+    </message>
+    <message>
+        <source>Valid</source>
+        <translation>Gültig</translation>
+    </message>
+    <message>
+        <source>%1 % of the pixels</source>
+        <translation>%1 % der Pixel</translation>
+    </message>
+    <message>
+        <source>The others are dark or empty and do not count.</source>
+        <translation>Die anderen sind dunkel oder leer und zählen nicht.</translation>
+    </message>
+    <message>
+        <source>Brightness</source>
+        <translation>Helligkeit</translation>
+    </message>
+    <message>
+        <source>Disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>%1 … %2 px</source>
+        <translation>%1 … %2 px</translation>
+    </message>
+    <message>
+        <source>Focus</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source>%1 px applied</source>
+        <translation>%1 px angewandt</translation>
+    </message>
+    <message>
+        <source>All views but the centre one are interpolated.</source>
+        <translation>Alle Ansichten außer der mittleren sind interpoliert.</translation>
+    </message>
+    <message>
+        <source>Truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>Names</source>
+        <translation>Namen</translation>
+    </message>
+    <message>
+        <source>Files</source>
+        <translation>Dateien</translation>
+    </message>
+    <message>
+        <source>Source</source>
+        <translation>Quelle</translation>
+    </message>
+    <message>
+        <source>GPU</source>
+        <translation>GPU</translation>
+    </message>
+    <message>
+        <source>No light field</source>
+        <translation>Kein Lichtfeld</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::JobPanel</name>
+    <message>
+        <source>less than 1 s left</source>
+        <translation>noch weniger als 1 s</translation>
+    </message>
+    <message>
+        <source>about %1 s left</source>
+        <translation>noch etwa %1 s</translation>
+    </message>
+    <message>
+        <source>about %1 min left</source>
+        <translation>noch etwa %1 min</translation>
+    </message>
+    <message>
+        <source>about %1 h %2 min left</source>
+        <translation>noch etwa %1 h %2 min</translation>
+    </message>
+    <message>
+        <source>No jobs running</source>
+        <translation>Keine laufenden Aufträge</translation>
+    </message>
+    <message>
+        <source>Finish now and keep the result so far</source>
+        <translation>Jetzt beenden und das bisherige Ergebnis behalten</translation>
+    </message>
+    <message>
+        <source>Cancel this job</source>
+        <translation>Diesen Auftrag abbrechen</translation>
+    </message>
+    <message>
+        <source>waiting</source>
+        <translation>wartet</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>cancelling</source>
+        <translation>wird abgebrochen</translation>
+    </message>
+    <message>
+        <source>finishing</source>
+        <translation>wird abgeschlossen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Jobs</name>
+    <message>
+        <source>There is not enough memory. Close other programs or remove results.</source>
+        <translation>Der Speicher reicht nicht. Andere Programme schließen oder Ergebnisse entfernen.</translation>
+    </message>
+    <message>
+        <source>An unknown error occurred.</source>
+        <translation>Ein unbekannter Fehler ist aufgetreten.</translation>
+    </message>
+    <message>
+        <source>%1 failed: %2</source>
+        <translation>%1 fehlgeschlagen: %2</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelController</name>
+    <message>
+        <source>Label %1</source>
+        <translation>Label %1</translation>
+    </message>
+    <message>
+        <source>Paints with label %1</source>
+        <translation>Malt mit Label %1</translation>
+    </message>
+    <message>
+        <source>Next label</source>
+        <translation>Nächstes Label</translation>
+    </message>
+    <message>
+        <source>Paints with the next label</source>
+        <translation>Malt mit dem nächsten Label</translation>
+    </message>
+    <message>
+        <source>Swap labels</source>
+        <translation>Labels wechseln</translation>
+    </message>
+    <message>
+        <source>Returns to the label used before</source>
+        <translation>Kehrt zum vorher benutzten Label zurück</translation>
+    </message>
+    <message>
+        <source>Add label</source>
+        <translation>Label hinzufügen</translation>
+    </message>
+    <message>
+        <source>Adds a label, to be named and painted with</source>
+        <translation>Fügt ein Label hinzu, um es zu benennen und damit zu malen</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+N</source>
+        <translation>Ctrl+Shift+N</translation>
+    </message>
+    <message>
+        <source>Rename label</source>
+        <translation>Label umbenennen</translation>
+    </message>
+    <message>
+        <source>Renames the current label</source>
+        <translation>Benennt das aktuelle Label um</translation>
+    </message>
+    <message>
+        <source>Change colour…</source>
+        <translation>Farbe ändern…</translation>
+    </message>
+    <message>
+        <source>Changes the colour of the current label</source>
+        <translation>Ändert die Farbe des aktuellen Labels</translation>
+    </message>
+    <message>
+        <source>Remove label</source>
+        <translation>Label entfernen</translation>
+    </message>
+    <message>
+        <source>Removes the current label and everything painted with it</source>
+        <translation>Entfernt das aktuelle Label und alles damit Gemalte</translation>
+    </message>
+    <message>
+        <source>No labels yet. Add one for each kind of thing, then paint a few strokes on the view.</source>
+        <translation>Noch keine Labels. Für jede Art von Objekt eines hinzufügen, dann einige Striche in die Ansicht malen.</translation>
+    </message>
+    <message>
+        <source>The light field is still loading.</source>
+        <translation>Das Lichtfeld wird noch geladen.</translation>
+    </message>
+    <message>
+        <source>Open a light field to label it.</source>
+        <translation>Zum Annotieren ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>There is no label %1.</source>
+        <translation>Es gibt kein Label %1.</translation>
+    </message>
+    <message>
+        <source>“%1” is locked: unlock it to remove it.</source>
+        <translation>„%1“ ist gesperrt: zum Entfernen entsperren.</translation>
+    </message>
+    <message>
+        <source>Remove a label</source>
+        <translation>Label entfernen</translation>
+    </message>
+    <message>
+        <source>Remove “%1” and everything painted with it, on all views?</source>
+        <translation>„%1“ und alles damit Gemalte in allen Ansichten entfernen?</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Colour of “%1”</source>
+        <translation>Farbe von „%1“</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelLookController</name>
+    <message>
+        <source>areas</source>
+        <translation>Flächen</translation>
+    </message>
+    <message>
+        <source>contours</source>
+        <translation>Konturen</translation>
+    </message>
+    <message>
+        <source>areas and contours</source>
+        <translation>Flächen und Konturen</translation>
+    </message>
+    <message>
+        <source>%1 px painted on this view, %2 %</source>
+        <translation>%1 px in dieser Ansicht bemalt, %2 %</translation>
+    </message>
+    <message>
+        <source>Disparity %1 ± %2 px, from %3 to %4 px</source>
+        <translation>Disparität %1 ± %2 px, von %3 bis %4 px</translation>
+    </message>
+    <message>
+        <source>Hide label</source>
+        <translation>Label ausblenden</translation>
+    </message>
+    <message>
+        <source>Neither shows the current label nor paints over it</source>
+        <translation>Das aktuelle Label wird weder gezeigt noch übermalt</translation>
+    </message>
+    <message>
+        <source>Show only this label</source>
+        <translation>Nur dieses Label zeigen</translation>
+    </message>
+    <message>
+        <source>Hides all other labels; again shows all</source>
+        <translation>Blendet alle anderen Labels aus; noch einmal blendet alle ein</translation>
+    </message>
+    <message>
+        <source>Lock label</source>
+        <translation>Label sperren</translation>
+    </message>
+    <message>
+        <source>The current label is neither painted nor painted over</source>
+        <translation>Das aktuelle Label wird weder gemalt noch übermalt</translation>
+    </message>
+    <message>
+        <source>Shift+V</source>
+        <translation>Shift+V</translation>
+    </message>
+    <message>
+        <source>Draw labels as areas, contours or both</source>
+        <translation>Labels als Flächen, Konturen oder beides zeichnen</translation>
+    </message>
+    <message>
+        <source>Draws strokes and segments as areas, as contours, or as faint areas with contours</source>
+        <translation>Zeichnet Striche und Segmente als Flächen, als Konturen oder als blasse Flächen mit Konturen</translation>
+    </message>
+    <message>
+        <source>Shift+C</source>
+        <translation>Shift+C</translation>
+    </message>
+    <message>
+        <source>Labels are drawn as %1.</source>
+        <translation>Darstellung der Labels: %1.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelPalette</name>
+    <message>
+        <source>Add a label</source>
+        <translation>Label hinzufügen</translation>
+    </message>
+    <message>
+        <source>Add</source>
+        <translation>Hinzufügen</translation>
+    </message>
+    <message>
+        <source>Rename this label</source>
+        <translation>Dieses Label umbenennen</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
+    </message>
+    <message>
+        <source>Remove this label and everything painted with it (Delete)</source>
+        <translation>Dieses Label und alles damit Gemalte entfernen (Entf)</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>Click to change the colour of “%1”</source>
+        <translation>Klicken, um die Farbe von „%1“ zu ändern</translation>
+    </message>
+    <message>
+        <source>Hidden: click to show it</source>
+        <translation>Ausgeblendet: klicken, um es einzublenden</translation>
+    </message>
+    <message>
+        <source>Click to hide it</source>
+        <translation>Klicken, um es auszublenden</translation>
+    </message>
+    <message>
+        <source>hidden</source>
+        <translation>ausgeblendet</translation>
+    </message>
+    <message>
+        <source>shown</source>
+        <translation>sichtbar</translation>
+    </message>
+    <message>
+        <source>Locked: neither painted nor painted over. Click to unlock it</source>
+        <translation>Gesperrt: wird weder gemalt noch übermalt. Klicken, um es zu entsperren</translation>
+    </message>
+    <message>
+        <source>Click to lock it: it is then neither painted nor painted over</source>
+        <translation>Klicken, um es zu sperren: es wird dann weder gemalt noch übermalt</translation>
+    </message>
+    <message>
+        <source>locked</source>
+        <translation>gesperrt</translation>
+    </message>
+    <message>
+        <source>not locked</source>
+        <translation>nicht gesperrt</translation>
+    </message>
+    <message>
+        <source>Change colour…</source>
+        <translation>Farbe ändern…</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Einblenden</translation>
+    </message>
+    <message>
+        <source>Hide</source>
+        <translation>Ausblenden</translation>
+    </message>
+    <message>
+        <source>Show only this</source>
+        <translation>Nur dieses zeigen</translation>
+    </message>
+    <message>
+        <source>Unlock</source>
+        <translation>Entsperren</translation>
+    </message>
+    <message>
+        <source>Lock</source>
+        <translation>Sperren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LabelingSource</name>
+    <message>
+        <source>automatic</source>
+        <translation>automatisch</translation>
+    </message>
+    <message>
+        <source>none, images only</source>
+        <translation>keine, nur Bilder</translation>
+    </message>
+    <message>
+        <source>the ground truth</source>
+        <translation>Referenz (Ground Truth)</translation>
+    </message>
+    <message>
+        <source>Disparity for labels</source>
+        <translation>Disparität für die Labels</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Language</name>
+    <message>
+        <source>The window will be in this language when Episcope starts again.</source>
+        <translation>Das Fenster erscheint in dieser Sprache, wenn Episcope neu gestartet wird.</translation>
+    </message>
+    <message>
+        <source>Follow the desktop</source>
+        <translation>Wie die Arbeitsumgebung</translation>
+    </message>
+    <message>
+        <source>The language of the desktop</source>
+        <translation>Die Sprache der Arbeitsumgebung</translation>
+    </message>
+    <message>
+        <source>Shows the window in %1</source>
+        <translation>Zeigt das Fenster auf %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Layout</name>
+    <message>
+        <source>Full screen</source>
+        <translation>Vollbild</translation>
+    </message>
+    <message>
+        <source>Fills the screen with the window, or gives it back</source>
+        <translation>Füllt den Bildschirm mit dem Fenster oder gibt ihn wieder frei</translation>
+    </message>
+    <message>
+        <source>Side panels</source>
+        <translation>Seitenleisten</translation>
+    </message>
+    <message>
+        <source>Shows the views at the left and the tabs at the right; without them, the view has all the room</source>
+        <translation>Zeigt links die Ansichten und rechts die Reiter; ohne sie hat die Ansicht den ganzen Platz</translation>
+    </message>
+    <message>
+        <source>Shift+F11</source>
+        <translation>Shift+F11</translation>
+    </message>
+    <message>
+        <source>Tab in its own window</source>
+        <translation>Reiter im eigenen Fenster</translation>
+    </message>
+    <message>
+        <source>Gives the tab that is shown a window of its own; closing that brings it back. So does a double click on the tab</source>
+        <translation>Gibt dem angezeigten Reiter ein eigenes Fenster; es zu schließen holt ihn zurück. Ein Doppelklick auf den Reiter tut dasselbe</translation>
+    </message>
+    <message>
+        <source>Horizontal EPI in its own window</source>
+        <translation>Horizontales EPI im eigenen Fenster</translation>
+    </message>
+    <message>
+        <source>Gives the horizontal EPI a window of its own, or takes it back</source>
+        <translation>Gibt dem horizontalen EPI ein eigenes Fenster oder holt es zurück</translation>
+    </message>
+    <message>
+        <source>Vertical EPI in its own window</source>
+        <translation>Vertikales EPI im eigenen Fenster</translation>
+    </message>
+    <message>
+        <source>Gives the vertical EPI a window of its own, or takes it back</source>
+        <translation>Gibt dem vertikalen EPI ein eigenes Fenster oder holt es zurück</translation>
+    </message>
+    <message>
+        <source>Reset layout</source>
+        <translation>Anordnung zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Brings all panes back and divides the window as at first</source>
+        <translation>Holt alle Teilfenster zurück und teilt das Fenster ein wie am Anfang</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+F11</source>
+        <translation>Ctrl+Shift+F11</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::LiveController</name>
+    <message>
+        <source>%1 ms</source>
+        <translation>%1 ms</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Live estimate</source>
+        <translation>Live-Schätzung</translation>
+    </message>
+    <message>
+        <source>Estimates what is in sight at every change of parameters or view; Run keeps it</source>
+        <translation>Schätzt das Sichtbare bei jeder Änderung von Parametern oder Ansicht; Starten behält es</translation>
+    </message>
+    <message>
+        <source>Ctrl+L</source>
+        <translation>Ctrl+L</translation>
+    </message>
+    <message>
+        <source>Live %1</source>
+        <translation>Live %1</translation>
+    </message>
+    <message>
+        <source>Live</source>
+        <translation>Live</translation>
+    </message>
+    <message>
+        <source>Live: %1</source>
+        <translation>Live: %1</translation>
+    </message>
+    <message>
+        <source>Live: coarse %1 / </source>
+        <translation>Live: grob %1 / </translation>
+    </message>
+    <message>
+        <source>Live: </source>
+        <translation>Live: </translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>full %1</source>
+        <translation>voll %1</translation>
+    </message>
+    <message>
+        <source>Live: this method has no map of this view</source>
+        <translation>Live: dieses Verfahren hat keine Karte dieser Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MainWindow</name>
+    <message>
+        <source>Ctrl+%1</source>
+        <translation>Ctrl+%1</translation>
+    </message>
+    <message>
+        <source>Main tool bar</source>
+        <translation>Hauptwerkzeugleiste</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MeasureController</name>
+    <message>
+        <source>row %1</source>
+        <translation>Zeile %1</translation>
+    </message>
+    <message>
+        <source>column %1</source>
+        <translation>Spalte %1</translation>
+    </message>
+    <message>
+        <source>%1 px per view, measured in %2 at pixel x %3, y %4 of view (%5, %6). A click goes there.</source>
+        <translation>%1 px je Ansicht, gemessen in %2 an Pixel x %3, y %4 der Ansicht (%5, %6). Ein Klick führt dorthin.</translation>
+    </message>
+    <message>
+        <source>Measure</source>
+        <translation>Messen</translation>
+    </message>
+    <message>
+        <source>Measure tab</source>
+        <translation>Reiter Messen</translation>
+    </message>
+    <message>
+        <source>Lists the disparities that were measured in EPIs</source>
+        <translation>Listet die in EPIs gemessenen Disparitäten auf</translation>
+    </message>
+    <message>
+        <source>Keep the measured line</source>
+        <translation>Gemessene Linie behalten</translation>
+    </message>
+    <message>
+        <source>Keeps the disparity of the line that was drawn in an EPI, in the list of the Measure tab</source>
+        <translation>Behält die Disparität der in einem EPI gezogenen Linie in der Liste des Reiters Messen</translation>
+    </message>
+    <message>
+        <source>Ctrl+K</source>
+        <translation>Ctrl+K</translation>
+    </message>
+    <message>
+        <source>Rename the chosen measurement</source>
+        <translation>Gewählte Messung umbenennen</translation>
+    </message>
+    <message>
+        <source>Renames the chosen one of the list of measured lines</source>
+        <translation>Benennt die in der Liste gewählte gemessene Linie um</translation>
+    </message>
+    <message>
+        <source>Remove the chosen measurement</source>
+        <translation>Gewählte Messung entfernen</translation>
+    </message>
+    <message>
+        <source>Removes the chosen one from the list of measured lines</source>
+        <translation>Entfernt die gewählte gemessene Linie aus der Liste</translation>
+    </message>
+    <message>
+        <source>Copy measurements as CSV</source>
+        <translation>Messungen als CSV kopieren</translation>
+    </message>
+    <message>
+        <source>Copies all measured lines as a table</source>
+        <translation>Kopiert alle gemessenen Linien als Tabelle</translation>
+    </message>
+    <message>
+        <source>Save measurements…</source>
+        <translation>Messungen speichern…</translation>
+    </message>
+    <message>
+        <source>Saves all measured lines as a table (CSV)</source>
+        <translation>Speichert alle gemessenen Linien als Tabelle (CSV)</translation>
+    </message>
+    <message>
+        <source>Focus on the chosen measurement</source>
+        <translation>Auf gewählte Messung fokussieren</translation>
+    </message>
+    <message>
+        <source>Moves the focus plane to the disparity that was measured</source>
+        <translation>Verschiebt die Fokusebene auf die gemessene Disparität</translation>
+    </message>
+    <message>
+        <source>Drag along a line in an EPI to measure its disparity, then keep it (%1).</source>
+        <translation>In einem EPI entlang einer Linie ziehen, um ihre Disparität zu messen, und sie dann behalten (%1).</translation>
+    </message>
+    <message>
+        <source>Measured disparity: %1 px per view; %2 keeps it</source>
+        <translation>Gemessene Disparität: %1 px je Ansicht; %2 behält sie</translation>
+    </message>
+    <message>
+        <source>line %1</source>
+        <translation>Linie %1</translation>
+    </message>
+    <message>
+        <source>Nothing is measured: drag along a line in an EPI first.</source>
+        <translation>Noch nichts gemessen: erst in einem EPI entlang einer Linie ziehen.</translation>
+    </message>
+    <message numerus="yes">
+        <source>%n measured line(s) copied as CSV.</source>
+        <translation>
+            <numerusform>%n gemessene Linie als CSV kopiert.</numerusform>
+            <numerusform>%n gemessene Linien als CSV kopiert.</numerusform>
+        </translation>
+    </message>
+    <message>
+        <source>Save the measurements</source>
+        <translation>Messungen speichern</translation>
+    </message>
+    <message>
+        <source>CSV (*.csv)</source>
+        <translation>CSV (*.csv)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MeasurePanel</name>
+    <message>
+        <source>Measured lines</source>
+        <translation>Gemessene Linien</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>Place</source>
+        <translation>Ort</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MeasuredRange</name>
+    <message>
+        <source>Disparity range of the next run: %1 … %2 px</source>
+        <translation>Disparitätsbereich des nächsten Laufs: %1 … %2 px</translation>
+    </message>
+    <message>
+        <source>Range begins at the chosen measurement</source>
+        <translation>Bereich beginnt an der gewählten Messung</translation>
+    </message>
+    <message>
+        <source>Makes the chosen measured line the lower end of the disparity range of the method</source>
+        <translation>Macht die gewählte gemessene Linie zum unteren Ende des Disparitätsbereichs des Verfahrens</translation>
+    </message>
+    <message>
+        <source>Range ends at the chosen measurement</source>
+        <translation>Bereich endet an der gewählten Messung</translation>
+    </message>
+    <message>
+        <source>Makes the chosen measured line the upper end of the disparity range of the method</source>
+        <translation>Macht die gewählte gemessene Linie zum oberen Ende des Disparitätsbereichs des Verfahrens</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Menu</name>
+    <message>
+        <source>File</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Colours</source>
+        <translation>Farben</translation>
+    </message>
+    <message>
+        <source>Language</source>
+        <translation>Sprache</translation>
+    </message>
+    <message>
+        <source>Panes</source>
+        <translation>Teilfenster</translation>
+    </message>
+    <message>
+        <source>Estimate</source>
+        <translation>Schätzen</translation>
+    </message>
+    <message>
+        <source>Compare</source>
+        <translation>Vergleichen</translation>
+    </message>
+    <message>
+        <source>Annotate</source>
+        <translation>Annotieren</translation>
+    </message>
+    <message>
+        <source>Label</source>
+        <translation>Label</translation>
+    </message>
+    <message>
+        <source>Segmentation</source>
+        <translation>Segmentierung</translation>
+    </message>
+    <message>
+        <source>Help</source>
+        <translation>Hilfe</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MessageBar</name>
+    <message>
+        <source>Close this message</source>
+        <translation>Diese Meldung schließen</translation>
+    </message>
+    <message>
+        <source>Copy message</source>
+        <translation>Meldung kopieren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Messages</name>
+    <message>
+        <source>Written: %1</source>
+        <translation>Geschrieben: %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MethodPanel</name>
+    <message>
+        <source>All views</source>
+        <translation>Alle Ansichten</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Estimate with these parameters</source>
+        <translation>Mit diesen Parametern schätzen</translation>
+    </message>
+    <message>
+        <source>Live</source>
+        <translation>Live</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Cancel all runs</source>
+        <translation>Alle Läufe abbrechen</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>Zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Reset all parameters to their defaults</source>
+        <translation>Alle Parameter auf ihre Standardwerte zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Copy as command</source>
+        <translation>Als Befehl kopieren</translation>
+    </message>
+    <message>
+        <source>Copy the equivalent episcope-cli command</source>
+        <translation>Den entsprechenden Befehl für episcope-cli kopieren</translation>
+    </message>
+    <message>
+        <source>Estimation method</source>
+        <translation>Schätzverfahren</translation>
+    </message>
+    <message>
+        <source>Estimate all views instead of the centre view only</source>
+        <translation>Alle Ansichten schätzen statt nur der mittleren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MethodRuns</name>
+    <message>
+        <source>%1 · %2</source>
+        <translation>%1 · %2</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MetricController</name>
+    <message>
+        <source>Copied the numbers of one result as %1</source>
+        <translation>Zahlen eines Ergebnisses als %1 kopiert</translation>
+    </message>
+    <message>
+        <source>Copied the numbers of %1 results as %2</source>
+        <translation>Zahlen von %1 Ergebnissen als %2 kopiert</translation>
+    </message>
+    <message>
+        <source>This light field has no ground truth to compare results with.</source>
+        <translation>Dieses Lichtfeld hat keine Referenz (Ground Truth), mit der sich Ergebnisse vergleichen ließen.</translation>
+    </message>
+    <message>
+        <source>Open a light field with ground truth and run a method.</source>
+        <translation>Ein Lichtfeld mit Referenz (Ground Truth) öffnen und ein Verfahren ausführen.</translation>
+    </message>
+    <message>
+        <source>Run a method: its errors against the ground truth appear here.</source>
+        <translation>Ein Verfahren ausführen: seine Fehler gegenüber der Referenz erscheinen hier.</translation>
+    </message>
+    <message>
+        <source>Result</source>
+        <translation>Ergebnis</translation>
+    </message>
+    <message>
+        <source>Name of the result</source>
+        <translation>Name des Ergebnisses</translation>
+    </message>
+    <message>
+        <source>Time
+s</source>
+        <translation>Zeit
+s</translation>
+    </message>
+    <message>
+        <source>Seconds taken</source>
+        <translation>Benötigte Sekunden</translation>
+    </message>
+    <message>
+        <source>Judged</source>
+        <translation>Bewertet</translation>
+    </message>
+    <message>
+        <source>Scene</source>
+        <translation>Szene</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>Parameters</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>Ended early</source>
+        <translation>Vorzeitig beendet</translation>
+    </message>
+    <message>
+        <source>Note</source>
+        <translation>Notiz</translation>
+    </message>
+    <message>
+        <source>Pixels</source>
+        <translation>Pixel</translation>
+    </message>
+    <message>
+        <source>Pixels of the part that were judged</source>
+        <translation>Pixel des bewerteten Teils</translation>
+    </message>
+    <message>
+        <source>Pixels
+2016</source>
+        <translation>Pixel
+2016</translation>
+    </message>
+    <message>
+        <source>Those without the border of 15 px that this protocol ignores</source>
+        <translation>Jene ohne den Rand von 15 px, den dieses Protokoll außer Acht lässt</translation>
+    </message>
+    <message>
+        <source>yes</source>
+        <translation>ja</translation>
+    </message>
+    <message>
+        <source>no</source>
+        <translation>nein</translation>
+    </message>
+    <message>
+        <source>Save the table</source>
+        <translation>Tabelle speichern</translation>
+    </message>
+    <message>
+        <source>CSV (*.csv)</source>
+        <translation>CSV (*.csv)</translation>
+    </message>
+    <message>
+        <source>LaTeX (*.tex)</source>
+        <translation>LaTeX (*.tex)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MetricTable</name>
+    <message>
+        <source>MSE×100</source>
+        <translation>MSE×100</translation>
+    </message>
+    <message>
+        <source>Mean squared error ×100, px²</source>
+        <translation>Mittlerer quadratischer Fehler ×100, px²</translation>
+    </message>
+    <message>
+        <source>bad .07</source>
+        <translation>bad .07</translation>
+    </message>
+    <message>
+        <source>Pixels off by more than 0.07 px, in %</source>
+        <translation>Um mehr als 0.07 px falsche Pixel, in %</translation>
+    </message>
+    <message>
+        <source>bad .03</source>
+        <translation>bad .03</translation>
+    </message>
+    <message>
+        <source>Pixels off by more than 0.03 px, in %</source>
+        <translation>Um mehr als 0.03 px falsche Pixel, in %</translation>
+    </message>
+    <message>
+        <source>bad .01</source>
+        <translation>bad .01</translation>
+    </message>
+    <message>
+        <source>Pixels off by more than 0.01 px, in %</source>
+        <translation>Um mehr als 0.01 px falsche Pixel, in %</translation>
+    </message>
+    <message>
+        <source>Q25</source>
+        <translation>Q25</translation>
+    </message>
+    <message>
+        <source>Error ×100 below which the best quarter of the pixels lies, px</source>
+        <translation>Fehler ×100, unter dem das beste Viertel der Pixel liegt, px</translation>
+    </message>
+    <message>
+        <source>dense</source>
+        <translation>dicht</translation>
+    </message>
+    <message>
+        <source>Pixels with a value, in %</source>
+        <translation>Pixel mit einem Wert, in %</translation>
+    </message>
+    <message>
+        <source>shown</source>
+        <translation>gezeigt</translation>
+    </message>
+    <message>
+        <source>Pixels with ground truth that the light field shows, in %</source>
+        <translation>Pixel mit Referenz, die das Lichtfeld zeigt, in %</translation>
+    </message>
+    <message>
+        <source>MSE inner</source>
+        <translation>MSE innen</translation>
+    </message>
+    <message>
+        <source>Mean squared error ×100 without a border of 15 px, px²</source>
+        <translation>Mittlerer quadratischer Fehler ×100 ohne einen Rand von 15 px, px²</translation>
+    </message>
+    <message>
+        <source>edges</source>
+        <translation>Kanten</translation>
+    </message>
+    <message>
+        <source>Pixels at depth edges off by more than 0.07 px, in %</source>
+        <translation>Um mehr als 0.07 px falsche Pixel an Tiefenkanten, in %</translation>
+    </message>
+    <message>
+        <source>bumps pl.</source>
+        <translation>Beulen Eb.</translation>
+    </message>
+    <message>
+        <source>Bumpiness of planes ×100</source>
+        <translation>Unebenheit von Ebenen ×100</translation>
+    </message>
+    <message>
+        <source>bumps sm.</source>
+        <translation>Beulen gl.</translation>
+    </message>
+    <message>
+        <source>Bumpiness of smooth surfaces ×100</source>
+        <translation>Unebenheit glatter Flächen ×100</translation>
+    </message>
+    <message>
+        <source>angle pl.</source>
+        <translation>Winkel Eb.</translation>
+    </message>
+    <message>
+        <source>Median angular error of normals on planes, °</source>
+        <translation>Median des Winkelfehlers der Normalen auf Ebenen, °</translation>
+    </message>
+    <message>
+        <source>angle sm.</source>
+        <translation>Winkel gl.</translation>
+    </message>
+    <message>
+        <source>Median angular error of normals on smooth surfaces, °</source>
+        <translation>Median des Winkelfehlers der Normalen auf glatten Flächen, °</translation>
+    </message>
+    <message>
+        <source>fattened</source>
+        <translation>verdickt</translation>
+    </message>
+    <message>
+        <source>Pixels around fine structures that are more than 0.15 px too near, in %</source>
+        <translation>Pixel um feine Strukturen, die mehr als 0.15 px zu nah sind, in %</translation>
+    </message>
+    <message>
+        <source>thinned</source>
+        <translation>verdünnt</translation>
+    </message>
+    <message>
+        <source>Pixels of fine structures that are more than 0.15 px too far, in %</source>
+        <translation>Pixel feiner Strukturen, die mehr als 0.15 px zu fern sind, in %</translation>
+    </message>
+    <message>
+        <source>fattening</source>
+        <translation>Verdickung</translation>
+    </message>
+    <message>
+        <source>Pixels beside the foreground that are closer to it than to their background, in %</source>
+        <translation>Pixel neben dem Vordergrund, die ihm näher sind als ihrem Hintergrund, in %</translation>
+    </message>
+    <message>
+        <source>thinning</source>
+        <translation>Verdünnung</translation>
+    </message>
+    <message>
+        <source>Pixels of the foreground that are closer to the background than to it, in %</source>
+        <translation>Pixel des Vordergrunds, die dem Hintergrund näher sind als ihm, in %</translation>
+    </message>
+    <message>
+        <source>missed dots</source>
+        <translation>fehl. Punkte</translation>
+    </message>
+    <message>
+        <source>Dots of which half of the pixels or more are off by more than 0.4 px, in %</source>
+        <translation>Punkte, von denen mindestens die Hälfte der Pixel um mehr als 0.4 px falsch ist, in %</translation>
+    </message>
+    <message>
+        <source>MSE backgr.</source>
+        <translation>MSE Hintergr.</translation>
+    </message>
+    <message>
+        <source>Mean squared error ×100 of the background between dots, px²</source>
+        <translation>Mittlerer quadratischer Fehler ×100 des Hintergrunds zwischen Punkten, px²</translation>
+    </message>
+    <message>
+        <source>low texture</source>
+        <translation>wenig Textur</translation>
+    </message>
+    <message>
+        <source>Pixels without much texture off by more than 0.07 px, in %</source>
+        <translation>Um mehr als 0.07 px falsche Pixel mit wenig Textur, in %</translation>
+    </message>
+    <message>
+        <source>dark str.</source>
+        <translation>dunkle Str.</translation>
+    </message>
+    <message>
+        <source>Pixels of dark stripes, of high contrast, off by more than 0.07 px, in %</source>
+        <translation>Um mehr als 0.07 px falsche Pixel dunkler Streifen hohen Kontrasts, in %</translation>
+    </message>
+    <message>
+        <source>bright str.</source>
+        <translation>helle Str.</translation>
+    </message>
+    <message>
+        <source>Pixels of bright stripes, of low contrast, off by more than 0.07 px, in %</source>
+        <translation>Um mehr als 0.07 px falsche Pixel heller Streifen geringen Kontrasts, in %</translation>
+    </message>
+    <message>
+        <source>bumps sl.</source>
+        <translation>Beulen schr.</translation>
+    </message>
+    <message>
+        <source>Bumpiness of slanted surfaces ×100</source>
+        <translation>Unebenheit schräger Flächen ×100</translation>
+    </message>
+    <message>
+        <source>bumps par.</source>
+        <translation>Beulen par.</translation>
+    </message>
+    <message>
+        <source>Bumpiness of surfaces parallel to the image ×100</source>
+        <translation>Unebenheit bildparalleler Flächen ×100</translation>
+    </message>
+    <message>
+        <source>log time</source>
+        <translation>log Zeit</translation>
+    </message>
+    <message>
+        <source>Decadic logarithm of the seconds taken</source>
+        <translation>Dekadischer Logarithmus der benötigten Sekunden</translation>
+    </message>
+    <message>
+        <source>layers</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>Pixels with the correct number of layers, one or two, in %</source>
+        <translation>Pixel mit der richtigen Anzahl von Schichten, einer oder zwei, in %</translation>
+    </message>
+    <message>
+        <source>front</source>
+        <translation>vorn</translation>
+    </message>
+    <message>
+        <source>Of the surface in front</source>
+        <translation>Der Fläche im Vordergrund</translation>
+    </message>
+    <message>
+        <source>behind</source>
+        <translation>dahinter</translation>
+    </message>
+    <message>
+        <source>Of what is seen through it</source>
+        <translation>Dessen, was man durch sie hindurch sieht</translation>
+    </message>
+    <message>
+        <source>low res.</source>
+        <translation>ger. Aufl.</translation>
+    </message>
+    <message>
+        <source>In the resolution of the views: the official score needs the truth of ten times the resolution</source>
+        <translation>In der Auflösung der Ansichten: die offizielle Wertung braucht die Referenz in zehnfacher Auflösung</translation>
+    </message>
+    <message>
+        <source>2013</source>
+        <translation>2013</translation>
+    </message>
+    <message>
+        <source>2016</source>
+        <translation>2016</translation>
+    </message>
+    <message>
+        <source>Protocol vmv2013: all pixels with ground truth, centre view</source>
+        <translation>Protokoll vmv2013: alle Pixel mit Referenz, mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Protocol benchmark2016: without a border of 15 px, centre view</source>
+        <translation>Protokoll benchmark2016: ohne einen Rand von 15 px, mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Metrics appear here once there is a result and a ground truth.</source>
+        <translation>Fehlermaße erscheinen hier, sobald es ein Ergebnis und eine Referenz gibt.</translation>
+    </message>
+    <message>
+        <source>Copy as CSV (Ctrl+C)</source>
+        <translation>Als CSV kopieren (Strg+C)</translation>
+    </message>
+    <message>
+        <source>CSV</source>
+        <translation>CSV</translation>
+    </message>
+    <message>
+        <source>Copy as LaTeX</source>
+        <translation>Als LaTeX kopieren</translation>
+    </message>
+    <message>
+        <source>LaTeX</source>
+        <translation>LaTeX</translation>
+    </message>
+    <message>
+        <source>Save as CSV or LaTeX</source>
+        <translation>Als CSV oder LaTeX speichern</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>CSV…</source>
+        <translation>CSV…</translation>
+    </message>
+    <message>
+        <source>LaTeX…</source>
+        <translation>LaTeX…</translation>
+    </message>
+    <message>
+        <source>Metrics of all results</source>
+        <translation>Fehlermaße aller Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Copy</source>
+        <translation>Kopieren</translation>
+    </message>
+    <message>
+        <source>Best of this column</source>
+        <translation>Bester Wert dieser Spalte</translation>
+    </message>
+    <message>
+        <source>Copy as CSV</source>
+        <translation>Als CSV kopieren</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>Compare with</source>
+        <translation>Vergleichen mit</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MovieExport</name>
+    <message>
+        <source>Save a movie</source>
+        <translation>Film speichern</translation>
+    </message>
+    <message>
+        <source>Save movie…</source>
+        <translation>Film speichern…</translation>
+    </message>
+    <message>
+        <source>Parallax, refocusing or flips as MP4, WebM or GIF</source>
+        <translation>Parallaxe, Refokussieren oder Umschalten als MP4, WebM oder GIF</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+M</source>
+        <translation>Ctrl+Shift+M</translation>
+    </message>
+    <message>
+        <source>Save the movie</source>
+        <translation>Film speichern</translation>
+    </message>
+    <message>
+        <source>MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)</source>
+        <translation>MP4 (*.mp4);;WebM (*.webm);;GIF (*.gif)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MoviePanel</name>
+    <message>
+        <source>With what is drawn over the view</source>
+        <translation>Mit dem, was über der Ansicht liegt</translation>
+    </message>
+    <message>
+        <source>Save…</source>
+        <translation>Speichern…</translation>
+    </message>
+    <message>
+        <source>Parallax: the view moves</source>
+        <translation>Parallaxe: die Ansicht bewegt sich</translation>
+    </message>
+    <message>
+        <source>Refocusing: the focus plane moves</source>
+        <translation>Refokussieren: die Fokusebene bewegt sich</translation>
+    </message>
+    <message>
+        <source>Flip: A and B take turns</source>
+        <translation>Umschalten: A und B im Wechsel</translation>
+    </message>
+    <message>
+        <source>Around the centre</source>
+        <translation>Um die Mitte</translation>
+    </message>
+    <message>
+        <source>Along the row of the centre</source>
+        <translation>Entlang der mittleren Zeile</translation>
+    </message>
+    <message>
+        <source>Through all views</source>
+        <translation>Durch alle Ansichten</translation>
+    </message>
+    <message>
+        <source>What changes</source>
+        <translation>Was sich ändert</translation>
+    </message>
+    <message>
+        <source>Path</source>
+        <translation>Weg</translation>
+    </message>
+    <message>
+        <source>Focus from</source>
+        <translation>Fokus von</translation>
+    </message>
+    <message>
+        <source>Focus to</source>
+        <translation>Fokus bis</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Points of this disparity are in focus at an end of the movement</source>
+        <translation>Punkte dieser Disparität sind an einem Ende der Bewegung scharf</translation>
+    </message>
+    <message>
+        <source>to</source>
+        <translation>bis</translation>
+    </message>
+    <message>
+        <source> s</source>
+        <translation> s</translation>
+    </message>
+    <message>
+        <source>as the views</source>
+        <translation>wie die Ansichten</translation>
+    </message>
+    <message>
+        <source>Duration</source>
+        <translation>Dauer</translation>
+    </message>
+    <message>
+        <source>Width</source>
+        <translation>Breite</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::NumberSpin</name>
+    <message>
+        <source>The least possible value is %1</source>
+        <translation>Der kleinstmögliche Wert ist %1</translation>
+    </message>
+    <message>
+        <source>The largest possible value is %1</source>
+        <translation>Der größtmögliche Wert ist %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Overlay</name>
+    <message>
+        <source>%1 − %2</source>
+        <translation>%1 − %2</translation>
+    </message>
+    <message>
+        <source>view</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>%1 (&gt; %2 px) of %3</source>
+        <translation>%1 (&gt; %2 px) von %3</translation>
+    </message>
+    <message>
+        <source>%1 of %2</source>
+        <translation>%1 von %2</translation>
+    </message>
+    <message>
+        <source>view (v %1, u %2)</source>
+        <translation>Ansicht (v %1, u %2)</translation>
+    </message>
+    <message>
+        <source> · %1</source>
+        <translation> · %1</translation>
+    </message>
+    <message>
+        <source> · no such map for this view</source>
+        <translation> · keine solche Karte für diese Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::OverlayBar</name>
+    <message>
+        <source>Overlay</source>
+        <translation>Überlagerung</translation>
+    </message>
+    <message>
+        <source>What is drawn over the view (M: next)</source>
+        <translation>Was über die Ansicht gelegt wird (M: nächste)</translation>
+    </message>
+    <message>
+        <source>Opacity of the overlay</source>
+        <translation>Deckkraft der Überlagerung</translation>
+    </message>
+    <message>
+        <source>Focus plane: shears EPIs and view so that this disparity appears as zero (Alt+wheel, Ctrl+wheel, Shift+click)</source>
+        <translation>Fokusebene: schert EPIs und Ansicht so, dass diese Disparität als null erscheint (Alt+Mausrad, Strg+Mausrad, Umschalt+Klick)</translation>
+    </message>
+    <message>
+        <source>Focus plane</source>
+        <translation>Fokus</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Reset the focus plane to 0 px</source>
+        <translation>Fokusebene auf 0 px zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Opacity</source>
+        <translation>Deckkraft</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ParameterEditor</name>
+    <message>
+        <source>automatic</source>
+        <translation>automatisch</translation>
+    </message>
+    <message>
+        <source>auto</source>
+        <translation>auto</translation>
+    </message>
+    <message>
+        <source>found</source>
+        <translation>ermittelt</translation>
+    </message>
+    <message>
+        <source>From the images, whatever the files say</source>
+        <translation>Aus den Bildern, gleich was die Dateien sagen</translation>
+    </message>
+    <message>
+        <source>Row of the view</source>
+        <translation>Zeile der Ansicht</translation>
+    </message>
+    <message>
+        <source>Column of the view</source>
+        <translation>Spalte der Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ParameterForm</name>
+    <message>
+        <source>Range %1</source>
+        <translation>Bereich %1</translation>
+    </message>
+    <message>
+        <source>Default %1</source>
+        <translation>Standard %1</translation>
+    </message>
+    <message>
+        <source>Reset to the default, %1</source>
+        <translation>Auf den Standard zurücksetzen, %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PartsLabel</name>
+    <message>
+        <source>+%1 more</source>
+        <translation>+%1 weitere</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PatternPanel</name>
+    <message>
+        <source>no match</source>
+        <translation>kein Treffer</translation>
+    </message>
+    <message>
+        <source>%1 of %2 images match</source>
+        <translation>%1 von %2 Bildern passen</translation>
+    </message>
+    <message>
+        <source>a list of %1 views, whose rows the images tell</source>
+        <translation>eine Liste von %1 Ansichten, deren Zeilen sich aus den Bildern ergeben</translation>
+    </message>
+    <message>
+        <source>%1×%2 views</source>
+        <translation>%1×%2 Ansichten</translation>
+    </message>
+    <message>
+        <source>no images here</source>
+        <translation>keine Bilder hier</translation>
+    </message>
+    <message>
+        <source>{row} and {col} stand for the numbers of a view, {index} for a running number, {x} and {y} for positions, * for anything. After re: follows a regular expression, as in re:view_(?&lt;row&gt;\d+)_(?&lt;col&gt;\d+)\.png.</source>
+        <translation>{row} und {col} stehen für die Nummern einer Ansicht, {index} für eine laufende Nummer, {x} und {y} für Positionen, * für Beliebiges. Auf re: folgt ein regulärer Ausdruck, wie in re:view_(?&lt;row&gt;\d+)_(?&lt;col&gt;\d+)\.png.</translation>
+    </message>
+    <message>
+        <source>File</source>
+        <translation>Datei</translation>
+    </message>
+    <message>
+        <source>Row</source>
+        <translation>Zeile</translation>
+    </message>
+    <message>
+        <source>Column</source>
+        <translation>Spalte</translation>
+    </message>
+    <message>
+        <source>Number</source>
+        <translation>Nummer</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PhotographSteps</name>
+    <message>
+        <source>Lens</source>
+        <translation>Objektiv</translation>
+    </message>
+    <message>
+        <source>Rectify…</source>
+        <translation>Rektifizieren…</translation>
+    </message>
+    <message>
+        <source>Makes a light field of the photographs that are open: without distortion, rows and columns aligned. Pairs picked in them are carried over.</source>
+        <translation>Macht aus den geöffneten Fotos ein Lichtfeld: verzeichnungsfrei, mit ausgerichteten Zeilen und Spalten. Darin gewählte Punktpaare werden übernommen.</translation>
+    </message>
+    <message>
+        <source>Calibrate from photographs…</source>
+        <translation>Aus Fotos kalibrieren…</translation>
+    </message>
+    <message>
+        <source>Open a camera…</source>
+        <translation>Kamera öffnen…</translation>
+    </message>
+    <message>
+        <source>Save the camera…</source>
+        <translation>Kamera speichern…</translation>
+    </message>
+    <message>
+        <source>Make a demo to try it with…</source>
+        <translation>Demo zum Ausprobieren erzeugen…</translation>
+    </message>
+    <message>
+        <source>No lens calibrated</source>
+        <translation>Kein Objektiv kalibriert</translation>
+    </message>
+    <message>
+        <source>Calibrates the camera from photographs of a flat pattern</source>
+        <translation>Kalibriert die Kamera aus Fotos eines ebenen Musters</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Photographs</name>
+    <message>
+        <source>%1: %2 px</source>
+        <translation>%1: %2 px</translation>
+    </message>
+    <message>
+        <source>%1: left out, %2</source>
+        <translation>%1: ausgelassen, %2</translation>
+    </message>
+    <message>
+        <source>Rows aligned to %1 px (before %2 px)</source>
+        <translation>Zeilen auf %1 px ausgerichtet (vorher %2 px)</translation>
+    </message>
+    <message>
+        <source>Open a camera</source>
+        <translation>Kamera öffnen</translation>
+    </message>
+    <message>
+        <source>Camera (*.yml *.yaml)</source>
+        <translation>Kamera (*.yml *.yaml)</translation>
+    </message>
+    <message>
+        <source>Save the camera</source>
+        <translation>Kamera speichern</translation>
+    </message>
+    <message>
+        <source>Camera (*.yml)</source>
+        <translation>Kamera (*.yml)</translation>
+    </message>
+    <message>
+        <source>Where to put the folder of the demo</source>
+        <translation>Ordner, in dem die Demo angelegt wird</translation>
+    </message>
+    <message>
+        <source>Photographs of the pattern</source>
+        <translation>Fotos des Musters</translation>
+    </message>
+    <message>
+        <source>Images (*.png *.jpg *.jpeg *.tif *.tiff *.bmp);;All files (*)</source>
+        <translation>Bilder (*.png *.jpg *.jpeg *.tif *.tiff *.bmp);;Alle Dateien (*)</translation>
+    </message>
+    <message>
+        <source>The pattern that was photographed</source>
+        <translation>Das fotografierte Muster</translation>
+    </message>
+    <message>
+        <source>Photographs…</source>
+        <translation>Fotos…</translation>
+    </message>
+    <message>
+        <source>Save the rectified light field</source>
+        <translation>Rektifiziertes Lichtfeld speichern</translation>
+    </message>
+    <message>
+        <source>Light field (*.h5)</source>
+        <translation>Lichtfeld (*.h5)</translation>
+    </message>
+    <message>
+        <source>Rectify the photographs</source>
+        <translation>Fotos rektifizieren</translation>
+    </message>
+    <message>
+        <source>Save as…</source>
+        <translation>Speichern unter…</translation>
+    </message>
+    <message>
+        <source>Calibrating the lens</source>
+        <translation>Objektiv wird kalibriert</translation>
+    </message>
+    <message>
+        <source>%1 of %2 photographs used</source>
+        <translation>%1 von %2 Fotos verwendet</translation>
+    </message>
+    <message>
+        <source>%1 of %2 photographs of the pattern were left out; the tool tip of “Lens” tells why.</source>
+        <translation>%1 von %2 Fotos des Musters wurden ausgelassen; warum, sagt der Tooltip von „Objektiv“.</translation>
+    </message>
+    <message>
+        <source>Rectifying</source>
+        <translation>Wird rektifiziert</translation>
+    </message>
+    <message>
+        <source>Making the demo</source>
+        <translation>Demo wird erzeugt</translation>
+    </message>
+    <message>
+        <source>These are photographs of a gantry, with points picked. Rectify them to find the pose of the mesh.</source>
+        <translation>Dies sind Fotos eines Kameraportals, mit gewählten Punkten. Erst das Rektifizieren erlaubt es, die Pose des Netzes zu bestimmen.</translation>
+    </message>
+    <message>
+        <source>Lens: focal length %1 px, error %2 px</source>
+        <translation>Objektiv: Brennweite %1 px, Fehler %2 px</translation>
+    </message>
+    <message>
+        <source>Open the folder of photographs.</source>
+        <translation>Den Ordner mit den Fotos öffnen.</translation>
+    </message>
+    <message>
+        <source>The light field tells its lens; it is rectified.</source>
+        <translation>Das Lichtfeld nennt sein Objektiv; es ist rektifiziert.</translation>
+    </message>
+    <message>
+        <source>Photographs of a gantry are rectified next.</source>
+        <translation>Als Nächstes werden die Fotos des Kameraportals rektifiziert.</translation>
+    </message>
+    <message>
+        <source>Photographs of a gantry need the lens first.</source>
+        <translation>Fotos eines Kameraportals brauchen zuerst das Objektiv.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PictureExport</name>
+    <message>
+        <source>Save the picture</source>
+        <translation>Bild speichern</translation>
+    </message>
+    <message>
+        <source>PNG (*.png)</source>
+        <translation>PNG (*.png)</translation>
+    </message>
+    <message>
+        <source>No map is shown: choose one in the tool bar, then save it.</source>
+        <translation>Es wird keine Karte gezeigt: erst eine in der Werkzeugleiste wählen, dann speichern.</translation>
+    </message>
+    <message>
+        <source>Save the map</source>
+        <translation>Karte speichern</translation>
+    </message>
+    <message>
+        <source>Save picture…</source>
+        <translation>Bild speichern…</translation>
+    </message>
+    <message>
+        <source>Saves the view as it is shown, with its brightness and overlay, as PNG</source>
+        <translation>Speichert die Ansicht wie gezeigt, mit Helligkeit und Überlagerung, als PNG</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+E</source>
+        <translation>Ctrl+Shift+E</translation>
+    </message>
+    <message>
+        <source>Save map…</source>
+        <translation>Karte speichern…</translation>
+    </message>
+    <message>
+        <source>Saves the map drawn over the view as PNG</source>
+        <translation>Speichert die über die Ansicht gelegte Karte als PNG</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PointCloudPanel</name>
+    <message>
+        <source>Front</source>
+        <translation>Vorn</translation>
+    </message>
+    <message>
+        <source>Tilted</source>
+        <translation>Schräg</translation>
+    </message>
+    <message>
+        <source>Side</source>
+        <translation>Seite</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::PointCloudView</name>
+    <message>
+        <source>3D view</source>
+        <translation>3D-Ansicht</translation>
+    </message>
+    <message>
+        <source>There is no 3D view: this session has no display with OpenGL. Export the result as PLY to see it elsewhere.</source>
+        <translation>Es gibt keine 3D-Ansicht: diese Sitzung hat keinen Bildschirm mit OpenGL. Das Ergebnis als PLY exportieren, um es anderswo zu sehen.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ProjectController</name>
+    <message>
+        <source>Save</source>
+        <translation>Speichern</translation>
+    </message>
+    <message>
+        <source>Saves the project; without one, the scribbles</source>
+        <translation>Speichert das Projekt; ohne Projekt die Striche</translation>
+    </message>
+    <message>
+        <source>Save project as…</source>
+        <translation>Projekt speichern unter…</translation>
+    </message>
+    <message>
+        <source>Saves all open light fields with their results and scribbles as a project</source>
+        <translation>Speichert alle geöffneten Lichtfelder mit ihren Ergebnissen und Strichen als Projekt</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+S</source>
+        <translation>Ctrl+Alt+S</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+    <message>
+        <source>Save project</source>
+        <translation>Projekt speichern</translation>
+    </message>
+    <message>
+        <source>Projects (*.episcope)</source>
+        <translation>Projekte (*.episcope)</translation>
+    </message>
+    <message>
+        <source>Saving %1</source>
+        <translation>%1 wird gespeichert</translation>
+    </message>
+    <message>
+        <source>Light field not found</source>
+        <translation>Lichtfeld nicht gefunden</translation>
+    </message>
+    <message>
+        <source>“%1” is no longer at %2. Where is it now? Others that were moved with it are then found as well.</source>
+        <translation>„%1“ ist nicht mehr unter %2. Wo ist es jetzt? Andere, die mit verschoben wurden, werden dann auch gefunden.</translation>
+    </message>
+    <message>
+        <source>Choose file…</source>
+        <translation>Datei wählen…</translation>
+    </message>
+    <message>
+        <source>Choose folder…</source>
+        <translation>Ordner wählen…</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ProjectGuard</name>
+    <message>
+        <source>Not saved: %1.</source>
+        <translation>Nicht gespeichert: %1.</translation>
+    </message>
+    <message>
+        <source>Scribbles that are not saved: on %1.</source>
+        <translation>Nicht gespeicherte Striche: in %1.</translation>
+    </message>
+    <message>
+        <source>The project has changed.</source>
+        <translation>Das Projekt wurde geändert.</translation>
+    </message>
+    <message>
+        <source>A method is still running; its result would be lost.</source>
+        <translation>Ein Verfahren läuft noch; sein Ergebnis ginge verloren.</translation>
+    </message>
+    <message>
+        <source>Unsaved work</source>
+        <translation>Nicht gespeicherte Arbeit</translation>
+    </message>
+    <message>
+        <source>A method is running</source>
+        <translation>Ein Verfahren läuft</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ReadingQuestion</name>
+    <message>
+        <source>How is it to be read?</source>
+        <translation>Wie ist das zu lesen?</translation>
+    </message>
+    <message>
+        <source>Your choice is remembered for this file; “Conventions…” changes it.</source>
+        <translation>Die Wahl wird für diese Datei gemerkt; „Konventionen…“ ändert sie.</translation>
+    </message>
+    <message>
+        <source>Open</source>
+        <translation>Öffnen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::RecoveryController</name>
+    <message>
+        <source>Episcope ended unexpectedly while “%1” was being annotated (%2). Your work can be recovered.</source>
+        <translation>Episcope wurde unerwartet beendet, während „%1“ annotiert wurde (%2). Die Arbeit kann wiederhergestellt werden.</translation>
+    </message>
+    <message>
+        <source>Recover</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>“%1” is no longer the light field that was annotated. Your work is kept in %2.</source>
+        <translation>„%1“ ist nicht mehr das Lichtfeld, das annotiert wurde. Die Arbeit wird in %2 aufbewahrt.</translation>
+    </message>
+    <message>
+        <source>Recovered the annotation of “%1”.</source>
+        <translation>Annotation von „%1“ wiederhergestellt.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::RegionBar</name>
+    <message>
+        <source>The pixels that the table and the plot are of</source>
+        <translation>Die Pixel, auf die sich Tabelle und Diagramm beziehen</translation>
+    </message>
+    <message>
+        <source>Judged part of the view</source>
+        <translation>Bewerteter Teil der Ansicht</translation>
+    </message>
+    <message>
+        <source>Judged:</source>
+        <translation>Bewertet:</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::RegionController</name>
+    <message>
+        <source>Whole view</source>
+        <translation>Ganze Ansicht</translation>
+    </message>
+    <message>
+        <source>Rectangle</source>
+        <translation>Rechteck</translation>
+    </message>
+    <message>
+        <source>Current label</source>
+        <translation>Aktuelles Label</translation>
+    </message>
+    <message>
+        <source>Where all results have values</source>
+        <translation>Wo alle Ergebnisse Werte haben</translation>
+    </message>
+    <message>
+        <source>Mask of a file…</source>
+        <translation>Maske aus einer Datei…</translation>
+    </message>
+    <message>
+        <source>Judge a rectangle</source>
+        <translation>Ein Rechteck bewerten</translation>
+    </message>
+    <message>
+        <source>The next drag on the view draws the rectangle that metrics are of</source>
+        <translation>Das nächste Ziehen in der Ansicht zeichnet das Rechteck, auf das sich die Fehlermaße beziehen</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+R</source>
+        <translation>Ctrl+Alt+R</translation>
+    </message>
+    <message>
+        <source>Judge the whole view</source>
+        <translation>Die ganze Ansicht bewerten</translation>
+    </message>
+    <message>
+        <source>Metrics are of the whole view again</source>
+        <translation>Die Fehlermaße beziehen sich wieder auf die ganze Ansicht</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+W</source>
+        <translation>Ctrl+Alt+W</translation>
+    </message>
+    <message>
+        <source>Drag a rectangle on the view. Esc leaves it.</source>
+        <translation>Ein Rechteck in der Ansicht aufziehen. Esc bricht ab.</translation>
+    </message>
+    <message>
+        <source>Mask of the pixels that are judged: those that are not black</source>
+        <translation>Maske der bewerteten Pixel: alle, die nicht schwarz sind</translation>
+    </message>
+    <message>
+        <source>Images (*.png *.tif *.tiff *.pgm *.bmp)</source>
+        <translation>Bilder (*.png *.tif *.tiff *.pgm *.bmp)</translation>
+    </message>
+    <message>
+        <source>Mask %1</source>
+        <translation>Maske %1</translation>
+    </message>
+    <message>
+        <source>The mask has %1×%2 px, but the views have %3×%4 px: choose a mask of the size of the views.</source>
+        <translation>Die Maske hat %1×%2 px, die Ansichten aber %3×%4 px: eine Maske von der Größe der Ansichten wählen.</translation>
+    </message>
+    <message>
+        <source>%1 px</source>
+        <translation>%1 px</translation>
+    </message>
+    <message>
+        <source>rectangle x %1–%2, y %3–%4</source>
+        <translation>Rechteck x %1–%2, y %3–%4</translation>
+    </message>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
+    <message>
+        <source>where all results have values</source>
+        <translation>wo alle Ergebnisse Werte haben</translation>
+    </message>
+    <message>
+        <source>mask %1</source>
+        <translation>Maske %1</translation>
+    </message>
+    <message>
+        <source>whole view</source>
+        <translation>ganze Ansicht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ResultExport</name>
+    <message>
+        <source>Export %1</source>
+        <translation>%1 exportieren</translation>
+    </message>
+    <message>
+        <source>Result, all views (*.h5);;Map of this view (*.pfm);;Map of this view (*.tiff);;Point cloud of this view (*.ply)</source>
+        <translation>Ergebnis, alle Ansichten (*.h5);;Karte dieser Ansicht (*.pfm);;Karte dieser Ansicht (*.tiff);;Punktwolke dieser Ansicht (*.ply)</translation>
+    </message>
+    <message>
+        <source>%1 has no map of this view: go to the centre view (Home) first.</source>
+        <translation>%1 hat keine Karte dieser Ansicht: erst zur mittleren Ansicht gehen (Pos1).</translation>
+    </message>
+    <message>
+        <source>Folder of the submission that %1 goes into</source>
+        <translation>Ordner der Einreichung, in die %1 kommt</translation>
+    </message>
+    <message>
+        <source>%1 has no map of the centre view, which is submitted.</source>
+        <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ResultList</name>
+    <message>
+        <source>Save this result as HDF5, PFM, TIFF or PLY</source>
+        <translation>Dieses Ergebnis als HDF5, PFM, TIFF oder PLY speichern</translation>
+    </message>
+    <message>
+        <source>Export</source>
+        <translation>Exportieren</translation>
+    </message>
+    <message>
+        <source>Remove this result</source>
+        <translation>Dieses Ergebnis entfernen</translation>
+    </message>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Copy the parameters of this result to the form</source>
+        <translation>Parameter dieses Ergebnisses in das Formular übernehmen</translation>
+    </message>
+    <message>
+        <source>Reuse</source>
+        <translation>Übernehmen</translation>
+    </message>
+    <message>
+        <source>Results</source>
+        <translation>Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Method</source>
+        <translation>Verfahren</translation>
+    </message>
+    <message>
+        <source>MSE×100</source>
+        <translation>MSE×100</translation>
+    </message>
+    <message>
+        <source>Time</source>
+        <translation>Zeit</translation>
+    </message>
+    <message>
+        <source>Parameters</source>
+        <translation>Parameter</translation>
+    </message>
+    <message>
+        <source>Mean squared error ×100 against the ground truth, px²</source>
+        <translation>Mittlerer quadratischer Fehler ×100 gegenüber der Referenz, px²</translation>
+    </message>
+    <message>
+        <source>“%1” · %2</source>
+        <translation>„%1“ · %2</translation>
+    </message>
+    <message>
+        <source>The result appears here.</source>
+        <translation>Das Ergebnis erscheint hier.</translation>
+    </message>
+    <message>
+        <source>No results yet. Run a method above.</source>
+        <translation>Noch keine Ergebnisse. Oben ein Verfahren starten.</translation>
+    </message>
+    <message>
+        <source>A: this result is shown</source>
+        <translation>A: dieses Ergebnis wird angezeigt</translation>
+    </message>
+    <message>
+        <source>Click here to compare with this result (B)</source>
+        <translation>Hier klicken, um mit diesem Ergebnis (B) zu vergleichen</translation>
+    </message>
+    <message>
+        <source>Show</source>
+        <translation>Anzeigen</translation>
+    </message>
+    <message>
+        <source>Compare with</source>
+        <translation>Vergleichen mit</translation>
+    </message>
+    <message>
+        <source>Reuse parameters</source>
+        <translation>Parameter übernehmen</translation>
+    </message>
+    <message>
+        <source>Copy as command</source>
+        <translation>Als Befehl kopieren</translation>
+    </message>
+    <message>
+        <source>Rename</source>
+        <translation>Umbenennen</translation>
+    </message>
+    <message>
+        <source>Note…</source>
+        <translation>Notiz…</translation>
+    </message>
+    <message>
+        <source>Export…</source>
+        <translation>Exportieren…</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ResultOpener</name>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+    <message>
+        <source>%1 was estimated with%2: its errors may be meaningless. Choose the same in Conventions…</source>
+        <translation>%1 wurde mit%2 geschätzt: seine Fehler sind womöglich bedeutungslos. Dasselbe wählen unter Konventionen…</translation>
+    </message>
+    <message>
+        <source>%1 was estimated from different samples than those of this light field: its errors may be meaningless.</source>
+        <translation>%1 wurde aus anderen Samples als denen dieses Lichtfelds geschätzt: seine Fehler sind womöglich bedeutungslos.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ReviewController</name>
+    <message>
+        <source>Check</source>
+        <translation>Prüfen</translation>
+    </message>
+    <message>
+        <source>Check tab</source>
+        <translation>Reiter Prüfen</translation>
+    </message>
+    <message>
+        <source>Shows where labels are in doubt, their islands and holes</source>
+        <translation>Zeigt, wo Labels zweifelhaft sind, und ihre Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>“%1”</source>
+        <translation>„%1“</translation>
+    </message>
+    <message>
+        <source>Next region in doubt</source>
+        <translation>Nächstes zweifelhaftes Gebiet</translation>
+    </message>
+    <message>
+        <source>Goes to where a stroke would decide most: large regions of which another label is nearly as probable</source>
+        <translation>Geht dorthin, wo ein Strich am meisten entscheidet: zu großen Gebieten, für die ein anderes Label fast ebenso wahrscheinlich ist</translation>
+    </message>
+    <message>
+        <source>Previous region in doubt</source>
+        <translation>Voriges zweifelhaftes Gebiet</translation>
+    </message>
+    <message>
+        <source>Goes back to the region in doubt before</source>
+        <translation>Geht zum zweifelhaften Gebiet davor zurück</translation>
+    </message>
+    <message>
+        <source>Shift+J</source>
+        <translation>Shift+J</translation>
+    </message>
+    <message>
+        <source>label %1</source>
+        <translation>Label %1</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>Disparity in px per view: %1 ± %2 (mean and standard deviation), from %3 to %4</source>
+        <translation>Disparität in px je Ansicht: %1 ± %2 (Mittel und Standardabweichung), von %3 bis %4</translation>
+    </message>
+    <message>
+        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
+        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
+    </message>
+    <message>
+        <source>Islands and holes</source>
+        <translation>Inseln und Löcher</translation>
+    </message>
+    <message>
+        <source>hole</source>
+        <translation>Loch</translation>
+    </message>
+    <message>
+        <source>island</source>
+        <translation>Insel</translation>
+    </message>
+    <message>
+        <source>Islands and holes of %1</source>
+        <translation>Inseln und Löcher von %1</translation>
+    </message>
+    <message>
+        <source>No region of this view is in doubt.</source>
+        <translation>Kein Gebiet dieser Ansicht ist zweifelhaft.</translation>
+    </message>
+    <message>
+        <source>%1 of %2: %3 pixels of %4 may be %5. A stroke here decides.</source>
+        <translation>%1 von %2: %3 Pixel von %4 sind vielleicht %5. Ein Strich hier entscheidet.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SaveForms</name>
+    <message>
+        <source>Archive file (HDF5)</source>
+        <translation>Archivdatei (HDF5)</translation>
+    </message>
+    <message>
+        <source>Folder of the 2016 benchmark</source>
+        <translation>Ordner des Benchmarks von 2016</translation>
+    </message>
+    <message>
+        <source>Folder of images</source>
+        <translation>Ordner mit Bildern</translation>
+    </message>
+    <message>
+        <source>NumPy array</source>
+        <translation>NumPy-Array</translation>
+    </message>
+    <message>
+        <source>NumPy arrays with truth and labels</source>
+        <translation>NumPy-Arrays mit Referenz und Labels</translation>
+    </message>
+    <message>
+        <source>MATLAB file of the Light Field Toolbox</source>
+        <translation>MATLAB-Datei der Light Field Toolbox</translation>
+    </message>
+    <message>
+        <source>Picture of lenslets (ESLF)</source>
+        <translation>Bild aus Linsenbildern (ESLF)</translation>
+    </message>
+    <message>
+        <source>%1…</source>
+        <translation>%1…</translation>
+    </message>
+    <message>
+        <source>Save %1: %2</source>
+        <translation>%1 speichern: %2</translation>
+    </message>
+    <message>
+        <source>New folders (*)</source>
+        <translation>Neue Ordner (*)</translation>
+    </message>
+    <message>
+        <source>%1 was not written: its name must end in %2.</source>
+        <translation>%1 wurde nicht geschrieben: der Name muss auf %2 enden.</translation>
+    </message>
+    <message>
+        <source>%1 was not written: it belongs to the light field that is open; choose another name.</source>
+        <translation>%1 wurde nicht geschrieben: es gehört zum geöffneten Lichtfeld; einen anderen Namen wählen.</translation>
+    </message>
+    <message>
+        <source>Writing %1</source>
+        <translation>%1 wird geschrieben</translation>
+    </message>
+    <message>
+        <source>Written: %1.</source>
+        <translation>Geschrieben: %1.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SceneChooser</name>
+    <message>
+        <source>%1 · 1 result</source>
+        <translation>%1 · 1 Ergebnis</translation>
+    </message>
+    <message>
+        <source>%1 · %2 results</source>
+        <translation>%1 · %2 Ergebnisse</translation>
+    </message>
+    <message>
+        <source>Open light fields</source>
+        <translation>Geöffnete Lichtfelder</translation>
+    </message>
+    <message>
+        <source>The light fields that are open: choose the one to show</source>
+        <translation>Die geöffneten Lichtfelder: das anzuzeigende wählen</translation>
+    </message>
+    <message>
+        <source>nothing is open</source>
+        <translation>nichts geöffnet</translation>
+    </message>
+    <message>
+        <source>Next open light field</source>
+        <translation>Nächstes geöffnetes Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Shows the next light field of those that are open</source>
+        <translation>Zeigt das nächste der geöffneten Lichtfelder</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+PgDown</source>
+        <translation>Ctrl+Alt+PgDown</translation>
+    </message>
+    <message>
+        <source>Previous open light field</source>
+        <translation>Voriges geöffnetes Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Shows the previous light field of those that are open</source>
+        <translation>Zeigt das vorige der geöffneten Lichtfelder</translation>
+    </message>
+    <message>
+        <source>Ctrl+Alt+PgUp</source>
+        <translation>Ctrl+Alt+PgUp</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SceneOpener</name>
+    <message>
+        <source>%1 · reading all views …</source>
+        <translation>%1 · alle Ansichten werden gelesen …</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+    <message>
+        <source>%1: %2. “Conventions…” lets you choose.</source>
+        <translation>%1: %2. Unter „Konventionen…“ lässt es sich festlegen.</translation>
+    </message>
+    <message>
+        <source>Caching the built-in scene</source>
+        <translation>Eingebaute Szene wird zwischengespeichert</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ScenePanel</name>
+    <message>
+        <source>Scenes</source>
+        <translation>Szenen</translation>
+    </message>
+    <message>
+        <source>Filter</source>
+        <translation>Filter</translation>
+    </message>
+    <message>
+        <source>Order</source>
+        <translation>Sortierung</translation>
+    </message>
+    <message>
+        <source>Filter: name, form, truth …</source>
+        <translation>Filter: Name, Form, Referenz …</translation>
+    </message>
+    <message>
+        <source>Order of the list</source>
+        <translation>Sortierung der Liste</translation>
+    </message>
+    <message>
+        <source>Name</source>
+        <translation>Name</translation>
+    </message>
+    <message>
+        <source>Form</source>
+        <translation>Form</translation>
+    </message>
+    <message>
+        <source>Size</source>
+        <translation>Größe</translation>
+    </message>
+    <message>
+        <source>Truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>%1 of %2 light fields</source>
+        <translation>%1 von %2 Lichtfeldern</translation>
+    </message>
+    <message>
+        <source>1 light field</source>
+        <translation>1 Lichtfeld</translation>
+    </message>
+    <message>
+        <source>%1 light fields</source>
+        <translation>%1 Lichtfelder</translation>
+    </message>
+    <message>
+        <source>, %1 cannot be opened</source>
+        <translation>, %1 nicht zu öffnen</translation>
+    </message>
+    <message>
+        <source>Searching … %1</source>
+        <translation>Suche … %1</translation>
+    </message>
+    <message>
+        <source>No light field matches the filter.</source>
+        <translation>Kein Lichtfeld passt zum Filter.</translation>
+    </message>
+    <message>
+        <source>Open a folder of light fields, or drop it here: all that it holds at any depth is listed.</source>
+        <translation>Einen Ordner mit Lichtfeldern öffnen oder hier ablegen: alles darin wird aufgelistet, in beliebiger Tiefe.</translation>
+    </message>
+    <message>
+        <source>Searching …</source>
+        <translation>Suche …</translation>
+    </message>
+    <message>
+        <source>There is no light field in here.</source>
+        <translation>Hier ist kein Lichtfeld.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SceneSwitcher</name>
+    <message>
+        <source>“%1” has other samples than before: results and scribbles may not fit.</source>
+        <translation>„%1“ hat andere Samples als zuvor: Ergebnisse und Striche passen womöglich nicht.</translation>
+    </message>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Schema</name>
+    <message>
+        <source>Seed</source>
+        <translation>Startwert</translation>
+    </message>
+    <message>
+        <source>Each number is another scene</source>
+        <translation>Jede Zahl ist eine andere Szene</translation>
+    </message>
+    <message>
+        <source>Kind</source>
+        <translation>Art</translation>
+    </message>
+    <message>
+        <source>What the scene is made of; any is a mixture</source>
+        <translation>Woraus die Szene besteht; any ist eine Mischung</translation>
+    </message>
+    <message>
+        <source>on</source>
+        <translation>ein</translation>
+    </message>
+    <message>
+        <source>off</source>
+        <translation>aus</translation>
+    </message>
+    <message>
+        <source>found</source>
+        <translation>ermittelt</translation>
+    </message>
+    <message>
+        <source>auto</source>
+        <translation>auto</translation>
+    </message>
+    <message>
+        <source>(1/255)²</source>
+        <translation>(1/255)²</translation>
+    </message>
+    <message>
+        <source>1/255</source>
+        <translation>1/255</translation>
+    </message>
+    <message>
+        <source>3 to 40 objects drawn from a seed: random?seed=7&amp;kind=thin</source>
+        <translation>3 bis 40 Objekte aus einem Startwert: random?seed=7&amp;kind=thin</translation>
+    </message>
+    <message>
+        <source>A pair of neighbours is weighted by exp(−β·|difference of their colours|)</source>
+        <translation>Ein Paar von Nachbarn wird mit exp(−β·|Unterschied ihrer Farben|) gewichtet</translation>
+    </message>
+    <message>
+        <source>A surface nearer than a point by more than this occludes it</source>
+        <translation>Eine Fläche, die um mehr als diesen Wert näher ist als ein Punkt, verdeckt ihn</translation>
+    </message>
+    <message>
+        <source>A surface whose confidence is below this, mean over its surroundings, occludes nothing</source>
+        <translation>Eine Fläche, deren Konfidenz im Mittel über ihre Umgebung darunter liegt, verdeckt nichts</translation>
+    </message>
+    <message>
+        <source>Add to the costs what interpolation averages away of the noise, so that labels that move views by whole pixels are at no disadvantage</source>
+        <translation>Addiert zu den Kosten, was die Interpolation vom Rauschen wegmittelt, damit Labels, die Ansichten um ganze Pixel verschieben, nicht im Nachteil sind</translation>
+    </message>
+    <message>
+        <source>Aggregation</source>
+        <translation>Aggregation</translation>
+    </message>
+    <message>
+        <source>Axes</source>
+        <translation>Achsen</translation>
+    </message>
+    <message>
+        <source>Axes of an array in the order of its indices: v and u for rows and columns of views, y, x, c for channels, as in vuyxc; empty = detected</source>
+        <translation>Achsen eines Arrays in der Reihenfolge seiner Indizes: v und u für Zeilen und Spalten von Ansichten, y, x, c für Kanäle, wie in vuyxc; leer = ermittelt</translation>
+    </message>
+    <message>
+        <source>Before the first sweep, replace the disparity of rays that other views see through</source>
+        <translation>Ersetzt vor dem ersten Durchgang die Disparität von Strahlen, durch die andere Ansichten hindurchsehen</translation>
+    </message>
+    <message>
+        <source>Bend</source>
+        <translation>Knick</translation>
+    </message>
+    <message>
+        <source>Beside jumps, take the median of the surroundings, weighted by likeness of colour</source>
+        <translation>Nimmt neben Sprüngen den Median der Umgebung, gewichtet nach Ähnlichkeit der Farbe</translation>
+    </message>
+    <message>
+        <source>Between neighbouring positions of the gantry, in the unit of the mesh; with 1, depth is in steps</source>
+        <translation>Abstand benachbarter Positionen des Kameraportals, in der Einheit des Netzes; mit 1 ist die Tiefe in Schritten</translation>
+    </message>
+    <message>
+        <source>Bring all views to the brightness of the centre view</source>
+        <translation>Gleicht alle Ansichten der Helligkeit der mittleren an</translation>
+    </message>
+    <message>
+        <source>Cap offset</source>
+        <translation>Versatz der Kappung</translation>
+    </message>
+    <message>
+        <source>Cap ε</source>
+        <translation>Kappung ε</translation>
+    </message>
+    <message>
+        <source>Check lines</source>
+        <translation>Linien prüfen</translation>
+    </message>
+    <message>
+        <source>Choose sides</source>
+        <translation>Seiten wählen</translation>
+    </message>
+    <message>
+        <source>Coherence exponent p</source>
+        <translation>Exponent p der Kohärenz</translation>
+    </message>
+    <message>
+        <source>Columns</source>
+        <translation>Spalten</translation>
+    </message>
+    <message>
+        <source>Comparison</source>
+        <translation>Vergleich</translation>
+    </message>
+    <message>
+        <source>Compensate noise</source>
+        <translation>Rauschen ausgleichen</translation>
+    </message>
+    <message>
+        <source>Confidence exponent p</source>
+        <translation>Exponent p der Konfidenz</translation>
+    </message>
+    <message>
+        <source>Contrast limit</source>
+        <translation>Kontrastgrenze</translation>
+    </message>
+    <message>
+        <source>Contrast limit, two layers</source>
+        <translation>Kontrastgrenze, zwei Schichten</translation>
+    </message>
+    <message>
+        <source>Correct differences in brightness between the views, and their fall-off to the corners, where there are any</source>
+        <translation>Gleicht Helligkeitsunterschiede zwischen den Ansichten und ihren Randabfall aus, wo es sie gibt</translation>
+    </message>
+    <message>
+        <source>Cost</source>
+        <translation>Kosten</translation>
+    </message>
+    <message>
+        <source>Cost of a bend against that of a jump in the final denoising</source>
+        <translation>Kosten eines Knicks gegenüber denen eines Sprungs im abschließenden Entrauschen</translation>
+    </message>
+    <message>
+        <source>Cost of a jump by one label between neighbours, as a multiple of K; three times as much where they have the same colour</source>
+        <translation>Kosten eines Sprungs um ein Label zwischen Nachbarn, als Vielfaches von K; das Dreifache, wo sie gleiche Farbe haben</translation>
+    </message>
+    <message>
+        <source>Cost of a line that meets something farther, which violates the ordering</source>
+        <translation>Kosten einer Linie, die auf Ferneres trifft, was die Ordnung verletzt</translation>
+    </message>
+    <message>
+        <source>Cost of a line that meets something nearer, which occludes its point; at most μ₋</source>
+        <translation>Kosten einer Linie, die auf Näheres trifft, das ihren Punkt verdeckt; höchstens μ₋</translation>
+    </message>
+    <message>
+        <source>Cost of a px by which neighbours differ, relative to the cap</source>
+        <translation>Kosten eines px, um das sich Nachbarn unterscheiden, relativ zur Kappung</translation>
+    </message>
+    <message>
+        <source>Cost of one pixel of boundary between labels, in units of -log p</source>
+        <translation>Kosten eines Pixels Grenze zwischen Labels, in Einheiten von -log p</translation>
+    </message>
+    <message>
+        <source>Cross scale</source>
+        <translation>Querskala</translation>
+    </message>
+    <message>
+        <source>Cycles</source>
+        <translation>Zyklen</translation>
+    </message>
+    <message>
+        <source>Dataset</source>
+        <translation>Datensatz</translation>
+    </message>
+    <message>
+        <source>Decision</source>
+        <translation>Entscheidung</translation>
+    </message>
+    <message>
+        <source>Defaults of the other parameters: tuned, the best known; paper, the method as published. Parameters that are given keep their value</source>
+        <translation>Standardwerte der anderen Parameter: abgestimmt, die besten bekannten; veröffentlicht, das Verfahren wie im Artikel. Angegebene Parameter behalten ihren Wert</translation>
+    </message>
+    <message>
+        <source>Denoising stops once the duality gap falls below this fraction of the energy</source>
+        <translation>Das Entrauschen endet, sobald die Dualitätslücke unter diesen Bruchteil der Energie fällt</translation>
+    </message>
+    <message>
+        <source>Depth</source>
+        <translation>Tiefe</translation>
+    </message>
+    <message>
+        <source>Depth units</source>
+        <translation>Tiefeneinheiten</translation>
+    </message>
+    <message>
+        <source>Differences along a line below this are penalised quadratically</source>
+        <translation>Unterschiede entlang einer Linie werden darunter quadratisch bestraft</translation>
+    </message>
+    <message>
+        <source>Directions</source>
+        <translation>Richtungen</translation>
+    </message>
+    <message>
+        <source>Disparity range</source>
+        <translation>Disparitätsbereich</translation>
+    </message>
+    <message>
+        <source>Distance</source>
+        <translation>Abstand</translation>
+    </message>
+    <message>
+        <source>Distance of side views</source>
+        <translation>Abstand der Seitenansichten</translation>
+    </message>
+    <message>
+        <source>Divide each view by its gain, as measured against the centre</source>
+        <translation>Teilt jede Ansicht durch ihre gegen die mittlere gemessene Verstärkung</translation>
+    </message>
+    <message>
+        <source>Doubt</source>
+        <translation>Zweifel</translation>
+    </message>
+    <message>
+        <source>EPI_L, denoised over all views with occlusion ordering along the lines</source>
+        <translation>EPI_L, über alle Ansichten entrauscht, mit Verdeckungsordnung entlang der Linien</translation>
+    </message>
+    <message>
+        <source>EPI_L, denoised view by view with total variation (TV-L2)</source>
+        <translation>EPI_L, je Ansicht entrauscht mit totaler Variation (TV-L2)</translation>
+    </message>
+    <message>
+        <source>Edge strength β</source>
+        <translation>Kantenstärke β</translation>
+    </message>
+    <message>
+        <source>Equalise</source>
+        <translation>Angleichen</translation>
+    </message>
+    <message>
+        <source>Estimates farther than this from the label are treated as outliers</source>
+        <translation>Schätzungen, die weiter als dies vom Label entfernt sind, gelten als Ausreißer</translation>
+    </message>
+    <message>
+        <source>Even brightness</source>
+        <translation>Helligkeit angleichen</translation>
+    </message>
+    <message>
+        <source>Every other row of an image grid runs from right to left</source>
+        <translation>Jede zweite Zeile eines Bildrasters läuft von rechts nach links</translation>
+    </message>
+    <message>
+        <source>Factor by which the foreground of two layers is smoothed more strongly</source>
+        <translation>Faktor, um den der Vordergrund zweier Schichten stärker geglättet wird</translation>
+    </message>
+    <message>
+        <source>Features</source>
+        <translation>Merkmale</translation>
+    </message>
+    <message>
+        <source>Features that the forest uses: of the image alone, or of disparity as well</source>
+        <translation>Merkmale, die der Random Forest nutzt: nur die des Bildes oder auch die der Disparität</translation>
+    </message>
+    <message>
+        <source>Focus plane</source>
+        <translation>Fokusebene</translation>
+    </message>
+    <message>
+        <source>Focus plane to bake in: points of this disparity get disparity 0</source>
+        <translation>Anzuwendende Fokusebene: Punkte dieser Disparität erhalten Disparität 0</translation>
+    </message>
+    <message>
+        <source>Foreground smoothness</source>
+        <translation>Glattheit des Vordergrunds</translation>
+    </message>
+    <message>
+        <source>Frame</source>
+        <translation>Einzelbild</translation>
+    </message>
+    <message>
+        <source>Fusion</source>
+        <translation>Fusion</translation>
+    </message>
+    <message>
+        <source>Fusion power</source>
+        <translation>Exponent der Fusion</translation>
+    </message>
+    <message>
+        <source>Globally optimal labeling from the orientations on epipolar plane images</source>
+        <translation>Global optimales Labeling aus den Orientierungen in Epipolarebenenbildern</translation>
+    </message>
+    <message>
+        <source>Globally optimal labeling of the matching costs of ST_AV_L</source>
+        <translation>Global optimales Labeling der Vergleichskosten von ST_AV_L</translation>
+    </message>
+    <message>
+        <source>Globally optimal labeling of the matching costs of ST_CH_L</source>
+        <translation>Global optimales Labeling der Vergleichskosten von ST_CH_L</translation>
+    </message>
+    <message>
+        <source>Gradients above this are attenuated, so that silhouettes do not drown the texture beside them; 255 = off</source>
+        <translation>Stärkere Gradienten werden gedämpft, damit Silhouetten die Textur daneben nicht überdecken; 255 = aus</translation>
+    </message>
+    <message>
+        <source>Grid of views</source>
+        <translation>Raster der Ansichten</translation>
+    </message>
+    <message>
+        <source>Horizontal and vertical estimates are averaged with weights coherence^p</source>
+        <translation>Horizontale und vertikale Schätzungen werden mit Gewichten Kohärenz^p gemittelt</translation>
+    </message>
+    <message>
+        <source>How far the views on the left, on the right, above and below are from the estimated one. Farther views tell disparities apart better but see less of what is partly occluded</source>
+        <translation>Wie weit die Ansichten links, rechts, darüber und darunter von der geschätzten entfernt sind. Fernere Ansichten unterscheiden Disparitäten besser, sehen aber weniger von teilweise Verdecktem</translation>
+    </message>
+    <message>
+        <source>How labels are made consistent: not at all, view by view, along the rays of all views (rayspace), or by minimising one energy of all views (wsg13; slower, 16 bytes per ray and label)</source>
+        <translation>Wie Labels in Einklang gebracht werden: gar nicht, je Ansicht, entlang der Strahlen aller Ansichten (rayspace) oder durch Minimieren einer Energie aller Ansichten (wsg13; langsamer, 16 Byte je Strahl und Label)</translation>
+    </message>
+    <message>
+        <source>How often every label is expanded, at most</source>
+        <translation>Wie oft jedes Label höchstens expandiert wird</translation>
+    </message>
+    <message>
+        <source>How one image holds all views</source>
+        <translation>Wie ein Bild alle Ansichten enthält</translation>
+    </message>
+    <message>
+        <source>How the disparity is interpolated between labels</source>
+        <translation>Wie die Disparität zwischen Labels interpoliert wird</translation>
+    </message>
+    <message>
+        <source>How the disparity is interpolated between labels, from the costs over all views</source>
+        <translation>Wie die Disparität zwischen Labels interpoliert wird, aus den Kosten über alle Ansichten</translation>
+    </message>
+    <message>
+        <source>How the disparity is read off the structure tensor</source>
+        <translation>Wie die Disparität aus dem Strukturtensor abgelesen wird</translation>
+    </message>
+    <message>
+        <source>How views are interpolated between pixels</source>
+        <translation>Wie Ansichten zwischen Pixeln interpoliert werden</translation>
+    </message>
+    <message>
+        <source>Image names</source>
+        <translation>Bildnamen</translation>
+    </message>
+    <message>
+        <source>Influence of the distance to the strokes of a label, measured along surfaces</source>
+        <translation>Einfluss des Abstands zu den Strichen eines Labels, entlang von Flächen gemessen</translation>
+    </message>
+    <message>
+        <source>Inner corners of a chessboard or ChArUco board, or circles, in a row</source>
+        <translation>Innere Ecken eines Schachbretts oder ChArUco-Bretts, oder Kreise, in einer Zeile</translation>
+    </message>
+    <message>
+        <source>Inner scale</source>
+        <translation>Innere Skala</translation>
+    </message>
+    <message>
+        <source>Inner scale, two layers</source>
+        <translation>Innere Skala, zwei Schichten</translation>
+    </message>
+    <message>
+        <source>Interpolation</source>
+        <translation>Interpolation</translation>
+    </message>
+    <message>
+        <source>Iterations</source>
+        <translation>Iterationen</translation>
+    </message>
+    <message>
+        <source>Iterations of the labeling</source>
+        <translation>Iterationen des Labelings</translation>
+    </message>
+    <message>
+        <source>Jump</source>
+        <translation>Sprung</translation>
+    </message>
+    <message>
+        <source>Jumps by more labels cost no more</source>
+        <translation>Sprünge um mehr Labels kosten nicht mehr</translation>
+    </message>
+    <message>
+        <source>Labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>Labels in doubt stay where the denoised pixels differ by no more than this</source>
+        <translation>Zweifelhafte Labels bleiben, wo die entrauschten Pixel höchstens um diesen Wert abweichen</translation>
+    </message>
+    <message>
+        <source>Least cap</source>
+        <translation>Kleinste Kappung</translation>
+    </message>
+    <message>
+        <source>Least confidence</source>
+        <translation>Kleinste Konfidenz</translation>
+    </message>
+    <message>
+        <source>Least weight</source>
+        <translation>Kleinstes Gewicht</translation>
+    </message>
+    <message>
+        <source>Leeway</source>
+        <translation>Spielraum</translation>
+    </message>
+    <message>
+        <source>Lenslet</source>
+        <translation>Linsenbild</translation>
+    </message>
+    <message>
+        <source>Limit K</source>
+        <translation>Grenze K</translation>
+    </message>
+    <message>
+        <source>Local multi-view stereo over all views</source>
+        <translation>Lokales Stereo mit allen Ansichten</translation>
+    </message>
+    <message>
+        <source>Local multi-view stereo over the views of the cross-hair</source>
+        <translation>Lokales Stereo mit den Ansichten des Kreuzes</translation>
+    </message>
+    <message>
+        <source>Local orientation of lines on epipolar plane images (structure tensor)</source>
+        <translation>Lokale Orientierung von Linien in Epipolarebenenbildern (Strukturtensor)</translation>
+    </message>
+    <message>
+        <source>Maximum cost that one view contributes, so that views in which the point is occluded do not dominate; 0 derives it from the noise of the light field, 2 disables the cap</source>
+        <translation>Größte Kosten, die eine Ansicht beiträgt, damit Ansichten, in denen der Punkt verdeckt ist, nicht überwiegen; 0 leitet sie aus dem Rauschen des Lichtfelds ab, 2 schaltet die Kappung aus</translation>
+    </message>
+    <message>
+        <source>Maximum denoising iterations, at full resolution</source>
+        <translation>Größte Zahl von Iterationen des Entrauschens, bei voller Auflösung</translation>
+    </message>
+    <message>
+        <source>Maximum depth of a tree</source>
+        <translation>Größte Tiefe eines Baums</translation>
+    </message>
+    <message>
+        <source>Maximum iterations</source>
+        <translation>Max. Iterationen</translation>
+    </message>
+    <message>
+        <source>Minimum distance</source>
+        <translation>Kleinster Abstand</translation>
+    </message>
+    <message>
+        <source>Mosaic</source>
+        <translation>Mosaik</translation>
+    </message>
+    <message>
+        <source>Multi-view stereo over visible views, refined by TGV, carried to all views</source>
+        <translation>Stereo über sichtbare Ansichten, mit TGV verfeinert und in alle Ansichten übertragen</translation>
+    </message>
+    <message>
+        <source>Name of the array that holds the light field, in a file with several of them</source>
+        <translation>Name des Arrays mit dem Lichtfeld, in einer Datei mit mehreren</translation>
+    </message>
+    <message>
+        <source>Near a jump of disparity, give each pixel the disparity of the side whose lines it fits, in half of the views at least</source>
+        <translation>Gibt neben einem Disparitätssprung jedem Pixel die Disparität der Seite, zu deren Linien es passt, in mindestens der Hälfte der Ansichten</translation>
+    </message>
+    <message>
+        <source>Nearness</source>
+        <translation>Nähe</translation>
+    </message>
+    <message>
+        <source>No pair of neighbours pays for a larger difference than this</source>
+        <translation>Kein Paar von Nachbarn zahlt für einen größeren Unterschied</translation>
+    </message>
+    <message>
+        <source>Noise floor</source>
+        <translation>Rauschschwelle</translation>
+    </message>
+    <message>
+        <source>Noise of the map σ₀</source>
+        <translation>Rauschen der Karte σ₀</translation>
+    </message>
+    <message>
+        <source>Number of equidistant disparities tested</source>
+        <translation>Anzahl der geprüften Disparitäten in gleichem Abstand</translation>
+    </message>
+    <message>
+        <source>Number of iterations of the final denoising</source>
+        <translation>Anzahl der Iterationen des abschließenden Entrauschens</translation>
+    </message>
+    <message>
+        <source>Number of times every view is fitted to its neighbours; 0 = off</source>
+        <translation>Wie oft jede Ansicht an ihre Nachbarn angepasst wird; 0 = aus</translation>
+    </message>
+    <message>
+        <source>Number of times the costs are computed again without the views in which the last result says a point is occluded; 0 = off</source>
+        <translation>Wie oft die Kosten neu berechnet werden, ohne die Ansichten, in denen ein Punkt nach dem letzten Ergebnis verdeckt ist; 0 = aus</translation>
+    </message>
+    <message>
+        <source>Number of trees of the forest</source>
+        <translation>Anzahl der Bäume des Random Forest</translation>
+    </message>
+    <message>
+        <source>Occlusion μ₊</source>
+        <translation>Verdeckung μ₊</translation>
+    </message>
+    <message>
+        <source>Of neighbouring points, in any unit; the camera does not depend on it</source>
+        <translation>Benachbarter Punkte, in beliebiger Einheit; die Kamera hängt nicht davon ab</translation>
+    </message>
+    <message>
+        <source>Order of views</source>
+        <translation>Reihenfolge der Ansichten</translation>
+    </message>
+    <message>
+        <source>Ordering μ₋</source>
+        <translation>Ordnung μ₋</translation>
+    </message>
+    <message>
+        <source>Orientation</source>
+        <translation>Orientierung</translation>
+    </message>
+    <message>
+        <source>Outer scale</source>
+        <translation>Äußere Skala</translation>
+    </message>
+    <message>
+        <source>Outer scale, two layers</source>
+        <translation>Äußere Skala, zwei Schichten</translation>
+    </message>
+    <message>
+        <source>Outside two-layer regions the total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges</source>
+        <translation>Außerhalb zweischichtiger Gebiete wird die totale Variation mit exp(−β·|Gradient der Ansicht|) gewichtet; 0 lässt Bildkanten außer Acht</translation>
+    </message>
+    <message>
+        <source>Passes</source>
+        <translation>Durchläufe</translation>
+    </message>
+    <message>
+        <source>Pixels along a side of a lenslet of a mosaic; 0 = detected</source>
+        <translation>Pixel entlang einer Seite eines Linsenbilds des Mosaiks; 0 = ermittelt</translation>
+    </message>
+    <message>
+        <source>Place silhouettes</source>
+        <translation>Silhouetten setzen</translation>
+    </message>
+    <message>
+        <source>Positions of cameras</source>
+        <translation>Kamerapositionen</translation>
+    </message>
+    <message>
+        <source>Profile</source>
+        <translation>Profil</translation>
+    </message>
+    <message>
+        <source>Radius of the guided filter that averages the costs of neighbours of similar colour; 0 = off</source>
+        <translation>Radius des geführten Filters, der die Kosten von Nachbarn ähnlicher Farbe mittelt; 0 = aus</translation>
+    </message>
+    <message>
+        <source>Range of disparities to search; auto takes it from the files or finds it from the images, found finds it from the images whatever the files say</source>
+        <translation>Abzusuchender Disparitätsbereich; auto nimmt ihn aus den Dateien oder ermittelt ihn aus den Bildern, ermittelt nimmt ihn aus den Bildern, gleich was die Dateien sagen</translation>
+    </message>
+    <message>
+        <source>Reduce the confidence of estimates where other views show a different colour along the line, or where the texture belongs to a neighbouring pixel</source>
+        <translation>Verringert die Konfidenz von Schätzungen, wo andere Ansichten entlang der Linie eine andere Farbe zeigen oder wo die Textur zu einem Nachbarpixel gehört</translation>
+    </message>
+    <message>
+        <source>Refinement</source>
+        <translation>Verfeinerung</translation>
+    </message>
+    <message>
+        <source>Region smoothness</source>
+        <translation>Glattheit der Gebiete</translation>
+    </message>
+    <message>
+        <source>Replace occluded</source>
+        <translation>Verdecktes ersetzen</translation>
+    </message>
+    <message>
+        <source>Rounds</source>
+        <translation>Runden</translation>
+    </message>
+    <message>
+        <source>Row and column of the view to estimate; auto = centre view</source>
+        <translation>Zeile und Spalte der zu schätzenden Ansicht; auto = mittlere Ansicht</translation>
+    </message>
+    <message>
+        <source>Rows</source>
+        <translation>Zeilen</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views to keep around the centre: 9x9, or all; empty = the largest grid whose views are filled</source>
+        <translation>Zeilen und Spalten der Ansichten, die um die Mitte bleiben: 9x9, oder all für alle; leer = das größte Raster mit vollen Ansichten</translation>
+    </message>
+    <message>
+        <source>Rows and columns of views, where the files do not tell: 9x9, or 1x49 for a scan along a line</source>
+        <translation>Zeilen und Spalten von Ansichten, wo die Dateien sie nicht nennen: 9x9, oder 1x49 für eine Fahrt entlang einer Linie</translation>
+    </message>
+    <message>
+        <source>Rule for K</source>
+        <translation>Regel für K</translation>
+    </message>
+    <message>
+        <source>ST_AV_L, denoised with total variation (TV-L2)</source>
+        <translation>ST_AV_L, entrauscht mit totaler Variation (TV-L2)</translation>
+    </message>
+    <message>
+        <source>ST_CH_L, denoised with total variation (TV-L2)</source>
+        <translation>ST_CH_L, entrauscht mit totaler Variation (TV-L2)</translation>
+    </message>
+    <message>
+        <source>Scene reconstruction from five views by graph cuts, with visibility</source>
+        <translation>Rekonstruktion aus fünf Ansichten durch Graphenschnitte, mit Sichtbarkeit</translation>
+    </message>
+    <message>
+        <source>Second derivatives above this are attenuated</source>
+        <translation>Stärkere zweite Ableitungen werden gedämpft</translation>
+    </message>
+    <message>
+        <source>Seed of the random numbers used to train the forest</source>
+        <translation>Startwert der Zufallszahlen, mit denen der Random Forest trainiert wird</translation>
+    </message>
+    <message>
+        <source>Settling</source>
+        <translation>Einpendeln</translation>
+    </message>
+    <message>
+        <source>Shear step</source>
+        <translation>Scherungsschritt</translation>
+    </message>
+    <message>
+        <source>Smoothing</source>
+        <translation>Glättung</translation>
+    </message>
+    <message>
+        <source>Smoothing λ</source>
+        <translation>Glättung λ</translation>
+    </message>
+    <message>
+        <source>Smoothness</source>
+        <translation>Glattheit</translation>
+    </message>
+    <message>
+        <source>Smoothness λ</source>
+        <translation>Glattheit λ</translation>
+    </message>
+    <message>
+        <source>Snake</source>
+        <translation>Schlangenlinie</translation>
+    </message>
+    <message>
+        <source>Softness</source>
+        <translation>Weichheit</translation>
+    </message>
+    <message>
+        <source>Spacing of the shears that bring every line close to upright before its orientation is measured; rounded to half pixels; 0 = whole pixels, and only if the range exceeds ±1.2 px</source>
+        <translation>Abstand der Scherungen, die jede Linie nahezu aufrichten, bevor ihre Orientierung gemessen wird; auf halbe Pixel gerundet; 0 = ganze Pixel, und nur wenn der Bereich über ±1.2 px hinausgeht</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian applied to the samples before derivatives</source>
+        <translation>Standardabweichung der Gauß-Funktion, mit der die Samples vor den Ableitungen geglättet werden</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian applied to the samples before second derivatives</source>
+        <translation>Standardabweichung der Gauß-Funktion, mit der die Samples vor den zweiten Ableitungen geglättet werden</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian window over which orientation is averaged, along the EPI</source>
+        <translation>Standardabweichung des Gauß-Fensters, über das die Orientierung entlang des EPI gemittelt wird</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the Gaussian window over which two orientations are averaged, along the EPI</source>
+        <translation>Standardabweichung des Gauß-Fensters, über das zwei Orientierungen entlang des EPI gemittelt werden</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the same window across neighbouring EPIs</source>
+        <translation>Standardabweichung desselben Fensters quer über benachbarte EPIs</translation>
+    </message>
+    <message>
+        <source>Standard deviation of the same window along the views</source>
+        <translation>Standardabweichung desselben Fensters entlang der Ansichten</translation>
+    </message>
+    <message>
+        <source>Step</source>
+        <translation>Schritt</translation>
+    </message>
+    <message>
+        <source>Stop at gap</source>
+        <translation>Ende bei Lücke</translation>
+    </message>
+    <message>
+        <source>Strength of the TV-L2 smoothing that places disparities between labels afterwards, in label steps; 0 keeps the labels, as in the paper</source>
+        <translation>Stärke der TV-L2-Glättung, die Disparitäten danach zwischen Labels setzt, in Label-Schritten; 0 behält die Labels, wie im Artikel</translation>
+    </message>
+    <message>
+        <source>Strength of the final denoising with TGV²; 0 = off</source>
+        <translation>Stärke des abschließenden Entrauschens mit TGV²; 0 = aus</translation>
+    </message>
+    <message>
+        <source>Sweeps</source>
+        <translation>Durchgänge</translation>
+    </message>
+    <message>
+        <source>TGV²</source>
+        <translation>TGV²</translation>
+    </message>
+    <message>
+        <source>TGV² iterations</source>
+        <translation>TGV²-Iterationen</translation>
+    </message>
+    <message>
+        <source>Texture with less contrast than this loses confidence</source>
+        <translation>Textur mit weniger Kontrast verliert an Konfidenz</translation>
+    </message>
+    <message>
+        <source>The cap of a pixel follows what a disparity that is off by this much costs there; 0 uses ε for all pixels</source>
+        <translation>Die Kappung eines Pixels folgt dem, was eine um diesen Wert falsche Disparität dort kostet; 0 nimmt ε für alle Pixel</translation>
+    </message>
+    <message>
+        <source>The data term is weighted by coherence^p</source>
+        <translation>Der Datenterm wird mit Kohärenz^p gewichtet</translation>
+    </message>
+    <message>
+        <source>The data term is weighted by coherence^p, for two layers by their confidence^p; 0 weights all pixels equally</source>
+        <translation>Der Datenterm wird mit Kohärenz^p gewichtet, bei zwei Schichten mit deren Konfidenz^p; 0 gewichtet alle Pixel gleich</translation>
+    </message>
+    <message>
+        <source>The data term is weighted by confidence^p; 0 weights all pixels equally, as in the paper</source>
+        <translation>Der Datenterm wird mit Konfidenz^p gewichtet; 0 gewichtet alle Pixel gleich, wie im Artikel</translation>
+    </message>
+    <message>
+        <source>The labeling stops once its energy is proven to be within this fraction of the minimum</source>
+        <translation>Das Labeling endet, sobald seine Energie nachweislich höchstens um diesen Bruchteil über dem Minimum liegt</translation>
+    </message>
+    <message>
+        <source>The least cap of a pixel, as a share of ε</source>
+        <translation>Kleinste Kappung eines Pixels, als Anteil von ε</translation>
+    </message>
+    <message>
+        <source>The least weight of a pair of neighbours</source>
+        <translation>Kleinstes Gewicht eines Paars von Nachbarn</translation>
+    </message>
+    <message>
+        <source>The same in a column</source>
+        <translation>Dasselbe in einer Spalte</translation>
+    </message>
+    <message>
+        <source>The total variation is weighted by exp(−β·|gradient of the view|); 0 ignores image edges, as in the paper</source>
+        <translation>Die totale Variation wird mit exp(−β·|Gradient der Ansicht|) gewichtet; 0 lässt Bildkanten außer Acht, wie im Artikel</translation>
+    </message>
+    <message>
+        <source>Tolerance</source>
+        <translation>Toleranz</translation>
+    </message>
+    <message>
+        <source>Trees</source>
+        <translation>Bäume</translation>
+    </message>
+    <message>
+        <source>Truncation T</source>
+        <translation>Kappung T</translation>
+    </message>
+    <message>
+        <source>Truncation κ</source>
+        <translation>Kappung κ</translation>
+    </message>
+    <message>
+        <source>Two layers are assumed where the misfit of one orientation exceeds this fraction of the misfits of one and of two orientations together</source>
+        <translation>Zwei Schichten werden angenommen, wo der Restfehler einer Orientierung diesen Bruchteil der Restfehler von einer und zwei Orientierungen zusammen übersteigt</translation>
+    </message>
+    <message>
+        <source>Two layers closer to each other than this are treated as one</source>
+        <translation>Zwei Schichten, die einander näher sind, gelten als eine</translation>
+    </message>
+    <message>
+        <source>Two pixels can see the same point if their squared difference, the mean over the channels, is less; 0 finds it by the rule below</source>
+        <translation>Zwei Pixel können denselben Punkt sehen, wenn ihr quadrierter Unterschied, gemittelt über die Kanäle, kleiner ist; 0 ermittelt die Grenze nach der Regel darunter</translation>
+    </message>
+    <message>
+        <source>Two superimposed orientations on epipolar plane images: transparent and reflective surfaces</source>
+        <translation>Zwei überlagerte Orientierungen in Epipolarebenenbildern: durchsichtige und spiegelnde Flächen</translation>
+    </message>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>View axes to reverse relative to the file; auto = detected and checked</source>
+        <translation>Achsen der Ansichten, die gegenüber der Datei umzukehren sind; auto = ermittelt und geprüft</translation>
+    </message>
+    <message>
+        <source>View scale</source>
+        <translation>Ansichtsskala</translation>
+    </message>
+    <message>
+        <source>Views to keep</source>
+        <translation>Behaltene Ansichten</translation>
+    </message>
+    <message>
+        <source>Weight of the length of the boundary between one layer and two; regions narrower than twice this are dropped</source>
+        <translation>Gewicht der Länge der Grenze zwischen einer Schicht und zweien; Gebiete, die schmaler sind als das Doppelte, fallen weg</translation>
+    </message>
+    <message>
+        <source>Weight of the total variation of both layers; larger values are smoother</source>
+        <translation>Gewicht der totalen Variation beider Schichten; größere Werte glätten mehr</translation>
+    </message>
+    <message>
+        <source>Weight of the total variation per px of disparity, relative to the mean matching cost within half a pixel of the best label (stereo) or the mean confidence weight (EPI_G), so that it depends on neither labels nor range nor contrast</source>
+        <translation>Gewicht der totalen Variation je px Disparität, relativ zu den mittleren Vergleichskosten bis ein halbes Pixel neben dem besten Label (Stereo) oder zum mittleren Konfidenzgewicht (EPI_G), sodass es weder von Labels noch von Bereich noch von Kontrast abhängt</translation>
+    </message>
+    <message>
+        <source>Weight of the total variation; larger values are smoother</source>
+        <translation>Gewicht der totalen Variation; größere Werte glätten mehr</translation>
+    </message>
+    <message>
+        <source>What the photographs show</source>
+        <translation>Was die Fotos zeigen</translation>
+    </message>
+    <message>
+        <source>Where neighbouring disparities scatter less than this, in px, the data term gets more weight, so that slopes are not flattened; 0 treats all pixels alike, as in the paper</source>
+        <translation>Wo benachbarte Disparitäten weniger streuen als dies, in px, erhält der Datenterm mehr Gewicht, damit Schrägen nicht abgeflacht werden; 0 behandelt alle Pixel gleich, wie im Artikel</translation>
+    </message>
+    <message>
+        <source>Where the mean confidence of a region is below this, its pixels are placed by denoising what each says by itself, if that is elsewhere; 0 = nowhere</source>
+        <translation>Wo die mittlere Konfidenz eines Gebiets darunter liegt, werden seine Pixel durch Entrauschen dessen gesetzt, was jedes für sich sagt, falls das anderswo liegt; 0 = nirgends</translation>
+    </message>
+    <message>
+        <source>Whether dH of an archive file includes the factor xRes, which determines how depth is converted to disparity</source>
+        <translation>Ob dH einer Archivdatei den Faktor xRes enthält, der bestimmt, wie Tiefe in Disparität umgerechnet wird</translation>
+    </message>
+    <message>
+        <source>Whether views are compared at the nearest pixels or interpolated between them</source>
+        <translation>Ob Ansichten an den nächstgelegenen Pixeln verglichen oder zwischen ihnen interpoliert werden</translation>
+    </message>
+    <message>
+        <source>Which light field of a sequence to open, from 0</source>
+        <translation>Welches Lichtfeld einer Sequenz zu öffnen ist, von 0 an</translation>
+    </message>
+    <message>
+        <source>Whole file names of the views, with {row} and {col} or {index} for the numbers, {y} and {x} for positions, * for anything and ? for one character: view_{row}_{col}.png; or re: and a regular expression with groups of these names: re:(?&lt;row&gt;[0-9]+)of(?&lt;col&gt;[0-9]+).*</source>
+        <translation>Ganze Dateinamen der Ansichten, mit {row} und {col} oder {index} für die Nummern, {y} und {x} für Positionen, * für Beliebiges und ? für ein Zeichen: view_{row}_{col}.png; oder re: und ein regulärer Ausdruck mit Gruppen dieser Namen: re:(?&lt;row&gt;[0-9]+)of(?&lt;col&gt;[0-9]+).*</translation>
+    </message>
+    <message>
+        <source>a plane slanted from -1 px to 1 px</source>
+        <translation>eine schräge Ebene von −1 px bis 1 px</translation>
+    </message>
+    <message>
+        <source>a semi-transparent pane in front of a plane, with ground truth for both layers</source>
+        <translation>eine halbdurchsichtige Scheibe vor einer Ebene, mit Referenz für beide Schichten</translation>
+    </message>
+    <message>
+        <source>a sphere and a box on the ground, with labels and scribbles</source>
+        <translation>eine Kugel und eine Kiste auf dem Boden, mit Labels und Strichen</translation>
+    </message>
+    <message>
+        <source>a still life: vase with flowers, balls, box, cone and can on a table</source>
+        <translation>ein Stillleben: Vase mit Blumen, Bälle, Kiste, Kegel und Dose auf einem Tisch</translation>
+    </message>
+    <message>
+        <source>absolute</source>
+        <translation>absolut</translation>
+    </message>
+    <message>
+        <source>absolute: samples are compared as they are; relative: relative to the mean around them, for views of different brightness</source>
+        <translation>absolut: Samples werden unverändert verglichen; relativ: relativ zum Mittel um sie herum, für Ansichten verschiedener Helligkeit</translation>
+    </message>
+    <message>
+        <source>any</source>
+        <translation>any</translation>
+    </message>
+    <message>
+        <source>arranging the views of the list</source>
+        <translation>Ansichten der Liste werden angeordnet</translation>
+    </message>
+    <message>
+        <source>as stored</source>
+        <translation>wie gespeichert</translation>
+    </message>
+    <message>
+        <source>automatic: detected and checked</source>
+        <translation>automatisch: ermittelt und geprüft</translation>
+    </message>
+    <message>
+        <source>automatic: whichever is plausible</source>
+        <translation>automatisch: was plausibel ist</translation>
+    </message>
+    <message>
+        <source>between labels</source>
+        <translation>zwischen Labels</translation>
+    </message>
+    <message>
+        <source>between pixels</source>
+        <translation>zwischen Pixeln</translation>
+    </message>
+    <message>
+        <source>bilinear</source>
+        <translation>bilinear</translation>
+    </message>
+    <message>
+        <source>both reversed</source>
+        <translation>beide umgekehrt</translation>
+    </message>
+    <message>
+        <source>calibrating</source>
+        <translation>Kalibrierung</translation>
+    </message>
+    <message>
+        <source>carrying to other views</source>
+        <translation>Übertragung in andere Ansichten</translation>
+    </message>
+    <message>
+        <source>charuco</source>
+        <translation>ChArUco</translation>
+    </message>
+    <message>
+        <source>checking lines</source>
+        <translation>Prüfung der Linien</translation>
+    </message>
+    <message>
+        <source>checking lines and denoising</source>
+        <translation>Prüfung der Linien und Entrauschen</translation>
+    </message>
+    <message>
+        <source>checking the order of views</source>
+        <translation>Prüfung der Reihenfolge der Ansichten</translation>
+    </message>
+    <message>
+        <source>chessboard</source>
+        <translation>Schachbrett</translation>
+    </message>
+    <message>
+        <source>circles</source>
+        <translation>Kreise</translation>
+    </message>
+    <message>
+        <source>columns (u) reversed</source>
+        <translation>Spalten (u) umgekehrt</translation>
+    </message>
+    <message>
+        <source>cubic</source>
+        <translation>kubisch</translation>
+    </message>
+    <message>
+        <source>dH does not include the image width</source>
+        <translation>dH enthält die Bildbreite nicht</translation>
+    </message>
+    <message>
+        <source>dH includes the image width</source>
+        <translation>dH enthält die Bildbreite</translation>
+    </message>
+    <message>
+        <source>dark</source>
+        <translation>dunkel</translation>
+    </message>
+    <message>
+        <source>dark and bright bars before a wall, with less and less texture downwards</source>
+        <translation>dunkle und helle Balken vor einer Wand, mit immer weniger Textur nach unten</translation>
+    </message>
+    <message>
+        <source>data term</source>
+        <translation>Datenterm</translation>
+    </message>
+    <message>
+        <source>denoising</source>
+        <translation>Entrauschen</translation>
+    </message>
+    <message>
+        <source>disparity range</source>
+        <translation>Disparitätsbereich</translation>
+    </message>
+    <message>
+        <source>dots of eight sizes before a wall, under noise that grows downwards</source>
+        <translation>Punkte in acht Größen vor einer Wand, unter Rauschen, das nach unten zunimmt</translation>
+    </message>
+    <message>
+        <source>edge weights</source>
+        <translation>Kantengewichte</translation>
+    </message>
+    <message>
+        <source>eigenvector</source>
+        <translation>Eigenvektor</translation>
+    </message>
+    <message>
+        <source>equiangular</source>
+        <translation>gleichwinklig</translation>
+    </message>
+    <message>
+        <source>finding edges</source>
+        <translation>Suche nach Kanten</translation>
+    </message>
+    <message>
+        <source>finding the axes of the gantry</source>
+        <translation>Suche nach den Achsen des Kameraportals</translation>
+    </message>
+    <message>
+        <source>graph cuts</source>
+        <translation>Graphenschnitte</translation>
+    </message>
+    <message>
+        <source>horizontal EPIs</source>
+        <translation>horizontale EPIs</translation>
+    </message>
+    <message>
+        <source>ignore</source>
+        <translation>außer Acht lassen</translation>
+    </message>
+    <message>
+        <source>image</source>
+        <translation>Bild</translation>
+    </message>
+    <message>
+        <source>image+estimate</source>
+        <translation>Bild+Schätzung</translation>
+    </message>
+    <message>
+        <source>image+truth</source>
+        <translation>Bild+Referenz</translation>
+    </message>
+    <message>
+        <source>labeling</source>
+        <translation>Labeling</translation>
+    </message>
+    <message>
+        <source>labeling neighbouring views</source>
+        <translation>Labeling benachbarter Ansichten</translation>
+    </message>
+    <message>
+        <source>labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>layers</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>least</source>
+        <translation>kleinste</translation>
+    </message>
+    <message>
+        <source>least squares</source>
+        <translation>kleinste Quadrate</translation>
+    </message>
+    <message>
+        <source>lenslets side by side (ESLF)</source>
+        <translation>Linsenbilder nebeneinander (ESLF)</translation>
+    </message>
+    <message>
+        <source>lines</source>
+        <translation>Linien</translation>
+    </message>
+    <message>
+        <source>looking for dark views</source>
+        <translation>Suche nach dunklen Ansichten</translation>
+    </message>
+    <message>
+        <source>looking for light fields</source>
+        <translation>Suche nach Lichtfeldern</translation>
+    </message>
+    <message>
+        <source>looking for rows and columns</source>
+        <translation>Suche nach Zeilen und Spalten</translation>
+    </message>
+    <message>
+        <source>matching costs</source>
+        <translation>Vergleichskosten</translation>
+    </message>
+    <message>
+        <source>noise</source>
+        <translation>Rauschen</translation>
+    </message>
+    <message>
+        <source>noise: three times the least difference of a pixel at any label, the median over pixels, at least 30; quarter: the mean of what a quarter of the labels fall below</source>
+        <translation>Rauschen: das Dreifache des kleinsten Unterschieds eines Pixels bei beliebigem Label, im Median über die Pixel, mindestens 30; Viertel: der Mittelwert dessen, worunter ein Viertel der Labels fällt</translation>
+    </message>
+    <message>
+        <source>noisy</source>
+        <translation>verrauscht</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>occlusion</source>
+        <translation>Verdeckung</translation>
+    </message>
+    <message>
+        <source>one plane of disparity 0.37 px</source>
+        <translation>eine Ebene mit Disparität 0.37 px</translation>
+    </message>
+    <message>
+        <source>orientations</source>
+        <translation>Orientierungen</translation>
+    </message>
+    <message>
+        <source>paper</source>
+        <translation>veröffentlicht</translation>
+    </message>
+    <message>
+        <source>parabola</source>
+        <translation>Parabel</translation>
+    </message>
+    <message>
+        <source>periodic</source>
+        <translation>periodisch</translation>
+    </message>
+    <message>
+        <source>photographing the pattern</source>
+        <translation>Muster wird fotografiert</translation>
+    </message>
+    <message>
+        <source>plain</source>
+        <translation>schlicht</translation>
+    </message>
+    <message>
+        <source>probabilities (depth)</source>
+        <translation>Wahrscheinlichkeiten (Tiefe)</translation>
+    </message>
+    <message>
+        <source>probabilities (image)</source>
+        <translation>Wahrscheinlichkeiten (Bild)</translation>
+    </message>
+    <message>
+        <source>probabilities (true depth)</source>
+        <translation>Wahrscheinlichkeiten (wahre Tiefe)</translation>
+    </message>
+    <message>
+        <source>px</source>
+        <translation>px</translation>
+    </message>
+    <message>
+        <source>pyramids, a ball and a bowl on a wall</source>
+        <translation>Pyramiden, eine Kugel und eine Schale an einer Wand</translation>
+    </message>
+    <message>
+        <source>quarter of the labels</source>
+        <translation>Viertel der Labels</translation>
+    </message>
+    <message>
+        <source>rays</source>
+        <translation>Strahlen</translation>
+    </message>
+    <message>
+        <source>rayspace</source>
+        <translation>rayspace</translation>
+    </message>
+    <message>
+        <source>reading depth</source>
+        <translation>Tiefe wird gelesen</translation>
+    </message>
+    <message>
+        <source>reading labels</source>
+        <translation>Labels werden gelesen</translation>
+    </message>
+    <message>
+        <source>reading maps</source>
+        <translation>Karten werden gelesen</translation>
+    </message>
+    <message>
+        <source>reading the picture</source>
+        <translation>Bild wird gelesen</translation>
+    </message>
+    <message>
+        <source>reading truth</source>
+        <translation>Referenz wird gelesen</translation>
+    </message>
+    <message>
+        <source>reading views</source>
+        <translation>Ansichten werden gelesen</translation>
+    </message>
+    <message>
+        <source>regularising</source>
+        <translation>Regularisierung</translation>
+    </message>
+    <message>
+        <source>relative</source>
+        <translation>relativ</translation>
+    </message>
+    <message>
+        <source>resampling</source>
+        <translation>Neuabtastung</translation>
+    </message>
+    <message>
+        <source>room</source>
+        <translation>Raum</translation>
+    </message>
+    <message>
+        <source>rows (v) reversed</source>
+        <translation>Zeilen (v) umgekehrt</translation>
+    </message>
+    <message>
+        <source>settling between labels</source>
+        <translation>Einpendeln zwischen Labels</translation>
+    </message>
+    <message>
+        <source>shiny</source>
+        <translation>glänzend</translation>
+    </message>
+    <message>
+        <source>smooth</source>
+        <translation>glatt</translation>
+    </message>
+    <message>
+        <source>splitting the picture into views</source>
+        <translation>Bild wird in Ansichten zerlegt</translation>
+    </message>
+    <message>
+        <source>sum</source>
+        <translation>Summe</translation>
+    </message>
+    <message>
+        <source>sum: horizontal and vertical estimates both count, each truncated; least: the one that is nearer to the label counts</source>
+        <translation>Summe: horizontale und vertikale Schätzungen zählen beide, jede gekappt; kleinste: die dem Label nähere zählt</translation>
+    </message>
+    <message>
+        <source>teeth before a wall, from a small step at the top to a large one</source>
+        <translation>Zähne vor einer Wand, von einer kleinen Stufe oben bis zu einer großen</translation>
+    </message>
+    <message>
+        <source>telling rows from columns of views</source>
+        <translation>Zeilen und Spalten von Ansichten werden unterschieden</translation>
+    </message>
+    <message>
+        <source>there is no NVIDIA driver</source>
+        <translation>es gibt keinen NVIDIA-Treiber</translation>
+    </message>
+    <message>
+        <source>thin</source>
+        <translation>dünn</translation>
+    </message>
+    <message>
+        <source>thin bars of 1, 2, 3 and 5 px in front of a plane</source>
+        <translation>dünne Stäbe von 1, 2, 3 und 5 px vor einer Ebene</translation>
+    </message>
+    <message>
+        <source>this build has no CUDA</source>
+        <translation>dieses Programm wurde ohne CUDA erstellt</translation>
+    </message>
+    <message>
+        <source>tuned</source>
+        <translation>abgestimmt</translation>
+    </message>
+    <message>
+        <source>two orientations</source>
+        <translation>zwei Orientierungen</translation>
+    </message>
+    <message>
+        <source>two orientations, horizontal EPIs</source>
+        <translation>zwei Orientierungen, horizontale EPIs</translation>
+    </message>
+    <message>
+        <source>two orientations, vertical EPIs</source>
+        <translation>zwei Orientierungen, vertikale EPIs</translation>
+    </message>
+    <message>
+        <source>two planes, -0.5 px and 0.8 px, with a straight vertical edge</source>
+        <translation>zwei Ebenen, −0.5 px und 0.8 px, mit einer geraden senkrechten Kante</translation>
+    </message>
+    <message>
+        <source>uneven</source>
+        <translation>ungleichmäßig</translation>
+    </message>
+    <message>
+        <source>use</source>
+        <translation>nutzen</translation>
+    </message>
+    <message>
+        <source>use: views are sampled at the positions that files state, if they match better there; ignore: on the regular grid</source>
+        <translation>nutzen: Ansichten werden an den Positionen abgetastet, die die Dateien nennen, falls sie dort besser passen; außer Acht lassen: auf dem regelmäßigen Raster</translation>
+    </message>
+    <message>
+        <source>vertical EPIs</source>
+        <translation>vertikale EPIs</translation>
+    </message>
+    <message>
+        <source>view</source>
+        <translation>je Ansicht</translation>
+    </message>
+    <message>
+        <source>view steps</source>
+        <translation>Ansichtsschritte</translation>
+    </message>
+    <message>
+        <source>views</source>
+        <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>views side by side</source>
+        <translation>Ansichten nebeneinander</translation>
+    </message>
+    <message>
+        <source>weighted</source>
+        <translation>gewichtet</translation>
+    </message>
+    <message>
+        <source>weighted: horizontal and vertical estimates that agree are averaged; winner: the more coherent one is taken</source>
+        <translation>gewichtet: übereinstimmende horizontale und vertikale Schätzungen werden gemittelt; Gewinner: die kohärentere wird genommen</translation>
+    </message>
+    <message>
+        <source>whole pixels</source>
+        <translation>ganze Pixel</translation>
+    </message>
+    <message>
+        <source>winner</source>
+        <translation>Gewinner</translation>
+    </message>
+    <message>
+        <source>wsg13</source>
+        <translation>wsg13</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ScribbleController</name>
+    <message>
+        <source>Carry to all views</source>
+        <translation>In alle Ansichten übertragen</translation>
+    </message>
+    <message>
+        <source>Shows the scribbles of every view on all others</source>
+        <translation>Zeigt die Striche jeder Ansicht in allen anderen</translation>
+    </message>
+    <message>
+        <source>Carrying scribbles needs a disparity: run a method in the Estimate tab.</source>
+        <translation>Striche zu übertragen erfordert eine Disparität: im Reiter Schätzen ein Verfahren ausführen.</translation>
+    </message>
+    <message>
+        <source>carrying …</source>
+        <translation>wird übertragen …</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SegmentController</name>
+    <message>
+        <source>Live</source>
+        <translation>Live</translation>
+    </message>
+    <message>
+        <source>Segments the view again after every stroke</source>
+        <translation>Segmentiert die Ansicht nach jedem Strich neu</translation>
+    </message>
+    <message>
+        <source>Update now</source>
+        <translation>Jetzt aktualisieren</translation>
+    </message>
+    <message>
+        <source>Segments this view from the scribbles</source>
+        <translation>Segmentiert diese Ansicht anhand der Striche</translation>
+    </message>
+    <message>
+        <source>Segment all views</source>
+        <translation>Alle Ansichten segmentieren</translation>
+    </message>
+    <message>
+        <source>Segments all views, with labels that agree along the rays</source>
+        <translation>Segmentiert alle Ansichten mit Labels, die entlang der Strahlen übereinstimmen</translation>
+    </message>
+    <message>
+        <source>Shift+U</source>
+        <translation>Shift+U</translation>
+    </message>
+    <message>
+        <source>Export segmentation…</source>
+        <translation>Segmentierung exportieren…</translation>
+    </message>
+    <message>
+        <source>Writes labels and probabilities as HDF5, or the labels of this view as PNG</source>
+        <translation>Schreibt Labels und Wahrscheinlichkeiten als HDF5 oder die Labels dieser Ansicht als PNG</translation>
+    </message>
+    <message>
+        <source>Export masks…</source>
+        <translation>Masken exportieren…</translation>
+    </message>
+    <message>
+        <source>Writes a black and white PNG of every label in every segmented view to a folder</source>
+        <translation>Schreibt für jedes Label in jeder segmentierten Ansicht ein schwarzweißes PNG in einen Ordner</translation>
+    </message>
+    <message>
+        <source>Smoother boundaries</source>
+        <translation>Glattere Grenzen</translation>
+    </message>
+    <message>
+        <source>Smooths the boundaries of all labels by half a pixel more; can be undone</source>
+        <translation>Glättet die Grenzen aller Labels um ein halbes Pixel mehr; lässt sich zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Shift+S</source>
+        <translation>Shift+S</translation>
+    </message>
+    <message>
+        <source>Less smooth boundaries</source>
+        <translation>Weniger glatte Grenzen</translation>
+    </message>
+    <message>
+        <source>Smooths the boundaries of all labels by half a pixel less</source>
+        <translation>Glättet die Grenzen aller Labels um ein halbes Pixel weniger</translation>
+    </message>
+    <message>
+        <source>probability of “%1”</source>
+        <translation>Wahrscheinlichkeit von „%1“</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>There is no ground-truth disparity for all views: labels are based on the images alone.</source>
+        <translation>Es gibt keine Referenz-Disparität für alle Ansichten: die Labels beruhen nur auf den Bildern.</translation>
+    </message>
+    <message>
+        <source>Labels are based on the images alone until the disparity is estimated.</source>
+        <translation>Die Labels beruhen nur auf den Bildern, bis die Disparität geschätzt ist.</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>training …</source>
+        <translation>wird trainiert …</translation>
+    </message>
+    <message>
+        <source>labelling …</source>
+        <translation>wird gelabelt …</translation>
+    </message>
+    <message>
+        <source>refining … %1</source>
+        <translation>wird verfeinert … %1</translation>
+    </message>
+    <message>
+        <source>waiting</source>
+        <translation>wartet</translation>
+    </message>
+    <message>
+        <source>failed</source>
+        <translation>fehlgeschlagen</translation>
+    </message>
+    <message>
+        <source>idle</source>
+        <translation>bereit</translation>
+    </message>
+    <message>
+        <source>out of date</source>
+        <translation>veraltet</translation>
+    </message>
+    <message>
+        <source>idle · %1</source>
+        <translation>bereit · %1</translation>
+    </message>
+    <message>
+        <source>State of the segmentation of this view, and how long it took.</source>
+        <translation>Stand der Segmentierung dieser Ansicht, und wie lange sie dauerte.</translation>
+    </message>
+    <message>
+        <source>correct: %1 of this view</source>
+        <translation>richtig: %1 dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>%1 near boundaries</source>
+        <translation>%1 nahe Grenzen</translation>
+    </message>
+    <message>
+        <source>mean IoU %1</source>
+        <translation>mittlere IoU %1</translation>
+    </message>
+    <message>
+        <source>%1 of all</source>
+        <translation>%1 von allen</translation>
+    </message>
+    <message>
+        <source>consistent: %1</source>
+        <translation>konsistent: %1</translation>
+    </message>
+    <message>
+        <source>Reading labels</source>
+        <translation>Labels werden gelesen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SegmentPanel</name>
+    <message>
+        <source>All views after each stroke</source>
+        <translation>Alle Ansichten nach jedem Strich</translation>
+    </message>
+    <message>
+        <source>Settings</source>
+        <translation>Einstellungen</translation>
+    </message>
+    <message>
+        <source>Shows the settings of the segmentation</source>
+        <translation>Zeigt die Einstellungen der Segmentierung</translation>
+    </message>
+    <message>
+        <source>Disparity that carries labels from view to view, and that the classifier may use as a feature</source>
+        <translation>Disparität, die Labels von Ansicht zu Ansicht überträgt und die der Klassifikator als Merkmal nutzen kann</translation>
+    </message>
+    <message>
+        <source>Segments all views whenever the labels of this one are ready</source>
+        <translation>Segmentiert alle Ansichten, sobald die Labels dieser bereit sind</translation>
+    </message>
+    <message>
+        <source>Disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>Smooths the boundaries of all labels; 0 shows them as they were computed. Can be undone</source>
+        <translation>Glättet die Grenzen aller Labels; 0 zeigt sie wie berechnet. Lässt sich zurücknehmen</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Smooth boundaries by</source>
+        <translation>Grenzen glätten um</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SegmentationExport</name>
+    <message>
+        <source>Nothing is segmented yet: paint two labels, then update the segmentation.</source>
+        <translation>Noch ist nichts segmentiert: zwei Labels malen, dann die Segmentierung aktualisieren.</translation>
+    </message>
+    <message>
+        <source>Export the segmentation</source>
+        <translation>Segmentierung exportieren</translation>
+    </message>
+    <message>
+        <source>%1 (*.h5);;Labels of this view (*.png)</source>
+        <translation>%1 (*.h5);;Labels dieser Ansicht (*.png)</translation>
+    </message>
+    <message>
+        <source>Labels and probabilities of all views</source>
+        <translation>Labels und Wahrscheinlichkeiten aller Ansichten</translation>
+    </message>
+    <message>
+        <source>Labels and probabilities of this view</source>
+        <translation>Labels und Wahrscheinlichkeiten dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Folder for the masks of all views</source>
+        <translation>Ordner für die Masken aller Ansichten</translation>
+    </message>
+    <message>
+        <source>Folder for the masks of this view; segment all views first to have those of all</source>
+        <translation>Ordner für die Masken dieser Ansicht; für die aller erst alle Ansichten segmentieren</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SessionRecovery</name>
+    <message>
+        <source>Episcope ended unexpectedly (%1). What was open can be recovered: light fields: %2, results: %3.</source>
+        <translation>Episcope wurde unerwartet beendet (%1). Das Geöffnete kann wiederhergestellt werden: Lichtfelder: %2, Ergebnisse: %3.</translation>
+    </message>
+    <message>
+        <source>Recover</source>
+        <translation>Wiederherstellen</translation>
+    </message>
+    <message>
+        <source>Discard</source>
+        <translation>Verwerfen</translation>
+    </message>
+    <message>
+        <source>Recovered what was open.</source>
+        <translation>Das Geöffnete wurde wiederhergestellt.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ShortcutWindow</name>
+    <message>
+        <source>Keys and mouse</source>
+        <translation>Tastatur und Maus</translation>
+    </message>
+    <message>
+        <source>Key</source>
+        <translation>Taste</translation>
+    </message>
+    <message>
+        <source>What it does</source>
+        <translation>Was sie tut</translation>
+    </message>
+    <message>
+        <source>Find a key or a command</source>
+        <translation>Taste oder Befehl suchen</translation>
+    </message>
+    <message>
+        <source>Set key</source>
+        <translation>Taste setzen</translation>
+    </message>
+    <message>
+        <source>Default</source>
+        <translation>Standard</translation>
+    </message>
+    <message>
+        <source>Restores the default keys of the selected command</source>
+        <translation>Stellt die Standardtasten des gewählten Befehls wieder her</translation>
+    </message>
+    <message>
+        <source>All defaults</source>
+        <translation>Alle auf Standard</translation>
+    </message>
+    <message>
+        <source>Restores the default keys of all commands</source>
+        <translation>Stellt die Standardtasten aller Befehle wieder her</translation>
+    </message>
+    <message>
+        <source>In the view</source>
+        <translation>In der Ansicht</translation>
+    </message>
+    <message>
+        <source>Click</source>
+        <translation>Klick</translation>
+    </message>
+    <message>
+        <source>Moves the cross-hair</source>
+        <translation>Versetzt das Fadenkreuz</translation>
+    </message>
+    <message>
+        <source>Shift+click</source>
+        <translation>Umschalt+Klick</translation>
+    </message>
+    <message>
+        <source>Focuses on the pixel</source>
+        <translation>Fokussiert auf das Pixel</translation>
+    </message>
+    <message>
+        <source>Double click</source>
+        <translation>Doppelklick</translation>
+    </message>
+    <message>
+        <source>Shows the centre view; in tiles: shows that tile alone</source>
+        <translation>Zeigt die mittlere Ansicht; in Kacheln: nur diese Kachel</translation>
+    </message>
+    <message>
+        <source>Drag</source>
+        <translation>Ziehen</translation>
+    </message>
+    <message>
+        <source>Moves between the views (parallax); in tiles: pans</source>
+        <translation>Wechselt zwischen den Ansichten (Parallaxe); in Kacheln: verschiebt</translation>
+    </message>
+    <message>
+        <source>Middle drag, Space+drag</source>
+        <translation>Mittlere Taste, Leertaste+Ziehen</translation>
+    </message>
+    <message>
+        <source>Pans</source>
+        <translation>Verschiebt den Ausschnitt</translation>
+    </message>
+    <message>
+        <source>Wheel</source>
+        <translation>Mausrad</translation>
+    </message>
+    <message>
+        <source>Zooms at the cursor</source>
+        <translation>Zoomt am Mauszeiger</translation>
+    </message>
+    <message>
+        <source>Alt+wheel, Ctrl+wheel</source>
+        <translation>Alt+Mausrad, Strg+Mausrad</translation>
+    </message>
+    <message>
+        <source>Moves the focus plane</source>
+        <translation>Verschiebt die Fokusebene</translation>
+    </message>
+    <message>
+        <source>Drag in an EPI</source>
+        <translation>Ziehen in einem EPI</translation>
+    </message>
+    <message>
+        <source>Draws a line and measures its disparity</source>
+        <translation>Zieht eine Linie und misst ihre Disparität</translation>
+    </message>
+    <message>
+        <source>In the view, while annotating</source>
+        <translation>In der Ansicht, beim Annotieren</translation>
+    </message>
+    <message>
+        <source>Paints the current label, or uses the current tool</source>
+        <translation>Malt das aktuelle Label oder benutzt das aktuelle Werkzeug</translation>
+    </message>
+    <message>
+        <source>Right drag</source>
+        <translation>Ziehen mit rechter Taste</translation>
+    </message>
+    <message>
+        <source>Erases</source>
+        <translation>Radiert</translation>
+    </message>
+    <message>
+        <source>Shift+drag</source>
+        <translation>Umschalt+Ziehen</translation>
+    </message>
+    <message>
+        <source>Paints without changing other labels</source>
+        <translation>Malt, ohne andere Labels zu ändern</translation>
+    </message>
+    <message>
+        <source>Ctrl+click</source>
+        <translation>Strg+Klick</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+wheel</source>
+        <translation>Strg+Umschalt+Mausrad</translation>
+    </message>
+    <message>
+        <source>Changes the size of brush or eraser</source>
+        <translation>Ändert die Größe von Pinsel oder Radierer</translation>
+    </message>
+    <message>
+        <source>Esc</source>
+        <translation>Esc</translation>
+    </message>
+    <message>
+        <source>Cancels the current stroke</source>
+        <translation>Bricht den aktuellen Strich ab</translation>
+    </message>
+    <message>
+        <source>Choose a command to change its key.</source>
+        <translation>Einen Befehl wählen, um seine Taste zu ändern.</translation>
+    </message>
+    <message>
+        <source>%1: press the new key in the field.</source>
+        <translation>%1: die neue Taste im Feld drücken.</translation>
+    </message>
+    <message>
+        <source>%1 already belongs to “%2”, which would lose it.</source>
+        <translation>%1 gehört schon zu „%2“, das sie verlieren würde.</translation>
+    </message>
+    <message>
+        <source>Reassign</source>
+        <translation>Neu zuweisen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::StatisticsController</name>
+    <message>
+        <source>No map is shown</source>
+        <translation>Es wird keine Karte gezeigt</translation>
+    </message>
+    <message>
+        <source>Automatic range</source>
+        <translation>Automatischer Bereich</translation>
+    </message>
+    <message>
+        <source>Stretches the colours over the visible values</source>
+        <translation>Spreizt die Farben über die sichtbaren Werte</translation>
+    </message>
+    <message>
+        <source>Default range</source>
+        <translation>Standardbereich</translation>
+    </message>
+    <message>
+        <source>Restores the default range of the quantity</source>
+        <translation>Stellt den Standardbereich der Größe wieder her</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::StatisticsPanel</name>
+    <message>
+        <source>min</source>
+        <translation>min</translation>
+    </message>
+    <message>
+        <source>median</source>
+        <translation>Median</translation>
+    </message>
+    <message>
+        <source>mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>max</source>
+        <translation>max</translation>
+    </message>
+    <message>
+        <source>bad</source>
+        <translation>schlecht</translation>
+    </message>
+    <message>
+        <source>invalid</source>
+        <translation>ungültig</translation>
+    </message>
+    <message>
+        <source>Visible pixels without a value</source>
+        <translation>Sichtbare Pixel ohne Wert</translation>
+    </message>
+    <message>
+        <source>No map is shown</source>
+        <translation>Es wird keine Karte gezeigt</translation>
+    </message>
+    <message>
+        <source> px</source>
+        <translation> px</translation>
+    </message>
+    <message>
+        <source>Pixels whose error is larger are bad, on the map of bad pixels and here</source>
+        <translation>Pixel mit größerem Fehler gelten als schlecht, in der Karte der schlechten Pixel und hier</translation>
+    </message>
+    <message>
+        <source>Bad if off by more than</source>
+        <translation>Schlecht über</translation>
+    </message>
+    <message>
+        <source>Visible judged pixels that are off by more than the threshold</source>
+        <translation>Sichtbare bewertete Pixel, deren Fehler über der Schwelle liegt</translation>
+    </message>
+    <message>
+        <source>%1 [%2]</source>
+        <translation>%1 [%2]</translation>
+    </message>
+    <message>
+        <source>%1 · visible part</source>
+        <translation>%1 · sichtbarer Teil</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::StripController</name>
+    <message>
+        <source>row %1</source>
+        <translation>Zeile %1</translation>
+    </message>
+    <message>
+        <source>column %1</source>
+        <translation>Spalte %1</translation>
+    </message>
+    <message>
+        <source>Horizontal EPIs: the views of this row</source>
+        <translation>Horizontale EPIs: die Ansichten dieser Zeile</translation>
+    </message>
+    <message>
+        <source>Vertical EPIs: the views of this column</source>
+        <translation>Vertikale EPIs: die Ansichten dieser Spalte</translation>
+    </message>
+    <message>
+        <source>Label over the views…</source>
+        <translation>Label über die Ansichten…</translation>
+    </message>
+    <message>
+        <source>Shows EPIs through the current label with the boundaries of labels: straight lines where the views agree</source>
+        <translation>Zeigt EPIs durch das aktuelle Label mit den Grenzen der Labels: gerade Linien, wo die Ansichten übereinstimmen</translation>
+    </message>
+    <message>
+        <source>Shift+L</source>
+        <translation>Shift+L</translation>
+    </message>
+    <message>
+        <source>“%1” over the views</source>
+        <translation>„%1“ über die Ansichten</translation>
+    </message>
+    <message>
+        <source>Label over the views</source>
+        <translation>Label über die Ansichten</translation>
+    </message>
+    <message>
+        <source>This shows labels of all views: segment all views first (Shift+U).</source>
+        <translation>Dies zeigt die Labels aller Ansichten: erst alle Ansichten segmentieren (Umschalt+U).</translation>
+    </message>
+    <message>
+        <source>This label is not seen in this view.</source>
+        <translation>Dieses Label ist in dieser Ansicht nicht zu sehen.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SweepController</name>
+    <message>
+        <source>Sweep</source>
+        <translation>Variieren</translation>
+    </message>
+    <message>
+        <source>Sweep tab</source>
+        <translation>Reiter Variieren</translation>
+    </message>
+    <message>
+        <source>Tries values of one or two parameters of the method</source>
+        <translation>Probiert Werte eines oder zweier Parameter des Verfahrens aus</translation>
+    </message>
+    <message>
+        <source>Ctrl+Shift+F5</source>
+        <translation>Ctrl+Shift+F5</translation>
+    </message>
+    <message>
+        <source>%1, other values as in the Estimate tab</source>
+        <translation>%1, andere Werte wie im Reiter Schätzen</translation>
+    </message>
+    <message>
+        <source>Choose two different parameters.</source>
+        <translation>Zwei verschiedene Parameter wählen.</translation>
+    </message>
+    <message>
+        <source>This method has no number that could be varied.</source>
+        <translation>Dieses Verfahren hat keine Zahl, die sich variieren ließe.</translation>
+    </message>
+    <message>
+        <source>Open a light field first.</source>
+        <translation>Erst ein Lichtfeld öffnen.</translation>
+    </message>
+    <message>
+        <source>%1 runs on the centre view, the present values first</source>
+        <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
+    </message>
+    <message>
+        <source>Sweep of %1</source>
+        <translation>Versuchsreihe mit %1</translation>
+    </message>
+    <message>
+        <source>%1: %2</source>
+        <translation>%1: %2</translation>
+    </message>
+    <message>
+        <source>The first point is being computed.</source>
+        <translation>Der erste Punkt wird berechnet.</translation>
+    </message>
+    <message>
+        <source>Run: the points appear here one after the other.</source>
+        <translation>Starten: die Punkte erscheinen hier nacheinander.</translation>
+    </message>
+    <message>
+        <source>The points have no such number.</source>
+        <translation>Die Punkte haben keine solche Zahl.</translation>
+    </message>
+    <message>
+        <source>Click a point to see its map.</source>
+        <translation>Auf einen Punkt klicken, um seine Karte zu sehen.</translation>
+    </message>
+    <message>
+        <source>No ground truth: click a point to see its map.</source>
+        <translation>Keine Referenz: auf einen Punkt klicken, um seine Karte zu sehen.</translation>
+    </message>
+    <message>
+        <source>%1 stays in the list of results.</source>
+        <translation>%1 bleibt in der Liste der Ergebnisse.</translation>
+    </message>
+    <message>
+        <source>The form of the Estimate tab has the values of this point.</source>
+        <translation>Das Formular des Reiters Schätzen hat die Werte dieses Punkts.</translation>
+    </message>
+    <message>
+        <source>Save the sweep</source>
+        <translation>Versuchsreihe speichern</translation>
+    </message>
+    <message>
+        <source>CSV (*.csv)</source>
+        <translation>CSV (*.csv)</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SweepPanel</name>
+    <message>
+        <source>Parameter that is varied</source>
+        <translation>Parameter, der variiert wird</translation>
+    </message>
+    <message>
+        <source>Second parameter that is varied</source>
+        <translation>Zweiter Parameter, der variiert wird</translation>
+    </message>
+    <message>
+        <source>Run</source>
+        <translation>Starten</translation>
+    </message>
+    <message>
+        <source>Cancel</source>
+        <translation>Abbrechen</translation>
+    </message>
+    <message>
+        <source>Saves the points as CSV</source>
+        <translation>Speichert die Punkte als CSV</translation>
+    </message>
+    <message>
+        <source>Upper plot</source>
+        <translation>Oberes Diagramm</translation>
+    </message>
+    <message>
+        <source>Lower plot</source>
+        <translation>Unteres Diagramm</translation>
+    </message>
+    <message>
+        <source>Keep</source>
+        <translation>Behalten</translation>
+    </message>
+    <message>
+        <source>Use values</source>
+        <translation>Werte übernehmen</translation>
+    </message>
+    <message>
+        <source>Its values</source>
+        <translation>Seine Werte</translation>
+    </message>
+    <message>
+        <source>Values, as 0.1, 0.2, 0.4, or first:last:number, as 0.1:1.6:5, evenly spread or in powers as the slider of the parameter</source>
+        <translation>Werte wie 0.1, 0.2, 0.4 oder erster:letzter:Anzahl wie 0.1:1.6:5, gleichmäßig oder in Potenzen verteilt wie der Regler des Parameters</translation>
+    </message>
+    <message>
+        <source>%1: what it shows</source>
+        <translation>%1: was es zeigt</translation>
+    </message>
+    <message>
+        <source>Runs the method on the centre view with each of the values</source>
+        <translation>Führt das Verfahren auf der mittleren Ansicht mit jedem der Werte aus</translation>
+    </message>
+    <message>
+        <source>Ends the sweep; the points that are there stay</source>
+        <translation>Beendet die Versuchsreihe; vorhandene Punkte bleiben</translation>
+    </message>
+    <message>
+        <source>Keeps the map of this point in the list of results, where else the next point takes its place</source>
+        <translation>Behält die Karte dieses Punkts in der Liste der Ergebnisse, wo sonst der nächste Punkt ihren Platz einnimmt</translation>
+    </message>
+    <message>
+        <source>Sets the form of the Estimate tab to the values of this point</source>
+        <translation>Übernimmt die Werte dieses Punkts in das Formular des Reiters Schätzen</translation>
+    </message>
+    <message>
+        <source>One parameter only</source>
+        <translation>Nur ein Parameter</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SweepPlot</name>
+    <message>
+        <source>MSE×100, all pixels [px²]</source>
+        <translation>MSE×100, alle Pixel [px²]</translation>
+    </message>
+    <message>
+        <source>BadPix 0.07, 2016 [%]</source>
+        <translation>BadPix 0.07, 2016 [%]</translation>
+    </message>
+    <message>
+        <source>BadPix 0.03, 2016 [%]</source>
+        <translation>BadPix 0.03, 2016 [%]</translation>
+    </message>
+    <message>
+        <source>BadPix 0.01, 2016 [%]</source>
+        <translation>BadPix 0.01, 2016 [%]</translation>
+    </message>
+    <message>
+        <source>Change of the map [px]</source>
+        <translation>Änderung der Karte [px]</translation>
+    </message>
+    <message>
+        <source>Time [s]</source>
+        <translation>Zeit [s]</translation>
+    </message>
+    <message>
+        <source>MSE×100 %1</source>
+        <translation>MSE×100 %1</translation>
+    </message>
+    <message>
+        <source>BadPix %1 %</source>
+        <translation>BadPix %1 %</translation>
+    </message>
+    <message>
+        <source>%1 s</source>
+        <translation>%1 s</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::Theme</name>
+    <message>
+        <source>Follow the desktop</source>
+        <translation>Wie die Arbeitsumgebung</translation>
+    </message>
+    <message>
+        <source>Colours of the desktop</source>
+        <translation>Farben der Arbeitsumgebung</translation>
+    </message>
+    <message>
+        <source>Light</source>
+        <translation>Hell</translation>
+    </message>
+    <message>
+        <source>Dark text on a light background</source>
+        <translation>Dunkler Text auf hellem Grund</translation>
+    </message>
+    <message>
+        <source>Dark</source>
+        <translation>Dunkel</translation>
+    </message>
+    <message>
+        <source>Light text on a dark background</source>
+        <translation>Heller Text auf dunklem Grund</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::TimeBar</name>
+    <message>
+        <source>Frame</source>
+        <translation>Einzelbild</translation>
+    </message>
+    <message>
+        <source>Frame of the sequence</source>
+        <translation>Einzelbild der Sequenz</translation>
+    </message>
+    <message>
+        <source>frame %1 of 0…%2</source>
+        <translation>Einzelbild %1 von 0…%2</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ToneController</name>
+    <message>
+        <source>Brightness</source>
+        <translation>Helligkeit</translation>
+    </message>
+    <message>
+        <source>Brightness…</source>
+        <translation>Helligkeit…</translation>
+    </message>
+    <message>
+        <source>Exposure, gamma and black point of the views, for display only</source>
+        <translation>Belichtung, Gamma und Schwarzpunkt der Ansichten, nur für die Anzeige</translation>
+    </message>
+    <message>
+        <source>Shift+B</source>
+        <translation>Shift+B</translation>
+    </message>
+    <message>
+        <source>Automatic brightness</source>
+        <translation>Automatische Helligkeit</translation>
+    </message>
+    <message>
+        <source>Brightens dark views; again shows them as they are</source>
+        <translation>Hellt dunkle Ansichten auf; noch einmal zeigt sie unverändert</translation>
+    </message>
+    <message>
+        <source>Shift+A</source>
+        <translation>Shift+A</translation>
+    </message>
+    <message>
+        <source>The views are dark.</source>
+        <translation>Die Ansichten sind dunkel.</translation>
+    </message>
+    <message>
+        <source>Brighten</source>
+        <translation>Aufhellen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::TonePanel</name>
+    <message>
+        <source>Exposure</source>
+        <translation>Belichtung</translation>
+    </message>
+    <message>
+        <source>Each stop doubles the brightness</source>
+        <translation>Jede Blende verdoppelt die Helligkeit</translation>
+    </message>
+    <message>
+        <source> stops</source>
+        <translation> Blenden</translation>
+    </message>
+    <message>
+        <source>Gamma</source>
+        <translation>Gamma</translation>
+    </message>
+    <message>
+        <source>More than 1 lifts the shadows</source>
+        <translation>Mehr als 1 hellt die Schatten auf</translation>
+    </message>
+    <message>
+        <source>Black point</source>
+        <translation>Schwarzpunkt</translation>
+    </message>
+    <message>
+        <source>What is darker is shown as black; 1 is white</source>
+        <translation>Was dunkler ist, wird schwarz gezeigt; 1 ist Weiß</translation>
+    </message>
+    <message>
+        <source>Automatic</source>
+        <translation>Automatisch</translation>
+    </message>
+    <message>
+        <source>Shows the whole brightness range of this view</source>
+        <translation>Zeigt den ganzen Helligkeitsumfang dieser Ansicht</translation>
+    </message>
+    <message>
+        <source>Reset</source>
+        <translation>Zurücksetzen</translation>
+    </message>
+    <message>
+        <source>Shows samples as they are</source>
+        <translation>Zeigt die Samples unverändert</translation>
+    </message>
+    <message>
+        <source>Brightens what is shown: views, EPIs, tiles, the points of the 3D tab, and pictures and movies, which are saved as shown. Results, labels, PLY files and converted light fields keep the samples.</source>
+        <translation>Hellt auf, was gezeigt wird: Ansichten, EPIs, Kacheln, die Punkte des Reiters 3D sowie Bilder und Filme, die wie gezeigt gespeichert werden. Ergebnisse, Labels, PLY-Dateien und umgewandelte Lichtfelder behalten die Samples.</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ValueBar</name>
+    <message>
+        <source>%1 invalid</source>
+        <translation>%1 ungültig</translation>
+    </message>
+    <message>
+        <source>, behind %1</source>
+        <translation>, dahinter %1</translation>
+    </message>
+    <message>
+        <source>x %1 y %2</source>
+        <translation>x %1 y %2</translation>
+    </message>
+    <message>
+        <source>rgb %1</source>
+        <translation>rgb %1</translation>
+    </message>
+    <message>
+        <source>grey %1</source>
+        <translation>grau %1</translation>
+    </message>
+    <message>
+        <source>truth %1</source>
+        <translation>Referenz %1</translation>
+    </message>
+    <message>
+        <source>no truth here</source>
+        <translation>hier keine Referenz</translation>
+    </message>
+    <message>
+        <source>Move over the view to read its values</source>
+        <translation>Die Maus über die Ansicht bewegen, um ihre Werte zu lesen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ValueController</name>
+    <message>
+        <source>ready</source>
+        <translation>bereit</translation>
+    </message>
+    <message>
+        <source>1 job running</source>
+        <translation>1 Auftrag läuft</translation>
+    </message>
+    <message>
+        <source>%1 jobs running</source>
+        <translation>%1 Aufträge laufen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ViewCanvas</name>
+    <message>
+        <source>View</source>
+        <translation>Ansicht</translation>
+    </message>
+    <message>
+        <source>Open a light field to see it here.</source>
+        <translation>Ein Lichtfeld öffnen, um es hier zu sehen.</translation>
+    </message>
+    <message>
+        <source>%1 %</source>
+        <translation>%1 %</translation>
+    </message>
+    <message>
+        <source>No light field</source>
+        <translation>Kein Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Loading</source>
+        <translation>Wird geladen</translation>
+    </message>
+    <message>
+        <source>Could not show this</source>
+        <translation>Das ließ sich nicht anzeigen</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ViewGrid</name>
+    <message>
+        <source>Plays the views one after the other</source>
+        <translation>Spielt die Ansichten nacheinander ab</translation>
+    </message>
+    <message>
+        <source>circle</source>
+        <translation>Kreis</translation>
+    </message>
+    <message>
+        <source>swing</source>
+        <translation>Schwenk</translation>
+    </message>
+    <message>
+        <source>snake</source>
+        <translation>Schlange</translation>
+    </message>
+    <message>
+        <source>Order in which the views are played</source>
+        <translation>Reihenfolge, in der die Ansichten abgespielt werden</translation>
+    </message>
+    <message>
+        <source>v %1  u %2</source>
+        <translation>v %1  u %2</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::ViewGridCells</name>
+    <message>
+        <source>Views</source>
+        <translation>Ansichten</translation>
+    </message>
+    <message>
+        <source>view v %1, u %2</source>
+        <translation>Ansicht v %1, u %2</translation>
+    </message>
+    <message>
+        <source>%1: painted</source>
+        <translation>%1: bemalt</translation>
+    </message>
+    <message>
+        <source>No views</source>
+        <translation>Keine Ansichten</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::render</name>
+    <message>
+        <source>Background</source>
+        <translation>Hinten</translation>
+    </message>
+    <message>
+        <source>Bad</source>
+        <translation>Schlecht</translation>
+    </message>
+    <message>
+        <source>Confidence</source>
+        <translation>Konfidenz</translation>
+    </message>
+    <message>
+        <source>Difference</source>
+        <translation>Differenz</translation>
+    </message>
+    <message>
+        <source>Disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>Edges</source>
+        <translation>Kanten</translation>
+    </message>
+    <message>
+        <source>Error</source>
+        <translation>Fehler</translation>
+    </message>
+    <message>
+        <source>Labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>Layers</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>None</source>
+        <translation>Keine</translation>
+    </message>
+    <message>
+        <source>Probability</source>
+        <translation>Wahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>Segments</source>
+        <translation>Segmente</translation>
+    </message>
+    <message>
+        <source>Shows how uncertain the labels are</source>
+        <translation>Zeigt, wie unsicher die Labels sind</translation>
+    </message>
+    <message>
+        <source>Shows the confidence of the method, from 0 to 1</source>
+        <translation>Zeigt die Konfidenz des Verfahrens, von 0 bis 1</translation>
+    </message>
+    <message>
+        <source>Shows the current result minus the compared one</source>
+        <translation>Zeigt das aktuelle Ergebnis minus das Vergleichsergebnis</translation>
+    </message>
+    <message>
+        <source>Shows the disparity of the background seen through a surface</source>
+        <translation>Zeigt die Disparität des Hintergrunds, den man durch eine Fläche hindurch sieht</translation>
+    </message>
+    <message>
+        <source>Shows the disparity of the result over the view</source>
+        <translation>Zeigt die Disparität des Ergebnisses über der Ansicht</translation>
+    </message>
+    <message>
+        <source>Shows the magnitude of the error</source>
+        <translation>Zeigt den Betrag des Fehlers</translation>
+    </message>
+    <message>
+        <source>Shows the pixels that are off by more than the threshold, 0.07 px at first</source>
+        <translation>Zeigt die Pixel, deren Fehler über der Schwelle liegt, anfangs 0.07 px</translation>
+    </message>
+    <message>
+        <source>Shows the pixels whose label is not the true one</source>
+        <translation>Zeigt die Pixel, deren Label nicht das wahre ist</translation>
+    </message>
+    <message>
+        <source>Shows the probability of the current label</source>
+        <translation>Zeigt die Wahrscheinlichkeit des aktuellen Labels</translation>
+    </message>
+    <message>
+        <source>Shows the segmentation over the view, or hides it</source>
+        <translation>Zeigt die Segmentierung über der Ansicht oder blendet sie aus</translation>
+    </message>
+    <message>
+        <source>Shows the true disparity</source>
+        <translation>Zeigt die wahre Disparität</translation>
+    </message>
+    <message>
+        <source>Shows the true disparity of the background seen through a surface</source>
+        <translation>Zeigt die wahre Disparität des Hintergrunds, den man durch die Fläche hindurch sieht</translation>
+    </message>
+    <message>
+        <source>Shows the true object labels</source>
+        <translation>Zeigt die wahren Labels der Objekte</translation>
+    </message>
+    <message>
+        <source>Shows the view alone</source>
+        <translation>Zeigt nur die Ansicht</translation>
+    </message>
+    <message>
+        <source>Shows truth − estimate: blue is too near, red too far</source>
+        <translation>Zeigt Referenz − Schätzung: Blau ist zu nah, Rot zu fern</translation>
+    </message>
+    <message>
+        <source>Shows where label boundaries are cheap</source>
+        <translation>Zeigt, wo Grenzen zwischen Labels wenig kosten</translation>
+    </message>
+    <message>
+        <source>Shows where one surface is visible and where two are</source>
+        <translation>Zeigt, wo eine Fläche sichtbar ist und wo zwei</translation>
+    </message>
+    <message>
+        <source>Truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>Truth behind</source>
+        <translation>Referenz dahinter</translation>
+    </message>
+    <message>
+        <source>Uncertainty</source>
+        <translation>Unsicherheit</translation>
+    </message>
+    <message>
+        <source>Wrong</source>
+        <translation>Falsch</translation>
+    </message>
+    <message>
+        <source>absolute error</source>
+        <translation>absoluter Fehler</translation>
+    </message>
+    <message>
+        <source>background</source>
+        <translation>Hintergrund</translation>
+    </message>
+    <message>
+        <source>bad pixels</source>
+        <translation>schlechte Pixel</translation>
+    </message>
+    <message>
+        <source>confidence</source>
+        <translation>Konfidenz</translation>
+    </message>
+    <message>
+        <source>difference</source>
+        <translation>Differenz</translation>
+    </message>
+    <message>
+        <source>disparity</source>
+        <translation>Disparität</translation>
+    </message>
+    <message>
+        <source>edge probability</source>
+        <translation>Kantenwahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>labels</source>
+        <translation>Labels</translation>
+    </message>
+    <message>
+        <source>layers</source>
+        <translation>Schichten</translation>
+    </message>
+    <message>
+        <source>none</source>
+        <translation>keine</translation>
+    </message>
+    <message>
+        <source>probability</source>
+        <translation>Wahrscheinlichkeit</translation>
+    </message>
+    <message>
+        <source>px</source>
+        <translation>px</translation>
+    </message>
+    <message>
+        <source>segmentation</source>
+        <translation>Segmentierung</translation>
+    </message>
+    <message>
+        <source>signed error</source>
+        <translation>Fehler mit Vorzeichen</translation>
+    </message>
+    <message>
+        <source>true background</source>
+        <translation>wahrer Hintergrund</translation>
+    </message>
+    <message>
+        <source>truth</source>
+        <translation>Referenz</translation>
+    </message>
+    <message>
+        <source>uncertainty</source>
+        <translation>Unsicherheit</translation>
+    </message>
+    <message>
+        <source>wrong labels</source>
+        <translation>falsche Labels</translation>
+    </message>
+    <message>
+        <source>|Error|</source>
+        <translation>|Fehler|</translation>
+    </message>
+</context>
+</TS>
