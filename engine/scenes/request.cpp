@@ -77,19 +77,24 @@ void read_option(const std::string& text, const std::string& option, BuiltinRequ
 
 }  // namespace
 
-BuiltinRequest read_request(const std::string& text) {
+void read_options(const std::string& text, BuiltinRequest& request) {
   const auto question = text.find('?');
-  BuiltinRequest request;
-  request.scene = text.substr(0, question);
-  require_builtin(request.scene);
-  if (question == text.npos) return request;
+  if (question == text.npos) return;
   std::string rest = text.substr(question + 1);
   while (true) {
     const auto end = rest.find('&');
     read_option(text, rest.substr(0, end), request);
-    if (end == rest.npos) return request;
+    if (end == rest.npos) return;
     rest.erase(0, end + 1);
   }
+}
+
+BuiltinRequest read_request(const std::string& text) {
+  BuiltinRequest request;
+  request.scene = text.substr(0, text.find('?'));
+  require_builtin(request.scene);
+  read_options(text, request);
+  return request;
 }
 
 }  // namespace episcope::scenes

@@ -17,10 +17,14 @@ struct BuiltinRequest {
 };
 
 /// Reads "<scene>" or "<scene>?key=value&key=value", e.g. "random?seed=7&kind=thin". Keys: seed
-/// (of a scene that is drawn, and of noise), kind (of a random scene: random_kind_names()), size (px,
-/// "256" or "320x240" for width and height), grid ("9x9", rows and columns of views) and noise (in
-/// units of 1/255). Throws Unavailable for an unknown scene and InvalidInput for a query that is
-/// not of this form; the message says what is possible.
+/// (of a scene that is drawn, and of noise), kind (of a random scene: random_kind_names()), size
+/// (px, "256" or "320x240" for width and height), grid ("9x9", rows and columns of views) and noise
+/// (in units of 1/255). Throws Unavailable for an unknown scene and InvalidInput for a query that
+/// is not of this form; the message says what is possible.
 [[nodiscard]] BuiltinRequest read_request(const std::string& text);
+
+/// What stands behind the '?' of such a text, into the options of `request`; others stay as they
+/// are. Throws InvalidInput likewise.
+void read_options(const std::string& text, BuiltinRequest& request);
 
 }  // namespace episcope::scenes

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/array/indices.h"
+#include "widgets/canvas/canvas_mark.h"
 #include "widgets/canvas/canvas_transform.h"
 #include "widgets/canvas/outline.h"
 #include "widgets/style/side.h"
@@ -12,6 +13,7 @@
 
 #include <functional>
 #include <optional>
+#include <vector>
 
 class QTabletEvent;
 
@@ -61,6 +63,8 @@ class ViewCanvas : public QWidget {
   void setOutline(PixelEdges outline);
   /// Draws a line around the part of the view that numbers are of; empty = nothing.
   void setRegion(PixelEdges region);
+  /// Draws named points over the picture; empty = none.
+  void setMarks(std::vector<CanvasMark> marks);
   /// Gives the mouse to a tool; null takes it back. The tool must outlive this, or be taken back.
   void setTool(CanvasTool* tool);
   /// Whether a left drag is parallax (default). Off: it pans.
@@ -81,6 +85,9 @@ class ViewCanvas : public QWidget {
   [[nodiscard]] const QImage& scribbles() const { return scribbles_; }
   [[nodiscard]] const PixelEdges& outline() const { return outline_; }
   [[nodiscard]] const PixelEdges& region() const { return region_; }
+  [[nodiscard]] const std::vector<CanvasMark>& marks() const { return marks_; }
+  /// Which of them is drawn at a widget position; none = none.
+  [[nodiscard]] std::optional<int> markAt(QPointF position) const;
   [[nodiscard]] CanvasTool* tool() const { return tool_; }
   [[nodiscard]] std::optional<PixelIndex> crossHair() const { return cross_hair_; }
   [[nodiscard]] CanvasTransform canvasTransform() const { return transform_; }
@@ -169,6 +176,7 @@ class ViewCanvas : public QWidget {
   void paintCrossHair(QPainter& painter) const;
   void paintEdges(QPainter& painter, const PixelEdges& edges, const QPen& pen) const;
   void paintMark(QPainter& painter) const;
+  void paintMarks(QPainter& painter) const;
   void paintShape(QPainter& painter) const;
   void paintCaption(QPainter& painter) const;
   void paintMessage(QPainter& painter) const;
@@ -190,6 +198,7 @@ class ViewCanvas : public QWidget {
   double scribble_opacity_ = 0.7;
   PixelEdges outline_;
   PixelEdges region_;
+  std::vector<CanvasMark> marks_;
   std::optional<PixelIndex> cross_hair_;
   PixelText pixel_text_;
   CanvasTransform transform_;

@@ -41,6 +41,7 @@ void ViewCanvas::paintEvent(QPaintEvent* event) {
     paintEdges(painter, region_, QPen(theme::kCrossHair, 2, Qt::DashLine, Qt::FlatCap));
     paintEdges(painter, outline_, QPen(Qt::white, 2, Qt::SolidLine, Qt::SquareCap));
     paintCrossHair(painter);
+    paintMarks(painter);
     if (pixel_text_ && transform_.scale >= kTextScale) paintPixelTexts(painter, event->rect());
     paintShape(painter);
     paintMark(painter);

@@ -8,6 +8,7 @@
 #include "widgets/style/theme.h"
 
 #include <QCheckBox>
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -18,11 +19,12 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <memory>
 
 namespace episcope {
 namespace {
 
-enum Column { Name, Pixel, Point, Off };
+enum Column { Name, Lock, Pixel, Point, Off };
 
 QPushButton* make_button(QWidget* parent, const char* name, const QString& text,
                          const QString& tip) {
@@ -78,7 +80,7 @@ CapturePanel::CapturePanel(QWidget* parent)
   layout->addWidget(makeView(), 3);
   layout->addWidget(makePairs(), 2);
   layout->addWidget(makeResults());
-  setMesh({}, {});
+  setMesh({}, std::make_shared<const CloudParts>());
   setRows({});
   setNext({}, std::nullopt, false);
   setPose({}, false);
@@ -114,16 +116,20 @@ QWidget* CapturePanel::makePairs() {
   auto* part = new QWidget(this);
   table_->setObjectName("capture.pairs");
   table_->setAccessibleName(tr("Picked pairs"));
-  table_->setColumnCount(4);
-  table_->setHorizontalHeaderLabels({tr("Pair"), tr("View"), tr("Mesh"), tr("Off by")});
+  table_->setColumnCount(5);
+  table_->setHorizontalHeaderLabels({tr("Pair"), tr("Lock"), tr("View"), tr("Mesh"), tr("Off by")});
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(Point, QHeaderView::Stretch);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * theme::kSpacing);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  connect(table_, &QTableWidget::cellChanged, this, &CapturePanel::rename);
+  table_->setMouseTracking(true);
+  table_->viewport()->installEventFilter(this);
+  connect(table_, &QTableWidget::cellChanged, this, &CapturePanel::change);
+  connect(table_, &QTableWidget::cellEntered, this, [this](int row) { hover(row); });
+  connect(table_, &QTableWidget::itemSelectionChanged, this, &CapturePanel::emphasisChanged);
   connect(table_, &QTableWidget::cellDoubleClicked, this, [this](int row, int column) {
-    if (column != Name) emit rowChosen(row);
+    if (column != Name && column != Lock) emit rowChosen(row);
   });
   auto* remove = make_button(part, "capture.remove", tr("Remove"), tr("Removes the chosen pairs"));
   auto* import = make_button(part, "capture.import", tr("Import…"), tr("Adds pairs from CSV"));
@@ -170,12 +176,48 @@ QWidget* CapturePanel::makeResults() {
   return part;
 }
 
-void CapturePanel::setMesh(const QString& title, const PointCloud& cloud) {
+void CapturePanel::setMesh(const QString& title, const CloudPartsPtr& mesh) {
   mesh_->setText(title.isEmpty() ? tr("No mesh") : title);
-  stack_->setCurrentIndex(cloud.positions.empty() ? 0 : 1);
-  if (!view_ || cloud.positions.empty()) return;
-  view_->setCloud(cloud);
+  stack_->setCurrentIndex(mesh->empty() ? 0 : 1);
+  if (!view_ || mesh->empty()) return;
+  view_->setParts(mesh);
   view_->showPreset(CloudPreset::Front);
+}
+
+void CapturePanel::setPicked(const std::optional<std::array<double, 3>>& point) {
+  if (!view_) return;
+  view_->setMarkedPlaces(point ? std::vector{*point} : std::vector<std::array<double, 3>>());
+}
+
+void CapturePanel::setMarks(const std::vector<CloudMark>& marks) {
+  if (view_) view_->setNamedMarks(marks);
+}
+
+void CapturePanel::setHovered(std::optional<int> row) {
+  hover(row);
+}
+
+void CapturePanel::hover(std::optional<int> row) {
+  if (row == hovered_) return;
+  hovered_ = row;
+  const QSignalBlocker blocker(table_);
+  for (int i = 0; i < table_->rowCount(); ++i) {
+    QFont font = table_->font();
+    font.setBold(i == hovered_);
+    for (int column = 0; column < table_->columnCount(); ++column) {
+      table_->item(i, column)->setFont(font);
+    }
+  }
+  emit emphasisChanged();
+}
+
+bool CapturePanel::isEmphasised(int row) const {
+  return row == hovered_ || table_->selectionModel()->isRowSelected(row, {});
+}
+
+bool CapturePanel::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Leave) hover(std::nullopt);
+  return QWidget::eventFilter(watched, event);
 }
 
 void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
@@ -183,7 +225,12 @@ void CapturePanel::setRows(const std::vector<CaptureRow>& rows) {
   table_->setRowCount(static_cast<int>(rows.size()));
   for (int i = 0; i < table_->rowCount(); ++i) {
     const CaptureRow& row = rows[i];
-    table_->setItem(i, Name, make_cell(row.name, true));
+    table_->setItem(i, Name, make_cell(row.name, !row.is_locked));
+    auto* lock = make_cell({}, false);
+    lock->setFlags(lock->flags() | Qt::ItemIsUserCheckable);
+    lock->setCheckState(row.is_locked ? Qt::Checked : Qt::Unchecked);
+    lock->setToolTip(tr("A locked pair is right: it is not removed, nor taken for a wrong pick"));
+    table_->setItem(i, Lock, lock);
     table_->setItem(
         i, Pixel,
         make_cell(
@@ -226,8 +273,10 @@ std::vector<int> CapturePanel::selectedRows() const {
   return rows;
 }
 
-void CapturePanel::rename(int row, int column) {
-  if (column == Name) emit renamed(row, table_->item(row, column)->text());
+void CapturePanel::change(int row, int column) {
+  const QTableWidgetItem& item = *table_->item(row, column);
+  if (column == Name) emit renamed(row, item.text());
+  if (column == Lock) emit lockChanged(row, item.checkState() == Qt::Checked);
 }
 
 }  // namespace episcope

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/space/point_cloud.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <QPointF>
 #include <QString>
@@ -29,6 +29,7 @@ struct CaptureRow {
   std::array<double, 3> point;   ///< Of the mesh.
   std::optional<double> off_px;  ///< From where the pose puts it; nothing without a pose.
   bool is_outlier = false;
+  bool is_locked = false;
 };
 
 /// Mesh, pairs and pose of the Capture tab. Setters never emit.
@@ -39,12 +40,17 @@ class CapturePanel : public QWidget {
   explicit CapturePanel(QWidget* parent = nullptr);
 
   /// `title`: what is known of the mesh, or why there is none.
-  void setMesh(const QString& title, const PointCloud& cloud);
+  void setMesh(const QString& title, const CloudPartsPtr& mesh);
   void setRows(const std::vector<CaptureRow>& rows);
   /// What the next pair would be: the text of its pixel, its point if one is marked, and whether
   /// both are there.
   void setNext(const QString& pixel, const std::optional<std::array<double, 3>>& point,
                bool is_complete);
+  /// Marks of the mesh: where the next pair would lie, and the pairs by name.
+  void setPicked(const std::optional<std::array<double, 3>>& point);
+  void setMarks(const std::vector<CloudMark>& marks);
+  /// The row of the pair under the mouse elsewhere; none = none.
+  void setHovered(std::optional<int> row);
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);
@@ -52,6 +58,8 @@ class CapturePanel : public QWidget {
   [[nodiscard]] bool snaps() const;
   [[nodiscard]] PhotographSteps* steps() const { return steps_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
+  /// It is selected, or under the mouse.
+  [[nodiscard]] bool isEmphasised(int row) const;
 
  signals:
   void openRequested();
@@ -62,6 +70,9 @@ class CapturePanel : public QWidget {
   void removeRequested();
   void undoRequested();
   void renamed(int row, const QString& name);
+  void lockChanged(int row, bool is_locked);
+  /// Rows were selected, or the mouse is over another one.
+  void emphasisChanged();
   /// A double click on a pair.
   void rowChosen(int row);
   /// A click on the mesh.
@@ -74,8 +85,13 @@ class CapturePanel : public QWidget {
   QWidget* makeView();
   QWidget* makePairs();
   QWidget* makeResults();
-  void rename(int row, int column);
+  void change(int row, int column);
+  void hover(std::optional<int> row);
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
   PhotographSteps* steps_;
   QLabel* mesh_;
   QLabel* hint_;
@@ -88,6 +104,7 @@ class CapturePanel : public QWidget {
   QStackedLayout* stack_;
   std::vector<QPushButton*> of_pose_;  // need one
   PointCloudView* view_ = nullptr;
+  std::optional<int> hovered_;  // row
 };
 
 }  // namespace episcope

@@ -3,8 +3,10 @@
 
 #include "engine/core/space/point_cloud.h"
 
+#include <array>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -17,6 +19,14 @@ using CloudPartsPtr = std::shared_ptr<const CloudParts>;
 struct PickedPoint {
   std::size_t part = 0;
   std::size_t point = 0;
+};
+
+/// A named place among the clouds, in their coordinates; drawn over whatever lies in front.
+struct CloudMark {
+  std::array<double, 3> at{};
+  std::string name{};
+  bool is_emphasised = false;
+  friend bool operator==(const CloudMark&, const CloudMark&) = default;
 };
 
 /// How clouds are drawn, whatever they are.

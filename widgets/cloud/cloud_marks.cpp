@@ -13,6 +13,7 @@
 #include <vtkProperty2D.h>
 #include <vtkRenderer.h>
 #include <vtkScalarBarActor.h>
+#include <vtkTextActor.h>
 #include <vtkTextProperty.h>
 
 #include <algorithm>
@@ -24,17 +25,19 @@ namespace {
 // Logical pixels.
 constexpr double kGap = 4;
 constexpr double kArm = 13;
+constexpr double kSmallGap = 2;
+constexpr double kSmallArm = 6;
 constexpr int kTextSize = 10;  // points
 constexpr int kBarWidth = 90;
 constexpr int kBarHeight = 260;
 
 // Two lines across, open in the middle, where the point is.
-vtkNew<vtkPolyData> cross(double ratio) {
+vtkNew<vtkPolyData> cross(double gap, double arm) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkCellArray> lines;
   for (const auto& [x, y] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-    const vtkIdType from = points->InsertNextPoint(x * kGap * ratio, y * kGap * ratio, 0);
-    const vtkIdType to = points->InsertNextPoint(x * kArm * ratio, y * kArm * ratio, 0);
+    const vtkIdType from = points->InsertNextPoint(x * gap, y * gap, 0);
+    const vtkIdType to = points->InsertNextPoint(x * arm, y * arm, 0);
     lines->InsertNextCell({from, to});
   }
   vtkNew<vtkPolyData> data;
@@ -55,6 +58,39 @@ void style_text(vtkTextProperty& text, double ratio) {
 
 }  // namespace
 
+// A cross and a text beside it.
+struct CloudMarks::Named {
+  Named(const CloudMark& mark, double ratio, vtkRenderer& of) : renderer(of) {
+    const QColor color = mark.is_emphasised ? theme::kCrossHair : theme::kEstimate;
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputData(cross(kSmallGap * ratio, kSmallArm * ratio));
+    lines->SetMapper(mapper);
+    lines->GetProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+    lines->GetProperty()->SetLineWidth(static_cast<float>((mark.is_emphasised ? 3 : 2) * ratio));
+    text->SetInput((" " + mark.name).c_str());
+    style_text(*text->GetTextProperty(), ratio);
+    text->GetTextProperty()->SetColor(color.redF(), color.greenF(), color.blueF());
+    text->GetTextProperty()->ShadowOn();
+    text->GetTextProperty()->SetBold(mark.is_emphasised);
+    const auto& [x, y, z] = mark.at;
+    for (vtkActor2D* actor : {lines.Get(), static_cast<vtkActor2D*>(text.Get())}) {
+      actor->GetPositionCoordinate()->SetCoordinateSystemToWorld();
+      actor->GetPositionCoordinate()->SetValue(x, y, z);
+      renderer.AddActor2D(actor);
+    }
+  }
+  ~Named() {
+    renderer.RemoveActor2D(lines);
+    renderer.RemoveActor2D(text);
+  }
+  Named(const Named&) = delete;
+  Named& operator=(const Named&) = delete;
+
+  vtkRenderer& renderer;
+  vtkNew<vtkActor2D> lines;
+  vtkNew<vtkTextActor> text;
+};
+
 CloudMarks::CloudMarks(vtkRenderer& renderer) : renderer_(renderer) {
   bar_->SetLookupTable(colors_);
   bar_->UnconstrainedFontSizeOn();
@@ -73,7 +109,7 @@ CloudMarks::~CloudMarks() {
 
 void CloudMarks::addCross() {
   vtkNew<vtkPolyDataMapper2D> mapper;
-  mapper->SetInputData(cross(ratio_));
+  mapper->SetInputData(cross(kGap * ratio_, kArm * ratio_));
   auto actor = std::make_unique<vtkNew<vtkActor2D>>();
   (*actor)->SetMapper(mapper);
   (*actor)->GetPositionCoordinate()->SetCoordinateSystemToWorld();
@@ -93,6 +129,13 @@ void CloudMarks::setCrosses(const std::vector<std::array<double, 3>>& places) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto& [x, y, z] = places[i];
     (*crosses_[i])->GetPositionCoordinate()->SetValue(x, y, z);
+  }
+}
+
+void CloudMarks::setNamed(const std::vector<CloudMark>& marks) {
+  named_.clear();
+  for (const CloudMark& mark : marks) {
+    named_.push_back(std::make_unique<Named>(mark, ratio_, renderer_));
   }
 }
 
@@ -123,7 +166,8 @@ void CloudMarks::setScale(double ratio, int height) {
   bar_->GetPosition2Coordinate()->SetReferenceCoordinate(nullptr);
   bar_->GetPosition2Coordinate()->SetValue(8 * ratio + width, (height + tall) / 2);
   for (const auto& actor : crosses_) {
-    static_cast<vtkPolyDataMapper2D*>((*actor)->GetMapper())->SetInputData(cross(ratio));
+    static_cast<vtkPolyDataMapper2D*>((*actor)->GetMapper())
+        ->SetInputData(cross(kGap * ratio, kArm * ratio));
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/render/shade.h"
+#include "widgets/cloud/cloud_look.h"
 
 #include <vtkNew.h>
 
@@ -18,8 +19,8 @@ class vtkScalarBarActor;
 
 namespace episcope {
 
-/// What is drawn over the clouds of a scene, whatever lies in front: crosses at points, and the
-/// colour bar.
+/// What is drawn over the clouds of a scene, whatever lies in front: crosses at points, named
+/// marks, and the colour bar.
 class CloudMarks {
  public:
   /// `renderer` must outlive this.
@@ -30,17 +31,22 @@ class CloudMarks {
 
   /// A cross at each of these places.
   void setCrosses(const std::vector<std::array<double, 3>>& places);
+  /// A small cross with its name at each of these, those emphasised in the colour of the
+  /// cross-hair.
+  void setNamed(const std::vector<CloudMark>& marks);
   /// The colour bar; an empty title takes it away.
   void setLegend(const QString& title, const render::Shading& shading);
   /// Sizes follow it: device pixels per logical one, and the height of the view.
   void setScale(double ratio, int height);
 
  private:
+  struct Named;
   void addCross();
 
   vtkRenderer& renderer_;
   double ratio_ = 1;
   std::vector<std::unique_ptr<vtkNew<vtkActor2D>>> crosses_;
+  std::vector<std::unique_ptr<Named>> named_;
   vtkNew<vtkLookupTable> colors_;
   vtkNew<vtkScalarBarActor> bar_;
 };

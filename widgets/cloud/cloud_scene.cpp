@@ -213,6 +213,21 @@ void CloudScene::setMarkedPixel(std::optional<PixelIndex> pixel) {
   placeMark();
 }
 
+void CloudScene::setMarkedPlaces(std::vector<Place> places) {
+  marked_places_ = std::move(places);
+  placeMark();
+}
+
+void CloudScene::setNamedMarks(std::vector<CloudMark> marks) {
+  named_ = std::move(marks);
+  placeMark();
+}
+
+CloudScene::Place CloudScene::stretched(const Place& place) const {
+  const double z = middle()[2];
+  return {place[0], place[1], z + (place[2] - z) * look_.z_stretch};
+}
+
 // Pixels of a cloud stand in the order of rows.
 void CloudScene::placeMark() {
   std::vector<Place> places;
@@ -225,10 +240,13 @@ void CloudScene::placeMark() {
     const auto found = std::lower_bound(pixels.begin(), pixels.end(), *marked_, before);
     if (found == pixels.end() || *found != *marked_) continue;
     const auto& [x, y, z] = part.all.positions[static_cast<std::size_t>(found - pixels.begin())];
-    const double middle_z = middle()[2];
-    places.push_back({x, y, middle_z + (z - middle_z) * look_.z_stretch});
+    places.push_back(stretched(Place{x, y, z}));
   }
+  for (const Place& place : marked_places_) places.push_back(stretched(place));
   marks_.setCrosses(places);
+  std::vector<CloudMark> named = named_;
+  for (CloudMark& mark : named) mark.at = stretched(mark.at);
+  marks_.setNamed(named);
 }
 
 void CloudScene::applyDirection() {

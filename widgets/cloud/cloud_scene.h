@@ -55,6 +55,9 @@ class CloudScene {
   [[nodiscard]] const CloudLook& look() const { return look_; }
   /// A cross at the point of this pixel in every part that has one.
   void setMarkedPixel(std::optional<PixelIndex> pixel);
+  /// Crosses at any other places, and named marks; see CloudMarks.
+  void setMarkedPlaces(std::vector<std::array<double, 3>> places);
+  void setNamedMarks(std::vector<CloudMark> marks);
   [[nodiscard]] CloudMarks& marks() { return marks_; }
   /// While it moves, few points are drawn.
   void setMoving(bool is_moving);
@@ -84,6 +87,7 @@ class CloudScene {
   void applyLook();
   void fillWindow(const Box& box);
   [[nodiscard]] Box stretched(Box box) const;
+  [[nodiscard]] Place stretched(const Place& place) const;
   [[nodiscard]] Place middle() const;
   void placeMark();
   [[nodiscard]] std::optional<Place> seenAt(int x, int y);
@@ -94,6 +98,8 @@ class CloudScene {
   CloudLook look_;
   Box box_{};  // around the clouds, before the z-stretch
   std::optional<PixelIndex> marked_;
+  std::vector<Place> marked_places_;
+  std::vector<CloudMark> named_;
   bool is_moving_ = false;
   std::optional<std::pair<double, double>> wanted_direction_;
   vtkNew<vtkGenericOpenGLRenderWindow> window_;

@@ -105,6 +105,20 @@ void PointCloudView::setMarkedPixel(std::optional<PixelIndex> pixel) {
   update();
 }
 
+void PointCloudView::setMarkedPlaces(const std::vector<std::array<double, 3>>& places) {
+  scene_->setMarkedPlaces(places);
+  beginMoving();
+  update();
+}
+
+void PointCloudView::setNamedMarks(const std::vector<CloudMark>& marks) {
+  if (context()) makeCurrent();  // VTK frees the textures of former names
+  scene_->setNamedMarks(marks);
+  if (context()) doneCurrent();
+  beginMoving();
+  update();
+}
+
 void PointCloudView::setLegend(const QString& title, const render::Shading& shading) {
   scene_->marks().setLegend(title, shading);
   update();

@@ -38,6 +38,9 @@ class PointCloudView : public QOpenGLWidget {
   void setLook(const CloudLook& look);
   /// The point of this pixel is marked in every part that has one.
   void setMarkedPixel(std::optional<PixelIndex> pixel);
+  /// A cross at each of these places, in the coordinates of the clouds.
+  void setMarkedPlaces(const std::vector<std::array<double, 3>>& places);
+  void setNamedMarks(const std::vector<CloudMark>& marks);
   /// A colour bar over the scene; an empty title takes it away.
   void setLegend(const QString& title, const render::Shading& shading = {});
 

@@ -3,12 +3,11 @@
 
 #include "app/cli/arguments/arguments.h"
 #include "app/cli/arguments/usage_error.h"
+#include "app/session/scene/builtin_inputs.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/io/open/reader.h"
-#include "engine/scenes/request.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace episcope::cli {
 namespace {
@@ -40,11 +39,11 @@ bool parse_reading(Arguments& parser, const std::vector<std::string>& arguments,
 
 void check_builtin_scene(const std::string& id) {
   std::vector<std::string> ids;
-  for (const auto& scene : scenes::builtin_scenes()) ids.push_back(scene.id);
+  for (const auto& scene : builtin_inputs()) ids.push_back(scene.id);
   const std::string scene = id.substr(0, id.find('?'));
   if (std::ranges::find(ids, scene) == ids.end()) throw unknown_name("built-in scene", scene, ids);
   try {
-    std::ignore = scenes::read_request(id);
+    require_builtin_input(id);
   } catch (const InvalidInput& error) {
     throw UsageError(error.what());
   }

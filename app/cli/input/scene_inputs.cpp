@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/cli/input/scene_inputs.h"
 
+#include "app/session/scene/builtin_inputs.h"
 #include "app/session/scene/collections.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/io/open/reader.h"
 #include "engine/io/open/scene_name.h"
 #include "engine/io/sequence/sequence_reader.h"
-#include "engine/scenes/request.h"
 
 #include <fmt/format.h>
 
@@ -30,7 +30,7 @@ int frames_of(const std::string& input, const io::OpenOptions& options) {
 io::CollectionEntry single(const std::string& input, const io::OpenOptions& options) {
   const std::string builtin = builtin_scene_id(input);
   return {.path = input,
-          .name = builtin.empty() ? io::scene_name(input) : scenes::read_request(builtin).name(),
+          .name = builtin.empty() ? io::scene_name(input) : builtin_input_name(builtin),
           .reader = {},
           .probe = {.frames = frames_of(input, options)}};
 }

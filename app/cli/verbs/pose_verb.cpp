@@ -29,10 +29,12 @@ struct Request {
 
 bool parse(const VerbArguments& arguments, Request& request) {
   Arguments parser(
-      "pose", {"Finds where a mesh lies before the camera, from points of the centre view and\n"
-               "the same points of the mesh: at least 4 pairs, best 10. Wrong picks are named.\n"
-               "A line of the pairs is name,x_px,y_px,X,Y,Z.",
-               "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
+      "pose",
+      {"Finds where a mesh lies before the camera, from points of the centre view and\n"
+       "the same points of the mesh: at least 4 pairs, best 10. Wrong picks are named.\n"
+       "A line of the pairs is name,x_px,y_px,X,Y,Z; with ,1 behind it the pair is locked,\n"
+       "that is, no wrong pick.",
+       "episcope-cli pose lf.h5 --mesh scan.ply --pairs pairs.csv -o pose.json"});
   parser.positional("INPUT", request.input, "A light field, as rectify writes it");
   parser.required_option("--mesh", request.mesh, text_value("MESH"), "Mesh as PLY, OBJ or STL");
   parser.required_option("--pairs", request.pairs, text_value("PAIRS.csv"), "The pairs");

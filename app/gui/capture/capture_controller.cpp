@@ -2,11 +2,15 @@
 #include "app/gui/capture/capture_controller.h"
 
 #include "app/gui/capture/capture_files.h"
+#include "app/gui/capture/pair_marks.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/capture/mesh_truth.h"
+#include "app/session/scene/gantry_scene.h"
 #include "app/session/scene/scene_range.h"
 #include "app/session/session.h"
 #include "engine/capture/mesh/mesh_file.h"
@@ -14,9 +18,11 @@
 #include "engine/capture/pose/pose_file.h"
 #include "engine/core/error.h"
 #include "engine/io/archive/write_scene.h"
+#include "widgets/canvas/view_canvas.h"
 #include "widgets/capture/capture_panel.h"
-#include "widgets/capture/mesh_cloud.h"
 
+#include <QCursor>
+#include <QEvent>
 #include <QFileInfo>
 #include <QLocale>
 #include <QVBoxLayout>
@@ -30,7 +36,7 @@ namespace episcope {
 // What a worker makes of a file.
 struct CaptureController::Loaded {
   std::shared_ptr<const capture::TriangleMesh> mesh;
-  std::shared_ptr<const PointCloud> cloud;
+  CloudPartsPtr cloud;
 };
 
 CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
@@ -40,12 +46,19 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
       photographs_(new Photographs(
           bench, [this] { return now_->pairs.all(); }, this)) {
   followPhotographs();
+  tab->installEventFilter(this);
   connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
     if (id == "capture") makePanel();
   });
   bench.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) followScene();
     if (parts.has_any(Part::View | Part::CrossHair)) showNext();
+    if (parts.has(Part::View)) showMarks();
+  });
+  connect(bench.stage.canvas(), &ViewCanvas::cursorMoved, this, [this] {
+    if (!panel_ || bench_.stage.canvas()->marks().empty()) return;
+    const ViewCanvas& canvas = *bench_.stage.canvas();
+    panel_->setHovered(canvas.markAt(canvas.mapFromGlobal(QCursor::pos())));
   });
 }
 
@@ -55,6 +68,17 @@ void CaptureController::followScene() {
   if (std::exchange(now_, &found->second) == &found->second) return;
   openFormerMesh();
   changed();
+  followGantry();
+}
+
+void CaptureController::followGantry() {
+  if (!panel_ || !is_gantry(builtin_scene_id(bench_.session.input()))) return;
+  if (!now_->pairs.all().empty()) return;
+  const auto demo = gantry_folder(bench_.session.input(), bench_.opener.cacheFolder());
+  if (!demo) return;
+  importPairs(QString::fromStdString(demo->picks().string()));
+  openMesh(QString::fromStdString(demo->mesh().string()));
+  photographs_->calibrateGantry(*demo);
 }
 
 // The mesh that a project names, once it can be seen.
@@ -101,6 +125,7 @@ void CaptureController::makePanel() {
   photographs_->attach(panel_->steps());
   openFormerMesh();
   changed();
+  followGantry();
 }
 
 void CaptureController::connectPanel() {
@@ -135,6 +160,11 @@ void CaptureController::connectPanel() {
   });
   connect(panel_, &CapturePanel::snapChanged, this, &CaptureController::showNext);
   connect(panel_, &CapturePanel::addRequested, this, &CaptureController::addPair);
+  connect(panel_, &CapturePanel::emphasisChanged, this, &CaptureController::showMarks);
+  connect(panel_, &CapturePanel::lockChanged, this, [this](int row, bool is_locked) {
+    now_->pairs.lock(row, is_locked);
+    changed();
+  });
   connect(panel_, &CapturePanel::vertexPicked, this, &CaptureController::pickVertex);
   connect(panel_, &CapturePanel::showRequested, this, &CaptureController::showOverView);
   connect(panel_, &CapturePanel::removeRequested, this, [this] {
@@ -170,8 +200,7 @@ void CaptureController::loadMesh(const QString& path) {
         Loaded loaded;
         loaded.mesh = std::make_shared<const capture::TriangleMesh>(
             capture::read_mesh(file, progress.part(0, 0.8)));
-        loaded.cloud = std::make_shared<const PointCloud>(
-            make_mesh_cloud(loaded.mesh->vertices, loaded.mesh->faces));
+        loaded.cloud = mesh_parts(*loaded.mesh);
         return loaded;
       },
       [this, path](const Loaded& loaded) {
@@ -182,7 +211,7 @@ void CaptureController::loadMesh(const QString& path) {
             tr("%1 · %2 faces")
                 .arg(QFileInfo(path).fileName(),
                      QLocale::c().toString(static_cast<qulonglong>(mesh_->faces.size()))),
-            *loaded.cloud);
+            loaded.cloud);
         changed();
       });
 }
@@ -312,27 +341,38 @@ void CaptureController::showNext() {
     point = {x, y, z};
   }
   const QString elsewhere = bench_.session.scene() ? tr("go to the centre view (Home)") : QString();
+  panel_->setPicked(point ? std::optional(in_mesh_view({(*point)[0], (*point)[1], (*point)[2]}))
+                          : std::nullopt);
   panel_->setNext(is_here ? nextText() : elsewhere, point, is_here && point);
 }
 
 void CaptureController::showPairs() {
   if (!panel_) return;
-  std::vector<CaptureRow> rows;
-  for (std::size_t i = 0; i < now_->pairs.all().size(); ++i) {
-    const capture::PointPair& pair = now_->pairs.all()[i];
-    CaptureRow row{.name = QString::fromStdString(pair.name),
-                   .pixel = {pair.x_px, pair.y_px},
-                   .point = {pair.point.x, pair.point.y, pair.point.z},
-                   .off_px = {}};
-    if (pose_) {
-      row.off_px = pose_->pairs[i].residual_px;
-      row.is_outlier = pose_->pairs[i].is_outlier;
-    }
-    rows.push_back(std::move(row));
-  }
-  panel_->setRows(rows);
+  panel_->setRows(pair_rows(now_->pairs.all(), pose_));
   panel_->setUndoable(now_->pairs.is_undoable());
   panel_->setPose(poseText(), pose_.has_value());
+  showMarks();
+}
+
+void CaptureController::showMarks() {
+  if (!panel_) return;
+  const Session& session = bench_.session;
+  PairMarks marks;
+  if (session.scene()) {
+    marks = pair_marks(now_->pairs.all(), pose_ ? &pose_->pose : nullptr,
+                       session.light_field()->info().camera.pinhole,
+                       [this](int row) { return panel_->isEmphasised(row); });
+  }
+  const bool is_here = session.scene() && session.view() == session.light_field()->center();
+  if (!is_here || !tab_->isVisible()) marks.on_view.clear();
+  if (!mesh_) marks.on_mesh.clear();
+  bench_.stage.canvas()->setMarks(std::move(marks.on_view));
+  panel_->setMarks(marks.on_mesh);
+}
+
+bool CaptureController::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Show || event->type() == QEvent::Hide) showMarks();
+  return QObject::eventFilter(watched, event);
 }
 
 QString CaptureController::poseText() const {

@@ -44,6 +44,9 @@ class CaptureController : public QObject {
   [[nodiscard]] const PickedPairs& pairs() const { return now_->pairs; }
   [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const { return pose_; }
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   struct Loaded;
   /// What belongs to one of the open light fields.
@@ -70,6 +73,10 @@ class CaptureController : public QObject {
   /// The place in the view that the next pair would take.
   [[nodiscard]] QString nextText();
   void showPairs();
+  /// The pairs on the centre view and on the mesh, while the tab is there.
+  void showMarks();
+  /// The demo brings its lens, its mesh and its picks.
+  void followGantry();
   [[nodiscard]] QString poseText() const;
   /// Why there can be no pose; empty = there can.
   [[nodiscard]] QString obstacle() const;

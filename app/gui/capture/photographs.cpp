@@ -147,6 +147,17 @@ void Photographs::calibrate(const QStringList& photographs, const capture::Patte
       [this](const capture::Calibration& calibration) { take(calibration); });
 }
 
+void Photographs::calibrateGantry(const GantryFolder& demo) {
+  pattern_ = capture::demo_pattern();
+  options_.step = capture::DemoRig().step;
+  QStringList files;
+  for (const fs::path& each : demo.pattern()) files << QString::fromStdString(each.string());
+  calibrate(files, pattern_);
+  bench_.messages.hint(
+      tr("These are photographs of a gantry, with points picked. "
+         "Rectify them to find the pose of the mesh."));
+}
+
 void Photographs::take(const capture::Calibration& calibration) {
   const auto& all = calibration.photographs;
   const auto used = std::ranges::count_if(all, &capture::PatternPhotograph::is_used);

@@ -3,6 +3,7 @@
 
 #include "app/gui/bench/workbench.h"
 #include "app/session/capture/rectify_photographs.h"
+#include "app/session/scene/gantry_scene.h"
 #include "engine/capture/calibrate/calibrate.h"
 #include "engine/capture/demo/demo_scene.h"
 
@@ -34,6 +35,8 @@ class Photographs : public QObject {
   void attach(PhotographSteps* steps);
 
   void calibrate(const QStringList& photographs, const capture::Pattern& pattern);
+  /// The lens of the demo from its photographs, and the step of its gantry.
+  void calibrateGantry(const GantryFolder& demo);
   void openCamera(const QString& path);
   void saveCamera(const QString& path);
   /// Writes the light field of what is open, and opens it.

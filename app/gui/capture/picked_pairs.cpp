@@ -23,11 +23,18 @@ void PickedPairs::add(std::vector<capture::PointPair> pairs) {
 }
 
 void PickedPairs::remove(const std::vector<int>& places) {
-  if (places.empty()) return;
+  const auto is_locked = [this](int place) { return pairs_[place].is_locked; };
+  if (std::ranges::all_of(places, is_locked)) return;
   remember();
   for (auto place = places.rbegin(); place != places.rend(); ++place) {
-    pairs_.erase(pairs_.begin() + *place);
+    if (!is_locked(*place)) pairs_.erase(pairs_.begin() + *place);
   }
+}
+
+void PickedPairs::lock(int place, bool is_locked) {
+  if (pairs_[place].is_locked == is_locked) return;
+  remember();
+  pairs_[place].is_locked = is_locked;
 }
 
 void PickedPairs::rename(int place, const std::string& name) {

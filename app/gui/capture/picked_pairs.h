@@ -21,7 +21,9 @@ class PickedPairs {
 
   /// Names that are empty or taken get a number.
   void add(std::vector<capture::PointPair> pairs);
+  /// Locked pairs stay.
   void remove(const std::vector<int>& places);
+  void lock(int place, bool is_locked);
   /// Ignored if the name is empty, taken, or holds what a CSV file cannot.
   void rename(int place, const std::string& name);
   void undo();

@@ -11,6 +11,7 @@
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/session/run/command_line.h"
+#include "app/session/scene/gantry_scene.h"
 #include "engine/disparity/registry.h"
 #include "widgets/controls/fitting_splitter.h"
 #include "widgets/estimate/method_panel.h"
@@ -84,9 +85,11 @@ EstimateController::EstimateController(const Workbench& bench)
   connect(method_, &MethodPanel::copyCommandRequested, this, &EstimateController::copyCommand);
   connectResults();
   connect(&runs_, &MethodRuns::changed, this, &EstimateController::showRunning);
-  // The demo scene is estimated at once, so that there is something to see.
+  // The demo scene is estimated at once, so that there is something to see. Photographs of the
+  // gantry are rectified first.
   connect(&bench.opener, &SceneOpener::opened, this, [this](const QString& input) {
-    if (is_builtin(input)) run({kFirstMethod, {}, {}});
+    const std::string id = builtin_scene_id(input.toStdString());
+    if (!id.empty() && !is_gantry(id)) run({kFirstMethod, {}, {}});
   });
   session_.on_changed([this](Parts parts) { update(parts); });
   update(Part::Scene);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/builtin_dialog.h"
 
-#include "engine/scenes/builtin.h"
+#include "app/session/scene/builtin_inputs.h"
 #include "widgets/estimate/parameter_form.h"
 #include "widgets/style/aside_delegate.h"
 #include "widgets/style/schema_text.h"
@@ -81,7 +81,7 @@ BuiltinDialog::BuiltinDialog(QWidget* parent)
 }
 
 void BuiltinDialog::listScenes() {
-  for (const scenes::BuiltinSceneInfo& info : scenes::builtin_scenes()) {
+  for (const scenes::BuiltinSceneInfo& info : builtin_inputs()) {
     auto* item = new QListWidgetItem(QString::fromStdString(info.id), scenes_);
     item->setData(AsideDelegate::kAsideRole, schema_text(info.summary));
     item->setToolTip(schema_text(info.summary));

@@ -153,6 +153,7 @@ Json capture_json(const CaptureWork& work, const fs::path& project) {
     pairs.push_back({{"name", each.name},
                      {"pixel", {each.x_px, each.y_px}},
                      {"point", {each.point.x, each.point.y, each.point.z}}});
+    if (each.is_locked) pairs.back()["locked"] = true;
   }
   Json json{{"pairs", pairs}};
   if (!work.mesh.empty()) json["mesh"] = source_text(work.mesh, project);
@@ -201,7 +202,8 @@ CaptureWork capture_of(const Json& json, const fs::path& project) {
     work.pairs.push_back({each.at("name"),
                           each.at("pixel").at(0),
                           each.at("pixel").at(1),
-                          {point.at(0), point.at(1), point.at(2)}});
+                          {point.at(0), point.at(1), point.at(2)},
+                          each.value("locked", false)});
   }
   return work;
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scene/load_scene.h"
 
+#include "app/session/scene/builtin_inputs.h"
 #include "app/session/scene/collections.h"
+#include "app/session/scene/gantry_scene.h"
 #include "app/session/scene/scene_cache.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/light_field/shear.h"
@@ -79,6 +81,8 @@ Scene without_truth(ViewStack<std::uint8_t> samples, const Scene& center,
 }
 
 Scene load_builtin(const std::string& id, const LoadOptions& options, const Progress& progress) {
+  require_builtin_input(id);
+  if (is_gantry(id)) return load_gantry(id, options, progress);
   const std::string source = id == kDemo ? id : std::string(kDemo) + ":" + id;
   const scenes::BuiltinRequest request = scenes::read_request(id);
   progress.step("rendering the centre view");
@@ -150,7 +154,8 @@ Scene load_scene(const std::string& input, const LoadOptions& options, const Pro
 void store_in_cache(const std::string& input, const Scene& scene,
                     const std::filesystem::path& cache_folder, const Progress& progress) {
   const std::string id = builtin_scene_id(input);
-  if (id.empty() || cache_folder.empty() || scene.convention.focus_px != 0) return;
+  const bool is_kept_elsewhere = id.empty() || is_gantry(id);
+  if (is_kept_elsewhere || cache_folder.empty() || scene.convention.focus_px != 0) return;
   const scenes::BuiltinRequest request = scenes::read_request(id);
   if (!is_worth_keeping(request)) return;
   const SceneCache cache(cache_folder);

@@ -31,8 +31,9 @@ struct LoadOptions {
 /// Opens anything that a user can name: `demo`, `demo:<scene>`, `demo:random?seed=7`, or a path
 /// that `io::open_scene` opens. The light field's `source` is what opens it again. A built-in scene
 /// is read from the cache where it is there and whole, else rendered; `store_in_cache` keeps it for
-/// the next time. Throws IoError, IsCollection for a folder of several light fields, Unavailable
-/// for an unknown built-in scene, InvalidInput for what cannot be read behind its '?', Cancelled.
+/// the next time, but for the gantry, which is kept at once (gantry_scene.h). Throws IoError,
+/// IsCollection for a folder of several light fields, Unavailable for an unknown built-in scene,
+/// InvalidInput for what cannot be read behind its '?', Cancelled.
 [[nodiscard]] Scene load_scene(const std::string& input, const LoadOptions& options,
                                const Progress& progress);
 

@@ -17,6 +17,7 @@ struct LensCamera {
   double center_y = 0;
   std::array<double, 5> distortion{};  ///< k1, k2, p1, p2, k3.
   double rms = 0;                      ///< Reprojection error of the calibration in px.
+  friend bool operator==(const LensCamera&, const LensCamera&) = default;
 };
 
 /// Writes a camera as YAML that cv::FileStorage reads, with OpenCV's usual names: image_width,

@@ -69,6 +69,14 @@ Pattern demo_pattern() {
   return {PatternKind::Chessboard, 9, 6, 25};
 }
 
+Image<std::uint8_t> demo_photograph(const DemoRig& rig, const TriangleMesh& mesh, ViewIndex view,
+                                    const Progress& progress) {
+  const PlacedMesh placed{&mesh, rig.pose};
+  const PlacedScene scene = place({&placed, 1}, progress.part(0, 0.1));
+  const auto& exposure = rig.exposures[static_cast<std::size_t>(view.v) * rig.grid.u + view.u];
+  return photograph(scene, rig.camera, exposure, progress.part(0.1, 1));
+}
+
 LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
                             const Progress& progress) {
   const PlacedMesh placed{&mesh, rig.pose};

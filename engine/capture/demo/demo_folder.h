@@ -9,7 +9,11 @@
 
 namespace episcope::capture {
 
-/// The photographs of the demo gantry as a light field that is not rectified. Throws Cancelled.
+/// The photograph that the demo gantry takes of one view. Throws Cancelled.
+[[nodiscard]] Image<std::uint8_t> demo_photograph(const DemoRig& rig, const TriangleMesh& mesh,
+                                                  ViewIndex view, const Progress& progress);
+
+/// All of them, as a light field that is not rectified. Throws Cancelled.
 [[nodiscard]] LightField demo_photographs(const DemoRig& rig, const TriangleMesh& mesh,
                                           const Progress& progress);
 

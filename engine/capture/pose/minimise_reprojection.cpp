@@ -75,7 +75,7 @@ Normal normal_equations(std::span<const PointPair> pairs, const Pose& pose, cons
     const auto [rx, ry] = reprojection_residual(pair, current, pinhole);
     const Eigen::Vector2d residual(rx, ry);
     const double size = residual.norm();
-    const double weight = size <= threshold ? 1 : threshold / size;
+    const double weight = pair.is_locked || size <= threshold ? 1 : threshold / size;
     const Jacobian j = jacobian_of(turned, turned + pose.translation, pinhole.focal_px);
     normal.matrix += weight * j.transpose() * j;
     normal.gradient += weight * j.transpose() * residual;
@@ -103,7 +103,8 @@ double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose, const
     const auto [x, y] = reprojection_residual(pair, pose, pinhole);
     const double size = std::hypot(x, y);
     if (!std::isfinite(size)) return std::numeric_limits<double>::infinity();
-    sum += size <= threshold_px ? size * size / 2 : threshold_px * (size - threshold_px / 2);
+    const bool is_square = pair.is_locked || size <= threshold_px;
+    sum += is_square ? size * size / 2 : threshold_px * (size - threshold_px / 2);
   }
   return sum;
 }

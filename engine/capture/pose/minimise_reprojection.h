@@ -15,8 +15,8 @@ namespace episcope::capture {
                                                           const RigidPose& pose,
                                                           const Pinhole& pinhole);
 
-/// The sum of Huber's function of the residuals, of `threshold_px`; infinite if a point lies behind
-/// the camera.
+/// The sum of Huber's function of the residuals, of `threshold_px`, and of the squares (halved) of
+/// locked pairs; infinite if a point lies behind the camera.
 [[nodiscard]] double huber_cost(std::span<const PointPair> pairs, const RigidPose& pose,
                                 const Pinhole& pinhole, double threshold_px);
 

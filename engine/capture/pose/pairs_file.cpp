@@ -7,12 +7,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 namespace episcope::capture {
 namespace {
 
 constexpr const char* kHeader = "name,x_px,y_px,X,Y,Z";
+constexpr const char* kLocked = ",locked";
 
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\"");
@@ -36,14 +38,18 @@ PointPair pair_of(const std::filesystem::path& path, int line,
   const auto fail = [&](const std::string& what) -> IoError {
     return {path, fmt::format("line {} {}; a line is {}", line, what, kHeader)};
   };
-  if (fields.size() != 6) throw fail(fmt::format("has {} fields instead of 6", fields.size()));
+  if (fields.size() != 6 && fields.size() != 7) {
+    throw fail(fmt::format("has {} fields instead of 6", fields.size()));
+  }
   double numbers[5];
   for (int i = 0; i < 5; ++i) {
     const auto number = io::parse_number(fields[i + 1]);
     if (!number) throw fail("has '" + fields[i + 1] + "' where a number belongs");
     numbers[i] = *number;
   }
-  return {fields[0], numbers[0], numbers[1], {numbers[2], numbers[3], numbers[4]}};
+  const std::string lock = fields.size() == 7 ? fields[6] : "0";
+  if (lock != "0" && lock != "1") throw fail("has '" + lock + "' where 1 (locked) or 0 belongs");
+  return {fields[0], numbers[0], numbers[1], {numbers[2], numbers[3], numbers[4]}, lock == "1"};
 }
 
 }  // namespace
@@ -68,14 +74,17 @@ std::vector<PointPair> read_pairs(const std::filesystem::path& path) {
 }
 
 void write_pairs(const std::filesystem::path& path, std::span<const PointPair> pairs) {
-  std::string text = std::string(kHeader) + "\n";
+  const bool has_locks = std::ranges::any_of(pairs, &PointPair::is_locked);
+  std::string text = std::string(kHeader) + (has_locks ? kLocked : "") + "\n";
   for (const PointPair& pair : pairs) {
     if (pair.name.find_first_of(",\n\r") != std::string::npos) {
       throw IoError(path,
                     "the name '" + pair.name + "' has a comma or a line end; rename the pair");
     }
-    text += fmt::format("{},{},{},{},{},{}\n", pair.name, pair.x_px, pair.y_px, pair.point.x,
+    text += fmt::format("{},{},{},{},{},{}", pair.name, pair.x_px, pair.y_px, pair.point.x,
                         pair.point.y, pair.point.z);
+    if (has_locks) text += pair.is_locked ? ",1" : ",0";
+    text += '\n';
   }
   io::write_atomically(path, text);
 }

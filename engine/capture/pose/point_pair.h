@@ -12,7 +12,8 @@ struct PointPair {
   std::string name;
   double x_px = 0;  ///< Centres of pixels have whole coordinates.
   double y_px = 0;
-  Point3 point;  ///< In the frame of the mesh.
+  Point3 point;            ///< In the frame of the mesh.
+  bool is_locked = false;  ///< It is right: never a wrong pick, of full weight.
   friend bool operator==(const PointPair&, const PointPair&) = default;
 };
 

@@ -28,6 +28,7 @@ Json pairs_json(const PoseStory& story) {
                      {"Z", pair.point.z},
                      {"residual_px", judged.residual_px},
                      {"outlier", judged.is_outlier}});
+    if (pair.is_locked) pairs.back()["locked"] = true;
   }
   return pairs;
 }

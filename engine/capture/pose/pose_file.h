@@ -21,7 +21,7 @@ struct PoseStory {
 
 /// The text of the file: JSON with mesh, light_field, rotation, translation, reprojection_error_px,
 /// delta_tz, delta_tz_px, covariance, pinhole, and pairs (name, x_px, y_px, X, Y, Z, residual_px,
-/// outlier).
+/// outlier, and locked of those that are).
 [[nodiscard]] std::string pose_json(const PoseStory& story, const std::filesystem::path& path);
 
 /// Atomic. Throws IoError.

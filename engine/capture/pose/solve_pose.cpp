@@ -59,10 +59,14 @@ std::vector<PairResidual> judged(std::span<const PointPair> pairs, const RigidPo
                                  const Pinhole& pinhole) {
   const std::vector<double> sizes = residuals_of(pairs, pose, pinhole);
   const double limit = std::max(kOutlier, kOutlierMedians * median(sizes));
-  const auto outliers = std::ranges::count_if(sizes, [&](double size) { return size > limit; });
-  const bool enough = pairs.size() - static_cast<std::size_t>(outliers) >= 4;
   std::vector<PairResidual> judgements;
-  for (const double size : sizes) judgements.push_back({size, enough && size > limit});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    judgements.push_back({sizes[i], !pairs[i].is_locked && sizes[i] > limit});
+  }
+  const auto right = std::ranges::count(judgements, false, &PairResidual::is_outlier);
+  if (right < 4) {
+    for (PairResidual& each : judgements) each.is_outlier = false;
+  }
   return judgements;
 }
 

@@ -28,7 +28,8 @@ struct SolvedPose {
 
 /// The pose of a mesh from at least 4 pairs: the best of several starts (pose_start.h), then
 /// Levenberg and Marquardt with Huber's weights of 2 px. Pairs off by more than 3 px and 5 times
-/// the median residual are outliers, as long as 4 remain; the pose is then that of the others.
+/// the median residual are outliers, unless they are locked, as long as 4 remain; the pose is then
+/// that of the others.
 /// Δtz = Zc·Δu/|u − cx|, the least over pairs and both axes, with Δu = the reprojection error.
 /// Source: [WMG13] section 3.2.1. Throws InvalidInput for fewer than 4 pairs, for points on a line,
 /// if there is no pose, and if only the mirror image of the mesh fits.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/capture/mesh/mesh_file.h"
+#include "engine/capture/demo/scan_mesh.h"
+#include "engine/capture/mesh/cluster_vertices.h"
 #include "engine/core/error.h"
 
 #include "tests/test_main.h"
@@ -7,6 +9,8 @@
 #include <QTemporaryDir>
 
 #include <sys/stat.h>
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 
 namespace episcope::in_mesh_file_test {
@@ -108,6 +112,26 @@ class MeshFileTest : public QObject {
       QVERIFY2(problem("cut.ply", bytes.substr(0, length)).contains("cut.ply"),
                qPrintable(QString::number(length)));
     }
+  }
+
+  void clusteredMesh_isCoarseAndNear() {
+    const TriangleMesh mesh = scan_mesh(100);
+    const TriangleMesh coarse = cluster_vertices(mesh, 20'000);
+    QVERIFY(coarse.faces.size() <= 20'000 && coarse.faces.size() > 5'000);
+    double low[2]{1e9, 1e9};
+    double high[2]{-1e9, -1e9};
+    const TriangleMesh* meshes[]{&mesh, &coarse};
+    for (int m = 0; m < 2; ++m) {
+      for (const Face& face : meshes[m]->faces) {
+        for (const std::uint32_t corner : face) {
+          QVERIFY(corner < meshes[m]->vertices.size());
+          low[m] = std::min<double>(low[m], meshes[m]->vertices[corner][2]);
+          high[m] = std::max<double>(high[m], meshes[m]->vertices[corner][2]);
+        }
+      }
+    }
+    QVERIFY(std::abs(low[0] - low[1]) < 10 && std::abs(high[0] - high[1]) < 10);
+    QCOMPARE(cluster_vertices(mesh, mesh.faces.size()).faces.size(), mesh.faces.size());
   }
 
   void linesBetweenPolygons_areLeftOut() {

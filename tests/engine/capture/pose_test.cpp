@@ -151,6 +151,19 @@ class PoseTest : public QObject {
     }
   }
 
+  void lockedPair_isNeverAWrongPick() {
+    std::vector<PointPair> pairs = pairs_of(12, 0.5, 3);
+    pairs[5].x_px += 25;
+    const SolvedPose left_out = solve_pose(pairs, camera());
+    QVERIFY(left_out.pairs[5].is_outlier);
+    pairs[5].is_locked = true;
+    const SolvedPose kept = solve_pose(pairs, camera());
+    for (const PairResidual& each : kept.pairs) QVERIFY(!each.is_outlier || each.residual_px > 3);
+    QVERIFY(!kept.pairs[5].is_outlier);
+    QVERIFY(kept.pairs[5].residual_px < 0.8 * left_out.pairs[5].residual_px);
+    QVERIFY(kept.reprojection_error_px > 2 * left_out.reprojection_error_px);
+  }
+
   void aMirroredMesh_isRecognised() {
     std::vector<PointPair> pairs = pairs_of(12, 0.5, 5);
     for (PointPair& pair : pairs) pair.point.z = -pair.point.z;
@@ -172,11 +185,15 @@ class PoseTest : public QObject {
     PoseStory story;
     story.pairs = pairs_of(8, 0.5, 2);
     write_pairs(path, story.pairs);
+    for (const PointPair& each : read_pairs(path)) QVERIFY(!each.is_locked);
+    story.pairs[3].is_locked = true;
+    write_pairs(path, story.pairs);
     const std::vector<PointPair> read = read_pairs(path);
     QCOMPARE(read.size(), story.pairs.size());
     for (std::size_t i = 0; i < read.size(); ++i) {
       QCOMPARE(read[i].name, story.pairs[i].name);
       QVERIFY(read[i].x_px == story.pairs[i].x_px && read[i].point.z == story.pairs[i].point.z);
+      QCOMPARE(read[i].is_locked, i == 3);
     }
 
     story.mesh = folder.filePath("scan.ply").toStdString();
@@ -193,6 +210,8 @@ class PoseTest : public QObject {
     const std::filesystem::path path = folder.filePath("bad.csv").toStdString();
     std::ofstream(path) << "name,x_px,y_px,X,Y,Z\np1,1,2,3,4,5\np2,1,two,3,4,5\n";
     QVERIFY(message_of([&] { (void)read_pairs(path); }).contains("line 3 has 'two'"));
+    std::ofstream(path) << "p1,1,2,3,4,5,yes\n";
+    QVERIFY(message_of([&] { (void)read_pairs(path); }).contains("'yes' where 1 (locked) or 0"));
     std::ofstream(path) << "{\"mesh\": \"a.ply\", \"rotation\": [1,0,0,0,1,0,0,0,-1], "
                            "\"translation\": [0,0,1]}";
     QVERIFY(message_of([&] { (void)read_pose(path); }).contains("no rotation matrix"));

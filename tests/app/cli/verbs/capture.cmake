@@ -5,6 +5,8 @@ include("${CMAKE_CURRENT_LIST_DIR}/../cli_support.cmake")
 expect(synthesize 0 OUT "picks; see readme.txt"
        ARGS synthesize gantry -o rig --views 3x3 --size 320x240 --seed 4)
 expect("synthesize into a full folder" 1 ERR "not empty" ARGS synthesize gantry -o rig)
+expect("info of the gantry" 0 OUT "built-in gantry" ARGS info "demo:gantry?size=200x150&grid=3x3")
+expect("a gantry of one photograph" 2 ERR "3 to 21 rows" ARGS info "demo:gantry?grid=1x1")
 file(GLOB photographs RELATIVE "${WORK}" "${WORK}/rig/pattern/*.png")
 
 expect(calibrate 0 ARGS calibrate ${photographs} --pattern 9x6 --square 25 -o camera.yml --json)

@@ -2,6 +2,8 @@
 #include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/capture/pick_snapper.h"
+#include "app/gui/opening/scene_opener.h"
+#include "app/gui/stage/stage.h"
 #include "app/session/session.h"
 #include "engine/capture/demo/scan_mesh.h"
 #include "engine/capture/mesh/mesh_file.h"
@@ -10,6 +12,7 @@
 #include "engine/io/open/open.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/view_canvas.h"
 #include "widgets/controls/elided_label.h"
 #include "widgets/controls/message_bar.h"
 
@@ -127,6 +130,65 @@ class CaptureTest : public QObject {
     QCOMPARE(table->rowCount(), 6);
   }
 
+  void lockedPair_staysAndIsNoWrongPick() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(11);
+    capture::PointPair wrong = pair_of("wrong", f.mesh.vertices[40]);
+    wrong.x_px += 30;
+    capture::write_pairs(f.file("wrong.csv"), std::vector{wrong});
+    f.capture().importPairs(f.path("wrong.csv"));
+    auto* table = f.window.findChild<QTableWidget*>("capture.pairs");
+    QVERIFY(f.capture().pose()->pairs[11].is_outlier);
+
+    table->item(11, 1)->setCheckState(Qt::Checked);
+    QVERIFY(f.capture().pairs().all()[11].is_locked);
+    QVERIFY(!f.capture().pose()->pairs[11].is_outlier);
+    table->selectAll();
+    f.click("capture.remove");
+    QCOMPARE(table->rowCount(), 1);
+    QCOMPARE(table->item(0, 0)->text(), QString("wrong"));
+    f.click("capture.undo");
+    f.click("capture.undo");
+    QCOMPARE(table->rowCount(), 12);
+    QCOMPARE(table->item(11, 1)->checkState(), Qt::Unchecked);
+  }
+
+  void pairs_areMarkedOnTheView() {
+    Capturing f;
+    f.openMesh();
+    f.importPairs(8);
+    const ViewCanvas& canvas = *f.window.bench().stage.canvas();
+    QCOMPARE(canvas.marks().size(), std::size_t{8});
+    const capture::PointPair& third = f.capture().pairs().all()[2];
+    QCOMPARE(canvas.marks()[2].name, QString("p3"));
+    QCOMPARE(canvas.marks()[2].at, QPointF(third.x_px + 0.5, third.y_px + 0.5));
+    QVERIFY(canvas.marks()[2].wanted);  // exact pairs
+    QVERIFY(QLineF(*canvas.marks()[2].wanted, canvas.marks()[2].at).length() < 1e-3);
+    QVERIFY(!canvas.marks()[2].is_emphasised);
+    f.window.findChild<QTableWidget*>("capture.pairs")->selectRow(2);
+    QVERIFY(canvas.marks()[2].is_emphasised && !canvas.marks()[1].is_emphasised);
+
+    f.window.bench().session.set_view({0, 0});
+    QTRY_VERIFY(canvas.marks().empty());
+    f.window.bench().session.set_view({4, 4});
+    QTRY_COMPARE(canvas.marks().size(), std::size_t{8});
+    f.trigger("tab.compare");
+    QTRY_VERIFY(canvas.marks().empty());
+  }
+
+  // The built-in gantry brings its lens, its mesh and its picks.
+  void builtinGantry_isReadyToBeRectified() {
+    Capturing f;
+    f.window.bench().opener.setCacheFolder(f.file("cache"));
+    f.window.bench().opener.open("demo:gantry?size=400x300&grid=3x3");
+    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kScenePatience);
+    QVERIFY(f.capture().pairs().all().size() >= 4);
+    QTRY_VERIFY_WITH_TIMEOUT(f.full("capture.camera").contains("focal length"), kScenePatience);
+    QVERIFY(f.window.findChild<QPushButton*>("capture.rectify")->isEnabled());
+    QCOMPARE(f.window.bench().session.estimates().size(), std::size_t{0});
+  }
+
   void snap_takesTheMarkBesideTheCrossHair() {
     Capturing f;
     f.openMesh();
@@ -230,8 +292,8 @@ class CaptureTest : public QObject {
 
     const auto* table = f.window.findChild<QTableWidget*>("capture.pairs");
     QCOMPARE(table->rowCount(), 12);
-    QVERIFY2(table->item(11, 3)->text().contains("wrong?"), qPrintable(table->item(11, 3)->text()));
-    QVERIFY(!table->item(0, 3)->text().contains("wrong?"));
+    QVERIFY2(table->item(11, 4)->text().contains("wrong?"), qPrintable(table->item(11, 4)->text()));
+    QVERIFY(!table->item(0, 4)->text().contains("wrong?"));
   }
 
   void pose_isSavedWithItsStory() {

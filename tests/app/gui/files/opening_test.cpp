@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/files/recent_inputs.h"
+#include "app/session/scene/builtin_inputs.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
@@ -77,7 +78,7 @@ void OpeningTest::builtinScenes_areChosenFromAList() {
   auto* dialog = f.window.findChild<QDialog*>("builtin");
   QVERIFY(dialog && QTest::qWaitForWindowExposed(dialog));
   auto* scenes = dialog->findChild<QListWidget*>("builtin.scenes");
-  QCOMPARE(scenes->count(), static_cast<int>(scenes::builtin_scenes().size()));
+  QCOMPARE(scenes->count(), static_cast<int>(builtin_inputs().size()));
   QVERIFY(!find<ParameterForm>(*dialog).isEnabled());
   const QRect row = scenes->visualItemRect(scenes->item(1));
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/scene/load_scene.h"
+#include "app/session/scene/gantry_scene.h"
 
 #include "app/session/scene/scene_cache.h"
 #include "app/session/scene/scribble_place.h"
@@ -42,6 +43,7 @@ class LoadSceneTest : public QObject {
   void unwritableFolder_keepsNothing();
   void otherOptions_areKeptApart();
   void builtinScene_isTheSameFromTheCache();
+  void gantry_isTheSameFromTheCache();
   void sceneWithOptions_isRenderedAndNotKept();
   void unknownBuiltinScene_isRefused();
   void scribblesBesideAnImageGrid_areRead();
@@ -178,6 +180,36 @@ void LoadSceneTest::builtinScene_isTheSameFromTheCache() {
   QCOMPARE(kept.light_field->info().source, std::string("demo:fronto"));
   QCOMPARE(rendered.light_field->info().source, std::string("demo:fronto"));
   QCOMPARE(kept.light_field->info().name, rendered.light_field->info().name);
+}
+
+void LoadSceneTest::gantry_isTheSameFromTheCache() {
+  const QTemporaryDir folder;
+  const std::string input = "demo:gantry?size=200x150&grid=3x3&seed=5";
+  LoadOptions options;
+  int previews = 0;
+  options.open.on_center_view = [&previews](const Image<std::uint8_t>& center,
+                                            const LightFieldInfo&, GridShape grid) {
+    ++previews;
+    QCOMPARE(center.width(), 200);
+    QCOMPARE(grid.count(), 9);
+  };
+
+  const Scene made = load_scene(input, options, Progress());
+  QVERIFY(!gantry_folder(input, path_of(folder)));
+  options.cache_folder = path_of(folder);
+  const Scene stored = load_scene(input, options, Progress());
+  const Scene kept = load_scene(input, options, Progress());
+
+  QCOMPARE(previews, 3);
+  QCOMPARE(stored.light_field->sample_hash(), made.light_field->sample_hash());
+  QCOMPARE(kept.light_field->sample_hash(), made.light_field->sample_hash());
+  QCOMPARE(kept.light_field->info().source, input);
+  const auto demo = gantry_folder(input, path_of(folder));
+  QVERIFY(demo);
+  QCOMPARE(demo->pattern().size(), 14U);
+  QVERIFY(std::filesystem::exists(demo->mesh()) && std::filesystem::exists(demo->picks()));
+  QVERIFY(!gantry_folder("demo:gantry?seed=6", path_of(folder)));
+  QVERIFY_THROWS_EXCEPTION(InvalidInput, (void)load_scene("demo:gantry?grid=1x1", {}, Progress()));
 }
 
 void LoadSceneTest::sceneWithOptions_isRenderedAndNotKept() {

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/capture/mesh/triangle_mesh.h"
+#include "engine/capture/pose/solve_pose.h"
+#include "widgets/canvas/canvas_mark.h"
+#include "widgets/capture/capture_panel.h"
+#include "widgets/cloud/cloud_look.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace episcope {
+
+/// A mesh for the 3D view, coarser while it moves. Linear.
+[[nodiscard]] CloudPartsPtr mesh_parts(const capture::TriangleMesh& mesh);
+
+/// A point of the mesh in the coordinates of the 3D view.
+[[nodiscard]] std::array<double, 3> in_mesh_view(const capture::Point3& point);
+
+/// Pairs as the table shows them.
+[[nodiscard]] std::vector<CaptureRow> pair_rows(const std::vector<capture::PointPair>& pairs,
+                                                const std::optional<capture::SolvedPose>& pose);
+
+/// Pairs as marks of both pictures.
+struct PairMarks {
+  std::vector<CanvasMark> on_view;  ///< With where the pose puts each, if there is one.
+  std::vector<CloudMark> on_mesh;
+};
+
+/// `is_emphasised` of the place of a pair; `pose` may be null.
+[[nodiscard]] PairMarks pair_marks(const std::vector<capture::PointPair>& pairs,
+                                   const capture::RigidPose* pose,
+                                   const std::optional<Pinhole>& pinhole,
+                                   const std::function<bool(int)>& is_emphasised);
+
+}  // namespace episcope
