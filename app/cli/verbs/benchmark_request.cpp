@@ -113,6 +113,10 @@ void declare_what(Arguments& parser, BenchmarkRequest& request) {
                 "With --labels: sets of features, separated by commas (default all)");
   parser.option("--regularizers", request.regularizers, values_value<Regularizer>("NAME,..."),
                 "With --labels: regularisers, separated by commas (default all)");
+  parser.option(
+      "--scribbles", request.scribbles, text_value("DIR"),
+      "With --labels: folder of scribbles, NAME.h5 for the scene NAME, which replace those "
+      "next to it");
   request.profile.declare(parser, {profile_description()});
   parser.flag("--search", request.has_search,
               "Also search for the best parameters, of each scene and of all scenes together");
@@ -157,9 +161,10 @@ void declare_tasks(Arguments& parser, BenchmarkRequest& request) {
 
 /// What contradicts itself beyond what the parser knows.
 void check(const BenchmarkRequest& request) {
-  if (!request.has_labels && (request.features || request.regularizers)) {
+  if (!request.has_labels && (request.features || request.regularizers || request.scribbles)) {
     throw UsageError(
-        "benchmark: --features and --regularizers have no effect without --labels; add it");
+        "benchmark: --features, --regularizers and --scribbles have no effect without --labels; "
+        "add it");
   }
   if (request.task_seconds && !request.makes_plan()) {
     throw UsageError("benchmark: --task-seconds has no effect without --slurm or --plan; add one");

@@ -29,6 +29,7 @@ struct BenchmarkRequest {
   bool has_labels = false;
   std::optional<std::vector<FeatureSet>> features;
   std::optional<std::vector<Regularizer>> regularizers;
+  std::optional<std::string> scribbles;  ///< Folder of SCRIBBLES, each named after a scene.
   std::string output;
   bool has_search = false;
   bool is_json = false;

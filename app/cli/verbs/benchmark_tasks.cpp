@@ -7,6 +7,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
 #include "engine/io/durable/atomic_file.h"
+#include "engine/io/labels/scribble_file.h"
 #include "engine/io/maps/result_file.h"
 
 #include <fmt/format.h>
@@ -78,6 +79,15 @@ void submit_unfinished(const BenchmarkPlan& plan, const BenchmarkRequest& reques
   }
 }
 
+/// Strokes that were named for this scene replace those beside it.
+void take_scribbles(const BenchmarkRequest& request, Scene& scene, const Progress& progress) {
+  if (!request.scribbles) return;
+  const fs::path name = fs::path(scene.light_field->info().name + ".h5").filename();
+  const fs::path file = fs::path(*request.scribbles) / name;
+  std::error_code ignored;
+  if (fs::exists(file, ignored)) scene.scribbles = io::read_scribbles(file, scene, progress);
+}
+
 }  // namespace
 
 std::vector<std::string> benchmark_inputs(const BenchmarkRequest& request, Job& job) {
@@ -90,9 +100,14 @@ std::vector<std::string> benchmark_inputs(const BenchmarkRequest& request, Job& 
 }
 
 SceneLoader scene_loader(const BenchmarkRequest& request, Job& job) {
+  std::error_code ignored;
+  if (request.scribbles && !fs::is_directory(*request.scribbles, ignored)) {
+    throw IoError(*request.scribbles, "is not a folder; name one that holds NAME.h5 for scenes");
+  }
   return [&request, &job](const std::string& input, const Progress& progress) {
     Scene scene = load_input(input, request.read, progress);
     for (const auto& warning : scene.convention.warnings) job.note(warning);
+    take_scribbles(request, scene, progress.part(1, 1));
     return scene;
   };
 }

@@ -103,6 +103,20 @@ expect("labels and a method" 0 OUT "^Labels ranked.*Algorithms ranked"
        ARGS benchmark painted --labels --features image --regularizers none --methods epi_l -o both)
 expect("no strokes" 1 ERR "edge has no strokes"
        ARGS benchmark edge --labels --features image --regularizers none -o strokeless)
+expect("strokes of another scene" 1 ERR "edge has no strokes"
+       ARGS benchmark edge --labels --features image --regularizers none --scribbles painted
+       -o strokeless)
+file(MAKE_DIRECTORY "${WORK}/strokes")
+file(COPY_FILE "${WORK}/painted/labels.h5" "${WORK}/strokes/bare.h5")
+file(MAKE_DIRECTORY "${WORK}/bare")
+file(COPY_FILE "${WORK}/painted/lf.h5" "${WORK}/bare/lf.h5")
+set(bare benchmark bare --labels --features image --regularizers none)
+expect("nothing beside it" 1 ERR "bare has no strokes" ARGS ${bare} -o bare_out)
+expect("strokes kept elsewhere" 0 OUT "^Labels ranked" ARGS ${bare} --scribbles strokes -o bare_out)
+expect("no folder of strokes" 1 ERR "nowhere.*is not a folder"
+       ARGS ${bare} --scribbles nowhere -o bare_out)
+expect("strokes without labels" 2 ERR "without --labels"
+       ARGS benchmark bare --scribbles strokes --methods epi_l -o o)
 expect("features without labels" 2 ERR "without --labels"
        ARGS benchmark painted --features image --methods epi_l -o o)
 file(MAKE_DIRECTORY "${WORK}/painters")
