@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/messages/message_labeling.h"
 
-#include "engine/core/array/round_up.h"
+#include "engine/cuda/device/device_volume.cuh"
 #include "engine/cuda/device/transfer.cuh"
 #include "engine/cuda/messages/message_sweeps.cuh"
 
-#include <algorithm>
 #include <bit>
 #include <numeric>
 #include <vector>
@@ -13,15 +12,16 @@
 namespace episcope::cuda {
 namespace {
 
-// Labels that the kernels are made for: a power of two of warps.
+// Labels that the kernels are made for: up to four of each lane, or a power of two.
 int padded_labels(int labels) {
-  return kWarp *
-         static_cast<int>(std::bit_ceil(static_cast<unsigned>((labels + kWarp - 1) / kWarp)));
+  const auto each = static_cast<unsigned>((labels + kWarp - 1) / kWarp);
+  return kWarp * static_cast<int>(each <= 4 ? each : std::bit_ceil(each));
 }
 
-int reach_of(const MessageTask& task, int labels) {
+// A power of two of lanes, beyond whose labels no difference is below the truncation.
+int reach_of(const MessageTask& task, int each) {
   int reach = 1;
-  while (reach < labels && task.slope * static_cast<float>(2 * reach - 1) < task.most) reach *= 2;
+  while (reach < kWarp && task.slope * static_cast<float>(each * reach + 1) < task.most) reach *= 2;
   return reach;
 }
 
@@ -48,12 +48,10 @@ class Passing {
     across_ = {size, stream_};
     down_ = {size, stream_};
     labels_ = {pixels_, stream_};
-    done_ = {static_cast<std::size_t>(field_.height), stream_};
     sums_ = {static_cast<std::size_t>(field_.height), stream_};
     across_.clear();
     down_.clear();
-    const auto volume = upload(task.cost.data, task.cost.size(), stream_, progress);
-    gather_labels(stream_, volume.data(), task.cost.layers, field_, cost_.data());
+    gather_labels(stream_, task.cost.values.data(), task.cost.layers, field_, cost_.data());
     field_.cost = cost_.data();
     field_.weight_across = across_weights_.data();
     field_.weight_down = down_weights_.data();
@@ -61,17 +59,18 @@ class Passing {
     field_.down = down_.data();
     field_.slope = task.slope;
     field_.most = task.most;
-    field_.reach = reach_of(task, task.cost.layers);
+    field_.reach = reach_of(task, field_.each());
+    handed_ = {handed_size(field_), stream_};
   }
 
   // Returns the bound.
   double iterate() {
-    sweep_down(stream_, field_, state());
-    sweep_up(stream_, field_, state());
+    sweep_down(stream_, field_, handed_.data(), sums_.data());
+    sweep_up(stream_, field_, handed_.data(), sums_.data());
     return sum();
   }
   void finish(MessageAnswer& answer, const Progress& progress) {
-    read_off(stream_, field_, state());
+    read_off(stream_, field_, labels_.data());
     label_energies(stream_, field_, labels_.data(), sums_.data());
     answer.energy = sum();
     answer.labels = Image<int>(field_.height, field_.width);
@@ -79,7 +78,6 @@ class Passing {
   }
 
  private:
-  [[nodiscard]] SweepState state() { return {done_.data(), sums_.data(), labels_.data()}; }
   double sum() {
     std::vector<double> rows(sums_.size());
     check(cudaMemcpyAsync(rows.data(), sums_.data(), sums_.byte_size(), cudaMemcpyDeviceToHost,
@@ -92,8 +90,8 @@ class Passing {
   DeviceArray<float> across_weights_, down_weights_;
   std::size_t pixels_;
   MessageField field_;
-  DeviceArray<float> cost_, across_, down_;
-  DeviceArray<int> labels_, done_;
+  DeviceArray<float> cost_, across_, down_, handed_;
+  DeviceArray<int> labels_;
   DeviceArray<double> sums_;
 };
 

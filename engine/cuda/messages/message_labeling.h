@@ -2,14 +2,14 @@
 #pragma once
 
 #include "engine/core/array/image.h"
-#include "engine/core/array/volume.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/device/device_volume.h"
 
 namespace episcope::cuda {
 
 /// MessageProblem on the device (engine/solvers/messages/message_labeling.h).
 struct MessageTask {
-  VolumeView<const float> cost;  ///< `[y][label][x]`; at most 512 labels.
+  const DeviceVolume& cost;  ///< `[y][label][x]`, at most 512 labels.
   ImageView<const float> across, down;
   float slope = 1;
   float most = 1;
@@ -23,8 +23,8 @@ struct MessageAnswer {
   double bound = 0;
 };
 
-/// `solve_by_messages` on the device: rows follow one another as far as each needs what the one
-/// before it passes. Throws DeviceFailure, Cancelled.
+/// `solve_by_messages` on the device: rows follow one another a pixel apart. Throws DeviceFailure,
+/// Cancelled.
 [[nodiscard]] MessageAnswer solve_by_messages(const MessageTask& task, int iterations,
                                               const Progress& progress);
 

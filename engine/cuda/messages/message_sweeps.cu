@@ -1,370 +1,279 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A warp goes along a row, lanes being labels; the row after it follows a few pixels behind.
-#include "engine/cuda/device/launch.cuh"
-#include "engine/cuda/messages/message_sweeps.cuh"
-
-#include <algorithm>
+#include "engine/cuda/messages/message_rows.cuh"
 
 namespace episcope::cuda {
 namespace {
 
-constexpr float kFar = 1e30F;
-constexpr float kNever = 1e6F;  // of labels that only fill a warp
-constexpr int kStep = 8;        // pixels between two looks at the row before
-constexpr unsigned kAll = 0xFFFFFFFFU;
-
 __device__ float least_of_warp(float value) {
-  for (int offset = kWarp / 2; offset > 0; offset /= 2) {
-    value = fminf(value, __shfl_xor_sync(kAll, value, offset));
-  }
-  return value;
+  return from_ordered_bits(__reduce_min_sync(kAllLanes, ordered_bits(value)));
 }
 
-// Waits until the row before has passed `count` pixels.
-__device__ void wait_for(const int* done, int count) {
-  if (threadIdx.x == 0) {
-    while (*static_cast<const volatile int*>(done) < count) __nanosleep(40);
-  }
-  __syncwarp();
-  __threadfence();
-}
-
-__device__ void publish(int* done, int count) {
-  __threadfence();
-  __syncwarp();
-  if (threadIdx.x == 0) *static_cast<volatile int*>(done) = count;
-}
-
-// Numbers of the labels of one pixel that a lane holds.
 template <int kEach>
-struct Lane {
-  float of[kEach];
+__device__ float least_of(const float (&values)[kEach]) {
+  float low = values[0];
+#pragma unroll
+  for (int k = 1; k < kEach; ++k) low = fminf(low, values[k]);
+  return least_of_warp(low);
+}
 
-  // What another row may have written.
-  __device__ void read(const float* from) {
-#pragma unroll
-    for (int k = 0; k < kEach; ++k) of[k] = __ldcg(from + k * kWarp + threadIdx.x);
-  }
-  __device__ void write(float* to) const {
-#pragma unroll
-    for (int k = 0; k < kEach; ++k) to[k * kWarp + threadIdx.x] = of[k];
-  }
-  __device__ void fill(float value) {
-#pragma unroll
-    for (int k = 0; k < kEach; ++k) of[k] = value;
-  }
-  [[nodiscard]] __device__ float least() const {
-    float low = of[0];
-#pragma unroll
-    for (int k = 1; k < kEach; ++k) low = fminf(low, of[k]);
-    return least_of_warp(low);
-  }
-};
-
-// min_j in(j) + step·|j − l|, by shifts of 1, 2, 4 … up to `reach`. `rows` holds two rows.
+// min_j in(j) + step·|j − l| of two messages, j in the lanes within `reach`. A lane at an end takes
+// itself for the one beyond, which lowers nothing.
 template <int kEach>
-__device__ void spread(Lane<kEach>& values, float step, int reach, float* rows) {
-  constexpr int kLabels = kEach * kWarp;
-  float* from = rows;
-  float* to = rows + kLabels;
-  for (int shift = 1; shift <= reach; shift *= 2) {
-    values.write(from);
-    __syncwarp();
-    const float cost = step * static_cast<float>(shift);
+__device__ void spread(float (&values)[2][kEach], const float (&step)[2], int reach) {
+  float rising[2][kEach], falling[2][kEach];  // from lower labels, from higher ones
+  float before[2], after[2], cost[2];
+#pragma unroll
+  for (int e = 0; e < 2; ++e) {
+    rising[e][0] = values[e][0];
+    falling[e][kEach - 1] = values[e][kEach - 1];
+#pragma unroll
+    for (int k = 1; k < kEach; ++k) {
+      rising[e][k] = fminf(values[e][k], rising[e][k - 1] + step[e]);
+      const int back = kEach - 1 - k;
+      falling[e][back] = fminf(values[e][back], falling[e][back + 1] + step[e]);
+    }
+    before[e] = rising[e][kEach - 1];
+    after[e] = falling[e][0];
+    cost[e] = kEach * step[e];
+  }
+  for (int shift = 1; shift < reach; shift *= 2) {
+#pragma unroll
+    for (int e = 0; e < 2; ++e) {
+      before[e] = fminf(before[e], __shfl_up_sync(kAllLanes, before[e], shift) + cost[e]);
+      after[e] = fminf(after[e], __shfl_down_sync(kAllLanes, after[e], shift) + cost[e]);
+      cost[e] *= 2;
+    }
+  }
+#pragma unroll
+  for (int e = 0; e < 2; ++e) {
+    const float low = __shfl_up_sync(kAllLanes, before[e], 1);
+    const float high = __shfl_down_sync(kAllLanes, after[e], 1);
 #pragma unroll
     for (int k = 0; k < kEach; ++k) {
-      const int l = k * kWarp + static_cast<int>(threadIdx.x);
-      const float before = l >= shift ? from[l - shift] : kFar;
-      const float after = l + shift < kLabels ? from[l + shift] : kFar;
-      values.of[k] = fminf(values.of[k], fminf(before, after) + cost);
+      values[e][k] = fminf(fminf(rising[e][k], low + static_cast<float>(k + 1) * step[e]),
+                           fminf(falling[e][k], high + static_cast<float>(kEach - k) * step[e]));
     }
-    float* const next = from;
-    from = to;
-    to = next;
   }
-  __syncwarp();
 }
 
-// One pixel and the edges that meet there: `in` come from where the sweep was, `out` go on.
+// What a block holds of the pixels it works on.
 template <int kEach>
-struct Pixel {
-  Lane<kEach> cost, in_along, in_across, out_along, out_across;
-  bool has_in_along = false, has_in_across = false, has_out_along = false, has_out_across = false;
-  float weight_along = 0, weight_across = 0;  // of the edges out
-  float* to_along = nullptr;
-  float* to_across = nullptr;
+struct Shared {
+  static constexpr int kRows = kGroupRows<kEach>;
+  static constexpr int kFloats = kPixelFloats<kEach>;
+  float read[kRows][kAhead<kEach>][3][kFloats];  // costs, messages along the row, across rows
+  float handed[kAhead<kEach>][kFloats];          // to the first row
+  float passed[kRows][2][kFloats];               // from each row to the next, even and odd steps
 };
 
+// A row, its pixels numbered in the order of the sweep.
 template <int kEach, bool kForward>
 class Row {
  public:
-  __device__ Row(const MessageField& field, int y, float* rows)
-      : field_(field), y_(y), rows_(rows) {}
+  static constexpr int kRows = kGroupRows<kEach>;
 
-  // What does not depend on the row before.
-  __device__ void read(int x, Pixel<kEach>& pixel) const {
-    const long here = field_.pixel(y_, x);
-    pixel.cost.read(field_.cost + here * field_.labels);
-    const int after_x = kForward ? x : x - 1, after_y = kForward ? y_ : y_ - 1;
-    pixel.has_out_along = kForward ? x + 1 < field_.width : x > 0;
-    pixel.has_out_across = kForward ? y_ + 1 < field_.height : y_ > 0;
-    pixel.has_in_along = kForward ? x > 0 : x + 1 < field_.width;
-    pixel.has_in_across = kForward ? y_ > 0 : y_ + 1 < field_.height;
-    if (pixel.has_out_along) {
-      const long edge = field_.pixel(y_, after_x);
-      pixel.weight_along = field_.weight_across[edge];
-      pixel.to_along = field_.across + edge * field_.labels;
-      pixel.out_along.read(pixel.to_along);
+  __device__ Row(const MessageField& field, float* handed, int group, Shared<kEach>& shared)
+      : field_(field),
+        shared_(shared),
+        of_group_(static_cast<int>(threadIdx.y)),
+        number_(group * kRows + of_group_),
+        y_(kForward ? number_ : field.height - 1 - number_),
+        group_size_(static_cast<long>(field.width) * field.labels),
+        to_next_(handed + group * group_size_) {}
+
+  [[nodiscard]] __device__ bool exists() const { return number_ < field_.height; }
+
+  // Begins to read what does not depend on the row before, and of that what may be there.
+  __device__ void read_ahead(int i) const {
+    if (i < field_.width) {
+      auto& slot = shared_.read[of_group_][i % kAhead<kEach>];
+      begin_to_copy<kEach>(slot[0], field_.cost + field_.pixel(y_, place(i)) * field_.labels);
+      if (goes_along(i)) begin_to_copy<kEach>(slot[1], to_along(i));
+      if (goes_across()) begin_to_copy<kEach>(slot[2], to_across(i));
+      if (is_handed()) begin_to_copy<kEach>(shared_.handed[i % kAhead<kEach>], handed_to(i));
     }
-    if (pixel.has_out_across) {
-      const long edge = field_.pixel(after_y, x);
-      pixel.weight_across = field_.weight_down[edge];
-      pixel.to_across = field_.down + edge * field_.labels;
-      pixel.out_across.read(pixel.to_across);
-    }
+    __pipeline_commit();
   }
-  __device__ void read_before(int x, Pixel<kEach>& pixel) const {
-    if (!pixel.has_in_across) return;
-    const long edge = field_.pixel(kForward ? y_ - 1 : y_, x);
-    pixel.in_across.read(field_.down + edge * field_.labels);
+  __device__ void read_weights(int i) {
+    if (i >= field_.width) return;
+    if (goes_along(i)) next_weights_[0] = field_.weight_across[edge_along(i)];
+    if (goes_across()) next_weights_[1] = field_.weight_down[edge_across(i)];
   }
-  // Passes both messages on; that along the row is what the next pixel takes in. Returns what the
-  // bound gains.
-  __device__ float pass(Pixel<kEach>& pixel, Lane<kEach>& along) const {
-    Lane<kEach> sums = pixel.cost;
-    add(sums, kForward ? pixel.has_in_along : pixel.has_out_along,
-        kForward ? along : pixel.out_along);
-    add(sums, kForward ? pixel.has_in_across : pixel.has_out_across,
-        kForward ? pixel.in_across : pixel.out_across);
-    add(sums, kForward ? pixel.has_out_along : pixel.has_in_along,
-        kForward ? pixel.out_along : along);
-    add(sums, kForward ? pixel.has_out_across : pixel.has_in_across,
-        kForward ? pixel.out_across : pixel.in_across);
-    const float low = sums.least();
-    const int before = (pixel.has_in_along ? 1 : 0) + (pixel.has_in_across ? 1 : 0);
-    const int after = (pixel.has_out_along ? 1 : 0) + (pixel.has_out_across ? 1 : 0);
-    const float share = 1.0F / static_cast<float>(max(max(before, after), 1));
-    float gain = low;
-    if (pixel.has_out_along) {
-      gain += send(sums, low, share, pixel.weight_along, pixel.out_along, pixel.to_along);
-      along = pixel.out_along;
-    }
-    if (pixel.has_out_across) {
-      gain += send(sums, low, share, pixel.weight_across, pixel.out_across, pixel.to_across);
-    }
-    return gain;
+  // Passes both messages of pixel i on.
+  __device__ void pass(int i, int step) {
+    __pipeline_wait_prior(kAhead<kEach> - 1);
+    __syncwarp();
+    const auto& slot = shared_.read[of_group_][i % kAhead<kEach>];
+    LaneLabels<kEach> sums, out[2];
+    sums.read(slot[0]);
+    if (goes_along(i)) out[0].read(slot[1]);
+    if (goes_across()) out[1].read(slot[2]);
+    sums.add(along_);
+    if (number_ > 0) sums.add(before(i, step));
+    sums.add(out[0]);
+    sums.add(out[1]);
+    const float weights[2] = {next_weights_[0], next_weights_[1]};
+    __syncwarp();
+    read_ahead(i + kAhead<kEach>);
+    read_weights(i + 1);
+    send(i, step, sums, out, weights);
   }
+  [[nodiscard]] __device__ double gain() const { return gain_; }
 
  private:
-  __device__ static void add(Lane<kEach>& sums, bool has, const Lane<kEach>& message) {
-    if (!has) return;
-#pragma unroll
-    for (int k = 0; k < kEach; ++k) sums.of[k] += message.of[k];
+  [[nodiscard]] __device__ int place(int i) const { return kForward ? i : field_.width - 1 - i; }
+  [[nodiscard]] __device__ bool goes_along(int i) const { return i + 1 < field_.width; }
+  [[nodiscard]] __device__ bool goes_across() const { return number_ + 1 < field_.height; }
+  [[nodiscard]] __device__ bool is_handed() const { return of_group_ == 0 && number_ > 0; }
+  [[nodiscard]] __device__ long edge_along(int i) const {
+    return field_.pixel(y_, kForward ? place(i) : place(i) - 1);
   }
-  __device__ float send(const Lane<kEach>& sums, float low, float share, float weight,
-                        Lane<kEach>& message, float* to) const {
+  [[nodiscard]] __device__ long edge_across(int i) const {
+    return field_.pixel(kForward ? y_ : y_ - 1, place(i));
+  }
+  [[nodiscard]] __device__ float* to_along(int i) const {
+    return field_.across + edge_along(i) * field_.labels;
+  }
+  [[nodiscard]] __device__ float* to_across(int i) const {
+    return field_.down + edge_across(i) * field_.labels;
+  }
+  [[nodiscard]] __device__ const float* handed_to(int i) const {
+    return to_next_ - group_size_ + static_cast<long>(i) * field_.labels;
+  }
+
+  // What the row before passes to pixel i.
+  __device__ LaneLabels<kEach> before(int i, int step) const {
+    LaneLabels<kEach> message;
+    if (of_group_ > 0) {
+      message.read(shared_.passed[of_group_ - 1][(step - 1) % 2]);
+      return message;
+    }
+    message.read(shared_.handed[i % kAhead<kEach>]);
+    const float* const from = handed_to(i) + threadIdx.x;
 #pragma unroll
     for (int k = 0; k < kEach; ++k) {
-      message.of[k] = share * (sums.of[k] - low) - message.of[k];
+      while (__float_as_int(message.of[k]) == kNotYet) {
+        message.of[k] = *static_cast<const volatile float*>(from + k * kWarp);
+      }
     }
-    const float base = message.least();
-    spread(message, weight * field_.slope, field_.reach, rows_);
-    const float limit = weight * field_.most;
+    __syncwarp();
+    return message;
+  }
+
+  __device__ void send(int i, int step, const LaneLabels<kEach>& sums,
+                       const LaneLabels<kEach> (&old)[2], const float (&weights)[2]) {
+    const float low = least_of(sums.of);
+    const int taken = (i > 0 ? 1 : 0) + (number_ > 0 ? 1 : 0);
+    const int given = (goes_along(i) ? 1 : 0) + (goes_across() ? 1 : 0);
+    const float share = 1.0F / static_cast<float>(max(max(taken, given), 1));
+    float values[2][kEach], base[2];
 #pragma unroll
-    for (int k = 0; k < kEach; ++k) message.of[k] = fminf(message.of[k] - base, limit);
-    message.write(to);
-    return base;
+    for (int e = 0; e < 2; ++e) {
+#pragma unroll
+      for (int k = 0; k < kEach; ++k) {
+        values[e][k] = share * (sums.of[k] - low) - old[e].of[k];
+      }
+      base[e] = least_of(values[e]);
+    }
+    spread(values, {weights[0] * field_.slope, weights[1] * field_.slope}, field_.reach);
+#pragma unroll
+    for (int e = 0; e < 2; ++e) {
+      const float limit = weights[e] * field_.most;
+#pragma unroll
+      for (int k = 0; k < kEach; ++k) values[e][k] = fminf(values[e][k] - base[e], limit);
+    }
+    float gain = low;
+    if (goes_along(i)) {
+#pragma unroll
+      for (int k = 0; k < kEach; ++k) along_.of[k] = values[0][k];
+      along_.write(to_along(i));
+      gain += base[0];
+    }
+    if (goes_across()) {
+      send_across(i, step, values[1]);
+      gain += base[1];
+    }
+    gain_ += static_cast<double>(gain);
+  }
+  __device__ void send_across(int i, int step, const float (&values)[kEach]) const {
+    LaneLabels<kEach> message;
+#pragma unroll
+    for (int k = 0; k < kEach; ++k) message.of[k] = values[k];
+    message.write(to_across(i));
+    if (of_group_ + 1 < kRows) {
+      message.write(shared_.passed[of_group_][step % 2]);
+    } else {
+      message.write(to_next_ + static_cast<long>(i) * field_.labels);
+    }
   }
 
   const MessageField& field_;
-  int y_;
-  float* rows_;
+  Shared<kEach>& shared_;
+  int of_group_, number_, y_;
+  long group_size_;
+  float* to_next_;
+  LaneLabels<kEach> along_;  // passed to the pixel that comes next
+  float next_weights_[2] = {};
+  double gain_ = 0;
 };
 
 template <int kEach, bool kForward>
-__global__ void sweep(MessageField field, SweepState state) {
-  __shared__ float rows[2 * kEach * kWarp];
-  for (int number = static_cast<int>(blockIdx.x); number < field.height;
-       number += static_cast<int>(gridDim.x)) {
-    const Row<kEach, kForward> row(field, kForward ? number : field.height - 1 - number, rows);
-    const auto place = [&](int i) { return kForward ? i : field.width - 1 - i; };
-    Pixel<kEach> pixel, next;
-    Lane<kEach> along;
-    double gain = 0;
-    row.read(place(0), next);
-    for (int i = 0; i < field.width; ++i) {
-      pixel = next;
-      if (number > 0 && i % kStep == 0) {
-        wait_for(state.done + number - 1, min(i + kStep, field.width));
-      }
-      row.read_before(place(i), pixel);
-      if (i + 1 < field.width) row.read(place(i + 1), next);
-      gain += static_cast<double>(row.pass(pixel, along));
-      if (i % kStep == kStep - 1 || i + 1 == field.width) publish(state.done + number, i + 1);
+__global__ __launch_bounds__(kGroupRows<kEach>* kWarp) void sweep(MessageField field, float* handed,
+                                                                  double* gains) {
+  extern __shared__ float4 memory[];
+  auto& shared = *reinterpret_cast<Shared<kEach>*>(memory);
+  constexpr int kRows = kGroupRows<kEach>;
+  const int of_group = static_cast<int>(threadIdx.y);
+  for (int group = static_cast<int>(blockIdx.x); group * kRows < field.height;
+       group += static_cast<int>(gridDim.x)) {
+    Row<kEach, kForward> row(field, handed, group, shared);
+    if (row.exists()) {
+      for (int i = 0; i < kAhead<kEach>; ++i) row.read_ahead(i);
+      row.read_weights(0);
     }
-    if (threadIdx.x == 0) state.gains[number] = gain;
-  }
-}
-
-// The label of least cost, of equals the lowest.
-struct Choice {
-  float cost;
-  int label;
-};
-__device__ Choice best_of_warp(Choice own) {
-  for (int offset = kWarp / 2; offset > 0; offset /= 2) {
-    const float cost = __shfl_xor_sync(kAll, own.cost, offset);
-    const int label = __shfl_xor_sync(kAll, own.label, offset);
-    if (cost < own.cost || (cost == own.cost && label < own.label)) own = {cost, label};
-  }
-  return own;
-}
-
-__device__ float jump_cost(const MessageField& field, int from, int to) {
-  return fminf(field.slope * static_cast<float>(abs(from - to)), field.most);
-}
-
-template <int kEach>
-__global__ void read_labels(MessageField field, SweepState state) {
-  for (int y = static_cast<int>(blockIdx.x); y < field.height; y += static_cast<int>(gridDim.x)) {
-    int left = -1;
-    for (int x = 0; x < field.width; ++x) {
-      if (y > 0 && x % kStep == 0) wait_for(state.done + y - 1, min(x + kStep, field.width));
-      const long here = field.pixel(y, x);
-      const int above = y > 0 ? __ldcg(state.labels + here - field.width) : -1;
-      const float beside = left >= 0 ? field.weight_across[here - 1] : 0;
-      const float over = above >= 0 ? field.weight_down[here - field.width] : 0;
-      Choice best{kFar, 0};
-#pragma unroll
-      for (int k = 0; k < kEach; ++k) {
-        const int l = k * kWarp + static_cast<int>(threadIdx.x);
-        const long at = here * field.labels + l;
-        float sum = field.cost[at];
-        if (x + 1 < field.width) sum += field.across[at];
-        if (y + 1 < field.height) sum += field.down[at];
-        if (left >= 0) sum += beside * jump_cost(field, l, left);
-        if (above >= 0) sum += over * jump_cost(field, l, above);
-        if (sum < best.cost) best = {sum, l};
-      }
-      left = best_of_warp(best).label;
-      if (threadIdx.x == 0) state.labels[here] = left;
-      if (x % kStep == kStep - 1 || x + 1 == field.width) publish(state.done + y, x + 1);
+    for (int step = 0; step < field.width + kRows - 1; ++step) {
+      const int i = step - of_group;
+      if (row.exists() && i >= 0 && i < field.width) row.pass(i, step);
+      __syncthreads();
     }
+    if (row.exists() && threadIdx.x == 0) gains[group * kRows + of_group] = row.gain();
   }
 }
 
-// Rows that are on the device at the same time: one that waits must not keep out what it waits for.
-template <class Kernel>
-unsigned rows_at_once(Kernel kernel, int height) {
-  int device = 0, processors = 0, each = 0;
-  check(cudaGetDevice(&device));
-  check(cudaDeviceGetAttribute(&processors, cudaDevAttrMultiProcessorCount, device));
-  check(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&each, kernel, kWarp, 0));
-  return static_cast<unsigned>(std::min(height, std::max(1, processors * each)));
-}
-
-template <class Kernel>
-void run_rows(const DeviceStream& stream, const char* name, double floats, Kernel kernel,
-              const MessageField& field, const SweepState& state) {
-  check(cudaMemsetAsync(state.done, 0, field.height * sizeof(int), stream.get()));
-  const double labels = static_cast<double>(field.pixel(field.height, 0)) * field.labels;
-  const unsigned blocks = rows_at_once(kernel, field.height);
-  launch(stream, {name, 4 * floats * labels, 30 * labels},
-         [&] { kernel<<<blocks, kWarp, 0, stream.get()>>>(field, state); });
-}
-
-// Calls run(kEach) for the labels that each lane holds.
-template <class Run>
-void with_labels(const MessageField& field, const Run& run) {
-  const int each = field.labels / kWarp;
-  if (each <= 1) return run(std::integral_constant<int, 1>());
-  if (each <= 2) return run(std::integral_constant<int, 2>());
-  if (each <= 4) return run(std::integral_constant<int, 4>());
-  if (each <= 8) return run(std::integral_constant<int, 8>());
-  return run(std::integral_constant<int, 16>());
-}
-
-// Tiles of 32 pixels by 32 labels.
-__global__ void turn(const float* volume, int layers, MessageField field, float* cost) {
-  __shared__ float tile[kWarp][kWarp + 1];
-  const int y = static_cast<int>(blockIdx.z);
-  const int first_x = static_cast<int>(blockIdx.x) * kWarp;
-  const int first_l = static_cast<int>(blockIdx.y) * kWarp;
-  const int lane = static_cast<int>(threadIdx.x), part = static_cast<int>(threadIdx.y);
-  for (int i = part; i < kWarp; i += static_cast<int>(blockDim.y)) {
-    const int label = first_l + i, x = first_x + lane;
-    const bool is_inside = label < layers && x < field.width;
-    tile[i][lane] =
-        is_inside ? volume[(static_cast<long>(y) * layers + label) * field.width + x] : kNever;
-  }
-  __syncthreads();
-  for (int i = part; i < kWarp; i += static_cast<int>(blockDim.y)) {
-    const int x = first_x + i;
-    if (x < field.width) cost[field.pixel(y, x) * field.labels + first_l + lane] = tile[lane][i];
-  }
-}
-
-__global__ void add_energies(MessageField field, const int* labels, double* energies) {
-  __shared__ double sums[256];
-  const int y = static_cast<int>(blockIdx.x);
-  double sum = 0;
-  for (int x = static_cast<int>(threadIdx.x); x < field.width; x += 256) {
-    const long here = field.pixel(y, x);
-    const int label = labels[here];
-    sum += static_cast<double>(field.cost[here * field.labels + label]);
-    if (x + 1 < field.width) {
-      sum += static_cast<double>(field.weight_across[here] *
-                                 jump_cost(field, label, labels[here + 1]));
-    }
-    if (y + 1 < field.height) {
-      sum += static_cast<double>(field.weight_down[here] *
-                                 jump_cost(field, label, labels[here + field.width]));
-    }
-  }
-  sums[threadIdx.x] = sum;
-  __syncthreads();
-  for (int half = 128; half > 0; half /= 2) {
-    if (static_cast<int>(threadIdx.x) < half) sums[threadIdx.x] += sums[threadIdx.x + half];
-    __syncthreads();
-  }
-  if (threadIdx.x == 0) energies[y] = sums[0];
+template <bool kForward>
+void run_sweep(const DeviceStream& stream, const MessageField& field, float* handed,
+               double* gains) {
+  check(cudaMemsetAsync(handed, 0xFF, handed_size(field) * sizeof(float), stream.get()));
+  with_labels(field, [&](auto each) {
+    constexpr int kEach = decltype(each)::value;
+    const dim3 block(kWarp, kGroupRows<kEach>);
+    const std::size_t bytes = sizeof(Shared<kEach>);
+    const unsigned groups =
+        groups_at_once(sweep<kEach, kForward>, kGroupRows<kEach>, field.height, bytes);
+    const double labels = static_cast<double>(field.pixel(field.height, 0)) * field.labels;
+    launch(stream, {"messages: sweep", 20 * labels, 40 * labels}, [&] {
+      sweep<kEach, kForward><<<groups, block, bytes, stream.get()>>>(field, handed, gains);
+    });
+  });
 }
 
 }  // namespace
 
-void gather_labels(const DeviceStream& stream, const float* volume, int layers,
-                   const MessageField& field, float* cost) {
-  const dim3 grid(blocks_for(field.width, kWarp), static_cast<unsigned>(field.labels / kWarp),
-                  static_cast<unsigned>(field.height));
-  const double labels = static_cast<double>(field.pixel(field.height, 0)) * field.labels;
-  launch(stream, {"messages: costs", 8 * labels},
-         [&] { turn<<<grid, dim3(kWarp, 8), 0, stream.get()>>>(volume, layers, field, cost); });
-}
-
-void sweep_down(const DeviceStream& stream, const MessageField& field, const SweepState& state) {
+std::size_t handed_size(const MessageField& field) {
+  std::size_t groups = 0;
   with_labels(field, [&](auto each) {
-    run_rows(stream, "messages: sweep", 6, sweep<decltype(each)::value, true>, field, state);
+    constexpr int kRows = kGroupRows<decltype(each)::value>;
+    groups = (field.height + kRows - 1) / kRows;
   });
+  return groups * field.width * field.labels;
 }
 
-void sweep_up(const DeviceStream& stream, const MessageField& field, const SweepState& state) {
-  with_labels(field, [&](auto each) {
-    run_rows(stream, "messages: sweep", 6, sweep<decltype(each)::value, false>, field, state);
-  });
+void sweep_down(const DeviceStream& stream, const MessageField& field, float* handed,
+                double* gains) {
+  run_sweep<true>(stream, field, handed, gains);
 }
-
-void read_off(const DeviceStream& stream, const MessageField& field, const SweepState& state) {
-  with_labels(field, [&](auto each) {
-    run_rows(stream, "messages: labels", 3, read_labels<decltype(each)::value>, field, state);
-  });
-}
-
-void label_energies(const DeviceStream& stream, const MessageField& field, const int* labels,
-                    double* energies) {
-  launch(stream, {"messages: energy"}, [&] {
-    add_energies<<<static_cast<unsigned>(field.height), 256, 0, stream.get()>>>(field, labels,
-                                                                                energies);
-  });
+void sweep_up(const DeviceStream& stream, const MessageField& field, float* handed, double* gains) {
+  run_sweep<false>(stream, field, handed, gains);
 }
 
 }  // namespace episcope::cuda

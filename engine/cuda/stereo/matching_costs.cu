@@ -21,6 +21,9 @@ constexpr int kWindow = 48;
 constexpr int kSpread = kWindow - kTileRows - kTaps + 1;
 constexpr unsigned kAllLanes = 0xffffffff;
 
+// What tells how many views a sum is of: where pixels lie, counts, or sums of shares of views.
+enum class Counting { Places, Valid, Visible };
+
 // What the block works on.
 struct Tile {
   int y = 0, x = 0, label = 0;
@@ -73,28 +76,43 @@ __device__ Stage find_stage(const MatchingTables& tables, const Tile& tile, int 
   return {view};
 }
 
-template <int kChannels>
-using Samples = float[kChannels][kWindow][kWindow];
+// What is read of a view: its channels, and what stands before its points.
+template <int kChannels, Counting kCounting>
+struct Samples {
+  float planes[kChannels + (kCounting == Counting::Visible ? 1 : 0)][kWindow][kWindow];
+};
 
-// Begins to read a window; the border of the view is repeated.
-template <int kChannels>
-__device__ void begin_to_read(const ViewPlanes& planes, ViewIndex view, const Tile& tile,
-                              const Stage& stage, Samples<kChannels>& out) {
+// Begins to read a window of one plane; the border is repeated.
+__device__ void begin_to_read(const ViewPlanes& planes, const float* plane, const Tile& tile,
+                              const Stage& stage, float (&out)[kWindow][kWindow]) {
   const int lane = static_cast<int>(threadIdx.x) % 32;
   const int left = tile.x + stage.left + lane;
   const int x = min(max(left, 0), planes.width - 1);
   const int further = min(max(left + 32, 0), planes.width - 1);
-  const float* const of_view = planes.of(view, 0);
   for (int i = static_cast<int>(threadIdx.x) / 32; i < stage.rows; i += kWarps) {
     const int y = min(max(tile.y + stage.top + i, 0), planes.height - 1);
-    const float* row = of_view + static_cast<long>(y) * planes.width;
-#pragma unroll
-    for (int c = 0; c < kChannels; ++c, row += planes.plane_size()) {
-      __pipeline_memcpy_async(&out[c][i][lane], row + x, sizeof(float));
-      if (lane + 32 < stage.columns) {
-        __pipeline_memcpy_async(&out[c][i][lane + 32], row + further, sizeof(float));
-      }
+    const float* const row = plane + static_cast<long>(y) * planes.width;
+    __pipeline_memcpy_async(&out[i][lane], row + x, sizeof(float));
+    if (lane + 32 < stage.columns) {
+      __pipeline_memcpy_async(&out[i][lane + 32], row + further, sizeof(float));
     }
+  }
+}
+
+template <int kChannels, Counting kCounting>
+__device__ void begin_to_read(const MatchingTables& tables, const Tile& tile, const Stage& stage,
+                              Samples<kChannels, kCounting>& out) {
+  const ViewPlanes& planes = tables.planes;
+  const ViewIndex view = tables.views[stage.view].view;
+#pragma unroll
+  for (int c = 0; c < kChannels; ++c) {
+    begin_to_read(planes, planes.of(view, c), tile, stage, out.planes[c]);
+  }
+  if constexpr (kCounting == Counting::Visible) {
+    const float* const nearest = tables.visibility.nearest;
+    if (nearest == nullptr) return;
+    begin_to_read(planes, nearest + planes.slot(view) * planes.plane_size(), tile, stage,
+                  out.planes[kChannels]);
   }
 }
 
@@ -133,6 +151,7 @@ struct Lane {
   int y = 0, x = 0;
   float reference[kChannels][kRows];
   float noise[kRows];
+  float caps[kRows];
 };
 
 // How far the samples of a view at one label are from the reference's.
@@ -167,9 +186,10 @@ __device__ void find_distances(const MatchShift& row, const MatchShift& column,
   for (int r = 0; r < kRows; ++r) distances[r] = quick_root(distances[r]);
 }
 
-// Sums over the views, and how many there are of them if they are counted.
-template <bool kIsCounted>
+// Sums over the views, and of how many where that is counted.
+template <Counting kCounting>
 struct Sums {
+  static constexpr bool kIsCounted = kCounting != Counting::Places;
   float costs[kRows] = {};
   float counts[kIsCounted ? kRows : 1] = {};
 
@@ -190,23 +210,50 @@ struct Sums {
       costs[r] += is_seen ? fminf(distances[r], cap) : 0.0F;
     }
   }
+  // `shares`: how much of each sample is not occluded.
+  template <class Pixels>
+  __device__ void add_visible(const float (&distances)[kRows], const MatchShift& row,
+                              const MatchShift& column, const Pixels& lane,
+                              const float (&shares)[kRows]) {
+    const bool in_columns = lane.x >= column.first && lane.x < column.last;
+#pragma unroll
+    for (int r = 0; r < kRows; ++r) {
+      const bool is_seen = in_columns && lane.y + r >= row.first && lane.y + r < row.last &&
+                           distances[r] == distances[r];
+      const float share = is_seen ? shares[r] : 0.0F;
+      counts[r] += share;
+      costs[r] += is_seen ? share * fminf(distances[r], lane.caps[r]) : 0.0F;
+    }
+  }
 };
 
-template <bool kIsCounted>
-__device__ void store(const MatchingTables& tables, const Sums<kIsCounted>& sums, int label, int y,
-                      int x, int end, float* out) {
+// Of samples whose nearest surfaces stand one below the other from `nearest` on.
+__device__ void find_shares(const Visibility& visibility, float disparity, const float* nearest,
+                            float (&shares)[kRows]) {
+  const float limit = disparity + visibility.tolerance + visibility.softness;
+  const float steepness = 1 / visibility.softness;
+#pragma unroll
+  for (int r = 0; r < kRows; ++r) {
+    const float free = visibility.nearest ? (limit - nearest[r * kWindow]) * steepness : 1.0F;
+    shares[r] = fminf(fmaxf(free, 0.0F), 1.0F);
+  }
+}
+
+template <Counting kCounting, class Pixels>
+__device__ void store(const MatchingTables& tables, const Sums<kCounting>& sums, int label,
+                      const Pixels& lane, int end, float* out) {
   const int width = tables.planes.width;
 #pragma unroll
   for (int r = 0; r < kRows; ++r) {
-    if (y + r >= end) continue;
+    if (lane.y + r >= end) continue;
     float views;
-    if constexpr (kIsCounted) {
-      views = sums.counts[r];
+    if constexpr (kCounting == Counting::Places) {
+      views = tables.views_seen(label, lane.y + r, lane.x);
     } else {
-      views = tables.views_seen(label, y + r, x);
+      views = sums.counts[r];
     }
-    out[static_cast<long>(r) * tables.labels * width] =
-        views > 0 ? sums.costs[r] / views : tables.worst;
+    const float worst = kCounting == Counting::Visible ? lane.caps[r] : tables.worst;
+    out[static_cast<long>(r) * tables.labels * width] = views > 0 ? sums.costs[r] / views : worst;
   }
 }
 
@@ -225,24 +272,26 @@ __device__ Lane<kChannels> read_lane(const MatchingTables& tables, int y, int x)
       lane.reference[c][r] = planes.of(planes.reference, c)[at];
     }
     lane.noise[r] = tables.noise == nullptr ? 0.0F : tables.noise[at];
+    const float* const caps = tables.visibility.caps;
+    lane.caps[r] = caps == nullptr ? tables.worst : caps[at];
   }
   return lane;
 }
 
 // The sums of the next label come first: so the loop over labels needs no copy of its code for
 // each.
-template <bool kIsCounted>
-__device__ void rotate(Sums<kIsCounted> (&sums)[kLabels]) {
-  const Sums<kIsCounted> first = sums[0];
+template <Counting kCounting>
+__device__ void rotate(Sums<kCounting> (&sums)[kLabels]) {
+  const Sums<kCounting> first = sums[0];
 #pragma unroll
   for (int l = 0; l + 1 < kLabels; ++l) sums[l] = sums[l + 1];
   sums[kLabels - 1] = first;
 }
 
-template <int kChannels, bool kIsCounted>
+template <int kChannels, Counting kCounting>
 __device__ void add_stage(const MatchingTables& tables, const Tile& tile, const Stage& stage,
-                          const Samples<kChannels>& samples, const Lane<kChannels>& lane,
-                          Sums<kIsCounted> (&sums)[kLabels]) {
+                          const Samples<kChannels, kCounting>& samples,
+                          const Lane<kChannels>& lane, Sums<kCounting> (&sums)[kLabels]) {
   const MatchedView each = tables.views[stage.view];
   const MatchShift* const rows = tables.rows + each.row * tables.labels + tile.label;
   const MatchShift* const columns = tables.columns + each.column * tables.labels + tile.label;
@@ -250,11 +299,16 @@ __device__ void add_stage(const MatchingTables& tables, const Tile& tile, const 
   for (int l = 0; l < kLabels; ++l) {
     if (l >= stage.begin && l < stage.end) {
       const MatchShift row = rows[l], column = columns[l];
-      const int y = lane.y - tile.y + row.origin - stage.top;
-      const int x = lane.x - tile.x + column.origin - stage.left;
+      const int y = lane.y - tile.y - stage.top, x = lane.x - tile.x - stage.left;
       float distances[kRows];
-      find_distances<kChannels>(row, column, &samples[0][y][x], lane, distances);
-      if (!kIsCounted && tile.is_inside(row, column)) {
+      find_distances<kChannels>(row, column, &samples.planes[0][y + row.origin][x + column.origin],
+                                lane, distances);
+      if constexpr (kCounting == Counting::Visible) {
+        float shares[kRows];
+        find_shares(tables.visibility, tables.disparities[tile.label + l],
+                    &samples.planes[kChannels][y + row.nearest][x + column.nearest], shares);
+        sums[0].add_visible(distances, row, column, lane, shares);
+      } else if (kCounting == Counting::Places && tile.is_inside(row, column)) {
         sums[0].add(distances, tables.cap);
       } else {
         sums[0].add_seen(distances, row, column, lane.y, lane.x, tables.cap);
@@ -265,24 +319,22 @@ __device__ void add_stage(const MatchingTables& tables, const Tile& tile, const 
 }
 
 // While one window is worked on, the next one is read.
-template <int kChannels, bool kIsCounted>
-__global__ __launch_bounds__(kThreads, kIsCounted ? 3 : 4) void match(MatchingTables tables,
-                                                                      int first, int end,
-                                                                      float* costs) {
+template <int kChannels, Counting kCounting>
+__global__ __launch_bounds__(kThreads, kCounting == Counting::Places ? 4 : 3) void match(
+    MatchingTables tables, int first, int end, float* costs) {
   extern __shared__ float shared[];
-  auto* const windows = reinterpret_cast<Samples<kChannels>*>(shared);
+  auto* const windows = reinterpret_cast<Samples<kChannels, kCounting>*>(shared);
   const Tile tile{first + static_cast<int>(blockIdx.z) * kTileRows,
                   static_cast<int>(blockIdx.y) * kTileColumns,
                   static_cast<int>(blockIdx.x) * kLabels};
   const int of_lane = static_cast<int>(threadIdx.x) % 32;
   const Lane<kChannels> lane = read_lane<kChannels>(
       tables, tile.y + static_cast<int>(threadIdx.x) / 32 * kRows, tile.x + of_lane);
-  Sums<kIsCounted> sums[kLabels];
+  Sums<kCounting> sums[kLabels];
   Stage stage = find_stage(tables, tile, 0, 0);
   const auto begin_stage = [&](const Stage& begun, int number) {
     if (begun.view < tables.view_count) {
-      begin_to_read<kChannels>(tables.planes, tables.views[begun.view].view, tile, begun,
-                               windows[number % 2]);
+      begin_to_read<kChannels, kCounting>(tables, tile, begun, windows[number % 2]);
     }
     __pipeline_commit();
   };
@@ -292,7 +344,7 @@ __global__ __launch_bounds__(kThreads, kIsCounted ? 3 : 4) void match(MatchingTa
     begin_stage(next, number + 1);
     __pipeline_wait_prior(1);
     __syncthreads();
-    add_stage(tables, tile, stage, windows[number % 2], lane, sums);
+    add_stage<kChannels, kCounting>(tables, tile, stage, windows[number % 2], lane, sums);
     __syncthreads();
     stage = next;
   }
@@ -302,18 +354,18 @@ __global__ __launch_bounds__(kThreads, kIsCounted ? 3 : 4) void match(MatchingTa
     const int label = tile.label + l;
     if (label >= tables.labels) continue;
     const long row = static_cast<long>(lane.y - first) * tables.labels + label;
-    store(tables, sums[l], label, lane.y, lane.x, end, costs + row * tables.planes.width + lane.x);
+    store(tables, sums[l], label, lane, end, costs + row * tables.planes.width + lane.x);
   }
 }
 
-template <int kChannels, bool kIsCounted>
+template <int kChannels, Counting kCounting>
 void launch_match(const MatchingTables& tables, int first, int rows, float* costs,
                   const DeviceStream& stream) {
   // Labels of one tile run together and share what the cache holds of the views.
   const dim3 grid(blocks_for(tables.labels, kLabels), blocks_for(tables.planes.width, kTileColumns),
                   blocks_for(rows, kTileRows));
-  constexpr std::size_t kBytes = 2 * sizeof(Samples<kChannels>);
-  check(cudaFuncSetAttribute(match<kChannels, kIsCounted>,
+  constexpr std::size_t kBytes = 2 * sizeof(Samples<kChannels, kCounting>);
+  check(cudaFuncSetAttribute(match<kChannels, kCounting>,
                              cudaFuncAttributeMaxDynamicSharedMemorySize,
                              static_cast<int>(kBytes)));
   const double pixels = static_cast<double>(rows) * tables.planes.width;
@@ -322,19 +374,25 @@ void launch_match(const MatchingTables& tables, int first, int rows, float* cost
                         4 * pixels * (tables.view_count * kChannels + tables.labels),
                         each * (kChannels * (tables.is_cross_hair ? 10 : 18) + 4)};
   launch(stream, work, [&] {
-    match<kChannels, kIsCounted>
+    match<kChannels, kCounting>
         <<<grid, kThreads, kBytes, stream.get()>>>(tables, first, first + rows, costs);
   });
+}
+
+template <int kChannels>
+void launch_match(const MatchingTables& tables, int first, int rows, float* costs,
+                  const DeviceStream& stream) {
+  const auto run = tables.visibility.weighs()       ? launch_match<kChannels, Counting::Visible>
+                   : tables.rows_seen == nullptr ? launch_match<kChannels, Counting::Valid>
+                                                 : launch_match<kChannels, Counting::Places>;
+  run(tables, first, rows, costs, stream);
 }
 
 }  // namespace
 
 void compute_costs(const MatchingTables& tables, int first, int rows, float* costs,
                    const DeviceStream& stream) {
-  const bool is_counted = tables.rows_seen == nullptr;
-  const auto run = tables.planes.channels == 3
-                       ? (is_counted ? launch_match<3, true> : launch_match<3, false>)
-                       : (is_counted ? launch_match<1, true> : launch_match<1, false>);
+  const auto run = tables.planes.channels == 3 ? launch_match<3> : launch_match<1>;
   run(tables, first, rows, costs, stream);
 }
 

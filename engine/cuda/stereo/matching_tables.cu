@@ -38,14 +38,16 @@ std::vector<GroupShift> grouped(const std::vector<MatchShift>& shifts, int label
 }  // namespace
 
 DeviceMatching::DeviceMatching(const StereoMatching& matching, const ViewPlanes& planes,
-                               const float* noise, const DeviceStream& stream)
+                               const float* noise, const DeviceStream& stream,
+                               const Visibility& visibility)
     : views_(copied(matching.views, stream)),
       rows_(copied(matching.rows, stream)),
       columns_(copied(matching.columns, stream)),
       row_groups_(copied(grouped(matching.rows, matching.labels), stream)),
       column_groups_(copied(grouped(matching.columns, matching.labels), stream)),
       rows_seen_(copied(matching.rows_seen, stream)),
-      columns_seen_(copied(matching.columns_seen, stream)) {
+      columns_seen_(copied(matching.columns_seen, stream)),
+      disparities_(copied(matching.disparities, stream)) {
   tables_.planes = planes;
   tables_.views = views_.data();
   tables_.view_count = static_cast<int>(matching.views.size());
@@ -60,6 +62,8 @@ DeviceMatching::DeviceMatching(const StereoMatching& matching, const ViewPlanes&
   tables_.cap = matching.cap;
   tables_.worst = matching.worst;
   tables_.noise = noise;
+  tables_.visibility = visibility;
+  tables_.disparities = disparities_.data();
 }
 
 }  // namespace episcope::cuda

@@ -19,6 +19,17 @@ struct alignas(16) GroupShift {
   }
 };
 
+/// Which samples count, and how much at most, pixel by pixel.
+struct Visibility {
+  const float* nearest = nullptr;  ///< Nearest surface `[slot][y][x]`, px; null = none is known.
+  float tolerance = 0, softness = 1;
+  const float* caps = nullptr;  ///< `[y][x]`; null = the same everywhere.
+
+  [[nodiscard]] __host__ __device__ bool weighs() const {
+    return nearest != nullptr || caps != nullptr;
+  }
+};
+
 /// StereoMatching for kernels.
 struct MatchingTables {
   ViewPlanes planes;
@@ -34,6 +45,8 @@ struct MatchingTables {
   bool is_cross_hair = false;
   float cap = 0, worst = 0;
   const float* noise = nullptr;  ///< `[y][x]`, null = none.
+  Visibility visibility;
+  const float* disparities = nullptr;  ///< Of the labels.
 
   /// Views that see a pixel, where samples are not counted.
   [[nodiscard]] __device__ float views_seen(int label, int y, int x) const {
@@ -47,7 +60,7 @@ struct MatchingTables {
 class DeviceMatching {
  public:
   DeviceMatching(const StereoMatching& matching, const ViewPlanes& planes, const float* noise,
-                 const DeviceStream& stream);
+                 const DeviceStream& stream, const Visibility& visibility = {});
 
   [[nodiscard]] const MatchingTables& tables() const { return tables_; }
 
@@ -55,7 +68,7 @@ class DeviceMatching {
   DeviceArray<MatchedView> views_;
   DeviceArray<MatchShift> rows_, columns_;
   DeviceArray<GroupShift> row_groups_, column_groups_;
-  DeviceArray<float> rows_seen_, columns_seen_;
+  DeviceArray<float> rows_seen_, columns_seen_, disparities_;
   MatchingTables tables_;
 };
 

@@ -9,9 +9,12 @@
 #include "engine/cuda/stereo/matching_tables.cuh"
 #include "engine/cuda/stereo/view_noise.cuh"
 #include "engine/cuda/stereo/view_planes.cuh"
+#include "engine/cuda/stereo/view_surfaces.cuh"
+#include "engine/cuda/stereo/volume_scale.cuh"
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 namespace episcope::cuda {
 namespace {
@@ -28,7 +31,9 @@ struct StereoMatcher::State {
   std::shared_ptr<const DeviceLightField> compared, shown;
   ViewIndex view;
   DeviceStream stream;
-  DeviceArray<float> samples_of_views, noise, guide;
+  DeviceArray<float> samples_of_views, noise, guide, caps, surfaces;
+  Visibility visibility;
+  float mean_cap = 0;
   ViewPlanes planes;
   int radius = 0;
 
@@ -161,9 +166,36 @@ void StereoMatcher::choose(const StereoMatching& matching, const LabelPlaces& pl
   download_bytes(confidence.data, maps.data() + pixels, pixels * sizeof(float), s.stream, progress);
 }
 
+Image<float> StereoMatcher::noise(const Progress& progress) const {
+  const State& s = *state_;
+  if (s.noise.empty()) return {};
+  Image<float> noise(s.samples().height, s.samples().width);
+  download_bytes(noise.data(), s.noise.data(), s.noise.byte_size(), s.stream, progress);
+  return noise;
+}
+
+void StereoMatcher::set_caps(const Image<float>& caps, const Progress& progress) {
+  State& s = *state_;
+  s.caps = upload(caps.data(), caps.size(), s.stream, progress);
+  s.visibility.caps = s.caps.data();
+  s.mean_cap = static_cast<float>(std::accumulate(caps.begin(), caps.end(), 0.0) /
+                                  static_cast<double>(caps.size()));
+}
+
+void StereoMatcher::set_occluders(const Image<float>& surface, float tolerance, float softness,
+                                  const Progress& progress) {
+  State& s = *state_;
+  const auto disparity = upload(surface.data(), surface.size(), s.stream, progress);
+  s.surfaces = {};  // before the next ones take their place
+  s.surfaces = cast_surfaces(s.planes, disparity.data(), s.stream);
+  s.visibility.nearest = s.surfaces.data();
+  s.visibility.tolerance = tolerance;
+  s.visibility.softness = softness;
+}
+
 SharedVolume StereoMatcher::volume(const StereoMatching& matching, const Progress& progress) {
   State& s = *state_;
-  const DeviceMatching tables = s.on_device(matching);
+  const DeviceMatching tables(matching, s.planes, s.noise.data(), s.stream, s.visibility);
   const CostRows all{0, s.samples().height, matching.labels};
   const auto make = [&] {
     return std::make_shared<DeviceVolume>(all.rows, all.labels, s.samples().width);
@@ -177,7 +209,10 @@ SharedVolume StereoMatcher::volume(const StereoMatching& matching, const Progres
     filtered->stream.wait();
     s.aggregate(all, costs->values.data(), all, filtered->values.data());
     s.stream.wait();
-    return filtered;
+    costs = std::move(filtered);
+  }
+  if (s.visibility.caps != nullptr) {
+    divide_by_caps(*costs, s.visibility.caps, s.mean_cap, s.stream);
   }
   s.stream.wait();
   return costs;

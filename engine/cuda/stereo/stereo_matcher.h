@@ -17,6 +17,7 @@ struct alignas(16) MatchShift {
   int origin = 0;           ///< Pixels from the reference pixel to the first tap.
   int taps = 1;             ///< 1, 2 or 4.
   int first = 0, last = 0;  ///< Reference pixels whose sample lies within the image.
+  int nearest = 0;          ///< Pixels from the reference pixel to the one next to the sample.
   double noise_left = 1;    ///< Share of the variance of noise that the weights leave.
 };
 
@@ -30,6 +31,7 @@ struct MatchedView {
 struct StereoMatching {
   std::vector<MatchedView> views;  ///< In the order in which costs are added.
   int labels = 0;
+  std::vector<float> disparities;         ///< Of the labels.
   std::vector<MatchShift> rows, columns;  ///< `[way][label]`
   /// For each label and pixel of an axis, in how many places it is seen, `[label][pixel]`. Empty =
   /// the samples are counted one by one, because some may be invalid or places are irregular.
@@ -67,10 +69,21 @@ class StereoMatcher {
   void compensate_noise(float most, const Progress& progress);
   /// The median of what is compensated; 0 if nothing is. Throws DeviceFailure.
   [[nodiscard]] float median_noise() const;
+  /// What is compensated, `[y][x]`; empty if nothing is. Throws DeviceFailure, Cancelled.
+  [[nodiscard]] Image<float> noise(const Progress& progress) const;
   /// view_noise_variance of the shown view. Throws DeviceFailure, Cancelled.
   [[nodiscard]] float noise_variance(const Progress& progress) const;
   /// Later costs are aggregated by the guided filter; as GuideImage. Throws DeviceFailure.
   void aggregate(int radius, double regularization);
+  /// Later costs of `volume` have a cap of its own for each pixel, `[y][x]`, instead of that of the
+  /// matching; in the end they are divided by that cap and times the mean of all caps. Throws
+  /// DeviceFailure, Cancelled.
+  void set_caps(const Image<float>& caps, const Progress& progress);
+  /// In later costs of `volume`, samples that a surface of the view occludes count less, as
+  /// Occluders has it: `surface` `[y][x]` is its disparity in the view, kNothingNear where none is
+  /// known (surfaces_in_views). Throws DeviceFailure, Cancelled.
+  void set_occluders(const Image<float>& surface, float tolerance, float softness,
+                     const Progress& progress);
 
   /// The disparity and the confidence of every pixel, by the label of least cost: see
   /// estimate_stereo_local. Both images have the size of a view. Throws DeviceFailure, Cancelled.

@@ -25,12 +25,24 @@ float StereoMatcher::median_noise() const {
   throw DeviceFailure(known_cuda_device().why_not);
 }
 
+Image<float> StereoMatcher::noise(const Progress&) const {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
 float StereoMatcher::noise_variance(const Progress&) const {
   throw DeviceFailure(known_cuda_device().why_not);
 }
 
 void StereoMatcher::aggregate(int, double) {
   throw DeviceFailure(known_cuda_device().why_not);
+}
+
+void StereoMatcher::set_caps(const Image<float>&, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
+}
+
+void StereoMatcher::set_occluders(const Image<float>&, float, float, const Progress&) {
+  throw DeviceFailure(cuda_device().why_not);
 }
 
 void StereoMatcher::choose(const StereoMatching&, const LabelPlaces&, ImageView<float>,

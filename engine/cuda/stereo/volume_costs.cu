@@ -41,6 +41,26 @@ __global__ void take_costs(VolumeView<const float> costs, const int* labels, Pla
   planes.mean[at] = sum / static_cast<float>(costs.layers);
 }
 
+// The label of least cost of a column, of equals the lowest.
+__device__ int least_label(const VolumeView<const float>& costs, const float* column) {
+  float least = column[0];
+  int best = 0;
+#pragma unroll 8
+  for (int l = 1; l < costs.layers; ++l) {
+    const float cost = column[static_cast<long>(l) * costs.width];
+    best = cost < least ? l : best;
+    least = fminf(least, cost);
+  }
+  return best;
+}
+
+__global__ void find_least(VolumeView<const float> costs, int* labels) {
+  const int x = static_cast<int>(blockIdx.x * blockDim.x + threadIdx.x);
+  const int y = static_cast<int>(blockIdx.y);
+  if (x >= costs.width) return;
+  labels[static_cast<long>(y) * costs.width + x] = least_label(costs, column_of(costs, y, x));
+}
+
 __global__ void sum_best(VolumeView<const float> costs, const std::uint8_t* valid, int reach,
                          double* parts) {
   __shared__ double shared[kThreads];
@@ -49,14 +69,7 @@ __global__ void sum_best(VolumeView<const float> costs, const std::uint8_t* vali
   double own = 0;
   if (x < costs.width && (valid == nullptr || valid[static_cast<long>(y) * costs.width + x] != 0)) {
     const float* const column = column_of(costs, y, x);
-    float least = column[0];
-    int best = 0;
-#pragma unroll 8
-    for (int l = 1; l < costs.layers; ++l) {
-      const float cost = column[static_cast<long>(l) * costs.width];
-      best = cost < least ? l : best;
-      least = fminf(least, cost);
-    }
+    const int best = least_label(costs, column);
     const int first = max(0, best - reach), last = min(costs.layers - 1, best + reach);
     for (int l = first; l <= last; ++l) {
       own += static_cast<double>(column[static_cast<long>(l) * costs.width]);
@@ -99,6 +112,19 @@ CostsAtLabels costs_at_labels(const DeviceVolume& volume, const Image<int>& labe
                    progress);
   }
   return result;
+}
+
+Image<int> least_labels(const DeviceVolume& volume, const Progress& progress) {
+  const DeviceStream stream;
+  const VolumeView<const float> costs = volume.view();
+  Image<int> labels(costs.height, costs.width);
+  DeviceArray<int> on_device(labels.size(), stream);
+  const auto values = static_cast<double>(costs.size());
+  launch(stream, {"stereo: least labels", 4 * values, 2 * values}, [&] {
+    find_least<<<grid_of(costs), kThreads, 0, stream.get()>>>(costs, on_device.data());
+  });
+  download_bytes(labels.data(), on_device.data(), on_device.byte_size(), stream, progress);
+  return labels;
 }
 
 double sum_around_best(const DeviceVolume& volume, const std::uint8_t* valid, int reach,

@@ -18,6 +18,9 @@ struct CostsAtLabels {
 [[nodiscard]] CostsAtLabels costs_at_labels(const DeviceVolume& volume, const Image<int>& labels,
                                             const Progress& progress);
 
+/// The label of least cost at each pixel, of equals the lowest. Throws DeviceFailure, Cancelled.
+[[nodiscard]] Image<int> least_labels(const DeviceVolume& volume, const Progress& progress);
+
 /// The sum over the valid pixels of the mean cost of the labels within `reach` of a pixel's best
 /// one; see cost_unit. `valid` `[y][x]` is on the host, null = all. Throws DeviceFailure,
 /// Cancelled.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/jump_labeling.h"
 
+#include "engine/core/parallel/parallel.h"
 #include "engine/cuda/messages/message_labeling.h"
-#include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/messages/message_labeling.h"
 
 #include <fmt/format.h>
@@ -23,9 +23,12 @@ float distance(const Image<float>& image, PixelIndex a, PixelIndex b) {
   return std::sqrt(sum);
 }
 
-MessageResult solve_on_device(const MessageProblem& problem, int passes, const Progress& progress) {
+MessageResult solve(const LabelCosts& costs, const MessageProblem& problem, int passes,
+                    const Progress& progress) {
+  if (!costs.on_device()) return solve_by_messages(problem, passes, progress);
   cuda::MessageAnswer answer = cuda::solve_by_messages(
-      {problem.cost, problem.across, problem.down, problem.slope, problem.most}, passes, progress);
+      {*costs.on_device(), problem.across, problem.down, problem.slope, problem.most}, passes,
+      progress);
   return {std::move(answer.labels), answer.iterations, answer.energy, answer.bound};
 }
 
@@ -49,19 +52,20 @@ Schema<JumpLabelingParameters> jump_labeling_schema() {
       .integer("passes", &P::passes, {"Passes", "Iterations of the labeling"}, {1, 200, true});
 }
 
-PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, double least) {
+PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, double least,
+                         const Progress& progress) {
   const Image<float> image = lf.view_as_float(view);
   PairWeights weights{Image<float>(lf.height(), lf.width(), 1, 1.0F),
                       Image<float>(lf.height(), lf.width(), 1, 1.0F)};
   const auto weight = [&](PixelIndex a, PixelIndex b) {
     return static_cast<float>(std::max(least, std::exp(-beta * distance(image, a, b))));
   };
-  for (int y = 0; y < lf.height(); ++y) {
+  parallel_for(lf.height(), progress, [&](int y) {
     for (int x = 0; x < lf.width(); ++x) {
       if (x + 1 < lf.width()) weights.across.at(y, x) = weight({y, x}, {y, x + 1});
       if (y + 1 < lf.height()) weights.down.at(y, x) = weight({y, x}, {y + 1, x});
     }
-  }
+  });
   return weights;
 }
 
@@ -69,19 +73,16 @@ std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights&
                              const JumpLabelingParameters& parameters, const Progress& progress,
                              ImageView<float> disparity) {
   progress.step("labeling");
-  const float step = data.stereo.labels[1] - data.stereo.labels[0];
+  const std::vector<float>& labels = data.costs.stereo().labels;
+  const float step = labels[1] - labels[0];
   const auto unit = static_cast<float>(parameters.smoothness * data.scale);
-  const MessageProblem problem{data.costs, weights.across, weights.down, unit * step,
+  const MessageProblem problem{data.costs.on_cpu(), weights.across, weights.down, unit * step,
                                unit * static_cast<float>(parameters.jump)};
-  const MessageResult result = data.device == Device::Cuda
-                                   ? solve_on_device(problem, parameters.passes, progress)
-                                   : solve_by_messages(problem, parameters.passes, progress);
+  const MessageResult result =
+      solve(data.costs, problem, parameters.passes, progress.part(0, 0.95));
+  const Placements placed = data.costs.place(result.labels, progress.part(0.95, 1));
   for (int y = 0; y < disparity.height; ++y) {
-    for (int x = 0; x < disparity.width; ++x) {
-      disparity.at(y, x) =
-          place_by_costs(data.stereo, data.costs, data.means, y, x, result.labels.at(y, x))
-              .disparity;
-    }
+    std::copy_n(placed.disparity.row(y), disparity.width, disparity.row(y));
   }
   return fmt::format("labeling: energy {:.6g}, gap {:.1e} after {} iterations", result.energy,
                      (result.energy - result.bound) / result.energy, result.iterations);

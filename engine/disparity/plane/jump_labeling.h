@@ -18,15 +18,17 @@ struct JumpLabelingParameters {
 };
 [[nodiscard]] Schema<JumpLabelingParameters> jump_labeling_schema();
 
-/// Weights of pairs of neighbours, `[y][x]`: max(least, exp(−β·|difference of the two|)).
+/// Weights of pairs of neighbours, `[y][x]`: max(least, exp(−β·|difference of the two|)). Throws
+/// Cancelled.
 struct PairWeights {
   Image<float> across, down;
 };
 [[nodiscard]] PairWeights pair_weights(const LightField& light_field, ViewIndex view, double beta,
-                                       double least);
+                                       double least, const Progress& progress);
 
 /// Labels by a smoothness that is truncated (engine/solvers/messages); writes each pixel at the
-/// parabola through its label's cost and those beside it. Returns a note. Throws Cancelled.
+/// parabola through its label's cost and those beside it. Returns a note. Throws DeviceFailure,
+/// Cancelled.
 std::string label_with_jumps(const PlaneRefinementData& data, const PairWeights& weights,
                              const JumpLabelingParameters& parameters, const Progress& progress,
                              ImageView<float> disparity);

@@ -23,11 +23,12 @@ namespace {
 // Labels the costs.
 void label_costs(const LightField& lf, const PlaneParameters& parameters,
                  const PlaneRefinementData& data, Estimate& estimate, const Progress& progress) {
-  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, data.stereo.view);
-  const PairWeights weights = pair_weights(lf, data.stereo.view, parameters.labeling.edge_strength,
-                                           parameters.labeling.least_weight);
+  const ViewIndex view = data.costs.stereo().view;
+  estimate.field.disparity = ViewStack<float>({1, 1}, lf.height(), lf.width(), 1, view);
+  const PairWeights weights = pair_weights(lf, view, parameters.labeling.edge_strength,
+                                           parameters.labeling.least_weight, progress.part(0, 0));
   estimate.notes = {label_with_jumps(data, weights, parameters.labeling, progress,
-                                     estimate.field.disparity.view(data.stereo.view))};
+                                     estimate.field.disparity.view(view))};
 }
 
 // What costs are measured by: the mean of the caps, or the one that all pixels share.
@@ -38,20 +39,18 @@ double mean_cap(const LightField& lf, const StereoCosts& stereo) {
 
 // Costs with what is known of the visibility, labeled; the last time also refined.
 void run_round(const LightField& lf, const PlaneParameters& parameters, const StereoCosts& stereo,
-               Device device, bool is_last, Estimate& estimate, const Progress& progress) {
+               bool is_last, Estimate& estimate, const Progress& progress) {
   progress.step("matching costs");
-  const Volume<float> volume = visible_costs(lf, stereo, progress.part(0, 0.4));
-  const Image<float> means = mean_costs(volume.view(), progress.part(0.4, 0.42));
+  const LabelCosts costs = visible_costs(lf, stereo, progress.part(0, 0.42));
   const Image<float> edges = smoothness_weights(lf, stereo.view, parameters.labeling.edge_strength);
-  const PlaneRefinementData data{stereo, volume.view(), means, edges, mean_cap(lf, stereo), device};
+  const PlaneRefinementData data{costs, edges, mean_cap(lf, stereo)};
   label_costs(lf, parameters, data, estimate, progress.part(0.42, is_last ? 0.75 : 0.99));
   const ImageView<float> map = estimate.field.disparity.view(stereo.view);
   if (is_last) refine_by_planes(data, parameters.refinement, progress.part(0.75, 0.98), map);
   if (is_last && parameters.silhouettes) {
     place_silhouettes(lf, stereo.view, progress.part(0.98, 0.99), map);
   }
-  estimate.confidence =
-      volume_confidence(map, stereo, volume.view(), means, progress.part(0.99, 1));
+  estimate.confidence = costs.confidence(map, progress.part(0.99, 1));
 }
 
 }  // namespace
@@ -91,8 +90,6 @@ class Evened {
   Evened(const LightField& lf, const PlaneParameters& parameters, Device device)
       : lf_(lf), parameters_(parameters), device_(device) {}
 
-  [[nodiscard]] Device device() const { return device_; }
-
   [[nodiscard]] const LightField& light_field() const { return even_ ? *even_ : lf_; }
   [[nodiscard]] StereoCosts& stereo() { return stereo_; }
 
@@ -130,7 +127,8 @@ class Evened {
     if (brightness.is_uneven()) even_.emplace(even_views(lf_, brightness, progress));
   }
   void prepare(const StereoCostParameters& matching, const Progress& progress) {
-    stereo_ = prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9));
+    stereo_ =
+        prepare_stereo(light_field(), MatchedViews::All, matching, progress.part(0, 0.9), device_);
     set_local_caps(light_field(), parameters_.visibility, progress.part(0.9, 1), stereo_);
   }
 
@@ -160,7 +158,7 @@ Estimate estimate_one(Evened& data, const PlaneParameters& parameters, const Map
                     progress.part(begin + 0.02 * length, begin + 0.05 * length), data.stereo());
     }
     const StereoCosts& stereo = data.stereo();
-    run_round(data.light_field(), parameters, stereo, data.device(), done == rounds, estimate,
+    run_round(data.light_field(), parameters, stereo, done == rounds, estimate,
               progress.part(begin + 0.05 * length, begin + length));
     map = {estimate.field.disparity.view(stereo.view), estimate.confidence.view(stereo.view)};
   }

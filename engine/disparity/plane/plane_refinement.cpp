@@ -5,7 +5,6 @@
 #include "engine/cuda/tgv_l2/tgv_l2.h"
 #include "engine/cuda/tv_l2/tv_l2.h"
 #include "engine/disparity/plane/regional_trust.h"
-#include "engine/disparity/stereo/volume_trust.h"
 #include "engine/solvers/tgv_l2/tgv_l2.h"
 #include "engine/solvers/tv_l2/tv_l2.h"
 
@@ -25,56 +24,35 @@ float label_step(const StereoCosts& stereo) {
 }
 
 // What the costs around each disparity say, and how much.
-struct Observations {
-  Image<float> values, weights;
-};
-
-Observations observe(const PlaneRefinementData& data, ImageView<const float> disparity,
-                     const Progress& progress) {
-  Observations all{Image<float>(disparity.height, disparity.width),
-                   Image<float>(disparity.height, disparity.width)};
-  const float step = label_step(data.stereo), first = data.stereo.labels.front();
-  parallel_for(disparity.height, progress, [&](int y) {
+Placements observe(const PlaneRefinementData& data, ImageView<const float> disparity,
+                   const Progress& progress) {
+  const StereoCosts& stereo = data.costs.stereo();
+  const float step = label_step(stereo), first = stereo.labels.front();
+  const int last = static_cast<int>(stereo.labels.size()) - 1;
+  Image<int> labels(disparity.height, disparity.width);
+  parallel_for(disparity.height, progress.part(0, 0.2), [&](int y) {
     for (int x = 0; x < disparity.width; ++x) {
       const float place = (disparity.at(y, x) - first) / step;
-      const int label = std::clamp(static_cast<int>(place + 0.5F), 0, data.costs.layers - 1);
-      const Placement placed = place_by_costs(data.stereo, data.costs, data.means, y, x, label);
-      all.values.at(y, x) = placed.disparity;
-      all.weights.at(y, x) = placed.weight;
+      labels.at(y, x) = std::clamp(static_cast<int>(place + 0.5F), 0, last);
     }
   });
-  return all;
+  return data.costs.place(labels, progress.part(0.2, 1));
 }
 
 // The best label of every pixel by itself, placed between labels and denoised by its trust.
 Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& progress) {
-  const int height = data.costs.height, width = data.costs.width;
-  Observations all{Image<float>(height, width), Image<float>(height, width)};
-  parallel_for(height, progress.part(0, 0.3), [&](int y) {
-    std::vector<float> least(data.costs.row(y, 0), data.costs.row(y, 0) + width);
-    std::vector<int> best(width);
-    for (int l = 1; l < data.costs.layers; ++l) {
-      const float* const cost = data.costs.row(y, l);
-      for (int x = 0; x < width; ++x) {
-        best[x] = cost[x] < least[x] ? l : best[x];
-        least[x] = std::min(least[x], cost[x]);
-      }
-    }
-    for (int x = 0; x < width; ++x) {
-      const Placement placed = place_by_costs(data.stereo, data.costs, data.means, y, x, best[x]);
-      all.values.at(y, x) = placed.disparity;
-      all.weights.at(y, x) = placed.weight * (1 + placed.weight / kSureWeight);
-    }
-  });
+  Placements all =
+      data.costs.place(data.costs.best_labels(progress.part(0, 0.15)), progress.part(0.15, 0.3));
+  for (float& weight : all.weight) weight *= 1 + weight / kSureWeight;
   const Progress solving = progress.part(0.3, 1);
-  if (data.device == Device::Cuda) {
-    cuda::solve_tv_l2(all.values, all.weights, data.edges, kWinnerSmoothing, solving);
+  if (data.costs.on_device()) {
+    cuda::solve_tv_l2(all.disparity, all.weight, data.edges, kWinnerSmoothing, solving);
   } else {
-    TvL2Solver(height, width)
-        .solve({all.values, all.weights, data.edges, kWinnerSmoothing}, {}, solving,
-               all.values.view());
+    TvL2Solver(all.disparity.height(), all.disparity.width())
+        .solve({all.disparity, all.weight, data.edges, kWinnerSmoothing}, {}, solving,
+               all.disparity.view());
   }
-  return std::move(all.values);
+  return std::move(all.disparity);
 }
 
 // Where costs hardly tell labels apart, a labeling settles for whole regions of one wrong label,
@@ -83,8 +61,7 @@ Image<float> denoised_winners(const PlaneRefinementData& data, const Progress& p
 void settle_doubt(const PlaneRefinementData& data, const PlaneRefinementParameters& parameters,
                   const Progress& progress, ImageView<float> disparity) {
   const Image<float> trust = regional_trust(
-      volume_confidence(disparity, data.stereo, data.costs, data.means, progress.part(0, 0.1))
-          .view(data.stereo.view));
+      data.costs.confidence(disparity, progress.part(0, 0.1)).view(data.costs.stereo().view));
   const Image<float> denoised = denoised_winners(data, progress.part(0.1, 1));
   const auto doubt = static_cast<float>(parameters.doubt);
   const auto leeway = static_cast<float>(std::max(parameters.leeway, 1e-6));
@@ -125,20 +102,20 @@ void refine_by_planes(const PlaneRefinementData& data, const PlaneRefinementPara
                       const Progress& progress, ImageView<float> disparity) {
   if (parameters.tgv <= 0 || progress.finish_requested()) return;
   progress.step("denoising");
-  Observations seen = observe(data, disparity, progress.part(0, 0.1));
+  Placements seen = observe(data, disparity, progress.part(0, 0.1));
   const Progress solving = progress.part(0.1, 0.9);
-  if (data.device == Device::Cuda) {
-    cuda::solve_tgv_l2(seen.values, {seen.weights, data.edges, parameters.tgv, parameters.bend},
+  if (data.costs.on_device()) {
+    cuda::solve_tgv_l2(seen.disparity, {seen.weight, data.edges, parameters.tgv, parameters.bend},
                        parameters.tgv_iterations, solving);
   } else {
-    solve_tgv_l2({seen.values, seen.weights, data.edges, parameters.tgv, parameters.bend},
-                 parameters.tgv_iterations, solving, seen.values.view());
+    solve_tgv_l2({seen.disparity, seen.weight, data.edges, parameters.tgv, parameters.bend},
+                 parameters.tgv_iterations, solving, seen.disparity.view());
   }
-  const float step = label_step(data.stereo);
+  const float step = label_step(data.costs.stereo());
   for (int y = 0; y < disparity.height; ++y) {
     for (int x = 0; x < disparity.width; ++x) {
       float& d = disparity.at(y, x);
-      d = std::clamp(seen.values.at(y, x), d - step, d + step);
+      d = std::clamp(seen.disparity.at(y, x), d - step, d + step);
     }
   }
   if (parameters.doubt > 0) settle_doubt(data, parameters, progress.part(0.9, 1), disparity);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/volume.h"
 #include "engine/core/parameter/schema.h"
-#include "engine/disparity/common/run_options.h"
-#include "engine/disparity/stereo/stereo_costs.h"
+#include "engine/disparity/plane/label_costs.h"
 
 namespace episcope {
 
@@ -20,12 +18,9 @@ struct PlaneRefinementParameters {
 
 /// The data of one view.
 struct PlaneRefinementData {
-  const StereoCosts& stereo;
-  VolumeView<const float> costs;
-  const Image<float>& means;     ///< Of the costs over the labels.
+  const LabelCosts& costs;       ///< Where they are, all is computed.
   ImageView<const float> edges;  ///< Weights of the variation, `[y][x]`.
   double scale = 1;              ///< Unit of the smoothness: the mean cost.
-  Device device = Device::Cpu;
 };
 
 /// Places a map of labels between them, in place: each pixel's parabola through the costs of its

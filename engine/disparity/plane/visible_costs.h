@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/disparity/common/surfaces_in_views.h"
+#include "engine/disparity/plane/label_costs.h"
 #include "engine/disparity/stereo/stereo_costs.h"
 
 namespace episcope {
@@ -32,10 +33,11 @@ void set_occluders(const LightField& light_field, ImageView<const float> dispari
                    ImageView<const float> confidence, const VisibilityParameters& parameters,
                    const Progress& progress, StereoCosts& costs);
 
-/// The costs of all rows (stereo_volume); with caps of single pixels divided by that of their pixel
-/// and times the mean cap: a smooth region whose noise is low then says as much as one of strong
-/// contrast, and is not overruled by the smoothness. Throws Cancelled.
-[[nodiscard]] Volume<float> visible_costs(const LightField& light_field, const StereoCosts& costs,
-                                          const Progress& progress);
+/// The costs of all rows (stereo_volume), where the data term has them computed; with caps of
+/// single pixels divided by that of their pixel and times the mean cap: a smooth region whose noise
+/// is low then says as much as one of strong contrast, and is not overruled by the smoothness. They
+/// refer to `costs`. Throws DeviceFailure, Cancelled.
+[[nodiscard]] LabelCosts visible_costs(const LightField& light_field, const StereoCosts& costs,
+                                       const Progress& progress);
 
 }  // namespace episcope

@@ -19,6 +19,7 @@ std::vector<cuda::MatchShift> device_shifts(const std::vector<AxisShift>& shifts
     each.taps = shift.taps;
     each.first = shift.first;
     each.last = shift.last;
+    each.nearest = shift.nearest;
     each.noise_left = shift.noise_left();
   }
   return result;
@@ -55,6 +56,7 @@ cuda::StereoMatching device_matching(const LightField& lf, ViewIndex reference,
   cuda::StereoMatching matching;
   matching.views = matched_views(grid, reference, cost);
   matching.labels = count;
+  matching.disparities = labels;
   matching.rows = device_shifts(rows);
   matching.columns = device_shifts(columns);
   if (lf.valid().empty() && !cost.places) {

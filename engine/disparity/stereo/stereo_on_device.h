@@ -10,8 +10,8 @@
 
 namespace episcope {
 
-/// What the device needs to know of a matching: MatchingCostRows with neither occluders nor caps of
-/// single pixels; the noise is the device's own. Throws InvalidInput as MatchingCostRows.
+/// What the device needs to know of a matching; noise, caps of single pixels and occluders are the
+/// matcher's own. Throws InvalidInput as MatchingCostRows.
 [[nodiscard]] cuda::StereoMatching device_matching(const LightField& light_field,
                                                    ViewIndex reference, const MatchingCost& cost,
                                                    const std::vector<float>& labels);
