@@ -853,6 +853,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>(click a point)</source>
         <translation>(einen Punkt anklicken)</translation>
     </message>
+    <message>
+        <source>Lock</source>
+        <translation>Sperre</translation>
+    </message>
+    <message>
+        <source>A locked pair is right: it is not removed, nor taken for a wrong pick</source>
+        <translation>Ein gesperrtes Punktpaar ist richtig: Es wird nicht entfernt und nicht für falsch gewählt gehalten</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ChangedFile</name>

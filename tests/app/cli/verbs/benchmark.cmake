@@ -107,16 +107,13 @@ expect("strokes of another scene" 1 ERR "edge has no strokes"
        ARGS benchmark edge --labels --features image --regularizers none --scribbles painted
        -o strokeless)
 file(MAKE_DIRECTORY "${WORK}/strokes")
-file(COPY_FILE "${WORK}/painted/labels.h5" "${WORK}/strokes/bare.h5")
-file(MAKE_DIRECTORY "${WORK}/bare")
-file(COPY_FILE "${WORK}/painted/lf.h5" "${WORK}/bare/lf.h5")
-set(bare benchmark bare --labels --features image --regularizers none)
-expect("nothing beside it" 1 ERR "bare has no strokes" ARGS ${bare} -o bare_out)
-expect("strokes kept elsewhere" 0 OUT "^Labels ranked" ARGS ${bare} --scribbles strokes -o bare_out)
+file(COPY_FILE "${WORK}/painted/labels.h5" "${WORK}/strokes/edge.h5")
+set(unpainted benchmark edge --labels --features image --regularizers none)
+expect("strokes kept elsewhere" 0 OUT "^Labels ranked" ARGS ${unpainted} --scribbles strokes -o stroked)
 expect("no folder of strokes" 1 ERR "nowhere.*is not a folder"
-       ARGS ${bare} --scribbles nowhere -o bare_out)
+       ARGS ${unpainted} --scribbles nowhere -o stroked)
 expect("strokes without labels" 2 ERR "without --labels"
-       ARGS benchmark bare --scribbles strokes --methods epi_l -o o)
+       ARGS benchmark edge --scribbles strokes --methods epi_l -o o)
 expect("features without labels" 2 ERR "without --labels"
        ARGS benchmark painted --features image --methods epi_l -o o)
 file(MAKE_DIRECTORY "${WORK}/painters")
