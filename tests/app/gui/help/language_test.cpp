@@ -87,6 +87,8 @@ QStringList copied_from_a_window() {
   f.trigger("estimate.copy_command");
   const QString command = QGuiApplication::clipboard()->text();
   const auto* table = f.window.findChild<MetricTable*>();
+  const auto is_scored = [&] { return kinds_of_cells(table->toCsv()).count("number") > 10; };
+  (void)QTest::qWaitFor(is_scored, 60000);  // in the background
   return QStringList{command.section(' ', 0, 2), command.section("--", 1)} +
          kinds_of_cells(table->toCsv());
 }
