@@ -37,8 +37,28 @@ double claimed_bytes(hid_t dataset) {
   return bytes;
 }
 
-/// The name of the first filter that the library lacks; empty if it has all.
-std::string missing_filter(hid_t creation) {
+// Chunks that are looked at: filters that can be skipped rarely are, and never for long.
+constexpr hsize_t kChunksSeen = 64;
+
+/// The filters that the first chunks were all stored without, a bit each. A writer may skip those
+/// that it marks as optional.
+unsigned skipped_filters(hid_t dataset) {
+  std::array<hsize_t, H5S_MAX_RANK> offset{};
+  haddr_t place = 0;
+  hsize_t size = 0, count = 0;
+  const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+  if (H5Dget_num_chunks(dataset, space, &count) < 0) return ~0U;
+  unsigned all = ~0U;
+  for (hsize_t i = 0; i < std::min(count, kChunksSeen); ++i) {
+    unsigned skipped = ~0U;
+    H5Dget_chunk_info(dataset, space, i, offset.data(), &skipped, &place, &size);
+    all &= skipped;
+  }
+  return all;
+}
+
+/// The name of the first filter of the samples that the library lacks; empty if it has all.
+std::string missing_filter(hid_t dataset, hid_t creation) {
   for (int i = 0; i < std::max(0, H5Pget_nfilters(creation)); ++i) {
     unsigned flags = 0;
     unsigned config = 0;
@@ -46,8 +66,9 @@ std::string missing_filter(hid_t creation) {
     std::array<char, 100> name{};
     const H5Z_filter_t id = H5Pget_filter2(creation, static_cast<unsigned>(i), &flags, &count,
                                            nullptr, name.size() - 1, name.data(), &config);
-    const bool is_skipped = (flags & H5Z_FLAG_OPTIONAL) != 0;
-    if (id < 0 || H5Zfilter_avail(id) > 0 || is_skipped) continue;
+    if (id < 0 || H5Zfilter_avail(id) > 0) continue;
+    const bool is_optional = (flags & H5Z_FLAG_OPTIONAL) != 0;
+    if (is_optional && (skipped_filters(dataset) >> i & 1U) != 0) continue;
     return fmt::format("{}{}{}", id, name[0] == 0 ? "" : ", ", name.data());
   }
   return {};
@@ -75,7 +96,7 @@ void require_own_samples(const std::filesystem::path& path, const std::string& n
 void require_sound_dataset(const std::filesystem::path& path, const std::string& name,
                            hid_t dataset) {
   const Hdf5Handle creation(H5Dget_create_plist(dataset), H5Pclose);
-  if (const std::string filter = missing_filter(creation); !filter.empty()) {
+  if (const std::string filter = missing_filter(dataset, creation); !filter.empty()) {
     throw IoError(path, fmt::format("the dataset {} is compressed by a filter that is not known "
                                     "here ({}); store it without, for example by h5repack -f NONE",
                                     name, filter));
