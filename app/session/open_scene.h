@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/session/capture/capture_work.h"
+#include "app/session/judge/judged_part.h"
 #include "app/session/labels/kept_labels.h"
 #include "app/session/picture/map_source.h"
 #include "app/session/scene/epi_measurement.h"
@@ -69,6 +70,7 @@ struct ScenePlace {
   LabelMarks label_marks{};
   Measurements measured{};
   CaptureWork capture{};
+  JudgedPart judged{};
   friend bool operator==(const ScenePlace&, const ScenePlace&) = default;
 };
 

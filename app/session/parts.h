@@ -21,6 +21,7 @@ enum class Part : unsigned {
   Measured = 8192,   ///< The disparities measured by hand that are kept.
   Capture = 16384,   ///< The mesh and the pairs picked on it.
   Live = 32768,      ///< The estimate that is made while parameters are tried.
+  Judged = 65536,    ///< The part of the view that metrics are of.
 };
 
 /// A set of parts.

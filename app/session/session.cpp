@@ -298,6 +298,13 @@ void Session::set_capture(const CaptureWork& work) {
   changed(Part::Capture);
 }
 
+void Session::set_judged(std::uint64_t id, const JudgedPart& part) {
+  OpenScene* scene = open_scene(id);
+  if (!scene || part == scene->place.judged) return;
+  scene->place.judged = part;
+  changed(Part::Judged);
+}
+
 render::LabelStyle Session::label_style() const {
   return {label_drawing_, now_->place.label_marks.hidden};
 }

@@ -160,6 +160,8 @@ class Session {
   void set_measurements(const Measurements& measured);
   /// The mesh that is posed before the light field, and the pairs picked on it.
   void set_capture(const CaptureWork& work);
+  /// Which pixels metrics are of, of an open scene. Ignored for an unknown one.
+  void set_judged(std::uint64_t scene, const JudgedPart& part);
 
   /// What is known of the disparity of a view: the shown estimate, which is held, else the truth;
   /// null if neither has that view.

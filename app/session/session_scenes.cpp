@@ -12,7 +12,7 @@ namespace {
 Parts everything() {
   return Part::Scene | Part::Estimates | Part::Shown | Part::Evaluations | Part::View |
          Part::CrossHair | Part::Focus | Part::TrueLabels | Part::Scenes | Part::Tone |
-         Part::LabelLook | Part::Measured | Part::Capture | Part::Live;
+         Part::LabelLook | Part::Measured | Part::Capture | Part::Live | Part::Judged;
 }
 
 }  // namespace

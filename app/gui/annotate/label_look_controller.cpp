@@ -39,6 +39,18 @@ LabelDrawing after(LabelDrawing drawing) {
   return static_cast<LabelDrawing>((static_cast<int>(drawing) + 1) % kDrawingCount);
 }
 
+// Labels that an edit gave pixels to or took them from.
+std::set<std::int32_t> painted_labels(const Edit& edit) {
+  std::set<std::int32_t> ids;
+  for (const ViewEdit& view : edit.views) {
+    for (const LabelRun& run : view.runs) {
+      ids.insert(run.before);
+      ids.insert(run.after);
+    }
+  }
+  return ids;
+}
+
 QString tip_of(const LabelAmount& amount, double share) {
   QString tip = LabelLookController::tr("%1 px painted on this view, %2 %")
                     .arg(QLocale::c().toString(static_cast<qlonglong>(amount.pixels)))
@@ -70,6 +82,9 @@ LabelLookController::LabelLookController(const Workbench& bench, LabelPalette* p
             if (change.has_new_labels) followLabels();
             count();
           });
+  connect(
+      &bench_.document, &DocumentController::steppedBack, this,
+      [this](const DocumentChange&, const Edit& edit, bool is_undo) { tellLocked(edit, is_undo); });
   bench_.session.on_changed([this](Parts parts) { update(parts); });
 }
 
@@ -148,6 +163,22 @@ void LabelLookController::setLocked(int id, bool locks) {
   LabelMarks marks = bench_.session.place().label_marks;
   locks ? void(marks.locked.insert(id)) : void(marks.locked.erase(id));
   bench_.session.set_label_marks(marks);
+}
+
+// Locks keep the brush away; undo goes back whatever was locked since, as in painting programs.
+void LabelLookController::tellLocked(const Edit& edit, bool is_undo) {
+  const AnnotationDocument* document = std::as_const(bench_.document).document();
+  if (!document) return;
+  const std::set<std::int32_t> touched = painted_labels(edit);
+  QStringList names;
+  for (const LabelInfo& label : document->labels().labels()) {
+    const bool is_locked = bench_.session.place().label_marks.locked.contains(label.id);
+    if (is_locked && touched.contains(label.id)) names << QString::fromStdString(label.name);
+  }
+  if (names.isEmpty()) return;
+  bench_.messages.hint((is_undo ? tr("Undo changed what is locked: %1. Redo brings it back.")
+                                : tr("Redo changed what is locked: %1. Undo brings it back."))
+                           .arg(names.join(", ")));
 }
 
 void LabelLookController::setDrawing(LabelDrawing drawing) {

@@ -13,6 +13,7 @@
 namespace episcope {
 
 class LabelPalette;
+struct Edit;
 
 /// Which labels are shown and locked, how they are drawn, and how much of each is painted on the
 /// view.
@@ -29,6 +30,8 @@ class LabelLookController : public QObject {
   void showOnly(int id);
   void setLocked(int id, bool locks);
   void setDrawing(render::LabelDrawing drawing);
+  /// What undo or redo did to labels that are locked.
+  void tellLocked(const Edit& edit, bool is_undo);
   /// Forgets the marks of labels that are gone.
   void followLabels();
   void count();

@@ -42,7 +42,7 @@ std::vector<ParameterDescription> options_of(const QString& input, const std::st
 }  // namespace
 
 InfoController::InfoController(const Workbench& bench)
-    : QObject(&bench.owner), bench_(bench), panel_(new InfoPanel(&bench.frame)) {
+    : QObject(&bench.owner), bench_(bench), panel_(new InfoPanel(&bench.frame)), gpu_job_(this) {
   panel_->setContentsMargins(theme::kSpacing, 0, theme::kSpacing, theme::kSpacing);
   bench.frame.addToColumn(panel_, true);
   QAction* conventions = bench.commands.add(
@@ -66,14 +66,25 @@ InfoController::InfoController(const Workbench& bench)
   connect(&bench.stage, &Stage::previewChanged, this, &InfoController::show);
   connect(&bench.opener, &SceneOpener::changed, &bench.commands, &Commands::refresh);
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has(Part::Scene)) show();
+    if (!parts.has(Part::Scene)) return;
+    show();
+    if (bench_.session.scene()) askForGpu();
   });
   show();
 }
 
+// The first question starts the driver, which may take a second.
+void InfoController::askForGpu() {
+  gpu_job_.start<CudaDevice>([question = question_](const Progress&) { return question(); },
+                             [this](const CudaDevice& device) {
+                               gpu_ = device;
+                               show();
+                             });
+}
+
 void InfoController::show() {
   if (const auto& scene = bench_.session.scene()) {
-    SceneInfo info = describe(*scene);
+    SceneInfo info = describe(*scene, gpu_);
     const auto sign = std::ranges::find(info.rows, QString("sign"), &InfoRow::id);
     if (sign != info.rows.end() && canReverseSign()) sign->action = reverse_;
     panel_->setInfo(info.title, info.rows, info.warnings);

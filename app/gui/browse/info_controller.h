@@ -2,8 +2,13 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/gui/frame/jobs.h"
+#include "engine/cuda/device/cuda_device.h"
 
 #include <QObject>
+
+#include <functional>
+#include <optional>
 
 class QAction;
 
@@ -19,8 +24,12 @@ class InfoController : public QObject {
  public:
   explicit InfoController(const Workbench& bench);
 
+  /// Asks for the GPU in another way: for tests. The question runs on a worker.
+  void setGpuQuestion(std::function<CudaDevice()> question) { question_ = std::move(question); }
+
  private:
   void show();
+  void askForGpu();
   void askForConventions();
   [[nodiscard]] bool canReverseSign() const;
   void reverseSign();
@@ -28,6 +37,9 @@ class InfoController : public QObject {
   Workbench bench_;
   InfoPanel* panel_;
   QAction* reverse_ = nullptr;
+  std::function<CudaDevice()> question_ = cuda_device;
+  LatestJob gpu_job_;
+  std::optional<CudaDevice> gpu_;  // as it was when it was asked for last
 };
 
 }  // namespace episcope

@@ -3,7 +3,6 @@
 
 #include "app/session/scene/scene_range.h"
 #include "app/session/scene/scene_summary.h"
-#include "engine/cuda/device/cuda_device.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/schema_text.h"
 
@@ -92,8 +91,7 @@ QString names_text(const Reading& reading) {
 }
 
 // The GPU that methods compute on, or why there is none.
-QString gpu_text() {
-  const CudaDevice device = cuda_device();
+QString gpu_text(const CudaDevice& device) {
   const auto gibibytes = [](std::size_t bytes) {
     return QString::number(static_cast<double>(bytes) / (1 << 30), 'f', 1);
   };
@@ -121,7 +119,7 @@ void add_conventions(SceneInfo& info, const CameraGrid& camera,
 
 }  // namespace
 
-SceneInfo describe(const Scene& scene) {
+SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu) {
   const LightField& light_field = *scene.light_field;
   const GridShape grid = light_field.grid();
   const ConventionReport& convention = scene.convention;
@@ -168,7 +166,8 @@ SceneInfo describe(const Scene& scene) {
     info.rows.push_back({Text::tr("Files"), utf8(files), {}, "files"});
   }
   info.rows.push_back({Text::tr("Source"), utf8(light_field.info().source), {}, "source"});
-  info.rows.push_back({Text::tr("GPU"), gpu_text(), {}, "gpu"});
+  info.rows.push_back(
+      {Text::tr("GPU"), gpu ? gpu_text(*gpu) : Text::tr("being looked for …"), {}, "gpu"});
   for (const std::string& warning : convention.warnings) info.warnings << utf8(warning);
   return info;
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "engine/core/light_field/scene.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "widgets/browse/info_panel.h"
 
 #include <QString>
 #include <QStringList>
 
+#include <optional>
 #include <vector>
 
 namespace episcope {
@@ -18,6 +20,7 @@ struct SceneInfo {
   QStringList warnings;
 };
 
-[[nodiscard]] SceneInfo describe(const Scene& scene);
+/// `gpu`: what methods compute on; none while that is not known yet.
+[[nodiscard]] SceneInfo describe(const Scene& scene, const std::optional<CudaDevice>& gpu);
 
 }  // namespace episcope

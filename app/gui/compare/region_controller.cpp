@@ -26,8 +26,6 @@
 namespace episcope {
 namespace {
 
-using Mask = Image<std::uint8_t>;
-
 PixelEdges edges_of(const PixelRect& rectangle) {
   const QPoint a(rectangle.x0, rectangle.y0), b(rectangle.x1, rectangle.y0),
       c(rectangle.x1, rectangle.y1), d(rectangle.x0, rectangle.y1);
@@ -36,7 +34,7 @@ PixelEdges edges_of(const PixelRect& rectangle) {
 
 template <class IsInside>
 RegionPtr mask_where(const LightField& light_field, IsInside is_inside) {
-  auto mask = std::make_shared<Mask>(light_field.height(), light_field.width());
+  auto mask = std::make_shared<Image<std::uint8_t>>(light_field.height(), light_field.width());
   for (int y = 0; y < mask->height(); ++y) {
     for (int x = 0; x < mask->width(); ++x) mask->at(y, x) = is_inside(y, x) ? 1 : 0;
   }
@@ -51,12 +49,13 @@ RegionController::RegionController(const Workbench& bench, RegionBar* bar)
                   tr("Where all results have values"), tr("Mask of a file…")});
   addCommands(*bar);
   connectTool();
-  connect(bar_, &RegionBar::partChosen, this, [this](int part) { choose(Kind{part}); });
+  connect(bar_, &RegionBar::partChosen, this,
+          [this](int part) { choose(static_cast<JudgedPixels>(part)); });
   connect(&bench.labels, &LabelChoice::changed, this, [this] {
-    if (now().kind == Kind::Label) refresh();
+    if (now().pixels == JudgedPixels::Label) refresh();
   });
   connect(&bench.document, &DocumentController::changed, this, [this] {
-    if (now().kind == Kind::Label) refresh();
+    if (now().pixels == JudgedPixels::Label) refresh();
   });
   bench.cancels.add(CancelRank::Stroke, [this] {
     if (bench_.stage.canvas()->tool() != tool_) return false;
@@ -88,9 +87,9 @@ void RegionController::addCommands(RegionBar& bar) {
                        .text = tr("Judge the whole view"),
                        .tip = tr("Metrics are of the whole view again"),
                        .keys = {tr("Ctrl+Alt+W")},
-                       .run = [this] { choose(Kind::Whole); },
+                       .run = [this] { choose(JudgedPixels::Whole); },
                        .section = compare_section::kRange,
-                       .enabled = [this] { return now().kind != Kind::Whole; }});
+                       .enabled = [this] { return now().pixels != JudgedPixels::Whole; }});
   bar.addAction(draw, "region.draw");
 }
 
@@ -104,20 +103,20 @@ void RegionController::connectTool() {
       [this](const PixelRect& rectangle) {
         endRectangle();
         if (clipped(rectangle).empty()) return refresh();
-        now().rectangle = clipped(rectangle);
-        choose(Kind::Rectangle);
+        JudgedPart part = now();
+        part.rectangle = clipped(rectangle);
+        set(part);
+        choose(JudgedPixels::Rectangle);
       },
       Qt::QueuedConnection);  // the canvas is still busy with the release
 }
 
-RegionController::Choice& RegionController::now() {
-  return choices_[bench_.session.generation()];
+const JudgedPart& RegionController::now() const {
+  return bench_.session.place().judged;
 }
 
-const RegionController::Choice& RegionController::now() const {
-  static const Choice kWhole;
-  const auto found = choices_.find(bench_.session.generation());
-  return found == choices_.end() ? kWhole : found->second;
+void RegionController::set(const JudgedPart& part) {
+  bench_.session.set_judged(bench_.session.generation(), part);
 }
 
 PixelRect RegionController::clipped(PixelRect rectangle) const {
@@ -143,13 +142,15 @@ void RegionController::endRectangle() {
   former_tool_ = nullptr;
 }
 
-void RegionController::choose(Kind kind) {
-  if (kind == Kind::Mask) {
+void RegionController::choose(JudgedPixels pixels) {
+  if (pixels == JudgedPixels::Mask) {
     askForMask();
-  } else if (kind == Kind::Rectangle && now().rectangle.empty()) {
+  } else if (pixels == JudgedPixels::Rectangle && now().rectangle.empty()) {
     beginRectangle();
   } else {
-    now().kind = kind;
+    JudgedPart part = now();
+    part.pixels = pixels;
+    set(part);
   }
   refresh();
 }
@@ -163,40 +164,72 @@ void RegionController::askForMask() {
 }
 
 void RegionController::useMask(const QString& path) {
+  const std::uint64_t scene = bench_.session.generation();
+  masks_.erase(scene);  // it may have changed
+  readMask(scene, QFileInfo(path).absoluteFilePath().toStdString());
+}
+
+void RegionController::readMask(std::uint64_t scene, const std::string& path) {
+  if (masks_[scene].path == path) return;
+  masks_[scene] = {path, nullptr};
   bench_.jobs.start<RegionPtr>(
-      Lane::Load, tr("Mask %1").arg(QFileInfo(path).fileName()),
-      [file = std::filesystem::path(path.toStdString())](const Progress&) {
-        return std::make_shared<const Mask>(io::read_mask(file));
+      Lane::Load, tr("Mask %1").arg(QFileInfo(QString::fromStdString(path)).fileName()),
+      [path](const Progress&) {
+        return std::make_shared<const Image<std::uint8_t>>(io::read_mask(path));
       },
-      [this, path, scene = bench_.session.generation()](const RegionPtr& mask) {
-        const OpenScene* open = bench_.session.find_scene(scene);
-        if (!open || !open->scene) return;
-        const LightField& light_field = *open->scene->light_field;
-        if (mask->height() != light_field.height() || mask->width() != light_field.width()) {
-          return bench_.messages.warn(tr("The mask has %1×%2 px, but the views have %3×%4 px: "
-                                         "choose a mask of the size of the views.")
-                                          .arg(mask->width())
-                                          .arg(mask->height())
-                                          .arg(light_field.width())
-                                          .arg(light_field.height()));
+      [this, path, scene](const RegionPtr& mask) { takeMask(scene, path, mask); },
+      [this, path, scene] {
+        const auto read = masks_.find(scene);
+        if (read != masks_.end() && read->second.path == path && !read->second.pixels) {
+          dropMask(scene, path);
         }
-        Choice& choice = choices_[scene];
-        choice.kind = Kind::Mask;
-        choice.mask = mask;
-        choice.mask_name = QFileInfo(path).fileName();
-        refresh();
       });
+}
+
+void RegionController::takeMask(std::uint64_t scene, const std::string& path,
+                                const RegionPtr& mask) {
+  const OpenScene* open = bench_.session.find_scene(scene);
+  if (!open || !open->scene || masks_[scene].path != path) return;
+  const LightField& light_field = *open->scene->light_field;
+  if (mask->height() != light_field.height() || mask->width() != light_field.width()) {
+    return bench_.messages.warn(tr("The mask has %1×%2 px, but the views have %3×%4 px: choose a "
+                                   "mask of the size of the views.")
+                                    .arg(mask->width())
+                                    .arg(mask->height())
+                                    .arg(light_field.width())
+                                    .arg(light_field.height()));
+  }
+  masks_[scene].pixels = mask;
+  JudgedPart part = open->place.judged;
+  part.pixels = JudgedPixels::Mask;
+  part.mask = path;
+  bench_.session.set_judged(scene, part);
+  refresh();
+}
+
+// What was judged before stays; the whole view is, if that was the mask of a project.
+void RegionController::dropMask(std::uint64_t scene, const std::string& path) {
+  masks_.erase(scene);
+  const OpenScene* open = bench_.session.find_scene(scene);
+  if (!open || open->place.judged.pixels != JudgedPixels::Mask) return;
+  JudgedPart part = open->place.judged;
+  if (part.mask == path) {
+    part.pixels = JudgedPixels::Whole;
+    part.mask.clear();
+    bench_.session.set_judged(scene, part);
+  }
+  refresh();
 }
 
 void RegionController::update(Parts parts) {
   if (parts.has(Part::Scenes)) {
-    std::erase_if(choices_,
+    std::erase_if(masks_,
                   [this](const auto& each) { return !bench_.session.find_scene(each.first); });
   }
-  const Kind kind = now().kind;
+  const JudgedPixels pixels = now().pixels;
   const bool is_new = parts.has(Part::Scene) ||
-                      (kind == Kind::Common && parts.has(Part::Estimates)) ||
-                      (kind == Kind::Label && parts.has(Part::Labels));
+                      (pixels == JudgedPixels::Common && parts.has(Part::Estimates)) ||
+                      (pixels == JudgedPixels::Label && parts.has(Part::Labels));
   if (parts.has(Part::Scene)) endRectangle();
   if (is_new) {
     refresh();
@@ -205,22 +238,31 @@ void RegionController::update(Parts parts) {
   }
 }
 
-RegionPtr RegionController::makeRegion() const {
+RegionPtr RegionController::makeRegion() {
   const LightFieldPtr light_field = bench_.session.light_field();
-  const Choice& choice = now();
-  if (!light_field || choice.kind == Kind::Whole) return nullptr;
-  switch (choice.kind) {
-    case Kind::Label:
+  if (!light_field) return nullptr;
+  switch (now().pixels) {
+    case JudgedPixels::Whole:
+      break;
+    case JudgedPixels::Label:
       return labelRegion();
-    case Kind::Common:
+    case JudgedPixels::Common:
       return commonRegion();
-    case Kind::Mask:
-      return choice.mask;
-    default:
-      return mask_where(*light_field, [&r = choice.rectangle](int y, int x) {
+    case JudgedPixels::Mask:
+      return maskRegion();
+    case JudgedPixels::Rectangle:
+      return mask_where(*light_field, [r = clipped(now().rectangle)](int y, int x) {
         return y >= r.y0 && y < r.y1 && x >= r.x0 && x < r.x1;
       });
   }
+  return nullptr;
+}
+
+// Of a project that was opened, it is read when its scene is shown first.
+RegionPtr RegionController::maskRegion() {
+  const std::uint64_t scene = bench_.session.generation();
+  readMask(scene, now().mask);
+  return masks_[scene].pixels;
 }
 
 // Of the segmentation of the judged view; without one, what is painted there.
@@ -256,7 +298,7 @@ RegionPtr RegionController::commonRegion() const {
 
 void RegionController::refresh() {
   region_ = makeRegion();
-  bar_->setCurrent(static_cast<int>(now().kind));
+  bar_->setCurrent(static_cast<int>(now().pixels));
   const auto count = region_ ? std::count_if(region_->data(), region_->data() + region_->size(),
                                              [](std::uint8_t inside) { return inside != 0; })
                              : 0;
@@ -274,22 +316,22 @@ void RegionController::showOutline() {
 }
 
 QString RegionController::name() const {
-  const Choice& choice = now();
+  const PixelRect rectangle = clipped(now().rectangle);
   const LabelInfo* label = bench_.labels.info();
-  switch (choice.kind) {
-    case Kind::Rectangle:
+  switch (now().pixels) {
+    case JudgedPixels::Rectangle:
       return tr("rectangle x %1–%2, y %3–%4")
-          .arg(choice.rectangle.x0)
-          .arg(choice.rectangle.x1 - 1)
-          .arg(choice.rectangle.y0)
-          .arg(choice.rectangle.y1 - 1);
-    case Kind::Label:
+          .arg(rectangle.x0)
+          .arg(rectangle.x1 - 1)
+          .arg(rectangle.y0)
+          .arg(rectangle.y1 - 1);
+    case JudgedPixels::Label:
       return tr("label %1").arg(label ? QString::fromStdString(label->name) : QString());
-    case Kind::Common:
+    case JudgedPixels::Common:
       return tr("where all results have values");
-    case Kind::Mask:
-      return tr("mask %1").arg(choice.mask_name);
-    case Kind::Whole:
+    case JudgedPixels::Mask:
+      return tr("mask %1").arg(QFileInfo(QString::fromStdString(now().mask)).fileName());
+    case JudgedPixels::Whole:
       break;
   }
   return tr("whole view");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
+#include "app/session/judge/judged_part.h"
 #include "app/session/parts.h"
 #include "engine/core/array/image.h"
 #include "engine/core/array/pixel_rect.h"
@@ -13,7 +14,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
+#include <string>
 
 namespace episcope {
 
@@ -46,26 +47,26 @@ class RegionController : public QObject {
   void changed();
 
  private:
-  // In the order of the bar.
-  enum class Kind { Whole, Rectangle, Label, Common, Mask };
-  struct Choice {
-    Kind kind = Kind::Whole;
-    PixelRect rectangle{};
-    RegionPtr mask{};
-    QString mask_name{};
+  struct Mask {
+    std::string path;
+    RegionPtr pixels;  ///< Null while it is being read.
   };
 
   void addCommands(RegionBar& bar);
   void connectTool();
-  void choose(Kind kind);
+  void choose(JudgedPixels pixels);
   void askForMask();
+  void readMask(std::uint64_t scene, const std::string& path);
+  void takeMask(std::uint64_t scene, const std::string& path, const RegionPtr& mask);
+  void dropMask(std::uint64_t scene, const std::string& path);
   void endRectangle();
   void update(Parts parts);
   void refresh();
   void showOutline();
-  [[nodiscard]] Choice& now();
-  [[nodiscard]] const Choice& now() const;
-  [[nodiscard]] RegionPtr makeRegion() const;
+  [[nodiscard]] const JudgedPart& now() const;
+  void set(const JudgedPart& part);
+  [[nodiscard]] RegionPtr makeRegion();
+  [[nodiscard]] RegionPtr maskRegion();
   [[nodiscard]] RegionPtr labelRegion() const;
   [[nodiscard]] RegionPtr commonRegion() const;
   [[nodiscard]] PixelRect clipped(PixelRect rectangle) const;
@@ -74,7 +75,7 @@ class RegionController : public QObject {
   RegionBar* bar_;
   RectangleTool* tool_;
   CanvasTool* former_tool_ = nullptr;
-  std::map<std::uint64_t, Choice> choices_;  // by scene
+  std::map<std::uint64_t, Mask> masks_;  // by scene
   RegionPtr region_;
 };
 

@@ -287,7 +287,9 @@ void DocumentController::go(DocumentChange (AnnotationDocument::*step)()) {
   if (document.state() == before) return;
   if (change.empty()) change = everything();  // made, but the journal failed
   tell(change);
-  emit steppedBack(change);
+  const bool is_undo = step == &AnnotationDocument::undo;
+  const Edit* edit = is_undo ? document.history().next_redo() : document.history().next_undo();
+  if (edit) emit steppedBack(change, *edit, is_undo);
 }
 
 bool DocumentController::beginStroke(ViewIndex view, const PaintStyle& style, StrokePoint at) {

@@ -89,8 +89,10 @@ class DocumentController : public QObject {
   void painted(episcope::ViewIndex view, const episcope::PixelRect& rect);
   /// The history went a step forward or back. Rectangles may cover more than what changed.
   void changed(const episcope::DocumentChange& change);
-  /// As `changed`, by undo or redo: who works on it wants to see where.
-  void steppedBack(const episcope::DocumentChange& change);
+  /// As `changed`, by undo or redo, with the edit undone or redone: who works on it wants to see
+  /// where.
+  void steppedBack(const episcope::DocumentChange& change, const episcope::Edit& edit,
+                   bool is_undo);
   void unsavedChanged(bool has_unsaved_changes);
   /// A sentence for the user.
   void problem(const QString& sentence);

@@ -160,6 +160,16 @@ Json capture_json(const CaptureWork& work, const fs::path& project) {
   return json;
 }
 
+constexpr std::array<const char*, 5> kJudged{"whole", "rectangle", "label", "common", "mask"};
+
+Json judged_json(const JudgedPart& part, const fs::path& project) {
+  Json json{{"pixels", kJudged[static_cast<std::size_t>(part.pixels)]}};
+  const PixelRect& r = part.rectangle;
+  if (!r.empty()) json["rectangle"] = {r.y0, r.x0, r.y1, r.x1};
+  if (!part.mask.empty()) json["mask"] = source_text(part.mask, project);
+  return json;
+}
+
 Json result_json(const ProjectResult& result, const fs::path& project) {
   Json json{{"name", result.name},
             {"file", source_text(result.file.string(), project)},
@@ -182,6 +192,8 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
   }
   const CaptureWork& capture = scene.place.capture;
   if (!capture.empty()) json["capture"] = capture_json(capture, project);
+  const JudgedPart& judged = scene.place.judged;
+  if (judged != JudgedPart{}) json["judged"] = judged_json(judged, project);
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
   if (!scene.labels.file.empty()) {
     json["labels"] = {{"file", source_text(scene.labels.file.string(), project)},
@@ -206,6 +218,20 @@ CaptureWork capture_of(const Json& json, const fs::path& project) {
                           each.value("locked", false)});
   }
   return work;
+}
+
+// What a later program can choose is the whole view here.
+JudgedPart judged_of(const Json& json, const fs::path& project) {
+  JudgedPart part;
+  const auto found = std::ranges::find(kJudged, json.at("pixels").get<std::string>());
+  if (found != kJudged.end()) part.pixels = static_cast<JudgedPixels>(found - kJudged.begin());
+  if (json.contains("rectangle")) {
+    const Json& r = json.at("rectangle");
+    part.rectangle = {io::int_of(r.at(0)), io::int_of(r.at(1)), io::int_of(r.at(2)),
+                      io::int_of(r.at(3))};
+  }
+  if (json.contains("mask")) part.mask = absolute_path(json.at("mask"), project);
+  return part;
 }
 
 ProjectResult result_of(const Json& json, const fs::path& project) {
@@ -233,6 +259,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
   if (json.contains("capture")) scene.place.capture = capture_of(json.at("capture"), project);
+  if (json.contains("judged")) scene.place.judged = judged_of(json.at("judged"), project);
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
   if (json.contains("labels")) {
     scene.labels.file = absolute_path(json.at("labels").at("file"), project);

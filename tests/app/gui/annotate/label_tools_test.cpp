@@ -54,6 +54,7 @@ class LabelToolsTest : public QObject {
  private slots:
   void lockedLabel_isNeitherPaintedNorPaintedOver();
   void lockedLabel_cannotBeRemoved();
+  void undoOfALockedLabel_isDoneAndSaid();
   void hiddenLabel_isNeitherDrawnNorPaintedOver();
   void hiddenLabel_isShownAgainOncePainted();
   void onlyOne_hidesAllOthers_andShowsThemAgain();
@@ -104,6 +105,25 @@ void LabelToolsTest::lockedLabel_cannotBeRemoved() {
 
   QCOMPARE(f.document().labels().labels().size(), std::size_t{1});
   QVERIFY2(f.message().contains("unlock"), qPrintable(f.message()));
+}
+
+// As in painting programs: the history goes back whatever was locked since.
+void LabelToolsTest::undoOfALockedLabel_isDoneAndSaid() {
+  Labels f;
+  f.drag({40, 20}, {40, 60});
+  f.drag({60, 20}, {60, 60});
+  f.key(Qt::Key_V, Qt::ShiftModifier);
+  f.trigger("annotate.undo");
+  QCOMPARE(f.labelAt({60, 40}), 0);
+  QVERIFY2(f.message().startsWith("Undo changed what is locked"), qPrintable(f.message()));
+  f.trigger("annotate.redo");
+  QCOMPARE(f.labelAt({60, 40}), 1);
+  QVERIFY2(f.message().startsWith("Redo changed what is locked"), qPrintable(f.message()));
+
+  f.key(Qt::Key_V, Qt::ShiftModifier);
+  f.key(Qt::Key_Escape);
+  f.trigger("annotate.undo");
+  QVERIFY2(!f.window.findChild<MessageBar*>("messageBar")->isVisible(), qPrintable(f.message()));
 }
 
 void LabelToolsTest::hiddenLabel_isNeitherDrawnNorPaintedOver() {

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "app/gui/browse/info_controller.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/browse/epi_pane.h"
 #include "widgets/browse/value_bar.h"
 #include "widgets/canvas/view_canvas.h"
 
+#include <QLabel>
 #include <QWheelEvent>
+
+#include <atomic>
+#include <future>
+#include <thread>
 
 namespace episcope::in_browse_test {
 
@@ -25,10 +31,34 @@ class BrowseTest : public QObject {
   void click_movesTheCrossHairAndTheEpis();
   void shiftClick_focusesAtThePixel();
   void valuesAtTheCursor_areRead();
+  void gpu_isAskedForOnAWorker();
   void measuredLine_belongsToItsRow();
   void wheelWithAltOrCtrl_movesTheFocusPlane_data();
   void wheelWithAltOrCtrl_movesTheFocusPlane();
 };
+
+// The question may take a second: the window is there meanwhile, and fills the row in later.
+void BrowseTest::gpu_isAskedForOnAWorker() {
+  WindowFixture f;
+  std::promise<void> answered;
+  std::atomic<std::thread::id> asked_on;
+  find<InfoController>(f.window).setGpuQuestion([&asked_on, wait = answered.get_future().share()] {
+    asked_on = std::this_thread::get_id();
+    wait.wait();
+    CudaDevice device;
+    device.is_available = true;
+    device.name = "a GPU";
+    return device;
+  });
+  const auto row = [&f] { return f.window.findChild<QLabel*>("info.gpu")->text(); };
+
+  f.openSmall();
+
+  QVERIFY2(row().contains("being looked for"), qPrintable(row()));
+  answered.set_value();
+  QTRY_VERIFY2_WITH_TIMEOUT(row().contains("a GPU"), qPrintable(row()), kPatience);
+  QVERIFY(asked_on.load() != std::this_thread::get_id());
+}
 
 void BrowseTest::measuredLine_belongsToItsRow() {
   WindowFixture f;

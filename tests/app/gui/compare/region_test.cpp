@@ -2,6 +2,9 @@
 // The judged part of the view and errors by disparity, driven in the window that ships.
 #include "app/gui/compare/region_controller.h"
 
+#include "app/gui/opening/scene_switcher.h"
+#include "app/session/project/project_file.h"
+#include "app/session/project/session_project.h"
 #include "tests/app/gui/compare/compared.h"
 #include "widgets/compare/metric_table.h"
 #include "widgets/compare/region_bar.h"
@@ -64,6 +67,8 @@ class RegionTest : public QObject {
   void mask_isReadFromAFile();
   void maskOfAnotherSize_isRefused();
   void everyScene_hasItsOwnPart();
+  void part_comesBackWithTheProject();
+  void missingMask_isTold_andTheWholeViewIsJudged();
   void errors_arePlottedByDisparity();
   void errorsOfTwoResults_areTwoLines();
 };
@@ -180,6 +185,43 @@ void RegionTest::everyScene_hasItsOwnPart() {
   f.session().choose(first);
   QCoreApplication::processEvents();
   QVERIFY(f.region().region());
+}
+
+// A rectangle on one light field, a mask on another.
+void RegionTest::part_comesBackWithTheProject() {
+  Judging f({0.5F});
+  QImage mask(96, 96, QImage::Format_Grayscale8);
+  mask.fill(0);
+  for (int x = 0; x < 10; ++x) mask.setPixel(x, 5, qRgb(255, 255, 255));
+  QVERIFY(mask.save(f.path("mask.png")));
+  f.drawRectangle({2, 3}, {17, 22});
+  f.openSmall("slant");
+  f.region().useMask(f.path("mask.png"));
+  QTRY_COMPARE_WITH_TIMEOUT(f.summary(), QString("10 px"), kPatience);
+  const std::string path = f.path("work.episcope").toStdString();
+  Project project = project_of(f.session());
+  for (ProjectScene& scene : project.scenes) scene.results.clear();  // no file keeps them
+  write_project(path, project);
+
+  WindowFixture g;
+  g.window.start(QString::fromStdString(path));
+  Session& session = g.window.bench().session;
+  QTRY_VERIFY_WITH_TIMEOUT(session.scene(), kScenePatience);
+  const auto summary = [&g] { return find<RegionBar>(g.window).summary(); };
+  QTRY_COMPARE_WITH_TIMEOUT(summary(), QString("10 px"), kPatience);
+  g.window.bench().scenes.show(session.scenes()[0]->id);
+  QTRY_VERIFY_WITH_TIMEOUT(summary().startsWith("320"), kScenePatience);
+  QVERIFY(find<RegionController>(g.window).name().startsWith("rectangle x 3–22"));
+}
+
+void RegionTest::missingMask_isTold_andTheWholeViewIsJudged() {
+  Judging f({0.5F});
+  f.session().set_judged(f.session().generation(),
+                         {JudgedPixels::Mask, {}, f.path("gone.png").toStdString()});
+  f.region().useMask(f.path("gone.png"));
+  auto* bar = f.window.findChild<QWidget*>("messageBar");
+  QTRY_VERIFY_WITH_TIMEOUT(bar->isVisible(), kPatience);
+  QTRY_COMPARE(f.region().name(), QString("whole view"));
 }
 
 void RegionTest::errors_arePlottedByDisparity() {
