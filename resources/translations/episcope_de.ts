@@ -2330,6 +2330,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>No light field</source>
         <translation>Kein Lichtfeld</translation>
     </message>
+    <message>
+        <source>being looked for …</source>
+        <translation>wird gesucht …</translation>
+    </message>
 </context>
 <context>
     <name>episcope::JobPanel</name>
@@ -2557,6 +2561,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Labels are drawn as %1.</source>
         <translation>Darstellung der Labels: %1.</translation>
+    </message>
+    <message>
+        <source>Undo changed what is locked: %1. Redo brings it back.</source>
+        <translation>Rückgängig hat Gesperrtes geändert: %1. Wiederholen holt es zurück.</translation>
+    </message>
+    <message>
+        <source>Redo changed what is locked: %1. Undo brings it back.</source>
+        <translation>Wiederholen hat Gesperrtes geändert: %1. Rückgängig holt es zurück.</translation>
     </message>
 </context>
 <context>
