@@ -14,7 +14,7 @@ struct EdgeParameters {
   double disparity = 4;  ///< γ, per px of jump: likewise for disparity; ≥ 0.
   /// What an image edge counts where no jump of disparity is near and disparity is known: most of
   /// them are texture. In [0, 1].
-  double texture = 0.3;
+  double texture = 0.6;
 };
 
 /// The probability of an edge at every pixel of a view, `[y][x]` in [0, 1], as EDGE_WEIGHTS of the
