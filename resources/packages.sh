@@ -5,7 +5,7 @@
 LIBRARY_PACKAGES="libhdf5-dev libopencv-core-dev
   libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-ml-dev libopencv-calib3d-dev
   libopencv-features2d-dev libeigen3-dev libassimp-dev
-  libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev libboost-dev
+  libpng-dev zlib1g-dev nlohmann-json3-dev libfmt-dev libmatio-dev liblzf-dev libboost-dev
   pkg-config libavfilter-dev libavformat-dev libavcodec-dev"
 ENGINE_PACKAGES="g++ cmake ninja-build libcli11-dev $LIBRARY_PACKAGES"
 WINDOW_PACKAGES="qt6-base-dev libqt6opengl6-dev qt6-svg-dev qt6-l10n-tools libvtk9-dev

@@ -8,6 +8,7 @@ endif()
 find_package(HDF5 REQUIRED COMPONENTS C)
 find_package(ZLIB REQUIRED)
 find_package(Matio REQUIRED)
+find_package(liblzf REQUIRED CONFIG)
 find_package(OpenCV REQUIRED COMPONENTS core imgproc imgcodecs ml calib3d features2d)
 # For ChArUco boards; the build does without.
 find_library(EPISCOPE_ARUCO_LIBRARY opencv_aruco)

@@ -5084,6 +5084,10 @@ s</translation>
         <translation>Linsenbild</translation>
     </message>
     <message>
+        <source>Levels</source>
+        <translation>Pegel</translation>
+    </message>
+    <message>
         <source>Limit K</source>
         <translation>Grenze K</translation>
     </message>
@@ -5450,6 +5454,10 @@ s</translation>
     <message>
         <source>Two superimposed orientations on epipolar plane images: transparent and reflective surfaces</source>
         <translation>Zwei überlagerte Orientierungen in Epipolarebenenbildern: durchsichtige und spiegelnde Flächen</translation>
+    </message>
+    <message>
+        <source>Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for normalised floats; empty = detected</source>
+        <translation>Werte von Schwarz und Weiß, wie gespeichert: 0,1023 für 10 von 16 Bit, -1,1 für normalisierte Gleitkommazahlen; leer = erkannt</translation>
     </message>
     <message>
         <source>View</source>

@@ -4,6 +4,7 @@
 #include "engine/io/archive/archive_names.h"
 #include "engine/io/archive/depth_maps.h"
 #include "engine/io/archive/depth_units.h"
+#include "engine/io/archive/other_maps.h"
 
 #include <cmath>
 
@@ -119,7 +120,8 @@ ArchiveTruth read_archive_depth(const Hdf5Input& file, const LightField::Samples
   const auto read = [&](const char* name, double begin, double end) {
     return read_depth(file, name, shape, options.map_views(), progress.part(begin, end));
   };
-  DepthMaps field = read("GT_DEPTH", 0, 0.7);
+  const std::string other = file.has("GT_DEPTH") ? "" : other_depth(file, shape);
+  DepthMaps field = read(other.empty() ? "GT_DEPTH" : other.c_str(), 0, 0.7);
   DepthMaps foreground = read("GT_DEPTH_FOREGROUND", 0.7, 0.8);
   DepthMaps background = read("GT_DEPTH_BACKGROUND", 0.8, 0.9);
   const DepthMaps& reference =

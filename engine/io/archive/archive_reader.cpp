@@ -9,9 +9,10 @@
 #include "engine/io/archive/archive_layout.h"
 #include "engine/io/archive/archive_samples.h"
 #include "engine/io/archive/companions.h"
+#include "engine/io/archive/other_maps.h"
 #include "engine/io/labels/label_list.h"
 #include "engine/io/labels/scribble_dataset.h"
-#include "engine/io/maps/float_samples.h"
+#include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
@@ -87,7 +88,8 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
 
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
                    const Progress& progress) {
-  const Hdf5Input file(path);
+  const auto input = std::make_shared<const Hdf5Input>(path);
+  const Hdf5Input& file = *input;
   const ArchiveLayout layout = archive_layout(file);
   const GridShape grid = layout.shape.grid;
   Scene scene;
@@ -105,7 +107,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   LightField::Samples samples =
       read_archive_samples(file, layout, options, info, progress.part(0, 0.55));
   ViewStack<std::uint8_t> valid = read_valid(file, layout.shape, progress.part(0.55, 0.6));
-  scale_float_samples(samples, report);
+  settle_range(samples, options.levels, report);
   progress.step("reading depth");
   ArchiveTruth depth = read_archive_depth(file, samples, options, report, progress.part(0.6, 0.85));
   progress.step("reading labels");
@@ -120,6 +122,9 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   GroundTruth truth{std::move(depth.field), std::move(depth.foreground),
                     std::move(depth.background), std::move(labels.labels), std::move(regions)};
   info.camera = depth.camera;
+  const std::vector<FileUse> others =
+      read_other_maps(input, layout, options.needs_truth, {samples, truth, valid, report},
+                      progress.part(0.95, 0.97));
   assemble({.samples = std::move(samples),
             .truth = std::move(truth),
             .info = std::move(info),
@@ -136,6 +141,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
     account.use(companion.path, companion_name(companion.kind));
   }
   report.files = account.uses();
+  report.files.insert(report.files.end(), others.begin(), others.end());
   return scene;
 }
 
@@ -179,7 +185,7 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
   return is_there(beside) ? beside : path;
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "units"};
+constexpr const char* kOptions[] = {"flip", "crop", "units", "levels"};
 
 }  // namespace
 

@@ -50,7 +50,9 @@ std::optional<ViewStack<T>> map_views(const Hdf5Input& file, const ArchiveLayout
   const Hdf5Shape stored = file.dataset(kArchiveLightField).shape;
   const bool has_all_channels =
       !layout.has_channel_axis || stored.back() == static_cast<std::size_t>(layout.channels);
-  if (std::is_floating_point_v<T> || !has_all_channels || options.equalise) return std::nullopt;
+  if (std::is_floating_point_v<T> || !has_all_channels || options.equalise ||
+      !options.levels.empty())
+    return std::nullopt;
   const std::size_t bytes = static_cast<std::size_t>(shape.grid.count()) * shape.height *
                             shape.width * layout.channels * sizeof(T);
   if (!is_better_mapped(static_cast<double>(bytes))) return std::nullopt;

@@ -137,7 +137,7 @@ fs::path find_excerpt(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "units", "pattern", "snake", "grid"};
+constexpr const char* kOptions[] = {"flip", "crop", "units", "pattern", "snake", "grid", "levels"};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 #include "engine/io/arrays/array_file.h"
 
 #include "engine/core/error.h"
+#include "engine/io/arrays/joined_arrays.h"
 
 #include <fmt/format.h>
 
@@ -20,9 +21,31 @@ std::string last_name(const std::string& name) {
   return name.substr(name.rfind('/') + 1);
 }
 
+std::string telling_name(const ArrayEntry& entry) {
+  return entry.is_of_views() ? entry.name : last_name(entry.name);
+}
+
 std::string content_text(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return entry.other_kind;
   return array_shape_text(in_index_order(entry.shape, entry.order));
+}
+
+void ArrayFile::join_parts() {
+  join_arrays(entries_);
+}
+
+std::unique_ptr<ArrayInput> ArrayFile::open(const ArrayEntry& entry) const {
+  if (entry.parts.empty()) return open_stored(entry);
+  ArrayEntry part = entry;
+  part.parts.clear();
+  part.shape.erase(part.shape.begin(),
+                   part.shape.begin() + static_cast<std::ptrdiff_t>(entry.leading.size()));
+  std::vector<std::unique_ptr<ArrayInput>> parts;
+  for (const std::string& name : entry.parts) {
+    part.name = name;
+    parts.push_back(open_stored(part));
+  }
+  return stacked(path_, entry, std::move(parts));
 }
 
 void require_plausible_size(const std::filesystem::path& path, const ArrayShape& shape,

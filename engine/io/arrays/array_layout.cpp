@@ -42,8 +42,7 @@ void add_grids(const ArrayShape& lengths, std::size_t channel_axis, std::vector<
     out.push_back(std::move(axes));
   };
   if (can_be_views(four[0], four[1], four[2], four[3])) add("vuyx");
-  const bool is_between = has_channels && channel_axis == 2;
-  if (!is_between && can_be_views(four[2], four[3], four[0], four[1])) {
+  if (can_be_views(four[2], four[3], four[0], four[1])) {
     add(has_channels && channel_axis == 0 ? "xyuv" : "yxvu");
   }
 }
@@ -107,7 +106,12 @@ ArrayLayout ArrayLayout::crossed() const {
 }
 
 std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder order) {
-  const ArrayShape lengths = in_index_order(stored, order);
+  ArrayShape lengths = in_index_order(stored, order);
+  std::string singles;
+  while (lengths.size() > 5 && lengths.front() == 1) {
+    lengths.erase(lengths.begin());
+    singles += kSingle;
+  }
   std::vector<std::string> found;
   if (lengths.size() == 5) {
     for (const std::size_t axis : {4, 0, 2}) {
@@ -120,7 +124,8 @@ std::vector<ArrayLayout> possible_layouts(const ArrayShape& stored, IndexOrder o
     add_lists(lengths, found);
   }
   std::vector<ArrayLayout> layouts;
-  for (const std::string& axes : found) layouts.push_back({stored, in_index_order(axes, order)});
+  for (const std::string& axes : found)
+    layouts.push_back({stored, in_index_order(singles + axes, order)});
   return layouts;
 }
 
@@ -142,6 +147,7 @@ ArrayLayout stated_layout(const std::filesystem::path& path, const ArrayShape& s
     throw refused(fmt::format("{} letters, but {} axes", letters.size(), stored.size()));
   }
   for (const char letter : letters) {
+    if (letter == kSingle) continue;
     if (std::string("vuyxcn").find(letter) == std::string::npos) {
       throw refused(fmt::format("{} is no axis", letter));
     }

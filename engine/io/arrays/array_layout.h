@@ -20,6 +20,9 @@ enum class IndexOrder {
 [[nodiscard]] ArrayShape in_index_order(ArrayShape stored, IndexOrder order);
 [[nodiscard]] std::string in_index_order(std::string axes, IndexOrder order);
 
+/// Instead of a letter, for an axis of length 1 that means nothing.
+inline constexpr char kSingle = '1';
+
 /// What the axes of an array mean: a letter each, v and u for rows and columns of views, y and x
 /// for those of pixels, c for channels, n for views in a list.
 struct ArrayLayout {
@@ -43,7 +46,8 @@ struct ArrayLayout {
 
 /// Every meaning that an array of this shape can have as a light field: channels are 1, 3 or 4;
 /// rows and columns of views lie side by side, as those of pixels do; views have more rows and
-/// columns than their grid; channels lie first, last, or between grid and pixels. Rows are taken to
+/// columns than their grid; channels lie first, last, or between grid and pixels; further axes have
+/// the length 1 and stand first. Rows are taken to
 /// come before columns in the order of indices, but for arrays of pixels before views with channels
 /// first, as MATLAB's in other programs, in which columns come first. Arrays of 3 axes are lists of
 /// grey views; of 4, grey views or lists.

@@ -17,7 +17,7 @@ namespace {
 
 std::optional<MapKind> kind_of(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return std::nullopt;
-  const std::string name = last_name(entry.name);
+  const std::string name = telling_name(entry);
   if (lower_case(name) == "gt") return MapKind::Disparity;
   return map_kind(name);
 }
@@ -26,7 +26,6 @@ std::optional<MapKind> kind_of(const ArrayEntry& entry) {
 std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout& light_field,
                                       IndexOrder order) {
   ArrayLayout layout{entry.shape, {}};
-  ArrayShape shape;
   std::string all;
   for (const char letter : in_index_order(light_field.axes, order)) {
     if (letter != 'c') all += letter;
@@ -35,8 +34,13 @@ std::optional<ArrayLayout> map_layout(const ArrayEntry& entry, const ArrayLayout
   for (const char letter : all) {
     if (letter == 'y' || letter == 'x') pixels += letter;
   }
+  const ArrayShape lengths = in_index_order(entry.shape, entry.order);
   for (const std::string& axes : {all, pixels, std::string("vuyx"), std::string("yx")}) {
-    layout.axes = in_index_order(axes, entry.order);
+    std::string whole = axes;
+    while (whole.size() < lengths.size() && lengths[lengths.size() - whole.size() - 1] == 1) {
+      whole = kSingle + whole;
+    }
+    layout.axes = in_index_order(whole, entry.order);
     if (layout.axes.size() != entry.shape.size()) continue;
     const auto fits = [&](char letter) {
       return layout.length(letter) == light_field.length(letter);
@@ -74,12 +78,14 @@ FileUse not_used(const ArrayEntry& entry) {
 
 }  // namespace
 
-ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
-                          const ArrayLayout& layout, bool wants_labels, const Progress& progress) {
+ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
+                          const FieldAxes& light_field, bool wants_labels,
+                          const Progress& progress) {
   ArrayMaps maps;
+  const ArrayLayout& layout = light_field.layout;
   const GridShape grid = layout.grid();
-  for (const ArrayEntry& entry : file.entries()) {
-    if (&entry == &light_field || entry.name.starts_with(light_field.name + "/")) continue;
+  for (const ArrayEntry* other : others) {
+    const ArrayEntry& entry = *other;
     progress.check();
     const auto kind = kind_of(entry);
     const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;

@@ -19,11 +19,19 @@ struct ArrayMaps {
   std::string disparity_name;     ///< Of the array that holds the disparity.
 };
 
+/// The axes of the light field, whose letters are those of the stored shape.
+struct FieldAxes {
+  ArrayLayout layout;
+  IndexOrder order = IndexOrder::C;
+};
+
 /// Reads disparity, labels and masks (by their names: `map_kind`, or "gt") of the centre view or of
-/// all views, whose axes are those of the light field without channels. What has another name or
-/// shape is noted as not used; so is depth, which needs a camera. Throws IoError, Cancelled.
-[[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file, const ArrayEntry& light_field,
-                                        const ArrayLayout& layout, bool wants_labels,
+/// all views, whose axes are those of the light field without channels, among `others` of the file.
+/// What has another name or shape is noted as not used; so is depth, which needs a camera. Throws
+/// IoError, Cancelled.
+[[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
+                                        const std::vector<const ArrayEntry*>& others,
+                                        const FieldAxes& light_field, bool wants_labels,
                                         const Progress& progress);
 
 /// Brings disparity as stored into px per view step, positive = nearer, as the views speak for

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/array_preview.h"
 
+#include "engine/io/maps/sample_range.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -160,18 +162,21 @@ std::vector<Image<float>> read_boxes(const ArrayInput& array, const ArrayLayout&
 }
 
 Image<std::uint8_t> picture_of(const Image<float>& samples, NumberType type) {
+  float black = 0;
   float white = 0;
   for (const float sample : samples) {
-    if (std::isfinite(sample)) white = std::max(white, sample);
+    if (!std::isfinite(sample)) continue;
+    black = std::min(black, sample);
+    white = std::max(white, sample);
   }
-  if (byte_size(type) == 1) white = 255;
-  if (type == NumberType::UInt16) white = 65535;
+  if (!is_float(type) && black == 0) white = static_cast<float>(full_scale(white));
   Image<std::uint8_t> rgb(samples.height(), samples.width(), 3);
   for (int y = 0; y < rgb.height(); ++y) {
     for (int x = 0; x < rgb.width(); ++x) {
       for (int c = 0; c < 3; ++c) {
         const float sample = samples.at(y, x, c % samples.channels());
-        const float unit = white > 0 && std::isfinite(sample) ? sample / white : 0;
+        const float unit =
+            white > black && std::isfinite(sample) ? (sample - black) / (white - black) : 0;
         rgb.at(y, x, c) = static_cast<std::uint8_t>(255 * std::clamp(unit, 0.0F, 1.0F) + 0.5F);
       }
     }

@@ -29,6 +29,7 @@ BlockAxes axes_of(const ArrayBlock& block, const ArrayLayout& layout) {
   for (std::size_t axis = layout.axes.size(); axis-- > 0;) {
     const char letter = layout.axes[axis] == 'n' ? 'u' : layout.axes[axis];
     const std::size_t at = kLetters.find(letter);
+    if (at == std::string_view::npos) continue;  // of length 1
     axes.start[at] = block.start[axis];
     axes.count[at] = block.count[axis];
     axes.stride[at] = stride;
@@ -106,18 +107,30 @@ ArraySamples read_as(const ArrayInput& array, const ArrayLayout& layout, const P
   return {std::move(stack), std::move(valid)};
 }
 
-/// Integers that bytes can hold, as bytes.
+template <class To, class From>
+ViewStack<To> converted(const ViewStack<From>& from) {
+  ViewStack<To> to(from.grid(), from.height(), from.width(), from.channels());
+  std::transform(from.data(), from.data() + from.size(), to.data(),
+                 [](From sample) { return static_cast<To>(sample); });
+  return to;
+}
+
+template <class T>
+bool lies_in(const ViewStack<T>& stack, T smallest, T largest) {
+  return std::all_of(stack.data(), stack.data() + stack.size(),
+                     [=](T sample) { return smallest <= sample && sample <= largest; });
+}
+
+/// Integers in the narrowest type that holds them; negative ones stay floats.
 void narrow(LightField::Samples& samples) {
-  const auto& wide = std::get<ViewStack<std::uint16_t>>(samples);
-  constexpr std::uint16_t kLargest = std::numeric_limits<std::uint8_t>::max();
-  if (std::any_of(wide.data(), wide.data() + wide.size(),
-                  [](std::uint16_t sample) { return sample > kLargest; })) {
-    return;
+  constexpr int kOfBytes = std::numeric_limits<std::uint8_t>::max();
+  constexpr int kOfWords = std::numeric_limits<std::uint16_t>::max();
+  if (const auto* floats = std::get_if<ViewStack<float>>(&samples)) {
+    if (!lies_in<float>(*floats, 0, kOfWords)) return;
+    samples = converted<std::uint16_t>(*floats);
   }
-  ViewStack<std::uint8_t> bytes(wide.grid(), wide.height(), wide.width(), wide.channels());
-  std::transform(wide.data(), wide.data() + wide.size(), bytes.data(),
-                 [](std::uint16_t sample) { return static_cast<std::uint8_t>(sample); });
-  samples = std::move(bytes);
+  const auto& words = std::get<ViewStack<std::uint16_t>>(samples);
+  if (lies_in<std::uint16_t>(words, 0, kOfBytes)) samples = converted<std::uint8_t>(words);
 }
 
 }  // namespace
@@ -129,7 +142,8 @@ ArraySamples read_samples(const ArrayInput& array, const ArrayLayout& layout,
   if (byte_size(type) == 1 && type != NumberType::Int8) {
     return read_as<std::uint8_t>(array, layout, progress);
   }
-  ArraySamples read = read_as<std::uint16_t>(array, layout, progress);
+  ArraySamples read = is_signed(type) ? read_as<float>(array, layout, progress)
+                                      : read_as<std::uint16_t>(array, layout, progress);
   if (type != NumberType::UInt16) narrow(read.samples);
   return read;
 }

@@ -2,12 +2,13 @@
 #include "engine/io/arrays/array_scene.h"
 
 #include "engine/core/error.h"
+#include "engine/core/text/join.h"
 #include "engine/io/arrays/array_maps.h"
 #include "engine/io/arrays/array_preview.h"
 #include "engine/io/arrays/array_samples.h"
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/list_grid.h"
-#include "engine/io/maps/float_samples.h"
+#include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_name.h"
@@ -17,7 +18,7 @@
 namespace episcope::io {
 namespace {
 
-constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes"};
+constexpr const char* kOptions[] = {"flip", "grid", "dataset", "axes", "levels"};
 
 /// As the light field itself says which pixels hold something, or a mask beside it.
 void combine(ViewStack<std::uint8_t>& valid, ViewStack<std::uint8_t> mask) {
@@ -36,9 +37,13 @@ const ArrayEntry& light_field_of(const ArrayFile& file, const OpenOptions& optio
     throw InvalidInput(fmt::format("{}: no array of this file has the {} axes {}; state others",
                                    file.path().string(), options.axes.size(), options.axes));
   }
-  throw IoError(file.path(),
-                "no array of this file has the shape of a light field; if one is, "
-                "name it with --dataset and its axes with --axes");
+  const std::string held = joined(file.entries(), "; ", [](const ArrayEntry& one) {
+    return one.name + ", " + content_text(one);
+  });
+  throw IoError(file.path(), fmt::format("no array of this file has the shape of a light field; if "
+                                         "one is, name it with --dataset and its axes with --axes "
+                                         "(there {})",
+                                         held.empty() ? "is none" : "are: " + held.substr(0, 300)));
 }
 
 LightFieldInfo info_of(const ArrayFile& file, const char* reader) {
@@ -98,10 +103,14 @@ Scene read_array_scene(const ArrayFile& file, const char* reader, const OpenOpti
   Scene scene;
   progress.step("reading views");
   ArraySamples read = read_samples(*array, chosen.layout, progress.part(0, 0.7));
-  scale_float_samples(read.samples, scene.convention);
+  settle_range(read.samples, options.levels, scene.convention);
   progress.step("reading maps");
-  ArrayMaps maps =
-      read_array_maps(file, entry, chosen.layout, options.needs_truth, progress.part(0.7, 0.8));
+  std::vector<const ArrayEntry*> others;
+  for (const ArrayEntry& other : file.entries()) {
+    if (&other != &entry) others.push_back(&other);
+  }
+  ArrayMaps maps = read_array_maps(file, others, {chosen.layout, entry.order}, options.needs_truth,
+                                   progress.part(0.7, 0.8));
   parts.samples = std::move(read.samples);
   parts.valid = std::move(read.valid);
   combine(parts.valid, std::move(maps.valid));

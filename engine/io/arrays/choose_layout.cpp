@@ -5,6 +5,7 @@
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
 #include "engine/io/arrays/array_preview.h"
+#include "engine/io/arrays/joined_arrays.h"
 #include "engine/io/open/undecided.h"
 #include "engine/io/order/parallax_axis.h"
 
@@ -25,11 +26,11 @@ bool is_light_field_name(const std::string& name) {
 }
 
 /// Words for maps and for what describes a camera.
-bool is_other_name(const std::string& name) {
+bool is_other_name(const ArrayEntry& entry) {
+  const std::string name = lower_case(telling_name(entry));
   constexpr const char* kWords[] = {"disp", "depth", "label", "mask", "valid", "seg", "gt", "conf"};
-  const std::string last = lower_case(last_name(name));
   return std::ranges::any_of(
-      kWords, [&](const char* word) { return last.find(word) != std::string::npos; });
+      kWords, [&](const char* word) { return name.find(word) != std::string::npos; });
 }
 
 std::size_t letter_count(const std::string& axes) {
@@ -71,6 +72,15 @@ const ArrayEntry& named_entry(const ArrayFile& file, const std::string& name) {
       file.entries().empty() ? "none" : joined(file.entries(), "; ", entry_text)));
 }
 
+/// What the shape of an array, and its parts, allow it to be.
+std::vector<ArrayLayout> layouts_of(const ArrayEntry& entry) {
+  if (entry.is_of_views()) return {{entry.shape, joined_axes(entry)}};
+  std::vector<ArrayLayout> layouts = possible_layouts(entry.shape, entry.order);
+  std::erase_if(layouts,
+                [&](const ArrayLayout& layout) { return !layout.axes.starts_with(entry.leading); });
+  return layouts;
+}
+
 /// What moves between the centre and its neighbours along each axis of views.
 struct Parallax {
   AxisEvidence along_u;
@@ -98,7 +108,7 @@ Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
 bool can_be_light_field(const ArrayEntry& entry) {
   if (!entry.other_kind.empty()) return false;
   if (!entry.stated_axes.empty() && entry.shape.size() > 3) return true;
-  return !possible_layouts(entry.shape, entry.order).empty();
+  return !layouts_of(entry).empty();
 }
 
 const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
@@ -115,9 +125,13 @@ const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dat
     return count == 1 ? *std::ranges::find_if(possible, is_meant) : nullptr;
   };
   const auto has_name = [](const ArrayEntry* entry) { return is_light_field_name(entry->name); };
-  const auto has_five = [](const ArrayEntry* entry) { return entry->shape.size() == 5; };
-  const auto is_no_map = [](const ArrayEntry* entry) { return !is_other_name(entry->name); };
+  const auto has_five = [](const ArrayEntry* entry) { return entry->shape.size() >= 5; };
   if (const ArrayEntry* entry = only(has_name)) return entry;
+  const auto is_no_map = [](const ArrayEntry* entry) { return !is_other_name(*entry); };
+  const auto is_likely = [&](const ArrayEntry* entry) {
+    return has_five(entry) && is_no_map(entry);
+  };
+  if (const ArrayEntry* entry = only(is_likely)) return entry;
   if (const ArrayEntry* entry = only(has_five)) return entry;
   if (const ArrayEntry* entry = only(is_no_map)) return entry;
   std::vector<ReadingChoice> choices;
@@ -136,7 +150,7 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
             "as the file states",
             {}};
   }
-  const auto layouts = possible_layouts(entry.shape, entry.order);
+  const auto layouts = layouts_of(entry);
   if (layouts.size() == 1) return {layouts.front(), "by shape", {}};
   const std::string shape = array_shape_text(in_index_order(entry.shape, entry.order));
   if (layouts.empty()) {

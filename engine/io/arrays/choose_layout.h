@@ -22,9 +22,9 @@ struct ChosenLayout {
 
 /// The entry that holds the light field: the one that `dataset` names; else, among those that have
 /// the axes that `axes` states or, if it is empty, the shape of one, the only one with five
-/// axes, or called lf, light_field, views or the like, or the only one that can be a light field.
-/// Null if none can be. Throws Undecided where several can be, InvalidInput for
-/// a `dataset` that is not there.
+/// axes and no name of a map, or called lf, light_field, views or the like, or the only one that
+/// can be a light field. Null if none can be. Throws Undecided where several can be, InvalidInput
+/// for a `dataset` that is not there.
 [[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
                                                  const std::string& axes);
 

@@ -6,6 +6,7 @@
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/folder_file.h"
 #include "engine/io/arrays/hdf5_arrays.h"
+#include "engine/io/beside/map_name.h"
 #include "engine/io/open/scene_folder.h"
 
 #include <algorithm>
@@ -25,6 +26,16 @@ bool is_archive_form(const ArrayEntry& light_field) {
   return (last == 1 || last == 3 || last == 4) && (axes.empty() || axes.starts_with("v,u,y,x"));
 }
 
+/// Maps and results have fewer axes, too, but no colours, and names that tell what they are.
+bool is_like_views(const ArrayEntry& entry) {
+  if (entry.is_of_views()) return !map_kind(telling_name(entry));
+  if (!can_be_light_field(entry)) return false;
+  const bool is_list = entry.shape.size() == 4 && entry.shape.back() == 3;
+  const bool is_grey =
+      entry.shape.size() == 4 && entry.type == NumberType::UInt8 && entry.name != "SCRIBBLES";
+  return entry.shape.size() >= 5 || ((is_list || is_grey) && !map_kind(telling_name(entry)));
+}
+
 bool is_meant(const fs::path& path, const OpenOptions& options) {
   if (!has_hdf5_signature(path)) return false;
   const auto file = std::make_shared<const Hdf5Input>(path);
@@ -36,9 +47,7 @@ bool is_meant(const fs::path& path, const OpenOptions& options) {
   const auto& entries = arrays.entries();
   const auto light_field = std::ranges::find(entries, "LF", &ArrayEntry::name);
   if (light_field != entries.end()) return !is_archive_form(*light_field);
-  return std::ranges::any_of(entries, [](const ArrayEntry& entry) {
-    return entry.shape.size() == 5 && can_be_light_field(entry);
-  });
+  return std::ranges::any_of(entries, is_like_views);
 }
 
 bool has_hdf5_name(const fs::path& path) {

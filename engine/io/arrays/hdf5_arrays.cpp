@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/hdf5_arrays.h"
 
+#include "engine/io/arrays/joined_arrays.h"
+
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -75,34 +77,6 @@ class Hdf5Array : public ArrayInput {
   ArrayShape chunk_;
 };
 
-/// Three arrays of equal shape as one: channels, and what they have in common.
-class Planes : public ArrayInput {
- public:
-  Planes(const fs::path& path, const ArrayEntry& entry,
-         std::vector<std::unique_ptr<ArrayInput>> planes)
-      : ArrayInput(path, entry.shape, entry.type), planes_(std::move(planes)) {}
-  [[nodiscard]] ArrayShape unit() const override {
-    ArrayShape unit = planes_.front()->unit();
-    unit.insert(unit.begin(), 1);
-    return unit;
-  }
-
- private:
-  void read_block(const ArrayShape& start, const ArrayShape& count,
-                  std::uint8_t* out) const override {
-    const ArrayShape plane_start(start.begin() + 1, start.end());
-    const ArrayShape plane_count(count.begin() + 1, count.end());
-    const std::size_t bytes = element_count(plane_count) * byte_size(type());
-    for (std::size_t i = start[0]; i < start[0] + count[0]; ++i, out += bytes) {
-      planes_[i]->read_raw(plane_start, plane_count, out);
-    }
-  }
-
-  std::vector<std::unique_ptr<ArrayInput>> planes_;
-};
-
-constexpr const char* kChannels[] = {"r", "g", "b"};
-
 }  // namespace
 
 bool is_matlab_hdf5(const Hdf5Input& file) {
@@ -120,43 +94,30 @@ Hdf5Arrays::Hdf5Arrays(std::shared_ptr<const Hdf5Input> file)
       file_(std::move(file)) {
   const std::vector<Hdf5Dataset> datasets = file_->datasets();
   for (const Hdf5Dataset& dataset : datasets) {
-    // References of MATLAB to the contents of cells and tables lie in groups of this name.
-    if (!dataset.name.starts_with('#')) add(describe(*file_, dataset, is_matlab()));
+    // The contents of MATLAB's cells and tables lie in groups of this name.
+    if (dataset.name.starts_with('#') || add_cells(dataset, datasets)) continue;
+    add(describe(*file_, dataset, is_matlab()));
   }
-  add_planes(datasets);
+  join_parts();
 }
 
-void Hdf5Arrays::add_planes(const std::vector<Hdf5Dataset>& datasets) {
-  for (const Hdf5Dataset& dataset : datasets) {
-    if (!dataset.name.ends_with("/r")) continue;
-    const std::string group = dataset.name.substr(0, dataset.name.size() - 2);
-    const auto fits = [&](const char* channel) {
-      const auto found = std::ranges::find(datasets, group + "/" + channel, &Hdf5Dataset::name);
-      return found != datasets.end() && found->shape == dataset.shape &&
-             found->type == dataset.type;
-    };
-    if (!std::ranges::all_of(kChannels, fits)) continue;
-    ArrayEntry entry = describe(*file_, dataset, is_matlab());
-    entry.name = group;
-    entry.shape.insert(entry.shape.begin(), 3);
-    add(std::move(entry));
-    planar_.push_back(group);
+bool Hdf5Arrays::add_cells(const Hdf5Dataset& dataset, const std::vector<Hdf5Dataset>& datasets) {
+  if (dataset.shape.size() != 2) return false;
+  if (file_->text(dataset.name, "MATLAB_class") != "cell") return false;
+  std::vector<ArrayEntry> cells;
+  for (const std::string& name : file_->referenced(dataset.name)) {
+    const auto cell = std::ranges::find(datasets, name, &Hdf5Dataset::name);
+    if (cell == datasets.end()) return false;
+    cells.push_back(describe(*file_, *cell, is_matlab()));
   }
+  auto whole = joined_cells(dataset.name, cells, dataset.shape);
+  if (whole) add(std::move(*whole));
+  return whole.has_value();
 }
 
-std::unique_ptr<ArrayInput> Hdf5Arrays::open(const ArrayEntry& entry) const {
+std::unique_ptr<ArrayInput> Hdf5Arrays::open_stored(const ArrayEntry& entry) const {
   require_plausible_size(path(), entry.shape, entry.type, fs::file_size(path()));
-  if (std::ranges::find(planar_, entry.name) == planar_.end()) {
-    return std::make_unique<Hdf5Array>(file_, entry);
-  }
-  std::vector<std::unique_ptr<ArrayInput>> planes;
-  ArrayEntry plane = entry;
-  plane.shape.erase(plane.shape.begin());
-  for (const char* channel : kChannels) {
-    plane.name = entry.name + "/" + channel;
-    planes.push_back(std::make_unique<Hdf5Array>(file_, plane));
-  }
-  return std::make_unique<Planes>(path(), entry, std::move(planes));
+  return std::make_unique<Hdf5Array>(file_, entry);
 }
 
 }  // namespace episcope::io

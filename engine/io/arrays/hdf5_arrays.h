@@ -17,8 +17,8 @@ namespace episcope::io {
 [[nodiscard]] bool is_matlab_hdf5(const Hdf5Input& file);
 
 /// The datasets of an HDF5 file and of the groups in it (structs of MATLAB): "LF", "s/LF". The
-/// attribute `axes` of a dataset is taken for what it states. Three datasets r, g, b of one group
-/// are one array, by the name of the group, of which the channels are the first axis.
+/// attribute `axes` of a dataset is taken for what it states. Datasets that are parts of one, by
+/// their names, are one array (`join_arrays`).
 class Hdf5Arrays : public ArrayFile {
  public:
   static constexpr const char* kPlainForm = "HDF5 file";
@@ -26,13 +26,15 @@ class Hdf5Arrays : public ArrayFile {
   explicit Hdf5Arrays(std::shared_ptr<const Hdf5Input> file);
 
   [[nodiscard]] bool is_matlab() const { return form() != kPlainForm; }
-  [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const override;
 
  private:
-  void add_planes(const std::vector<Hdf5Dataset>& datasets);
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
+
+  /// A cell array of MATLAB whose cells are views.
+  [[nodiscard]] bool add_cells(const Hdf5Dataset& dataset,
+                               const std::vector<Hdf5Dataset>& datasets);
 
   std::shared_ptr<const Hdf5Input> file_;
-  std::vector<std::string> planar_;  ///< Names of arrays that are three datasets.
 };
 
 }  // namespace episcope::io

@@ -2,8 +2,10 @@
 #include "engine/io/arrays/mat5_file.h"
 
 #include "engine/core/error.h"
+#include "engine/io/arrays/joined_arrays.h"
 #include "engine/io/durable/system_error.h"
 
+#include <fmt/format.h>
 #include <matio.h>
 
 #include <algorithm>
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostAxes = 32;
 constexpr std::size_t kMostVariables = 10000;
+constexpr int kDeepest = 3;  ///< Of structs in structs.
 
 struct CloseVariable {
   void operator()(matvar_t* variable) const { Mat_VarFree(variable); }
@@ -226,25 +229,44 @@ Mat5File::Mat5File(const fs::path& path) : ArrayFile(path, "MATLAB 5 file") {
   require_whole(path);
   content_ = std::make_unique<Content>(path);
   while (matvar_t* variable = content_->next()) {
-    const std::string name = variable->name ? variable->name : "";
-    add(describe(path, name, *variable));
-    content_->name(name, variable);
-    if (variable->class_type != MAT_C_STRUCT || !variable->data) continue;
-    const unsigned fields = Mat_VarGetNumberOfFields(variable);
-    char* const* names = Mat_VarGetStructFieldnames(variable);
-    for (unsigned i = 0; names && i < fields; ++i) {
-      matvar_t* field = Mat_VarGetStructFieldByIndex(variable, i, 0);
-      if (!field || field->class_type == MAT_C_EMPTY) continue;
-      const std::string whole = name + "/" + names[i];
-      add(describe(path, whole, *field));
-      content_->name(whole, field);
-    }
+    add_variable(variable->name ? variable->name : "", *variable, 0);
   }
+  join_parts();
+}
+
+void Mat5File::add_variable(const std::string& name, matvar_t& variable, int depth) {
+  if (variable.class_type == MAT_C_CELL && add_cells(name, variable)) return;
+  add(describe(path(), name, variable));
+  content_->name(name, &variable);
+  if (variable.class_type != MAT_C_STRUCT || !variable.data || depth == kDeepest) return;
+  const unsigned fields = Mat_VarGetNumberOfFields(&variable);
+  char* const* names = Mat_VarGetStructFieldnames(&variable);
+  for (unsigned i = 0; names && i < fields; ++i) {
+    matvar_t* field = Mat_VarGetStructFieldByIndex(&variable, i, 0);
+    if (!field || field->class_type == MAT_C_EMPTY) continue;
+    add_variable(name + "/" + names[i], *field, depth + 1);
+  }
+}
+
+bool Mat5File::add_cells(const std::string& name, matvar_t& variable) {
+  if (variable.rank != 2 || !variable.dims || !variable.data) return false;
+  const ArrayShape grid = stored_shape(variable);
+  std::vector<ArrayEntry> cells;
+  for (std::size_t i = 0; i < std::min(element_count(grid), kMostVariables); ++i) {
+    matvar_t* cell = Mat_VarGetCell(&variable, static_cast<int>(i));
+    if (!cell) return false;
+    cells.push_back(describe(path(), fmt::format("{}{{{}}}", name, i + 1), *cell));
+    content_->name(cells.back().name, cell);
+  }
+  auto whole = joined_cells(name, cells, grid);
+  if (!whole) return false;
+  add(std::move(*whole));
+  return true;
 }
 
 Mat5File::~Mat5File() = default;
 
-std::unique_ptr<ArrayInput> Mat5File::open(const ArrayEntry& entry) const {
+std::unique_ptr<ArrayInput> Mat5File::open_stored(const ArrayEntry& entry) const {
   require_plausible_size(path(), entry.shape, entry.type, fs::file_size(path()));
   const auto read = [this, name = entry.name](std::size_t first, std::size_t count,
                                               std::uint8_t* out) {

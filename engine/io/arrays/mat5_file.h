@@ -7,6 +7,8 @@
 #include <memory>
 #include <string>
 
+struct matvar_t;
+
 namespace episcope::io {
 
 /// Whether a file begins as a MATLAB file of version 5 to 7, which is no HDF5 file.
@@ -20,10 +22,14 @@ class Mat5File : public ArrayFile {
   explicit Mat5File(const std::filesystem::path& path);
   ~Mat5File() override;
 
-  [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const override;
-
  private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
+
   class Content;
+  /// A variable, a field of a struct, or a cell array whose cells are views.
+  void add_variable(const std::string& name, matvar_t& variable, int depth);
+  [[nodiscard]] bool add_cells(const std::string& name, matvar_t& variable);
+
   std::unique_ptr<Content> content_;
 };
 

@@ -61,6 +61,7 @@ NumpyFile::NumpyFile(const fs::path& path)
     if (!entry.name.ends_with(".npy")) continue;
     add_source({entry.name.substr(0, entry.name.size() - 4), path, entry}, false);
   }
+  join_parts();
 }
 
 void NumpyFile::add_source(Source source, bool is_needed) {
@@ -79,7 +80,7 @@ void NumpyFile::add_source(Source source, bool is_needed) {
   sources_.push_back(std::move(source));
 }
 
-std::unique_ptr<ArrayInput> NumpyFile::open(const ArrayEntry& entry) const {
+std::unique_ptr<ArrayInput> NumpyFile::open_stored(const ArrayEntry& entry) const {
   const auto source = std::ranges::find(sources_, entry.name, &Source::name);
   if (!source->zipped) return std::make_unique<NpyFile>(source->path);
   const ZipEntry& zipped = *source->zipped;

@@ -17,9 +17,9 @@ class NumpyFile : public ArrayFile {
   /// An archive, or one `.npy` with those beside it that hold no light field. Throws IoError.
   explicit NumpyFile(const std::filesystem::path& path);
 
-  [[nodiscard]] std::unique_ptr<ArrayInput> open(const ArrayEntry& entry) const override;
-
  private:
+  [[nodiscard]] std::unique_ptr<ArrayInput> open_stored(const ArrayEntry& entry) const override;
+
   struct Source {
     std::string name;
     std::filesystem::path path;

@@ -8,8 +8,8 @@
 #include "engine/io/benchmark/high_res_files.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/load_views.h"
-#include "engine/io/maps/float_samples.h"
 #include "engine/io/maps/pfm.h"
+#include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/grid_option.h"
@@ -263,7 +263,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0, 0.85));
-  scale_float_samples(samples, report);
+  settle_range(samples, options.levels, report);
   progress.step("reading truth");
   const Size size = size_of(samples);
   if (config) {
@@ -297,7 +297,7 @@ fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
   return is_one ? folder : fs::path();
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "grid"};
+constexpr const char* kOptions[] = {"flip", "crop", "grid", "levels"};
 
 }  // namespace
 

@@ -3,14 +3,20 @@
 
 #include "engine/core/array/whole_int.h"
 #include "engine/core/error.h"
+#include "engine/core/text/character.h"
+#include "engine/core/text/suffix.h"
 #include "engine/io/benchmark/benchmark_names.h"
+#include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_grid_probe.h"
 #include "engine/io/open/grid_option.h"
 #include "engine/io/open/scene_folder.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 namespace episcope::io {
 namespace {
@@ -26,6 +32,33 @@ GridShape square_grid(const fs::path& folder, int count) {
                                     kBenchmarkConfig, count));
 }
 
+/// The number in the name of a view, whatever its padding, case and format.
+std::optional<int> view_number(const fs::path& path) {
+  constexpr std::size_t kMostDigits = 6;
+  const std::string stem = lower_case(path.stem().string());
+  const std::string prefix = lower_case(kViewPrefix);
+  if (!stem.starts_with(prefix) || !is_image_name(path)) return std::nullopt;
+  const std::string digits = stem.substr(prefix.size());
+  const bool is_number =
+      !digits.empty() && digits.size() <= kMostDigits && std::ranges::all_of(digits, is_digit);
+  return is_number ? std::optional(std::stoi(digits)) : std::nullopt;
+}
+
+/// Of several files of one number the one that the benchmark would name so, or the first.
+std::map<int, fs::path> numbered_views(const fs::path& folder) {
+  std::map<int, fs::path> views;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const fs::path& path = entry.path();
+    const auto number = view_number(path);
+    if (!number) continue;
+    const bool is_exact = path.filename() == view_file_name(*number);
+    const auto [place, is_new] = views.try_emplace(*number, path);
+    const bool has_exact = place->second.filename() == view_file_name(*number);
+    if (!is_new && (is_exact || (!has_exact && path < place->second))) place->second = path;
+  }
+  return views;
+}
+
 std::string truth_of(const fs::path& folder, GridShape grid) {
   const bool has_all = is_there(folder / disparity_file_name(0)) &&
                        is_there(folder / disparity_file_name(grid.count() - 1));
@@ -37,17 +70,13 @@ std::string truth_of(const fs::path& folder, GridShape grid) {
 }  // namespace
 
 int count_benchmark_views(const fs::path& folder) {
-  int count = 0;
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    count += name.starts_with(kViewPrefix) && name.ends_with(".png") ? 1 : 0;
-  }
-  return count;
+  return static_cast<int>(numbered_views(folder).size());
 }
 
 ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile>& config,
                           const std::optional<GridShape>& given) {
-  const int count = count_benchmark_views(folder);
+  const std::map<int, fs::path> found = numbered_views(folder);
+  const auto count = static_cast<int>(found.size());
   GridShape grid;
   const auto columns = config ? config->number("num_cams_x") : std::nullopt;
   const auto rows = config ? config->number("num_cams_y") : std::nullopt;
@@ -66,14 +95,16 @@ ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile
     grid = square_grid(folder, count);
   }
   ViewFiles views{grid, {}};
-  for (int i = 0; i < grid.count(); ++i) {
-    views.files.push_back(folder / view_file_name(i));
-    if (!is_there(views.files.back())) {
+  const int first = !found.contains(0) && found.contains(grid.count()) ? 1 : 0;
+  for (int i = first; i < grid.count() + first; ++i) {
+    const auto view = found.find(i);
+    if (view == found.end()) {
       throw IoError(
-          views.files.back(),
+          folder / view_file_name(i),
           fmt::format("this view is missing: {} of {} files input_Cam*.png were found; add it",
                       count, grid.count()));
     }
+    views.files.push_back(view->second);
   }
   return views;
 }

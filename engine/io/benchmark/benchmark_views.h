@@ -10,12 +10,11 @@
 
 namespace episcope::io {
 
-/// Number of files input_Cam*.png in a folder.
+/// Number of images input_Cam* in a folder: with a number of any padding, upper or lower case.
 [[nodiscard]] int count_benchmark_views(const std::filesystem::path& folder);
 
-/// Views by their index, row by row from the top left: of the grid that was given, else that of
-/// `config`, else a square.
-/// Throws IoError, also if one is missing.
+/// Views by their index from 0, or from 1, row by row from the top left: of the grid that was
+/// given, else that of `config`, else a square. Throws IoError, also if one is missing.
 [[nodiscard]] ViewFiles benchmark_views(const std::filesystem::path& folder,
                                         const std::optional<ConfigFile>& config,
                                         const std::optional<GridShape>& given);

@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/image_list.h"
+#include "engine/io/grid/row_folders.h"
 #include "engine/io/grid/view_group.h"
 #include "engine/io/open/grid_option.h"
 #include "engine/io/open/undecided.h"
@@ -135,7 +136,11 @@ ListLayout layout_of_list(const fs::path& folder, const ViewFiles& list, const O
 
 }  // namespace
 
-NamedGrid name_grid(const fs::path& folder, const std::string& pattern) {
+NamedGrid name_grid(const fs::path& folder, const OpenOptions& options) {
+  if (const auto rows = find_row_folders(folder, options)) {
+    return {place_rows(folder, *rows), rows->pattern, {}};
+  }
+  const std::string& pattern = options.pattern;
   const std::vector<fs::path> images = list_images(folder);
   const ViewNames names =
       pattern.empty() ? find_view_names(folder, images) : match_view_names(images, pattern);

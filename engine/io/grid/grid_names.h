@@ -19,10 +19,10 @@ struct NamedGrid {
 };
 
 /// Finds the place of every view from its name: by the option `pattern` if it is given, else by
-/// what the names have in common (view_group.h). A list of views is not yet a grid. Throws IoError
-/// that says which view is missing, which pattern was tried and how many files matched;
-/// InvalidInput for a wrong pattern.
-[[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const std::string& pattern);
+/// what the names have in common (view_group.h), or by the folders that they are in
+/// (row_folders.h). A list of views is not yet a grid. Throws IoError that says which view is
+/// missing, which pattern was tried and how many files matched; InvalidInput for a wrong pattern.
+[[nodiscard]] NamedGrid name_grid(const std::filesystem::path& folder, const OpenOptions& options);
 
 /// Gives the views the rows and columns that they have in the end: those of the option `grid` for a
 /// list, or else those that the images themselves tell (list_layout.h); with the option `snake`

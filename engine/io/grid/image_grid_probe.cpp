@@ -49,7 +49,7 @@ std::string maps_text(const MapsBeside& maps, MapKind kind, const char* name) {
 
 SceneProbe probe_image_grid(const std::filesystem::path& folder, const OpenOptions& options) {
   const std::filesystem::path inside = views_folder(folder);
-  PlacedViews placed = name_grid(inside, options.pattern).placed;
+  PlacedViews placed = name_grid(inside, options).placed;
   SceneProbe probe = probe_views(placed.views);
   if (placed.is_list) {
     probe.list = placed.views.grid.count();

@@ -8,7 +8,8 @@
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/left_out.h"
 #include "engine/io/grid/load_views.h"
-#include "engine/io/maps/float_samples.h"
+#include "engine/io/grid/row_folders.h"
+#include "engine/io/maps/sample_range.h"
 #include "engine/io/open/assemble_scene.h"
 #include "engine/io/open/folder_account.h"
 #include "engine/io/open/scene_folder.h"
@@ -21,10 +22,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-fs::path find_grid(const fs::path& path, const OpenOptions&) {
+fs::path find_grid(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
   if (folder.empty()) return {};
-  return count_images(views_folder(folder)) > 0 ? folder : fs::path();
+  const fs::path inside = views_folder(folder);
+  return count_images(inside) > 0 || find_row_folders(inside, options) ? folder : fs::path();
 }
 
 Scene read_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
@@ -55,7 +57,7 @@ bool is_linear_format(const fs::path& path) {
   return suffix == ".exr" || suffix == ".hdr";
 }
 
-constexpr const char* kOptions[] = {"flip", "crop", "pattern", "snake", "grid"};
+constexpr const char* kOptions[] = {"flip", "crop", "pattern", "snake", "grid", "levels"};
 
 }  // namespace
 
@@ -70,7 +72,7 @@ Reader image_grid_reader() {
 
 Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const Progress& progress,
                       const ImageGridExtras& extras) {
-  NamedGrid grid = name_grid(folder, options.pattern);
+  NamedGrid grid = name_grid(folder, options);
   const std::string evidence = settle_grid(folder, grid.placed, options, progress.part(0, 0.15));
   const ViewFiles& views = grid.placed.views;
   const bool is_linear = is_linear_format(views.files.front());
@@ -94,7 +96,7 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
         if (options.on_center_view) options.on_center_view(center, info, views.grid);
       },
       progress.part(0.15, 0.9));
-  if (!is_linear) scale_float_samples(samples, report);
+  if (!is_linear || !options.levels.empty()) settle_range(samples, options.levels, report);
   FolderAccount account = account_of(source, folder, views.files, extras);
   SceneParts parts;
   if (extras.read_truth) {

@@ -7,6 +7,8 @@
 #include "engine/io/hdf5/hdf5_block.h"
 #include "engine/io/hdf5/hdf5_claims.h"
 #include "engine/io/hdf5/hdf5_handle.h"
+#include "engine/io/hdf5/lzf_filter.h"
+#include "engine/io/maps/parse_number.h"
 
 #include <fmt/format.h>
 
@@ -194,6 +196,7 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
   }
   const Hdf5Lock session;
   follow_no_external_links();
+  register_lzf_filter();
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
@@ -312,7 +315,10 @@ bool Hdf5Input::has_attribute(const std::string& object, const std::string& name
 
 std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
   const std::vector<double> all = numbers(object, name);
-  return all.size() == 1 ? std::optional(all.front()) : std::nullopt;
+  if (all.size() == 1) return all.front();
+  // Some writers store every attribute as text.
+  const auto spelled = all.empty() ? text(object, name) : std::nullopt;
+  return spelled ? parse_number(*spelled) : std::nullopt;
 }
 
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {

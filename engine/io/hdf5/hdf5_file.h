@@ -63,6 +63,10 @@ class Hdf5Input {
   [[nodiscard]] Hdf5Dataset dataset(const std::string& name,
                                     const std::string& advice = "choose another file") const;
 
+  /// The names of what a dataset of references points at, element by element; empty if it holds
+  /// something else, an element empty if it points nowhere.
+  [[nodiscard]] std::vector<std::string> referenced(const std::string& name) const;
+
   /// Reads a block as uint8, uint16, int32, float or double. Throws IoError.
   template <class T>
   void read(const std::string& name, const Hdf5Block& block, T* out) const;
@@ -74,7 +78,8 @@ class Hdf5Input {
   [[nodiscard]] std::optional<std::uintmax_t> place_in_file(const std::string& name) const;
 
   [[nodiscard]] bool has_attribute(const std::string& object, const std::string& name) const;
-  /// Attribute of any numeric type, a scalar or an array of length 1; empty if there is none.
+  /// Attribute of any numeric type, a scalar or an array of length 1, or a text that spells a
+  /// number; empty if there is none.
   [[nodiscard]] std::optional<double> number(const std::string& object,
                                              const std::string& name) const;
   /// All elements of a numeric attribute; empty if there is none.

@@ -2,12 +2,15 @@
 #include "engine/io/maps/float_samples.h"
 
 #include "engine/core/array/quantile.h"
+#include "engine/io/maps/sample_range.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace episcope::io {
@@ -15,6 +18,11 @@ namespace {
 
 constexpr float kMaxUnitSample = 1.5F;
 constexpr float kMaxByteSample = 255.5F;
+// Of samples around 0: share of the amplitude below which a sample is negative, not one that a
+// filter made overshoot, and the share of all samples that are.
+constexpr float kClearlyNegative = 0.02F;
+constexpr double kFewestNegative = 0.01;
+constexpr float kMaxSignedSample = 1.01F;
 constexpr float kMaxWordSample = 65535.5F;
 constexpr double kMostlyWhole = 0.95;
 // Of samples of 8 or 16 bits: share of the range that half of them exceed.
@@ -28,41 +36,81 @@ ViewStack<float>* floats_of(LightField::Samples& samples) {
 // What tells which range float samples were stored in.
 struct FloatSpread {
   float largest = 0;
+  float smallest = 0;
+  double negative_share = 0;
   double whole_share = 0;  ///< Of the samples that are not 0.
   float median = 0;
-  float highlight = 0;  ///< The quantile of 99.9 %.
+  float shadow = 0;     ///< The quantile of 0.1 %,
+  float highlight = 0;  ///< and of 99.9 %.
 };
 
-float largest_of(const ViewStack<float>& stack) {
+/// Of the finite samples, at least from 0 to 0.
+std::pair<float, float> extremes_of(const ViewStack<float>& stack) {
+  float smallest = 0;
   float largest = 0;
   std::for_each(stack.data(), stack.data() + stack.size(), [&](float sample) {
-    if (std::isfinite(sample)) largest = std::max(largest, sample);
+    if (!std::isfinite(sample)) return;
+    smallest = std::min(smallest, sample);
+    largest = std::max(largest, sample);
   });
-  return largest;
+  return {smallest, largest};
 }
 
-FloatSpread spread_of(const ViewStack<float>& stack, float largest) {
+FloatSpread spread_of(const ViewStack<float>& stack, float smallest, float largest) {
   constexpr std::size_t kJudged = 1000000;
   // Odd, so that it does not keep to one channel or one column.
   const std::size_t step = stack.size() / kJudged / 2 * 2 + 1;
+  const float negative = -kClearlyNegative * std::max(largest, -smallest);
   std::vector<float> values;
   std::size_t whole = 0;
+  std::size_t below = 0;
   for (std::size_t i = 0; i < stack.size(); i += step) {
     const float value = stack.data()[i];
     if (!std::isfinite(value) || value == 0) continue;
     values.push_back(value);
     whole += value == std::round(value) ? 1 : 0;
+    below += value < negative ? 1 : 0;
   }
-  if (values.empty()) return {largest};
-  FloatSpread spread{largest, static_cast<double>(whole) / static_cast<double>(values.size())};
+  FloatSpread spread{.largest = largest, .smallest = smallest};
+  if (values.empty()) return spread;
+  spread.whole_share = static_cast<double>(whole) / static_cast<double>(values.size());
+  spread.negative_share = static_cast<double>(below) / static_cast<double>(values.size());
   spread.median = quantile(values, 0.5);
+  spread.shadow = quantile(values, 0.001);
   spread.highlight = quantile(values, 0.999);
   return spread;
 }
 
-void divide(ViewStack<float>& stack, float divisor) {
+/// So that `black` becomes 0 and `white` 1.
+void map_levels(ViewStack<float>& stack, float black, float white) {
   std::transform(stack.data(), stack.data() + stack.size(), stack.data(),
-                 [=](float sample) { return sample / divisor; });
+                 [=](float sample) { return (sample - black) / (white - black); });
+}
+
+/// Samples around 0, as networks are fed with.
+void scale_signed(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
+  const float amplitude = std::max(spread.largest, -spread.smallest);
+  const bool is_of_bytes = spread.whole_share >= kMostlyWhole && spread.smallest >= -128 &&
+                           spread.largest <= 127 && amplitude > kMaxSignedSample;
+  float black = spread.shadow;
+  float white = std::max(spread.highlight, std::nextafter(spread.shadow, spread.largest));
+  const char* meaning = "normalised in some way: 0.1 % of them are darker, 0.1 % brighter";
+  if (amplitude <= kMaxSignedSample) {
+    black = -1;
+    white = 1;
+    meaning = "-1 for black, 1 for white";
+  } else if (is_of_bytes) {
+    black = -128;
+    white = 127;
+    meaning = "bytes less 128";
+  }
+  map_levels(stack, black, white);
+  report.samples = fmt::format("float32 around 0; estimators see (value − {0:.4g})/{1:.4g}", black,
+                               white - black);
+  report.warnings.push_back(fmt::format(
+      "Float samples of the views should lie in 0 … 1, but lie in {:.4g} … {:.4g}: {:.4g} … {:.4g} "
+      "is taken as black to white ({}). --levels states other values.",
+      spread.smallest, spread.largest, black, white, meaning));
 }
 
 void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, ConventionReport& report) {
@@ -72,7 +120,7 @@ void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, Convention
     report.samples += "estimators see the values";
     return;
   }
-  divide(stack, spread.highlight);
+  map_levels(stack, 0, spread.highlight);
   report.samples += fmt::format(
       "divided by {:.4g}, which 99.9 % of the samples do not exceed; "
       "estimators see the quotient",
@@ -88,16 +136,18 @@ void scale_linear(ViewStack<float>& stack, const FloatSpread& spread, Convention
 void scale_float_samples(LightField::Samples& samples, ConventionReport& report) {
   ViewStack<float>* stack = floats_of(samples);
   if (stack == nullptr) return;
-  const float largest = largest_of(*stack);
+  const auto [smallest, largest] = extremes_of(*stack);
+  if (largest <= kMaxUnitSample && smallest == 0) return;
+  const FloatSpread spread = spread_of(*stack, smallest, largest);
+  if (spread.negative_share >= kFewestNegative) return scale_signed(*stack, spread, report);
   if (largest <= kMaxUnitSample) return;
-  const FloatSpread spread = spread_of(*stack, largest);
-  const int divisor = largest > kMaxByteSample ? 65535 : 255;
-  const bool is_scaled = spread.whole_share >= kMostlyWhole ||
-                         spread.median > kLeastMedian * static_cast<float>(divisor);
+  const bool is_whole = spread.whole_share >= kMostlyWhole;
+  const int divisor = is_whole ? full_scale(largest) : largest > kMaxByteSample ? 65535 : 255;
+  const bool is_scaled = is_whole || spread.median > kLeastMedian * static_cast<float>(divisor);
   if (!is_scaled || largest > kMaxWordSample) return scale_linear(*stack, spread, report);
-  divide(*stack, static_cast<float>(divisor));
+  map_levels(*stack, 0, static_cast<float>(divisor));
   report.samples = fmt::format("float32, taken as samples of {} bits; estimators see value/{}",
-                               divisor == 255 ? 8 : 16, divisor);
+                               std::bit_width(static_cast<unsigned>(divisor)), divisor);
   report.warnings.push_back(fmt::format(
       "Float samples of the views should lie in 0 … 1, but reach up to {}; they are divided by {}.",
       std::lround(largest), divisor));

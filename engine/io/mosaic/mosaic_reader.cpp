@@ -3,7 +3,7 @@
 
 #include "engine/io/grid/decode_png.h"
 #include "engine/io/grid/image_header.h"
-#include "engine/io/maps/float_samples.h"
+#include "engine/io/maps/sample_range.h"
 #include "engine/io/mosaic/find_mosaic.h"
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/mosaic/split_mosaic.h"
@@ -71,7 +71,7 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   report_remainder(picture, layout, report);
   progress.step("splitting the picture into views");
   LightField::Samples samples = split_mosaic(picture, layout, progress.part(0.5, 0.8));
-  scale_float_samples(samples, report);
+  settle_range(samples, options.levels, report);
   SceneParts parts;
   parts.samples = std::move(samples);
   parts.info = std::move(info);
@@ -97,7 +97,7 @@ SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
           .sample_type = header->sample_type};
 }
 
-constexpr const char* kOptions[] = {"flip", "grid", "crop", "mosaic", "lenslet"};
+constexpr const char* kOptions[] = {"flip", "grid", "crop", "mosaic", "lenslet", "levels"};
 
 }  // namespace
 

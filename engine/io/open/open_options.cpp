@@ -77,6 +77,10 @@ Schema<OpenOptions> open_schema() {
           Reading::kFocus, &O::focus_px,
           {"Focus plane", "Focus plane to bake in: points of this disparity get disparity 0", "px"},
           {-kMaxFocus_px, kMaxFocus_px})
+      .text("levels", &O::levels,
+            {"Levels",
+             "Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for "
+             "normalised floats; empty = detected"})
       .toggle("equalise", &O::equalise,
               {"Equalise", "Bring all views to the brightness of the centre view"});
   return schema;

@@ -43,6 +43,7 @@ struct OpenOptions {
   std::string dataset{};  ///< Files of several arrays: which holds the light field; empty = found.
   std::string axes{};     ///< Arrays: their axes in C order, as "vuyxc"; empty = found.
   int frame = 0;          ///< Sequences of light fields: which one, from 0.
+  std::string levels{};   ///< Samples that are black and white, as stored: "0,1023"; empty = found.
   bool equalise = false;  ///< Bring all views to the brightness of the centre view.
   bool snake = false;     ///< Image grids: every second row was captured right to left.
   double focus_px = 0;    ///< Focus plane to bake in after reading (shear.h), px per view step.

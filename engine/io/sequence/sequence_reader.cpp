@@ -2,6 +2,7 @@
 #include "engine/io/sequence/sequence_reader.h"
 
 #include "engine/core/error.h"
+#include "engine/io/grid/row_folders.h"
 #include "engine/io/open/scene_folder.h"
 #include "engine/io/open/scene_name.h"
 #include "engine/io/sequence/frame_names.h"
@@ -57,7 +58,7 @@ fs::path find_sequence(const fs::path& path, const OpenOptions& options) {
   std::error_code error;
   if (!fs::is_directory(path, error) || is_there(path / "lf.h5")) return {};
   const NumberedFrames frames = numbered_frames(path);
-  if (frames.paths.empty()) return {};
+  if (frames.paths.empty() || find_row_folders(path, options)) return {};
   try {
     return are_frames(frames, options) ? path : fs::path();
   } catch (const Error&) {

@@ -111,6 +111,22 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>
   Mat_Close(file);
 }
 
+void write_mat5_cells(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
+                      bool is_compressed) {
+  std::size_t grid[] = {length_of(views, 'v'), length_of(views, 'u')};
+  std::size_t dims[] = {length_of(views, 'y'), length_of(views, 'x'), length_of(views, 'c')};
+  std::vector<std::uint8_t> samples = in_axes(views, "uvcxy");
+  matvar_t* cells = Mat_VarCreate("LF", MAT_C_CELL, MAT_T_CELL, 2, grid, nullptr, 0);
+  for (int i = 0; i < views.grid().count(); ++i) {
+    std::uint8_t* view = samples.data() + static_cast<std::size_t>(i) * views.view_size();
+    Mat_VarSetCell(cells, i, Mat_VarCreate(nullptr, MAT_C_UINT8, MAT_T_UINT8, 3, dims, view, 0));
+  }
+  mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
+  Mat_VarWrite(file, cells, is_compressed ? MAT_COMPRESSION_ZLIB : MAT_COMPRESSION_NONE);
+  Mat_VarFree(cells);
+  Mat_Close(file);
+}
+
 void write_mat5_map(const std::filesystem::path& path, const std::string& name,
                     ImageView<const float> map) {
   std::vector<double> numbers;

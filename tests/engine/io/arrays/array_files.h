@@ -30,6 +30,10 @@ struct Mat5Form {
 void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
                 const Mat5Form& form);
 
+/// Writes LF{t, s}, a cell array of views (v, u, c), by libmatio.
+void write_mat5_cells(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views,
+                      bool is_compressed);
+
 /// Writes one 2-D array of doubles, not compressed.
 void write_mat5_map(const std::filesystem::path& path, const std::string& name,
                     ImageView<const float> map);

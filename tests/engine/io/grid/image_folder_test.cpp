@@ -207,6 +207,30 @@ class ImageFolderTest : public QObject {
     QVERIFY(std::abs(camera.baseline * camera.focal_length - 60) < 1e-9);
   }
 
+  void viewsOfTheBenchmark_mayBeNumberedOtherwise_data() {
+    QTest::addColumn<QString>("form");
+    QTest::addColumn<int>("first");
+    QTest::newRow("two digits") << "input_Cam%02d.png" << 0;
+    QTest::newRow("no padding") << "input_Cam%d.png" << 0;
+    QTest::newRow("from 1") << "input_Cam%03d.png" << 1;
+    QTest::newRow("another case") << "input_cam%03d.PNG" << 0;
+  }
+  void viewsOfTheBenchmark_mayBeNumberedOtherwise() {
+    QFETCH(QString, form);
+    QFETCH(int, first);
+    const Scene scene = plane_scene(grid(4, 4));
+    write_views(scene, [&](int, int, int index) {
+      return QString::asprintf(form.toLatin1(), index + first).toStdString();
+    });
+    const DisparityView truth = scene.truth->field.view(scene.light_field->center());
+    io::write_pfm(path("gt_disp_lowres.pfm"), truth.disparity);
+
+    const Scene read = open();
+
+    QCOMPARE(read.light_field->info().reading.reader, std::string("benchmark2016"));
+    QVERIFY2(has_same_samples(scene, read), describe(read.convention).c_str());
+  }
+
   void missingConfig_isMadeUpForByTheCount() {
     const Scene scene = plane_scene(grid(3, 3));
     io::write_benchmark_folder(path("scene"), scene, Progress(2));

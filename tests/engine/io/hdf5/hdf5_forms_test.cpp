@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/open/open.h"
 #include "tests/engine/io/synthetic_scene.h"
@@ -7,6 +8,7 @@
 #include <QTemporaryDir>
 
 #include <hdf5.h>
+#include <lzf.h>
 
 #include <array>
 #include <cmath>
@@ -55,6 +57,35 @@ class HandMadeFile {
  private:
   hid_t file_;
 };
+
+/// LF as h5py stores it with compression="lzf": a chunk a view, compressed where that gains
+/// something.
+void write_lzf(const std::filesystem::path& path, const ViewStack<std::uint8_t>& views) {
+  const hid_t file = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  const std::array<hsize_t, 5> shape{5, 5, 64, 80, 3};
+  const std::array<hsize_t, 5> chunk{1, 1, 64, 80, 3};
+  const auto bytes = static_cast<unsigned>(views.view_size());
+  const std::array<unsigned, 3> values{4, 0x0105, bytes};
+  const hid_t space = H5Screate_simple(5, shape.data(), nullptr);
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(creation, 5, chunk.data());
+  H5Pset_filter(creation, 32000, H5Z_FLAG_OPTIONAL, values.size(), values.data());
+  const hid_t set =
+      H5Dcreate2(file, "LF", H5T_NATIVE_UINT8, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const ViewIndex view = views.view_at(i);
+    const std::uint8_t* samples = views.view(view).data;
+    std::vector<std::uint8_t> packed(bytes);
+    const unsigned size = lzf_compress(samples, bytes, packed.data(), bytes - 1);
+    const std::array<hsize_t, 5> at{static_cast<hsize_t>(view.v), static_cast<hsize_t>(view.u)};
+    H5Dwrite_chunk(set, H5P_DEFAULT, size > 0 ? 0 : 1, at.data(), size > 0 ? size : bytes,
+                   size > 0 ? packed.data() : samples);
+  }
+  H5Dclose(set);
+  H5Pclose(creation);
+  H5Sclose(space);
+  H5Fclose(file);
+}
 
 /// The enumeration by which other programs store booleans.
 hid_t boolean_type() {
@@ -141,6 +172,37 @@ class Hdf5FormsTest : public QObject {
     }
 
     QVERIFY(has_same_samples(scene, io::open_scene(path(), {}, Progress(1))));
+  }
+
+  void samplesPackedByLzf_areRead() {
+    // Stripes, which LZF finds, and a texture, which it does not.
+    const Scene scene = plane_scene();
+    ViewStack<std::uint8_t> views = bytes_of(scene).clone();
+    for (int y = 0; y < 32; ++y) {
+      for (int x = 0; x < 80 * 3; ++x) views.view({2, 2}).row(y)[x] = static_cast<std::uint8_t>(y);
+    }
+    write_lzf(path(), views);
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    const auto& samples = std::get<ViewStack<std::uint8_t>>(read.light_field->samples());
+    QVERIFY(std::equal(views.data(), views.data() + views.size(), samples.data()));
+  }
+
+  void damagedLzf_isRefused() {
+    write_lzf(path(), bytes_of(plane_scene()));
+    {
+      const hid_t file = H5Fopen(path().c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+      const hid_t set = H5Dopen2(file, "LF", H5P_DEFAULT);
+      const std::array<hsize_t, 5> at{4, 4};
+      // A reference to before the beginning.
+      const std::vector<std::uint8_t> packed(100, 0xFF);
+      H5Dwrite_chunk(set, H5P_DEFAULT, 0, at.data(), packed.size(), packed.data());
+      H5Dclose(set);
+      H5Fclose(file);
+    }
+
+    QVERIFY_EXCEPTION_THROWN((void)io::open_scene(path(), {}, Progress(1)), IoError);
   }
 
   void alphaChannel_isLeftOut() {

@@ -98,9 +98,9 @@ class ContradictionTest : public QObject {
     QVERIFY(!read.truth->has_disparity());
   }
 
-  void cameraAsText_isTold() {
+  void cameraAsWords_isTold() {
     const Scene read = open_with([](io::Hdf5Output& file) {
-      file.set_text("/", "dH", "40");
+      file.set_text("/", "dH", "40 mm");
       file.set_number("/", "focalLength", 1.5);
     });
 

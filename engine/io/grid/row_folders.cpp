@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/grid/row_folders.h"
+
+#include "engine/core/error.h"
+#include "engine/core/text/suffix.h"
+#include "engine/io/grid/image_list.h"
+#include "engine/io/grid/name_parts.h"
+#include "engine/io/open/grid_option.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace episcope::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kFewestOfSquare = 9;
+
+/// Images, or folders, in the order of the number in which their names differ, which is the
+/// `varying`-th.
+struct Numbered {
+  std::vector<fs::path> paths;
+  std::string skeleton;
+  std::size_t varying = 0;
+};
+
+/// Nothing if the names are not of one form, or differ in no number or in several.
+std::optional<Numbered> by_number(const std::vector<fs::path>& paths) {
+  std::vector<NameGroup> groups = group_by_name(paths);
+  if (groups.size() != 1 || paths.size() < 2) return std::nullopt;
+  std::vector<NumberedImage>& images = groups.front().images;
+  std::vector<std::size_t> varying;
+  for (std::size_t i = 0; i < images.front().numbers.size(); ++i) {
+    const auto differs = [&](const NumberedImage& image) {
+      return image.numbers[i].position() != images.front().numbers[i].position();
+    };
+    if (std::ranges::any_of(images, differs)) varying.push_back(i);
+  }
+  if (varying.size() != 1) return std::nullopt;
+  const auto number = [&](const NumberedImage& image) {
+    return image.numbers[varying.front()].position();
+  };
+  std::ranges::sort(images, {}, number);
+  const bool has_twins = std::ranges::adjacent_find(images, {}, number) != images.end();
+  if (has_twins) return std::nullopt;
+  Numbered found{{}, groups.front().skeleton, varying.front()};
+  for (const NumberedImage& image : images) found.paths.push_back(image.path);
+  return found;
+}
+
+/// The skeleton with `field` for the number that differs, and * for others.
+std::string pattern_of(const Numbered& numbered, const char* field) {
+  std::string text;
+  std::size_t number = 0;
+  for (const char c : numbered.skeleton) {
+    if (c != kNumberMark) {
+      text += c;
+    } else {
+      text += number++ == numbered.varying ? field : "*";
+    }
+  }
+  return text;
+}
+
+/// The letters of a name, without what stands between them.
+std::string letters_of(const std::string& skeleton) {
+  std::string letters;
+  std::ranges::copy_if(lower_case(skeleton), std::back_inserter(letters), is_letter);
+  return letters;
+}
+
+template <std::size_t N>
+bool is_one_of(const std::string& word, const std::array<std::string_view, N>& words) {
+  return std::ranges::find(words, std::string_view(word)) != words.end();
+}
+
+std::vector<fs::path> folders_in(const fs::path& folder) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const bool is_hidden = entry.path().filename().string().starts_with('.');
+    if (!is_hidden && entry.is_directory(error)) folders.push_back(entry.path());
+  }
+  return folders;
+}
+
+/// Of folders whose names are mere numbers.
+bool are_rather_rows(std::size_t folders, std::size_t images, const OpenOptions& options) {
+  if (const auto given = given_grid(options)) {
+    return given->v == static_cast<int>(folders) && given->u == static_cast<int>(images);
+  }
+  const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(images))));
+  const bool is_square = side * side == images && images >= kFewestOfSquare;
+  return options.frame == 0 && (folders == images || !is_square);
+}
+
+}  // namespace
+
+std::optional<RowFolders> find_row_folders(const fs::path& folder, const OpenOptions& options) {
+  constexpr std::array<std::string_view, 6> kRows{"row", "rows", "r", "v", "y", "line"};
+  constexpr std::array<std::string_view, 6> kColumns{"col", "column", "columns", "c", "u", "x"};
+  std::error_code error;
+  if (!fs::is_directory(folder, error) || !options.pattern.empty() || count_images(folder) > 0) {
+    return std::nullopt;
+  }
+  const auto folders = by_number(folders_in(folder));
+  if (!folders) return std::nullopt;
+  const std::string word = letters_of(folders->skeleton);
+  RowFolders found{.rows = {}, .are_columns = is_one_of(word, kColumns), .pattern = {}};
+  if (!word.empty() && !found.are_columns && !is_one_of(word, kRows)) return std::nullopt;
+  for (const fs::path& row : folders->paths) {
+    auto images = by_number(list_images(row));
+    if (!images) return std::nullopt;
+    if (found.pattern.empty()) {
+      found.pattern = pattern_of(*folders, found.are_columns ? "{col}" : "{row}") + "/" +
+                      pattern_of(*images, found.are_columns ? "{row}" : "{col}");
+    }
+    found.rows.push_back(std::move(images->paths));
+  }
+  const bool is_certain =
+      !word.empty() || are_rather_rows(found.rows.size(), found.rows.front().size(), options);
+  return is_certain ? std::optional(std::move(found)) : std::nullopt;
+}
+
+PlacedViews place_rows(const fs::path& folder, const RowFolders& found) {
+  const std::size_t rows = found.rows.size();
+  std::size_t most = 0;
+  for (const auto& row : found.rows) most = std::max(most, row.size());
+  for (const auto& row : found.rows) {
+    if (row.size() == most) continue;
+    throw IoError(folder,
+                  fmt::format("{} holds {} images, but other folders of this light field "
+                              "hold {}; add what is missing",
+                              row.front().parent_path().filename().string(), row.size(), most));
+  }
+  PlacedViews placed;
+  const auto length = [](std::size_t count) { return static_cast<int>(count); };
+  placed.views.grid = found.are_columns ? GridShape{length(most), length(rows)}
+                                        : GridShape{length(rows), length(most)};
+  for (int i = 0; i < placed.views.grid.count(); ++i) {
+    const ViewIndex view = placed.views.grid.view_at(i);
+    const auto [row, place] =
+        found.are_columns ? std::pair(view.u, view.v) : std::pair(view.v, view.u);
+    placed.views.files.push_back(
+        found.rows[static_cast<std::size_t>(row)][static_cast<std::size_t>(place)]);
+  }
+  return placed;
+}
+
+}  // namespace episcope::io

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/io/grid/view_names.h"
+#include "engine/io/open/open_options.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace episcope::io {
+
+/// Folders that hold a row of views each.
+struct RowFolders {
+  std::vector<std::vector<std::filesystem::path>> rows;  ///< Of images, by number.
+  bool are_columns = false;                              ///< By the names of the folders.
+  std::string pattern;                                   ///< "row_{row}/view_{col}.png".
+};
+
+/// The folders inside of `folder` if they are rows of one light field: their names differ in one
+/// number and speak of rows or columns (row, r, v, y, col, c, u, x), and in each of them the images
+/// are numbered by one number. Folders with mere numbers can also be light fields that follow each
+/// other in time: they are rows if there are as many images in each as there are folders, if the
+/// option `grid` says so, or if so many images are no square grid. Nothing if `folder` holds images
+/// itself.
+[[nodiscard]] std::optional<RowFolders> find_row_folders(const std::filesystem::path& folder,
+                                                         const OpenOptions& options);
+
+/// The views in the order of the folders and of the images in them. Throws IoError that names a
+/// folder with fewer images than the others.
+[[nodiscard]] PlacedViews place_rows(const std::filesystem::path& folder, const RowFolders& found);
+
+}  // namespace episcope::io

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/hdf5/hdf5_file.h"
+#include "engine/io/open/open.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <algorithm>
+
+namespace episcope::in_other_maps_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <class T>
+void add(io::Hdf5Output& file, const std::string& name, const ViewStack<T>& stack) {
+  io::Hdf5Shape shape{
+      static_cast<std::size_t>(stack.grid().v), static_cast<std::size_t>(stack.grid().u),
+      static_cast<std::size_t>(stack.height()), static_cast<std::size_t>(stack.width())};
+  if (stack.channels() > 1) shape.push_back(static_cast<std::size_t>(stack.channels()));
+  file.add_dataset<T>(name, shape, "", "");
+  file.write(name, {io::Hdf5Shape(shape.size(), 0), shape}, stack.data());
+}
+
+/// LF beside which others put theirs.
+Scene opened_with(const fs::path& path, const Scene& scene, const auto& add_others) {
+  {
+    io::AtomicFile target(path);
+    io::Hdf5Output file(target);
+    add(file, "LF", bytes_of(scene));
+    add_others(file);
+    file.close();
+    target.commit();
+  }
+  return io::open_scene(path, {}, Progress(1));
+}
+
+}  // namespace
+
+/// Files whose views are called as in the archive, and their truth is not.
+class OtherMapsTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  Scene scene_ = plane_scene();
+  fs::path path() const { return fs::path(folder_->path().toStdString()) / "lf.h5"; }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void disparity_isRead() {
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      add(file, "disparity", scene_.truth->field.disparity);
+    });
+
+    QVERIFY(has_same_samples(read, scene_));
+    QCOMPARE(largest_difference(read.truth->field, scene_.truth->field), 0.0);
+    QVERIFY2(read.convention.units.find("disparity of disparity") != std::string::npos,
+             read.convention.units.c_str());
+  }
+
+  void labels_areRead() {
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      add(file, "semantic_labels", scene_.truth->labels);
+    });
+
+    const ViewStack<std::int32_t>& labels = scene_.truth->labels;
+    QVERIFY(std::equal(labels.data(), labels.data() + labels.size(), read.truth->labels.data()));
+  }
+
+  void depthOfAnotherName_isDepth() {
+    const CameraGrid& camera = scene_.light_field->info().camera;
+    ViewStack<float> depth = scene_.truth->field.disparity.clone();
+    std::transform(depth.data(), depth.data() + depth.size(), depth.data(),
+                   [&](float d) { return static_cast<float>(camera.depth_from_disparity(d)); });
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      add(file, "depth", depth);
+      // As text, as some writers store all attributes.
+      file.set_text("/", "dH", std::to_string(camera.baseline));
+      file.set_text("/", "focalLength", std::to_string(camera.focal_length));
+      file.set_text("/", "shift", std::to_string(camera.shift));
+    });
+
+    // Depth was rounded to float: see archive_test.
+    QVERIFY(largest_difference(read.truth->field, scene_.truth->field) < 2e-6);
+  }
+
+  void whatIsNotUnderstood_isSaid() {
+    const Scene read = opened_with(path(), scene_, [&](io::Hdf5Output& file) {
+      add(file, "flow", scene_.truth->field.disparity);
+    });
+
+    const auto use = std::ranges::find(read.convention.files, "flow", &FileUse::example);
+    QVERIFY(use != read.convention.files.end() && !use->is_used);
+    QVERIFY(!read.truth->has_disparity());
+  }
+};
+
+}  // namespace episcope::in_other_maps_test
+
+EPISCOPE_TEST(other_maps_test, OtherMapsTest)
+#include "other_maps_test.moc"

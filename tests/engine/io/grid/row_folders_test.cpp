@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/open/open.h"
+#include "tests/engine/io/synthetic_scene.h"
+#include "tests/test_main.h"
+
+#include <fmt/format.h>
+#include <QTemporaryDir>
+
+namespace episcope::in_row_folders_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+/// A folder for each row of views, or column.
+class RowFoldersTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  fs::path path() const { return fs::path(folder_->path().toStdString()); }
+  void write(const Scene& scene, const std::string& form) const {
+    const GridShape grid = scene.light_field->grid();
+    for (int i = 0; i < grid.count(); ++i) {
+      const ViewIndex view = grid.view_at(i);
+      const fs::path file = path() / fmt::format(fmt::runtime(form), view.v, view.u, i);
+      fs::create_directory(file.parent_path());
+      io::write_png(file, scene.light_field->view<std::uint8_t>(view));
+    }
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void foldersOfRows_areAGrid_data() {
+    QTest::addColumn<QString>("form");
+    for (const char* form : {"row_{0:02}/view_{1:03}.png", "{0}/{1}.png", "Row{0}/IMG_{2:04}.PNG",
+                             "u{1}/v{0}.png", "row {0}/view_{0}_{1}.png"}) {
+      QTest::newRow(form) << form;
+    }
+  }
+  void foldersOfRows_areAGrid() {
+    QFETCH(QString, form);
+    const Scene scene = plane_scene({.grid = {5, 7}});
+    write(scene, form.toStdString());
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    QCOMPARE(read.light_field->info().reading.reader, std::string("image_grid"));
+    QVERIFY2(has_same_samples(read, scene), describe(read.convention).c_str());
+    QCOMPARE(read.convention.files.front().count, 35);
+  }
+
+  void asManyFoldersAsImages_areAGrid() {
+    const Scene scene = plane_scene({.grid = {9, 9}});
+    write(scene, "{0}/{1}.png");
+
+    QVERIFY(has_same_samples(io::open_scene(path(), {}, Progress(1)), scene));
+  }
+
+  void foldersOfGrids_areASequence() {
+    const Scene scene = plane_scene({.grid = {3, 3}});
+    for (const int frame : {0, 1}) write(scene, fmt::format("{}/{{0}}_{{1}}.png", frame));
+
+    const Scene read = io::open_scene(path(), {}, Progress(1));
+
+    QCOMPARE(read.sequence.count, 2);
+    QCOMPARE(read.light_field->grid(), (GridShape{3, 3}));
+  }
+
+  void missingView_namesItsFolder() {
+    write(plane_scene({.grid = {5, 7}}), "row_{0}/{1}.png");
+    fs::remove(path() / "row_3" / "6.png");
+
+    try {
+      (void)io::open_scene(path(), {}, Progress(1));
+      QFAIL("it was read");
+    } catch (const IoError& error) {
+      QVERIFY2(std::string(error.what()).find("row_3 holds 6 images") != std::string::npos,
+               error.what());
+    }
+  }
+};
+
+}  // namespace episcope::in_row_folders_test
+
+EPISCOPE_TEST(row_folders_test, RowFoldersTest)
+#include "row_folders_test.moc"
