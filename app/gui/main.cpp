@@ -44,6 +44,19 @@ bool asks_for_text(int argc, char** argv) {
   });
 }
 
+/// Whether there is anywhere to show a window: Qt would abort. Only Linux needs one to be named.
+bool has_display(int argc, char** argv) {
+#if defined(__linux__)
+  const auto is_set = [](const char* name) { return !qgetenv(name).isEmpty(); };
+  return is_set("DISPLAY") || is_set("WAYLAND_DISPLAY") || is_set("QT_QPA_PLATFORM") ||
+         std::any_of(argv + 1, argv + argc, [](std::string_view argument) {
+           return argument == "-platform" || argument == "--platform";
+         });
+#else
+  return true;
+#endif
+}
+
 std::unique_ptr<QCoreApplication> make_application(int& argc, char** argv) {
   if (asks_for_text(argc, argv)) return std::make_unique<QCoreApplication>(argc, argv);
   return std::make_unique<QApplication>(argc, argv);
@@ -71,6 +84,11 @@ int main(int argc, char** argv) {
   QCoreApplication::setApplicationName("episcope");
   QCoreApplication::setOrganizationName("episcope");
   QCoreApplication::setApplicationVersion(episcope::kVersion);
+  if (!asks_for_text(argc, argv) && !has_display(argc, argv)) {
+    std::fputs("episcope: there is no display; episcope-cli does the same work without one\n",
+               stderr);
+    return kFailure;
+  }
   const std::unique_ptr<QCoreApplication> application = make_application(argc, argv);
 
   QCommandLineParser parser;

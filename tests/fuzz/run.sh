@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # run.sh FOLDER SECONDS [FUZZER…]: runs the fuzzers in FOLDER, or those of these names, for SECONDS each, beginning with files that
 # each writes itself. What was found to lead further is kept in FOLDER/corpus for the next time; inputs that fail are
-# in FOLDER/findings. Fails if there are any.
+# in FOLDER/findings; how many inputs all runs of a fuzzer had is in FOLDER/executions. Fails if there are findings.
 set -eu
 folder=$1
 seconds=$2
@@ -16,7 +16,26 @@ here=$(cd "$(dirname "$0")" && pwd)
 # Leaks are looked for at the end: after every input takes too long.
 LSAN_OPTIONS="suppressions=$here/../../resources/sanitizers/fuzz.supp:print_suppressions=0"
 export LSAN_OPTIONS
-options="-max_len=65536 -len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -detect_leaks=0"
+options="-len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -detect_leaks=0"
+# length_of NAME: texts are short.
+length_of() {
+  case "$1" in
+    capture | collection | config | excerpt | manifest | names | project) echo 4096 ;;
+    *) echo 65536 ;;
+  esac
+}
+
+# count LOG NAME: adds the inputs of a run to those of the fuzzer, and prints both.
+count() {
+  inputs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$1")
+  # A run that failed says only how far it had come.
+  [ -n "$inputs" ] || inputs=$(sed -n 's/^#\([0-9]*\)[^0-9].*/\1/p' "$1" | tail -n 1)
+  total=$(($(cat "$folder/executions/$2" 2>/dev/null || echo 0) + ${inputs:-0}))
+  echo "$total" >"$folder/executions/$2"
+  echo "${inputs:-0} inputs, $total in all runs"
+}
+
+mkdir -p "$folder/executions"
 failed=""
 for name in "$@"; do
   corpus="$folder/corpus/$name"
@@ -26,10 +45,10 @@ for name in "$@"; do
   "$folder/${name}_fuzz" "--seeds=$corpus"
   # shellcheck disable=SC2086 # One word an option.
   if "$folder/${name}_fuzz" $options -max_total_time="$seconds" -print_final_stats=1 \
-    -artifact_prefix="$findings/" "$corpus" >"$log" 2>&1; then
-    echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") inputs"
+    -max_len="$(length_of "$name")" -artifact_prefix="$findings/" "$corpus" >"$log" 2>&1; then
+    echo "$name: $(count "$log" "$name")"
   else
-    echo "$name: FAILED: $(grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log" || tail -n 1 "$log"); see $log"
+    echo "$name: FAILED: $(grep -m 1 -E 'ERROR|runtime error|SUMMARY' "$log" || tail -n 1 "$log"); $(count "$log" "$name"); see $log"
     failed="$failed $name"
   fi
 done

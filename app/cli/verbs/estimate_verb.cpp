@@ -92,9 +92,9 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
   parser.option(
       "--memory", request.memory, bytes_value("SIZE"),
       "Memory that the light field and the method may take, such as 4G; by default two "
-      "thirds of what is free. Within it, epi_l, epi_s and the local stereo methods write "
-      "their maps block by block to OUT.h5.partial, and the same command continues what was "
-      "interrupted; other methods put on disk what does not fit");
+      "thirds of what is free. Within it, epi_l, epi_s, the local and denoised stereo methods "
+      "and plane_pm write their maps block by block to OUT.h5.partial, and the same command "
+      "continues what was interrupted; other methods put on disk what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);

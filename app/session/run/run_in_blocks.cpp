@@ -24,7 +24,7 @@ std::string identity_of(const Estimator& estimator, const BlockwiseRun& run,
                         std::uint64_t source_hash) {
   const MapGeometry& maps = run.maps;
   const nlohmann::json identity{
-      {"draft", 1},
+      {"draft", 2},
       {"version", kVersion},
       {"method", estimator.info.id},
       {"revision", estimator.info.revision},
@@ -98,7 +98,7 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
   io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty()},
                         identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
-  FinishedBlocks finished{.maps = run.maps, .remark = remark_on(draft, request.output)};
+  FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};
   finished.provenance = run_blocks(lf, run, store, request.memory, limited.part(0.06, 1));
   draft.commit(finished.provenance, source_text(request.input, request.output));
   return finished;

@@ -4,6 +4,7 @@
 #include "engine/core/array/view_rectangle.h"
 #include "engine/core/light_field/disparity_field.h"
 
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -38,11 +39,12 @@ struct BlockMaps {
 
 /// How far an estimate in blocks has come.
 struct BlockProgress {
-  int pass = 0;                 ///< That is being made, from 0.
-  int done = 0;                 ///< Of its rows or views, in their order.
-  std::vector<double> facts{};  ///< What the pass had to find before its first block.
-  double finding = 0;           ///< The largest that a block of the pass reported.
-  double seconds = 0;           ///< Of all programs that worked on it.
+  int pass = 0;                      ///< That is being made, from 0.
+  int done = 0;                      ///< Of its rows or views, in their order.
+  std::vector<double> facts{};       ///< What has been found that all further blocks have to know.
+  double finding = 0;                ///< The largest that a block of the pass reported.
+  double seconds = 0;                ///< Of all programs that worked on it.
+  std::vector<std::string> notes{};  ///< For the estimate, of the blocks that are done.
   friend bool operator==(const BlockProgress&, const BlockProgress&) = default;
 };
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -36,24 +37,27 @@ class Blocks {
   [[nodiscard]] Provenance provenance() const {
     Provenance made = run_.provenance;
     made.seconds = state_.seconds;
-    if (!run_.notes) return made;
-    const std::vector<std::string> notes = run_.notes(last_finding());
+    std::vector<std::string> notes = state_.notes;
+    if (run_.notes) {
+      for (std::string& note : run_.notes(state_.finding)) notes.push_back(std::move(note));
+    }
     made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
     return made;
   }
 
  private:
-  [[nodiscard]] double last_finding() const { return state_.finding; }
   [[nodiscard]] bool is_last() const {
     return state_.pass + 1 == static_cast<int>(run_.passes.size());
   }
   [[nodiscard]] int count_of(const BlockPass& pass) const {
-    return pass.unit == BlockUnit::Rows ? run_.maps.height : run_.maps.grid.count();
+    if (pass.unit == BlockUnit::Rows) return run_.maps.height;
+    return pass.only.empty() ? run_.maps.grid.count() : static_cast<int>(pass.only.size());
   }
 
   // How many rows or views at once.
   [[nodiscard]] int block_size(const BlockPass& pass) const {
-    const int all = pass.unit == BlockUnit::Rows ? run_.maps.height : run_.maps.grid.u;
+    const int views = pass.only.empty() ? run_.maps.grid.u : 1;
+    const int all = pass.unit == BlockUnit::Rows ? run_.maps.height : views;
     const int fewest = std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, all);
     if (pass.bytes(fewest) > memory_) {
       constexpr double kMegabyte = 1e6;
@@ -76,13 +80,14 @@ class Blocks {
     if (pass.unit == BlockUnit::Rows) {
       return {{maps.first, maps.grid}, state_.done, std::min(state_.done + size, maps.height)};
     }
+    if (!pass.only.empty()) return {{pass.only[state_.done], {1, 1}}, 0, maps.height};
     const ViewIndex view = maps.grid.view_at(state_.done, maps.first);
     const int left = maps.first.u + maps.grid.u - view.u;
     return {{view, {1, std::min(size, left)}}, 0, maps.height};
   }
 
   void begin_pass(const BlockPass& pass, const Progress& progress) {
-    if (state_.done > 0 || !state_.facts.empty() || !pass.prepare) return;
+    if (!pass.prepare || state_.done > 0 || !state_.facts.empty()) return;
     state_.facts = pass.prepare(read_, progress);
     light_field_.forget_samples();
     state_.seconds = seconds();
@@ -105,7 +110,15 @@ class Blocks {
       ++state_.pass;
       return;
     }
-    state_ = {.pass = state_.pass + 1, .seconds = seconds()};
+    end_pass();
+  }
+
+  void end_pass() {
+    ++state_.pass;
+    state_.done = 0;
+    state_.finding = 0;
+    if (run_.passes[static_cast<std::size_t>(state_.pass)].prepare) state_.facts.clear();
+    state_.seconds = seconds();
     store_.note(state_);
   }
 
@@ -118,6 +131,8 @@ class Blocks {
     light_field_.forget_samples();
     state_.done = done;
     state_.finding = std::max(state_.finding, made.finding);
+    if (!made.facts.empty()) state_.facts = std::move(made.facts);
+    state_.notes.insert(state_.notes.end(), made.notes.begin(), made.notes.end());
     state_.seconds = seconds();
     store_.write(block, made.maps, state_, state_.pass > 0);
   }

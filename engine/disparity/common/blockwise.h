@@ -21,7 +21,9 @@ enum class BlockUnit { Rows, Views };
 /// What a block becomes.
 struct FinishedBlock {
   BlockMaps maps;
-  double finding = 0;  ///< Something of which the largest of all blocks is wanted.
+  double finding = 0;                ///< Something of which the largest of all blocks is wanted.
+  std::vector<double> facts{};       ///< For all further blocks; empty = nothing new.
+  std::vector<std::string> notes{};  ///< For the estimate.
 };
 
 /// One pass over all maps. What it makes of a block depends on samples, on the facts, and on the
@@ -29,10 +31,13 @@ struct FinishedBlock {
 struct BlockPass {
   std::string step;  ///< For Progress.
   BlockUnit unit = BlockUnit::Rows;
+  /// Of BlockUnit::Views: only these, one after the other. Empty = all.
+  std::vector<ViewIndex> only{};
   /// Bytes of memory that a block of so many rows or views takes, samples that have to be looked at
   /// included if they are on disk.
   std::function<double(int count)> bytes;
-  /// What all blocks have to know, found before the first; may be empty.
+  /// What all blocks have to know, found before the first. If empty, they know what blocks and
+  /// passes before have found.
   std::function<std::vector<double>(const ReadBlock&, const Progress&)> prepare;
   /// Throws Cancelled.
   std::function<FinishedBlock(const MapBlock&, const ReadBlock&, const std::vector<double>& facts,

@@ -2,6 +2,7 @@
 #include "engine/disparity/plane/carried_sides.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/disparity/common/local_noise.h"
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,8 @@ constexpr int kBandRows = 16;
 constexpr float kLeastStep = 0.2F;  // px
 constexpr float kTolerance = 0.2F;
 constexpr float kAdvantage = 0.95F;
+// Between samples of one point without noise.
+constexpr double kSmallDifference = 0.015;
 // By so much differs the colour of a neighbour that counts 1/e.
 constexpr float kColorScale = 8.0F / 255;
 
@@ -40,17 +43,18 @@ struct Sides {
 // Decides bands of rows of one view; one per thread.
 class Chooser {
  public:
-  Chooser(const PackedViews& views, const ViewStack<float>& before, float cap, ViewIndex view)
-      : views_(views),
-        before_(before),
+  Chooser(const CarriedRows& rows, float cap, ViewIndex view)
+      : views_(rows.views),
+        before_(rows.before),
+        first_row_(rows.first_row),
         cap_(cap),
         view_(view),
-        height_(before.height()),
-        width_(before.width()),
+        height_(rows.height),
+        width_(rows.before.width()),
         sides_(static_cast<std::size_t>(kBandRows + 2 * kRadius) * width_) {}
 
-  // Rows [begin, end), at most kBandRows.
-  void decide(int begin, int end, ImageView<float> disparity) {
+  // Rows [begin, end), at most kBandRows; `disparity` begins with the first of them.
+  void decide(int begin, int end, float* disparity) {
     begin_ = begin - kRadius;
     for (int y = std::max(begin_, 0); y < std::min(end + kRadius, height_); ++y) {
       for (int x = 0; x < width_; ++x) at(y, x) = find(y, x);
@@ -58,7 +62,9 @@ class Chooser {
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < width_; ++x) {
         const Sides& own = at(y, x);
-        if (own.exist && other_wins(y, x)) disparity.at(y, x) = own.disparity[1];
+        if (own.exist && other_wins(y, x)) {
+          disparity[static_cast<std::size_t>(y - begin) * width_ + x] = own.disparity[1];
+        }
       }
     }
   }
@@ -77,17 +83,17 @@ class Chooser {
 
   [[nodiscard]] Sides find(int y, int x) const {
     const ImageView<const float> map = before_.view(view_);
-    const float own = map.at(y, x);
+    const float own = map.at(y - first_row_, x);
     float low = own, high = own;
     around(y, x, [&](int j, int i) {
-      low = std::min(low, map.at(j, i));
-      high = std::max(high, map.at(j, i));
+      low = std::min(low, map.at(j - first_row_, i));
+      high = std::max(high, map.at(j - first_row_, i));
     });
     Sides sides;
     if (high - low <= kLeastStep) return sides;
     sides.exist = true;
     sides.disparity = {own, own - low < high - own ? high : low};
-    const Color color = color_of(views_.pixels.view(view_).at(y, x));
+    const Color color = color_of(views_.pixels.view(view_).at(y - first_row_, x));
     for (int k = 0; k < 2; ++k) sides.cost[k] = cost(y, x, color, sides.disparity[k]);
     return sides;
   }
@@ -106,8 +112,8 @@ class Chooser {
                 left = static_cast<int>(std::floor(column));
       if (top < 0 || left < 0 || top + 1 >= height_ || left + 1 >= width_) continue;
       const float down = row - static_cast<float>(top), right = column - static_cast<float>(left);
-      const float there =
-          before_.view(other).at(down < 0.5F ? top : top + 1, right < 0.5F ? left : left + 1);
+      const int nearest_row = (down < 0.5F ? top : top + 1) - first_row_;
+      const float there = before_.view(other).at(nearest_row, right < 0.5F ? left : left + 1);
       if (there > disparity + kTolerance) continue;
       sum += std::min(cap_, distance(color, sample(other, {top, left}, down, right)));
       ++count;
@@ -117,8 +123,8 @@ class Chooser {
 
   [[nodiscard]] Color sample(ViewIndex view, PixelIndex corner, float down, float right) const {
     const ImageView<const std::uint32_t> pixels = views_.pixels.view(view);
-    const std::uint32_t* const above = pixels.row(corner.y) + corner.x;
-    const std::uint32_t* const below = pixels.row(corner.y + 1) + corner.x;
+    const std::uint32_t* const above = pixels.row(corner.y - first_row_) + corner.x;
+    const std::uint32_t* const below = pixels.row(corner.y + 1 - first_row_) + corner.x;
     const Color a = color_of(above[0]), b = color_of(above[1]);
     const Color c = color_of(below[0]), d = color_of(below[1]);
     Color all;
@@ -134,12 +140,12 @@ class Chooser {
     const Sides& here = at(y, x);
     const bool is_near = here.disparity[0] > here.disparity[1];
     const ImageView<const std::uint32_t> pixels = views_.pixels.view(view_);
-    const Color color = color_of(pixels.at(y, x));
+    const Color color = color_of(pixels.at(y - first_row_, x));
     float own = 0, other = 0;
     around(y, x, [&](int j, int i) {
       const Sides& there = at(j, i);
       if (!there.exist) return;
-      const float off = distance(color, color_of(pixels.at(j, i))) / kColorScale;
+      const float off = distance(color, color_of(pixels.at(j - first_row_, i))) / kColorScale;
       const float weight = std::exp(-off * off);
       const int same = is_near == (there.disparity[0] > there.disparity[1]) ? 0 : 1;
       own += weight * there.cost[same];
@@ -150,6 +156,7 @@ class Chooser {
 
   const PackedViews& views_;
   const ViewStack<float>& before_;
+  int first_row_;
   float cap_;
   ViewIndex view_;
   int height_, width_;
@@ -162,20 +169,37 @@ class Chooser {
 void choose_carried_sides(const PackedViews& views, float cap, Estimate& estimate,
                           const Progress& progress) {
   ViewStack<float>& disparity = estimate.field.disparity;
-  const GridShape grid = disparity.grid();
   const ViewStack<float> before = disparity.clone();
+  choose_carried_sides({views, before, 0, disparity.height()}, cap, 0, disparity, progress);
+}
+
+void choose_carried_sides(const CarriedRows& rows, float cap, int begin,
+                          ViewStack<float>& disparity, const Progress& progress) {
+  const GridShape grid = disparity.grid();
+  const int end = begin + disparity.height();
   const int bands = (disparity.height() + kBandRows - 1) / kBandRows;
   for (int i = 0; i < grid.count(); ++i) {
     const ViewIndex view = grid.view_at(i);
     const double count = grid.count();
     parallel_for_workers(bands, progress.part(i / count, (i + 1) / count), [&] {
-      return [&, chooser = Chooser(views, before, cap, view)](int band) mutable {
-        const int begin = band * kBandRows;
-        chooser.decide(begin, std::min(begin + kBandRows, disparity.height()),
-                       disparity.view(view));
+      return [&, chooser = Chooser(rows, cap, view)](int band) mutable {
+        const int row = band * kBandRows;
+        chooser.decide(begin + row, std::min(begin + row + kBandRows, end),
+                       disparity.view(view).row(row));
       };
     });
   }
+}
+
+int carried_reach(GridShape grid, double farthest) {
+  const int steps = std::max(grid.v, grid.u) - 1;
+  // Sides of neighbours, what they are found from, and the sample below a place.
+  return 2 * kRadius + static_cast<int>(std::ceil(farthest * steps)) + 1;
+}
+
+float carried_cap(const LightField& lf, ViewIndex view, const Progress& progress) {
+  const double variance = view_noise_variance(lf, view, progress);
+  return static_cast<float>(kSmallDifference + 2 * std::sqrt(lf.channels() * variance));
 }
 
 }  // namespace episcope

@@ -21,4 +21,25 @@ namespace episcope {
 void choose_carried_sides(const PackedViews& views, float cap, Estimate& estimate,
                           const Progress& progress);
 
+/// Rows of all views, of whole views of `height` rows: samples and the maps before the call, row 0
+/// of both being `first_row`.
+struct CarriedRows {
+  const PackedViews& views;
+  const ViewStack<float>& before;
+  int first_row = 0;
+  int height = 0;
+};
+/// The same for a part of the rows, in place: row 0 of `disparity` is the row `begin` of the views.
+/// `rows` must reach `carried_reach` beyond them, or to the end of the views. Throws Cancelled.
+void choose_carried_sides(const CarriedRows& rows, float cap, int begin,
+                          ViewStack<float>& disparity, const Progress& progress);
+
+/// How many rows beyond those that are chosen are looked at, if no disparity is farther from 0 than
+/// `farthest` px.
+[[nodiscard]] int carried_reach(GridShape grid, double farthest);
+
+/// A cap for a light field: what the noise of a view explains, and a little more. Throws Cancelled.
+[[nodiscard]] float carried_cap(const LightField& light_field, ViewIndex view,
+                                const Progress& progress);
+
 }  // namespace episcope

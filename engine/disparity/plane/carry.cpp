@@ -5,6 +5,8 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/surfaces_in_views.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -172,6 +174,21 @@ CarriedMaps carry_to_views(const std::vector<Estimate>& maps, ViewRectangle view
     carry(maps, view, {all.disparity.view(view), all.confidence.view(view)});
   });
   return all;
+}
+
+void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
+             ViewStack<float>& confidence) {
+  const ViewIndex view = map.field.disparity.first();
+  if (!disparity.contains(view)) return;
+  const auto put = [&](const ViewStack<float>& from, ViewStack<float>& to) {
+    std::copy_n(from.view(view).row(first_row), to.view_size(), to.view(view).data);
+  };
+  put(map.field.disparity, disparity);
+  put(map.confidence, confidence);
+}
+
+std::string carried_note(std::size_t views) {
+  return fmt::format("carried to all views from {} of them", views);
 }
 
 }  // namespace episcope

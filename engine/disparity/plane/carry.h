@@ -5,6 +5,7 @@
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/parallel/progress.h"
 
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -20,5 +21,13 @@ struct CarriedMaps {
 };
 [[nodiscard]] CarriedMaps carry_to_views(const std::vector<Estimate>& maps, ViewRectangle views,
                                          const Progress& progress);
+
+/// Puts the map of a single view in its place in maps of some views, whose row 0 is the row
+/// `first_row` of the view. Does nothing if they do not hold the view.
+void put_map(const Estimate& map, int first_row, ViewStack<float>& disparity,
+             ViewStack<float>& confidence);
+
+/// For the notes of an estimate that was carried from so many views.
+[[nodiscard]] std::string carried_note(std::size_t views);
 
 }  // namespace episcope

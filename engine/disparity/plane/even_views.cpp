@@ -217,6 +217,7 @@ Brightness brightness_of_means(const LightField& lf, ViewIndex reference,
   const Image<float> here = lf.view_as_float(reference);
   parallel_for(grid.count(), progress, [&](int i) {
     brightness.gains[i] = gains_of_means(lf, grid.view_at(i), reference, here);
+    lf.forget_samples();
   });
   if (unsteadiness(brightness, grid) < kUnlikelyMeans)
     brightness.gains.assign(grid.count(), {1, 1, 1});
@@ -232,6 +233,7 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
   parallel_for(grid.count(), progress.part(0, 0.6), [&](int i) {
     if (grid.view_at(i) == reference) return;
     std::array<std::vector<Ratio>, 3> all = points.ratios(grid.view_at(i));
+    lf.forget_samples();
     for (int c = 0; c < channels; ++c) ratios[i * channels + c] = std::move(all[c]);
   });
   Brightness brightness;
@@ -268,6 +270,7 @@ LightField even_views(const LightField& lf, const Brightness& brightness,
         }
       }
     }
+    lf.forget_samples();
   });
   return {std::move(samples), lf.info(), lf.valid().clone()};
 }

@@ -2,23 +2,9 @@
 #pragma once
 
 #include "engine/disparity/common/estimator.h"
-#include "engine/disparity/plane/jump_labeling.h"
-#include "engine/disparity/plane/plane_refinement.h"
-#include "engine/disparity/plane/visible_costs.h"
-#include "engine/disparity/stereo/stereo_costs.h"
+#include "engine/disparity/plane/plane_parameters.h"
 
 namespace episcope {
-
-struct PlaneParameters {
-  VisibilityParameters visibility = {};
-  PlaneRefinementParameters refinement = {};
-  JumpLabelingParameters labeling = {};
-  StereoCostParameters matching{
-      .labels = 96, .interpolation = Interpolation::Cubic, .range = {}, .view = {}};
-  bool even = true;
-  bool silhouettes = true;
-};
-[[nodiscard]] Schema<PlaneParameters> plane_pm_schema();
 
 /// Disparity from all views in which a point is visible.
 ///

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/stereo/stereo_costs.h"
 
+#include "engine/core/array/memory_budget.h"
 #include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
@@ -268,18 +269,53 @@ int stereo_band_rows(int height) {
   return std::clamp(height / 12, 16, 64);
 }
 
-Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
-                            const Progress& progress) {
-  Volume<float> volume(lf.height(), static_cast<int>(costs.labels.size()), lf.width());
-  const VolumeView<float> all = volume.view();
+double looked_at_bytes(const LightField& lf, const StereoCosts& costs, int rows) {
+  if (!lf.is_on_disk()) return 0;
+  const GridShape grid = lf.grid();
+  const bool all = costs.matching.views == MatchedViews::All;
+  const double views = all ? grid.count() : grid.v + grid.u - 1;
+  const double steps = std::max(grid.v, grid.u);
+  const double reach = steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
+  const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
+  return views * view_row * std::min<double>(rows + 2 * reach, lf.height());
+}
+
+namespace {
+
+// Rows of costs between which samples are dropped: multiples of a band.
+int rows_at_once(const LightField& lf, const StereoCosts& costs, int band_rows) {
+  const double most = static_cast<double>(memory_budget()) / 4;
+  int rows = lf.height();
+  while (rows > band_rows && looked_at_bytes(lf, costs, rows) > most) rows /= 2;
+  return std::max(rows / band_rows, 1) * band_rows;
+}
+
+void fill_volume(const LightField& lf, const StereoCosts& costs, int first_row, int end_row,
+                 VolumeView<float> volume, const Progress& progress) {
   const int rows = stereo_band_rows(lf.height());
-  parallel_for_workers((lf.height() + rows - 1) / rows, progress, [&] {
+  parallel_for_workers((end_row - first_row + rows - 1) / rows, progress, [&] {
     return [&, source = StereoCostRows(lf, costs)](int i) mutable {
-      const int y = i * rows;
-      const auto band = source.compute(y, std::min(rows, lf.height() - y), progress);
-      std::copy_n(band.data, band.size(), all.row(y, 0));
+      const int y = first_row + i * rows;
+      const auto band = source.compute(y, std::min(rows, end_row - y), progress);
+      std::copy_n(band.data, band.size(), volume.row(y, 0));
     };
   });
+}
+
+}  // namespace
+
+Volume<float> stereo_volume(const LightField& lf, const StereoCosts& costs,
+                            const Progress& progress) {
+  const int height = lf.height();
+  Volume<float> volume(height, static_cast<int>(costs.labels.size()), lf.width());
+  const int rows = lf.is_on_disk() ? rows_at_once(lf, costs, stereo_band_rows(height)) : height;
+  for (int y = 0; y < height; y += rows) {
+    const int end = std::min(y + rows, height);
+    if (costs.matching.views == MatchedViews::All) lf.fetch_samples(y, end);
+    fill_volume(lf, costs, y, end, volume.view(),
+                progress.part(static_cast<double>(y) / height, static_cast<double>(end) / height));
+    if (rows < height) lf.forget_samples();
+  }
   return volume;
 }
 

@@ -105,7 +105,13 @@ class StereoCostRows {
 /// for the aggregation, few enough to keep every thread busy.
 [[nodiscard]] int stereo_band_rows(int height);
 
-/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Throws Cancelled.
+/// Bytes of the samples that so many rows of costs look at, if these are on disk; else 0.
+[[nodiscard]] double looked_at_bytes(const LightField& light_field, const StereoCosts& costs,
+                                     int rows);
+
+/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Samples on disk are dropped
+/// from memory on the way, so that they take no more than a quarter of the memory budget if a few
+/// rows do not. Throws Cancelled.
 [[nodiscard]] Volume<float> stereo_volume(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
 

@@ -104,18 +104,8 @@ double band_bytes(const LightField& lf, const StereoCosts& costs, int rows, int 
   constexpr double kOfView = 64, kMaps = 9, kCost = 4, kMostBandRows = 64 + 32;
   const double width = lf.width(), pixels = width * lf.height();
   const double volumes = kCost * kMostBandRows * width * static_cast<double>(costs.labels.size());
-  double looked_at = 0;
-  if (lf.is_on_disk()) {
-    const bool all = costs.matching.views == MatchedViews::All;
-    const GridShape grid = lf.grid();
-    const double views = all ? grid.count() : grid.v + grid.u - 1;
-    const double steps = std::max(grid.v, grid.u);
-    const double reach =
-        steps * std::max(std::abs(costs.range.min), std::abs(costs.range.max)) + 32;
-    const double view_row = static_cast<double>(lf.byte_size()) / grid.count() / lf.height();
-    looked_at = views * view_row * std::min<double>(rows + 2 * reach, lf.height());
-  }
-  return kOfView * pixels + kMaps * width * rows + volumes * threads + looked_at;
+  return kOfView * pixels + kMaps * width * rows + volumes * threads +
+         looked_at_bytes(lf, costs, rows);
 }
 
 }  // namespace
@@ -209,6 +199,36 @@ Estimate estimate_stereo_smooth(const LightField& lf, MatchedViews views,
   denoise(lf, parameters.denoising, estimate, progress.part(0.85, 1), DataWeight{}.minimum,
           static_cast<float>(parameters.map_noise), device);
   return estimate;
+}
+
+BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
+                                     const StereoSmoothParameters& parameters,
+                                     const Progress& progress) {
+  BlockwiseRun run = stereo_local_in_blocks(lf, views, parameters.local, progress);
+  BlockPass pass;
+  pass.step = "denoising";
+  pass.unit = BlockUnit::Views;
+  pass.bytes = [&lf](int) {
+    constexpr double kMapsAndDenoised = 9 + 96;
+    const double pixels = static_cast<double>(lf.height()) * lf.width();
+    const double view = static_cast<double>(lf.byte_size()) / lf.grid().count();
+    return kMapsAndDenoised * pixels + (lf.is_on_disk() ? view : 0);
+  };
+  pass.compute = [&lf, parameters](const MapBlock& block, const ReadBlock& read,
+                                   const std::vector<double>&, const Progress& part) {
+    FinishedBlock made{read(block)};
+    made.finding = denoise(lf, parameters.denoising,
+                           {DataWeight{}.minimum, static_cast<float>(parameters.map_noise)},
+                           made.maps.field.disparity, made.maps.confidence, part);
+    return made;
+  };
+  run.passes.push_back(std::move(pass));
+  run.notes = [costs = std::exchange(run.provenance.notes, {})](double gap) {
+    std::vector<std::string> notes = costs;
+    notes.push_back(gap_note(gap));
+    return notes;
+  };
+  return run;
 }
 
 }  // namespace episcope

@@ -48,4 +48,10 @@ struct StereoSmoothParameters {
                                               const Progress& progress,
                                               Device device = Device::Cpu);
 
+/// The same in blocks: bands of rows, then the view is denoised as a whole.
+[[nodiscard]] BlockwiseRun stereo_smooth_in_blocks(const LightField& light_field,
+                                                   MatchedViews views,
+                                                   const StereoSmoothParameters& parameters,
+                                                   const Progress& progress);
+
 }  // namespace episcope

@@ -29,16 +29,24 @@ Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
   return make_estimator<P>(std::move(info), schema(views), with_views(views, estimate));
 }
 
-// A local one, which can run in blocks.
-Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
+template <class P>
+using StereoBlocks = BlockwiseRun (*)(const LightField&, MatchedViews, const P&, const Progress&);
+
+// One that can also run in blocks.
+template <class P>
+Estimator stereo_estimator(EstimatorInfo info, MatchedViews views,
+                           Schema<P> (*schema)(MatchedViews), StereoFunction<P> estimate,
+                           StereoBlocks<P> blocks) {
   info.devices = {Device::Cpu, Device::Cuda};
-  return make_estimator<StereoLocalParameters>(
-      std::move(info), stereo_local_schema(views),
-      with_views<StereoLocalParameters>(views, estimate_stereo_local),
-      [=](const LightField& light_field, const StereoLocalParameters& parameters, ViewSelection,
-          const Progress& progress) {
-        return stereo_local_in_blocks(light_field, views, parameters, progress);
-      });
+  return make_estimator<P>(
+      std::move(info), schema(views), with_views(views, estimate),
+      [=](const LightField& light_field, const P& parameters, ViewSelection,
+          const Progress& progress) { return blocks(light_field, views, parameters, progress); });
+}
+
+Estimator local_estimator(EstimatorInfo info, MatchedViews views) {
+  return stereo_estimator<StereoLocalParameters>(std::move(info), views, stereo_local_schema,
+                                                 estimate_stereo_local, stereo_local_in_blocks);
 }
 
 }  // namespace
@@ -68,7 +76,8 @@ Estimator st_av_s_estimator() {
                            .reference = kReference,
                            .iterative = true,
                            .revision = 5},
-                          MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth);
+                          MatchedViews::All, stereo_smooth_schema, estimate_stereo_smooth,
+                          stereo_smooth_in_blocks);
 }
 
 Estimator st_ch_s_estimator() {
@@ -78,7 +87,8 @@ Estimator st_ch_s_estimator() {
                            .reference = kReference,
                            .iterative = true,
                            .revision = 5},
-                          MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth);
+                          MatchedViews::CrossHair, stereo_smooth_schema, estimate_stereo_smooth,
+                          stereo_smooth_in_blocks);
 }
 
 Estimator st_av_g_estimator() {

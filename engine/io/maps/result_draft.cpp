@@ -50,13 +50,15 @@ Json to_json(const BlockProgress& progress) {
           {"done", progress.done},
           {"facts", progress.facts},
           {"finding", progress.finding},
-          {"seconds", progress.seconds}};
+          {"seconds", progress.seconds},
+          {"notes", progress.notes}};
 }
 
 BlockProgress progress_in(const Json& json) {
   return {int_of(json.at("pass")), int_of(json.at("done")),
           json.at("facts").get<std::vector<double>>(), json.at("finding").get<double>(),
-          json.at("seconds").get<double>()};
+          json.at("seconds").get<double>(),
+          json.at("notes").get<std::vector<std::string>>()};
 }
 
 Json to_json(const MapBlock& block) {

@@ -146,7 +146,9 @@ void MovieEncoder::open_container() {
   require(avformat_alloc_output_context2(&container, nullptr, form_of(named_).container, nullptr));
   container_.reset(container);
   container->flags |= AVFMT_FLAG_BITEXACT;  // no date and version in the file
-  require(avio_open(&container->pb, file_.c_str(), AVIO_FLAG_WRITE));
+  // A folder can be named as if the path were an address.
+  const std::string file = "file:" + file_.string();
+  require(avio_open(&container->pb, file.c_str(), AVIO_FLAG_WRITE));
 }
 
 void MovieEncoder::open_codec() {

@@ -17,13 +17,13 @@ function(expect_same name a b)
 endfunction()
 
 file(MAKE_DIRECTORY "${WORK}/made" "${WORK}/once" "${WORK}/killed")
-foreach(method epi_l epi_s st_av_l st_ch_l)
+foreach(method epi_l epi_s st_av_l st_ch_l st_av_s st_ch_s plane_pm)
   expect("${method} at once" 0 ERR "" ARGS estimate ${method} lf.h5 -o once/${method}.h5 -q)
   expect("${method} in blocks" 0 OUT "${method} of " ARGS estimate ${method} lf.h5
          -o made/${method}.h5 --memory 40M -q)
   expect_same("${method} in blocks" once/${method}.h5 made/${method}.h5)
 endforeach()
-expect_files(made epi_l.h5 epi_s.h5 st_av_l.h5 st_ch_l.h5)
+expect_files(made epi_l.h5 epi_s.h5 plane_pm.h5 st_av_l.h5 st_av_s.h5 st_ch_l.h5 st_ch_s.h5)
 
 # A method that is not cut: what does not fit goes to disk.
 expect("at once" 0 ARGS estimate epi_c lf.h5 -o once/epi_c.h5 -q)
@@ -36,32 +36,40 @@ expect("no size" 2 ERR "--memory is 'lots'.*4G, 800M" ARGS estimate epi_l lf.h5 
        --memory lots)
 expect("nothing" 2 ERR "--memory" ARGS estimate epi_l lf.h5 -o none.h5 --memory 0)
 
-# Killed after so many steps were noted, then continued. A machine that is done before it is killed
-# has nothing to continue: the scene is one that takes much longer than a step.
+# expect_continued(method scene expected memory steps…): killed after so many steps were noted, then continued. A
+# machine that is done before it is killed has nothing to continue: the scene is one that takes much longer than a
+# step.
+function(expect_continued method scene expected memory)
+  set(continued 0)
+  foreach(steps ${ARGN})
+    set(run "'${CLI}' estimate ${method} ${scene} -o killed/r.h5 --memory ${memory} --threads 1")
+    set(script "${run} -q & cli=$!
+      until [ $(wc -l < killed/r.h5.partial.log 2>/dev/null || echo 0) -ge ${steps} ]; do
+        kill -0 $cli 2>/dev/null || break; sleep 0.01; done
+      kill -9 $cli; wait $cli 2>/dev/null; [ -e killed/r.h5 ] || ${run} --json")
+    execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
+                    ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 240)
+    if(NOT code EQUAL 0)
+      fail_case("${method} continued after ${steps} steps: ${code} ${out} ${err}")
+    endif()
+    if(err MATCHES "r.h5.partial was continued")
+      math(EXPR continued "${continued} + 1")
+    endif()
+    expect_same("${method} continued after ${steps} steps" ${expected} killed/r.h5)
+    expect_files(killed r.h5)
+    file(REMOVE "${WORK}/killed/r.h5")
+  endforeach()
+  if(continued EQUAL 0)
+    fail_case("no run of ${method} was killed before it was done")
+  endif()
+endfunction()
 run_cli(synthesize edge -o large.h5 --views 5x6 --size 420x410 -q)
 expect("at once" 0 ARGS estimate epi_s large.h5 -o once/large.h5 -q)
-set(continued 0)
-foreach(steps 3 4 6 9 12 16)
-  set(run "'${CLI}' estimate epi_s large.h5 -o killed/r.h5 --memory 64M --threads 1")
-  set(script "${run} -q & cli=$!
-    until [ $(wc -l < killed/r.h5.partial.log 2>/dev/null || echo 0) -ge ${steps} ]; do
-      kill -0 $cli 2>/dev/null || break; sleep 0.01; done
-    kill -9 $cli; wait $cli 2>/dev/null; [ -e killed/r.h5 ] || ${run} --json")
-  execute_process(COMMAND "${sh}" -c "${script}" WORKING_DIRECTORY "${WORK}" OUTPUT_VARIABLE out
-                  ERROR_VARIABLE err RESULT_VARIABLE code TIMEOUT 240)
-  if(NOT code EQUAL 0)
-    fail_case("continued after ${steps} steps: ${code} ${out} ${err}")
-  endif()
-  if(err MATCHES "r.h5.partial was continued")
-    math(EXPR continued "${continued} + 1")
-  endif()
-  expect_same("continued after ${steps} steps" once/large.h5 killed/r.h5)
-  expect_files(killed r.h5)
-  file(REMOVE "${WORK}/killed/r.h5")
-endforeach()
-if(continued EQUAL 0)
-  fail_case("no run was killed before it was done")
-endif()
+expect_continued(epi_s large.h5 once/large.h5 64M 3 6 12)
+# While views are estimated, while they are carried, while sides are chosen.
+run_cli(synthesize edge -o small.h5 --views 5x6 --size 96x90 -q)
+expect("at once" 0 ARGS estimate plane_pm small.h5 -o once/small.h5 -q)
+expect_continued(plane_pm small.h5 once/small.h5 3M 4 12 29)
 
 # The samples stay in their file where they are large beside the memory.
 expect("at once" 0 ARGS estimate epi_l large.h5 -o once/epi_l.h5 -q)

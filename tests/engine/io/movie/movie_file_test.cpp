@@ -146,6 +146,19 @@ class MovieFileTest : public QObject {
     QVERIFY_EXCEPTION_THROWN(file.add(Image<std::uint8_t>(4, 4, 4).view()), InvalidInput);
     QVERIFY_EXCEPTION_THROWN(file.commit(), InvalidInput);
   }
+
+  void pathThatLooksLikeAnAddress_isAFile() {
+    const Folder folder;
+    const std::filesystem::path before = std::filesystem::current_path();
+    std::filesystem::create_directory(folder / "http:");
+    std::filesystem::create_directory(folder / "http:" / "localhost");
+
+    std::filesystem::current_path(folder / ".");
+    write("http://localhost/movie.gif");
+    std::filesystem::current_path(before);
+
+    QVERIFY(std::filesystem::file_size(folder / "http:" / "localhost" / "movie.gif") > 0);
+  }
 };
 
 }  // namespace episcope::in_movie_file_test
