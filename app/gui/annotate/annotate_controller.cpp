@@ -26,6 +26,10 @@ namespace {
 
 constexpr double kSizeStep = 1.15;  // of a key or a notch of the wheel
 
+bool is_of_labels(const QString& tab) {
+  return tab == "annotate" || tab == "check";
+}
+
 PixelIndex pixel_of(QPointF image) {
   return {static_cast<int>(std::floor(image.y())), static_cast<int>(std::floor(image.x()))};
 }
@@ -59,7 +63,10 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
   connectTools();
   connectPanel();
   bench.cancels.add(CancelRank::Stroke, [this] { return canvasTool()->cancel(); });
-  connect(&bench.frame, &Frame::tabShown, this, [this] { setAnnotating(isTabShown()); });
+  connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
+    if (!isTabShown()) setAnnotating(false);
+    if (is_of_labels(id)) setAnnotating(isTabShown());
+  });
   connect(&bench.frame, &Frame::tabShown, this, &AnnotateController::showScribbles);
   connect(&bench.stage, &Stage::previewChanged, this, &AnnotateController::showMode);
   connect(&bench.labels, &LabelChoice::changed, this, &AnnotateController::showColor);
@@ -129,8 +136,9 @@ void AnnotateController::setAnnotating(bool is_annotating) {
 
 bool AnnotateController::isTabShown() const {
   // What is checked is corrected at once.
-  const QString tab = bench_.frame.shownTab();
-  return tab == "annotate" || tab == "check";
+  return std::ranges::any_of(bench_.frame.tabs(), [](const Tab& tab) {
+    return is_of_labels(tab.id) && !tab.widget->isHidden();
+  });
 }
 
 bool AnnotateController::hasDocument() const {

@@ -76,7 +76,7 @@ std::optional<ErrorPlotController::Judged> ErrorPlotController::judged(const Est
 }
 
 void ErrorPlotController::update() {
-  if (bench_.frame.shownTab() != kTab) return job_.drop();
+  if (panel_->isHidden()) return job_.drop();
   const QString why = obstacle();
   if (!why.isEmpty()) {
     job_.drop();
