@@ -8,6 +8,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/panes.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
 #include "widgets/annotate/brush_panel.h"
@@ -136,9 +137,8 @@ void AnnotateController::setAnnotating(bool is_annotating) {
 
 bool AnnotateController::isTabShown() const {
   // What is checked is corrected at once.
-  return std::ranges::any_of(bench_.frame.tabs(), [](const Tab& tab) {
-    return is_of_labels(tab.id) && !tab.widget->isHidden();
-  });
+  const Panes& panes = bench_.frame.panes();
+  return panes.isSeen("tab.annotate") || panes.isSeen("tab.check");
 }
 
 bool AnnotateController::hasDocument() const {

