@@ -21,6 +21,7 @@ Layout::Layout(const Workbench& bench, QMainWindow& window)
   bench.stage.addPanesTo(panes);
   addScreenCommands();
   addPaneCommands();
+  addStackCommands();
   connect(&panes, &Panes::opened, &bench.commands, &Commands::hearViewerKeys);
   connect(&panes, &Panes::changed, &bench.commands, &Commands::refresh);
   connect(&bench.frame, &Frame::started, this, [this] {
@@ -95,7 +96,44 @@ void Layout::addPaneCommands() {
                        .tip = tr("Brings all panes back and divides the window as at first"),
                        .keys = {tr("Ctrl+Shift+F11")},
                        .run = [this] { reset(); },
+                       .section = 2});
+}
+
+void Layout::addStackCommands() {
+  Panes& panes = bench_.frame.panes();
+  bench_.commands.add({.id = "panes.stack_tab",
+                       .menu = Menu::Panes,
+                       .text = tr("Tab below the others"),
+                       .tip = tr("Puts the tab that is shown into a second set of tabs below the "
+                                 "others, so that both are seen; its cross brings it back"),
+                       .keys = {tr("Shift+F6")},
+                       .run =
+                           [&panes, this] {
+                             bench_.frame.setPanelsShown(true);
+                             panes.stack("tab." + bench_.frame.shownTab());
+                           },
                        .section = 1});
+  const auto add_stacked = [this, &panes](const QString& id, const QString& text,
+                                          const QString& tip, const QString& key) {
+    bench_.commands.add({.id = "panes.stack." + id,
+                         .menu = Menu::Panes,
+                         .text = text,
+                         .tip = tip,
+                         .keys = {key},
+                         .run =
+                             [&panes, this, id] {
+                               bench_.frame.setPanelsShown(true);
+                               panes.toggleStacked(id);
+                             },
+                         .section = 1,
+                         .checked = [&panes, id] { return panes.isStacked(id); }});
+  };
+  add_stacked("epi.horizontal", tr("Horizontal EPI below the tabs"),
+              tr("Puts the horizontal EPI into the tabs below the others, or takes it back"),
+              tr("Shift+F7"));
+  add_stacked("epi.vertical", tr("Vertical EPI below the tabs"),
+              tr("Puts the vertical EPI into the tabs below the others, or takes it back"),
+              tr("Shift+F8"));
 }
 
 void Layout::reset() {

@@ -24,6 +24,7 @@ class Layout : public QObject {
  private:
   void addScreenCommands();
   void addPaneCommands();
+  void addStackCommands();
   void reset();
   void toggleFullScreen();
 

@@ -2011,6 +2011,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <source>In a window of its own</source>
         <translation>In einem eigenen Fenster</translation>
     </message>
+    <message>
+        <source>All tabs</source>
+        <translation>Alle Reiter</translation>
+    </message>
+    <message>
+        <source>Below the other tabs</source>
+        <translation>Unter die anderen Reiter</translation>
+    </message>
 </context>
 <context>
     <name>episcope::FrameController</name>
@@ -2757,6 +2765,42 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Ctrl+Shift+F11</source>
         <translation>Ctrl+Shift+F11</translation>
+    </message>
+    <message>
+        <source>Tab below the others</source>
+        <translation>Reiter unter die anderen</translation>
+    </message>
+    <message>
+        <source>Puts the tab that is shown into a second set of tabs below the others, so that both are seen; its cross brings it back</source>
+        <translation>Legt den gezeigten Reiter zu den Reitern unter den anderen, so dass beide zu sehen sind; sein Kreuz bringt ihn zurück</translation>
+    </message>
+    <message>
+        <source>Shift+F6</source>
+        <translation>Shift+F6</translation>
+    </message>
+    <message>
+        <source>Horizontal EPI below the tabs</source>
+        <translation>Horizontales EPI unter die Reiter</translation>
+    </message>
+    <message>
+        <source>Puts the horizontal EPI into the tabs below the others, or takes it back</source>
+        <translation>Legt das horizontale EPI zu den Reitern unter den anderen oder holt es zurück</translation>
+    </message>
+    <message>
+        <source>Shift+F7</source>
+        <translation>Shift+F7</translation>
+    </message>
+    <message>
+        <source>Vertical EPI below the tabs</source>
+        <translation>Vertikales EPI unter die Reiter</translation>
+    </message>
+    <message>
+        <source>Puts the vertical EPI into the tabs below the others, or takes it back</source>
+        <translation>Legt das vertikale EPI zu den Reitern unter den anderen oder holt es zurück</translation>
+    </message>
+    <message>
+        <source>Shift+F8</source>
+        <translation>Shift+F8</translation>
     </message>
 </context>
 <context>
@@ -4092,6 +4136,10 @@ s</translation>
     <message>
         <source>A method is running</source>
         <translation>Ein Verfahren läuft</translation>
+    </message>
+    <message>
+        <source>sweep of %1</source>
+        <translation>Versuchsreihe mit %1</translation>
     </message>
 </context>
 <context>
@@ -6582,10 +6630,6 @@ s</translation>
         <translation>%1 Läufe auf der mittleren Ansicht, die jetzigen Werte zuerst</translation>
     </message>
     <message>
-        <source>Sweep of %1</source>
-        <translation>Versuchsreihe mit %1</translation>
-    </message>
-    <message>
         <source>%1: %2</source>
         <translation>%1: %2</translation>
     </message>
@@ -6624,6 +6668,10 @@ s</translation>
     <message>
         <source>CSV (*.csv)</source>
         <translation>CSV (*.csv)</translation>
+    </message>
+    <message>
+        <source>%1 runs on each of %2 centre views, the present values first</source>
+        <translation>Je %1 Läufe auf %2 mittleren Ansichten, die jetzigen Werte zuerst</translation>
     </message>
 </context>
 <context>
@@ -6696,6 +6744,34 @@ s</translation>
         <source>One parameter only</source>
         <translation>Nur ein Parameter</translation>
     </message>
+    <message>
+        <source>All open light fields</source>
+        <translation>Alle offenen Lichtfelder</translation>
+    </message>
+    <message>
+        <source>Removes this sweep</source>
+        <translation>Entfernt diese Versuchsreihe</translation>
+    </message>
+    <message>
+        <source>Runs on every light field that is open, one after the other</source>
+        <translation>Läuft nacheinander auf jedem offenen Lichtfeld</translation>
+    </message>
+    <message>
+        <source>Sweeps</source>
+        <translation>Versuchsreihen</translation>
+    </message>
+    <message>
+        <source>The sweeps that are there; they are kept in the project</source>
+        <translation>Die vorhandenen Versuchsreihen; sie bleiben im Projekt</translation>
+    </message>
+    <message>
+        <source>Light fields that are plotted</source>
+        <translation>Gezeichnete Lichtfelder</translation>
+    </message>
+    <message>
+        <source>Which light fields are plotted</source>
+        <translation>Welche Lichtfelder gezeichnet werden</translation>
+    </message>
 </context>
 <context>
     <name>episcope::SweepPlot</name>
@@ -6734,6 +6810,36 @@ s</translation>
     <message>
         <source>%1 s</source>
         <translation>%1 s</translation>
+    </message>
+    <message>
+        <source>Mean</source>
+        <translation>Mittel</translation>
+    </message>
+    <message>
+        <source>Each and the mean</source>
+        <translation>Jedes und das Mittel</translation>
+    </message>
+    <message>
+        <source>%1 · %2 light fields</source>
+        <translation>%1 · %2 Lichtfelder</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::SweepRuns</name>
+    <message>
+        <source>Sweep of %1</source>
+        <translation>Versuchsreihe mit %1</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::TabStack</name>
+    <message>
+        <source>In a window of its own</source>
+        <translation>In einem eigenen Fenster</translation>
+    </message>
+    <message>
+        <source>Back to its place</source>
+        <translation>Zurück an seinen Platz</translation>
     </message>
 </context>
 <context>

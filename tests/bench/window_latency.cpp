@@ -5,6 +5,7 @@
 #include "app/gui/compare/compare_controller.h"
 #include "app/gui/segment/segment_controller.h"
 #include "tests/app/gui/window_fixture.h"
+#include "tests/bench/window/event_ages.h"
 #include "tests/widgets/pictures.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
@@ -13,24 +14,20 @@
 #include <QApplication>
 #include <QTest>
 
-#include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <functional>
-#include <thread>
 #include <vector>
 
 namespace {
 
 using namespace episcope;
 
+using bench::percentile;
 using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr auto kInterval = std::chrono::milliseconds(5);
-constexpr int kInputsPerEvent = 4;  // every fourth event is an input that redraws the window
 constexpr scenes::RenderOptions kLargeViews{{3, 3}, 1024, 1024};
 
 // What a user does: moves the mouse over the view, and steps through the views.
@@ -42,34 +39,9 @@ void give_input(MainWindow& window, int number) {
   if (number % 5 == 0) window.bench().session.set_cross_hair(pixel);
 }
 
-double percentile(std::vector<double> values, double share) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
-
-// Ages of events when the window came to handle them, in ms, until `has_ended`; every fourth of
-// them gives an input.
 std::vector<double> latencies(MainWindow& window, const std::function<void(int)>& input,
                               const std::function<bool()>& has_ended) {
-  std::vector<double> ages;
-  std::atomic<bool> ends{false};
-  std::jthread clock([&] {
-    for (int number = 0; !ends; ++number) {
-      QMetaObject::invokeMethod(
-          &window,
-          [&, number, posted = Clock::now()] {
-            ages.push_back(Milliseconds(Clock::now() - posted).count());
-            if (number % kInputsPerEvent == 0) input(number / kInputsPerEvent);
-          },
-          Qt::QueuedConnection);
-      std::this_thread::sleep_for(kInterval);
-    }
-  });
-  (void)QTest::qWaitFor(has_ended, kScenePatience);
-  ends = true;
-  clock.join();
-  QCoreApplication::processEvents();  // the last of them still refer to `ages`
-  return ages;
+  return bench::event_ages(window, input, has_ended, kScenePatience);
 }
 
 std::vector<double> latencies_during_run(MainWindow& window) {

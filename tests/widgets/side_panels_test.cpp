@@ -104,6 +104,7 @@ class SidePanelsTest : public QObject {
     QVERIFY(button->isHidden());
 
     panel.setIterative(7);
+    QVERIFY(button->isHidden());  // what waits has no result so far
     panel.setProgress(7, 0.2, "labeling");
     button->click();
     panel.setFinishing(7);

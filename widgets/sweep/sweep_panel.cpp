@@ -6,6 +6,7 @@
 #include "widgets/style/icon.h"
 #include "widgets/style/theme.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -36,8 +37,13 @@ SweepPanel::SweepPanel(QWidget* parent)
       plan_(new QLabel(this)),
       run_(new QPushButton(themed_icon("run"), tr("Run"), this)),
       cancel_(new QPushButton(themed_icon("stop"), tr("Cancel"), this)),
+      everywhere_(new QCheckBox(tr("All open light fields"), this)),
+      sweeps_(new QComboBox(this)),
+      scenes_(new QComboBox(this)),
+      remove_(make_tool_button({"sweep.remove", "trash", tr("Removes this sweep")}, this)),
       export_(make_tool_button({"sweep.export", "export", tr("Saves the points as CSV")}, this)),
-      parts_{makePart("sweep.upper", tr("Upper plot")), makePart("sweep.lower", tr("Lower plot"))},
+      parts_{makePart(0, "sweep.upper", tr("Upper plot")),
+             makePart(1, "sweep.lower", tr("Lower plot"))},
       chosen_(new ElidedLabel(this)),
       keep_(new QPushButton(tr("Keep"), this)),
       use_(new QPushButton(tr("Use values"), this)) {
@@ -57,17 +63,21 @@ SweepPanel::SweepPanel(QWidget* parent)
   layout->setColumnStretch(1, 1);
   layout->addWidget(plan_, 3, 0, 1, 2);
   layout->addLayout(makeButtons(), 4, 0, 1, 2);
+  layout->addLayout(makeSweepRow(), 5, 0, 1, 2);
   for (int i = 0; i < 2; ++i) {
     const Part& part = parts_[static_cast<std::size_t>(i)];
-    layout->addWidget(part.measure, 5 + 2 * i, 0, 1, 2, Qt::AlignLeft);
-    layout->addWidget(part.plot, 6 + 2 * i, 0, 1, 2);
-    layout->setRowStretch(6 + 2 * i, 1);
+    layout->addWidget(part.measure, 6 + 2 * i, 0, 1, 2, Qt::AlignLeft);
+    layout->addWidget(part.plot, 7 + 2 * i, 0, 1, 2);
+    layout->setRowStretch(7 + 2 * i, 1);
   }
-  layout->addWidget(chosen_, 9, 0, 1, 2);
-  layout->addLayout(makeActions(), 10, 0, 1, 2);
+  layout->addWidget(chosen_, 10, 0, 1, 2);
+  layout->addLayout(makeActions(), 11, 0, 1, 2);
   setRunning(false);
+  setSceneCount(0);
+  setSweeps({}, {}, -1);
+  setScenes({});
   setExportable(false);
-  setChosen(std::nullopt, {}, false);
+  setChosen({}, {}, false, false);
 }
 
 SweepPanel::Row SweepPanel::makeRow(const QString& name, const QString& accessible) {
@@ -92,14 +102,15 @@ SweepPanel::Row SweepPanel::makeRow(const QString& name, const QString& accessib
   return row;
 }
 
-SweepPanel::Part SweepPanel::makePart(const QString& name, const QString& accessible) {
+SweepPanel::Part SweepPanel::makePart(int number, const QString& name, const QString& accessible) {
   const Part part{new QComboBox(this), new LinePlot(this)};
   part.measure->setObjectName(name + ".measure");
   part.measure->setAccessibleName(tr("%1: what it shows").arg(accessible));
   part.plot->setObjectName(name);
   part.plot->setAccessibleName(accessible);
   connect(part.measure, &QComboBox::activated, this, &SweepPanel::measureChosen);
-  connect(part.plot, &LinePlot::pointChosen, this, &SweepPanel::pointChosen);
+  connect(part.plot, &LinePlot::pointChosen, this,
+          [this, number](PlotPlace place) { emit pointChosen(number, place); });
   return part;
 }
 
@@ -111,11 +122,37 @@ QHBoxLayout* SweepPanel::makeButtons() {
   auto* row = new QHBoxLayout;
   row->addWidget(run_);
   row->addWidget(cancel_);
+  everywhere_->setObjectName("sweep.everywhere");
+  everywhere_->setToolTip(tr("Runs on every light field that is open, one after the other"));
+  row->addWidget(everywhere_);
+  connect(everywhere_, &QCheckBox::toggled, this, &SweepPanel::planEdited);
   row->addStretch(1);
   row->addWidget(export_);
   connect(run_, &QPushButton::clicked, this, &SweepPanel::runRequested);
   connect(cancel_, &QPushButton::clicked, this, &SweepPanel::cancelRequested);
   connect(export_, &QToolButton::clicked, this, &SweepPanel::exportRequested);
+  return row;
+}
+
+QHBoxLayout* SweepPanel::makeSweepRow() {
+  sweeps_->setObjectName("sweep.list");
+  sweeps_->setAccessibleName(tr("Sweeps"));
+  sweeps_->setToolTip(tr("The sweeps that are there; they are kept in the project"));
+  scenes_->setObjectName("sweep.scene");
+  scenes_->setAccessibleName(tr("Light fields that are plotted"));
+  scenes_->setToolTip(tr("Which light fields are plotted"));
+  for (QComboBox* combo : {sweeps_, scenes_}) {
+    combo->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    combo->setMinimumContentsLength(kLeastCombo);
+  }
+  auto* row = new QHBoxLayout;
+  row->addWidget(sweeps_, 3);
+  row->addWidget(scenes_, 2);
+  row->addWidget(remove_);
+  connect(sweeps_, &QComboBox::activated, this,
+          [this](int place) { emit sweepChosen(sweeps_->itemData(place).toULongLong()); });
+  connect(scenes_, &QComboBox::activated, this, &SweepPanel::sceneChosen);
+  connect(remove_, &QToolButton::clicked, this, &SweepPanel::removeRequested);
   return row;
 }
 
@@ -175,6 +212,32 @@ void SweepPanel::setRunning(bool is_running) {
   cancel_->setEnabled(is_running);
 }
 
+void SweepPanel::setSceneCount(int count) {
+  const QSignalBlocker blocker(everywhere_);
+  everywhere_->setVisible(count > 1);
+  if (count < 2) everywhere_->setChecked(false);
+}
+
+void SweepPanel::setSweeps(const QStringList& titles, const std::vector<quint64>& ids, int shown) {
+  sweeps_->clear();
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    sweeps_->addItem(titles[static_cast<int>(i)], QVariant::fromValue(ids[i]));
+  }
+  sweeps_->setCurrentIndex(shown);
+  sweeps_->setVisible(!ids.empty());
+  remove_->setVisible(!ids.empty());
+}
+
+void SweepPanel::setScenes(const QStringList& names) {
+  QStringList former;
+  for (int i = 0; i < scenes_->count(); ++i) former << scenes_->itemText(i);
+  if (names != former) {
+    scenes_->clear();
+    scenes_->addItems(names);
+  }
+  scenes_->setVisible(!names.isEmpty());
+}
+
 void SweepPanel::setMeasures(const QStringList& names, int first, int second) {
   const std::array<int, 2> proposed{first, second};
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -192,11 +255,12 @@ void SweepPanel::setPlots(const Plot& upper, const Plot& lower, const QString& i
   parts_[1].plot->setPlot(lower);
 }
 
-void SweepPanel::setChosen(std::optional<PlotPlace> place, const QString& text, bool can_keep) {
-  for (const Part& part : parts_) part.plot->setMark(place);
+void SweepPanel::setChosen(std::array<std::optional<PlotPlace>, 2> places, const QString& text,
+                           bool can_keep, bool can_use) {
+  for (std::size_t i = 0; i < parts_.size(); ++i) parts_[i].plot->setMark(places[i]);
   chosen_->setFullText(text);
   keep_->setEnabled(can_keep);
-  use_->setEnabled(place.has_value());
+  use_->setEnabled(can_use);
 }
 
 void SweepPanel::setExportable(bool can_export) {
@@ -213,6 +277,18 @@ std::array<SweepPanel::Choice, 2> SweepPanel::choices() const {
 
 std::array<int, 2> SweepPanel::measures() const {
   return {parts_[0].measure->currentIndex(), parts_[1].measure->currentIndex()};
+}
+
+bool SweepPanel::isOnAllScenes() const {
+  return everywhere_->isChecked();
+}
+
+int SweepPanel::scene() const {
+  return std::max(0, scenes_->currentIndex());
+}
+
+bool SweepPanel::isExportable() const {
+  return export_->isEnabled();
 }
 
 }  // namespace episcope

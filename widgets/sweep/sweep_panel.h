@@ -10,6 +10,7 @@
 #include <array>
 #include <vector>
 
+class QCheckBox;
 class QComboBox;
 class QHBoxLayout;
 class QLabel;
@@ -21,8 +22,9 @@ namespace episcope {
 
 class ElidedLabel;
 
-/// A sweep over one or two parameters of a method: what is tried, how it goes, and two plots of
-/// what it found out, a click on a point of which chooses it. Setters never emit.
+/// Sweeps over one or two parameters of a method: what is tried next, how it goes, the sweeps that
+/// are there, and two plots of what one of them found out, a click on a point of which chooses it.
+/// Setters never emit.
 class SweepPanel : public QWidget {
   Q_OBJECT
 
@@ -48,19 +50,32 @@ class SweepPanel : public QWidget {
   /// What Run would do, or why it cannot be run.
   void setPlan(const QString& plan, bool can_run);
   void setRunning(bool is_running);
+  /// How many light fields are open: with several, a sweep can be over all of them.
+  void setSceneCount(int count);
+  /// The sweeps that are there, and which of them is shown: −1 = none.
+  void setSweeps(const QStringList& titles, const std::vector<quint64>& ids, int shown);
+  /// Of which light fields the plots can be; empty = there is no choice. The place that was chosen
+  /// stays if the names are the same.
+  void setScenes(const QStringList& names);
   /// Names of what can be plotted; those that are shown stay if they are among them, else `first`
   /// and `second` are shown.
   void setMeasures(const QStringList& names, int first, int second);
   /// A null text enables the plots; else it is said in their place.
   void setPlots(const Plot& upper, const Plot& lower, const QString& instead = {});
-  /// The point that is shown, in words, with what can be done with it; none = an empty text.
-  void setChosen(std::optional<PlotPlace> place, const QString& text, bool can_keep);
+  /// The point that is shown, where it is in the upper and the lower plot, in words, and what can
+  /// be done with it.
+  void setChosen(std::array<std::optional<PlotPlace>, 2> places, const QString& text, bool can_keep,
+                 bool can_use);
   void setExportable(bool can_export);
 
   /// The first parameter and the second.
   [[nodiscard]] std::array<Choice, 2> choices() const;
   /// Places among the names of the upper and the lower plot.
   [[nodiscard]] std::array<int, 2> measures() const;
+  [[nodiscard]] bool isOnAllScenes() const;
+  /// Place among the names of `setScenes`; 0 without a choice.
+  [[nodiscard]] int scene() const;
+  [[nodiscard]] bool isExportable() const;
 
  signals:
   /// What is asked for changed.
@@ -68,7 +83,11 @@ class SweepPanel : public QWidget {
   void runRequested();
   void cancelRequested();
   void measureChosen();
-  void pointChosen(episcope::PlotPlace place);
+  /// `plot`: 0 is the upper one.
+  void pointChosen(int plot, episcope::PlotPlace place);
+  void sweepChosen(quint64 id);
+  void sceneChosen();
+  void removeRequested();
   void keepRequested();
   void useRequested();
   void exportRequested();
@@ -83,7 +102,8 @@ class SweepPanel : public QWidget {
     LinePlot* plot;
   };
   Row makeRow(const QString& name, const QString& accessible);
-  Part makePart(const QString& name, const QString& accessible);
+  Part makePart(int number, const QString& name, const QString& accessible);
+  QHBoxLayout* makeSweepRow();
   QHBoxLayout* makeButtons();
   QHBoxLayout* makeActions();
   void propose(const Row& row);
@@ -95,6 +115,10 @@ class SweepPanel : public QWidget {
   QLabel* plan_;
   QPushButton* run_;
   QPushButton* cancel_;
+  QCheckBox* everywhere_;
+  QComboBox* sweeps_;
+  QComboBox* scenes_;
+  QToolButton* remove_;
   QToolButton* export_;
   std::array<Part, 2> parts_;
   ElidedLabel* chosen_;

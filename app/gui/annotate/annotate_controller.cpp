@@ -8,6 +8,7 @@
 #include "app/gui/frame/commands.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/panes.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
 #include "widgets/annotate/brush_panel.h"
@@ -25,6 +26,10 @@ namespace episcope {
 namespace {
 
 constexpr double kSizeStep = 1.15;  // of a key or a notch of the wheel
+
+bool is_of_labels(const QString& tab) {
+  return tab == "annotate" || tab == "check";
+}
 
 PixelIndex pixel_of(QPointF image) {
   return {static_cast<int>(std::floor(image.y())), static_cast<int>(std::floor(image.x()))};
@@ -59,7 +64,10 @@ AnnotateController::AnnotateController(const Workbench& bench, BrushPanel* panel
   connectTools();
   connectPanel();
   bench.cancels.add(CancelRank::Stroke, [this] { return canvasTool()->cancel(); });
-  connect(&bench.frame, &Frame::tabShown, this, [this] { setAnnotating(isTabShown()); });
+  connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
+    if (!isTabShown()) setAnnotating(false);
+    if (is_of_labels(id)) setAnnotating(isTabShown());
+  });
   connect(&bench.frame, &Frame::tabShown, this, &AnnotateController::showScribbles);
   connect(&bench.stage, &Stage::previewChanged, this, &AnnotateController::showMode);
   connect(&bench.labels, &LabelChoice::changed, this, &AnnotateController::showColor);
@@ -129,8 +137,8 @@ void AnnotateController::setAnnotating(bool is_annotating) {
 
 bool AnnotateController::isTabShown() const {
   // What is checked is corrected at once.
-  const QString tab = bench_.frame.shownTab();
-  return tab == "annotate" || tab == "check";
+  const Panes& panes = bench_.frame.panes();
+  return panes.isSeen("tab.annotate") || panes.isSeen("tab.check");
 }
 
 bool AnnotateController::hasDocument() const {

@@ -3,6 +3,7 @@
 
 #include "app/gui/compare/region_controller.h"
 #include "app/gui/frame/frame.h"
+#include "app/gui/frame/panes.h"
 #include "app/session/session.h"
 #include "engine/evaluation/metrics/part_score.h"
 #include "widgets/compare/error_plot_panel.h"
@@ -76,7 +77,7 @@ std::optional<ErrorPlotController::Judged> ErrorPlotController::judged(const Est
 }
 
 void ErrorPlotController::update() {
-  if (bench_.frame.shownTab() != kTab) return job_.drop();
+  if (!bench_.frame.panes().isSeen(QString("tab.") + kTab)) return job_.drop();
   const QString why = obstacle();
   if (!why.isEmpty()) {
     job_.drop();

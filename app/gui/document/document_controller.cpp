@@ -220,6 +220,7 @@ void DocumentController::noteKept(const std::vector<EditedDocument>& documents) 
 }
 
 void DocumentController::bring(std::uint64_t scene, RecoveredAnnotation found, bool is_saved) {
+  if (!is_saved) found.document.forget_saved();
   Open open;
   open.annotation = std::make_unique<Annotation>(std::move(found.document), std::move(found.owner),
                                                  journal_folder_);

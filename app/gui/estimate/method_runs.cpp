@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/method_runs.h"
 
+#include "app/gui/estimate/scene_source.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
-#include "app/session/scene/load_scene.h"
 #include "app/session/session.h"
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/registry.h"
@@ -12,7 +12,6 @@
 #include "widgets/style/number_text.h"
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
 namespace episcope {
@@ -28,22 +27,6 @@ QString range_warning(const LightField& light_field, const Estimate& estimate) {
   const std::string note = limited_range_note(light_field, estimate.range);
   if (std::ranges::count(estimate.notes, note) == 0) return {};
   return with_minus(QString::fromStdString(estimate.method + ": " + note + "."));
-}
-
-using LightFieldSource = std::function<LightFieldPtr(const Progress&)>;
-
-// For a worker: what is in memory, else it is read.
-LightFieldSource light_field_source(const OpenScene& scene, const std::filesystem::path& cache) {
-  if (scene.scene) {
-    return [light_field = scene.scene->light_field](const Progress&) { return light_field; };
-  }
-  LoadOptions options;
-  options.open = io::open_schema().parse(scene.reading);
-  options.cache_folder = cache;
-  options.needs_truth = false;
-  return [input = scene.input, options](const Progress& progress) {
-    return load_scene(input, options, progress).light_field;
-  };
 }
 
 }  // namespace
@@ -70,8 +53,8 @@ void MethodRuns::run(const EstimateRequest& request, const OpenScene& scene) {
       Lane::Estimate,
       is_shown ? method : tr("%1 · %2").arg(method, QString::fromStdString(scene.name)),
       [request,
-       source = light_field_source(scene, bench_.opener.cacheFolder())](const Progress& progress) {
-        const LightFieldPtr light_field = source(progress);
+       source = scene_source(scene, bench_.opener.cacheFolder(), false)](const Progress& progress) {
+        const LightFieldPtr light_field = source(progress)->light_field;
         FinishedEstimate finished = run_estimator(*light_field, request, progress);
         QString warning = range_warning(*light_field, *finished.estimate);
         return RunResult{std::move(finished), std::move(warning)};

@@ -2,11 +2,11 @@
 #include "app/gui/estimate/sweep_controller.h"
 
 #include "app/gui/estimate/method_runs.h"
+#include "app/gui/estimate/sweep_runs.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
-#include "app/gui/frame/queued_post.h"
 #include "app/gui/frame/text_file.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/session/run/command_line.h"
@@ -20,17 +20,11 @@
 #include "widgets/style/number_text.h"
 #include "widgets/sweep/sweep_panel.h"
 
-#include <QPointer>
-
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace episcope {
 namespace {
-
-// Maps beyond it are computed again when their point is chosen: 64 points of 512×512 px fit.
-constexpr std::size_t kMapBudget = std::size_t{256} << 20;
 
 std::vector<ParameterDescription> descriptions_of(const RunRequest& request) {
   return described_under(find_estimator(request.method).parameters, request.values);
@@ -43,22 +37,16 @@ ParameterDescription at_present(ParameterDescription description, const Paramete
   return description;
 }
 
-std::size_t bytes_of(const std::vector<SweepPoint>& points) {
-  std::size_t bytes = 0;
-  for (const SweepPoint& point : points) {
-    if (point.estimate) bytes += byte_size(*point.estimate);
-  }
-  return bytes;
-}
-
 }  // namespace
 
 SweepController::SweepController(const Workbench& bench, MethodPanel& method)
-    : QObject(&bench.owner), bench_(bench), method_(method) {
+    : QObject(&bench.owner), bench_(bench), method_(method), runs_(new SweepRuns(bench)) {
   addTab();
   connectPanel();
   bench.session.on_changed([this](Parts parts) { update(parts); });
+  bench.scenes.sweeps().on_changed([this] { followSweeps(); });
   showMethod();
+  showList();
   showPlots();
 }
 
@@ -79,7 +67,12 @@ void SweepController::connectPanel() {
   connect(&bench_.frame, &Frame::tabShown, this, &SweepController::showMethod);
   connect(panel_, &SweepPanel::planEdited, this, &SweepController::showPlan);
   connect(panel_, &SweepPanel::runRequested, this, &SweepController::run);
-  connect(panel_, &SweepPanel::cancelRequested, this, [this] { bench_.jobs.cancel(job_); });
+  connect(panel_, &SweepPanel::cancelRequested, runs_, &SweepRuns::cancel);
+  connect(runs_, &SweepRuns::ended, this, &SweepController::end);
+  connect(panel_, &SweepPanel::sweepChosen, this, &SweepController::showSweep);
+  connect(panel_, &SweepPanel::removeRequested, this,
+          [this] { bench_.scenes.sweeps().remove(current_); });
+  connect(panel_, &SweepPanel::sceneChosen, this, &SweepController::showPlots);
   connect(panel_, &SweepPanel::measureChosen, this, &SweepController::showPlots);
   connect(panel_, &SweepPanel::pointChosen, this, &SweepController::choose);
   connect(panel_, &SweepPanel::keepRequested, this, &SweepController::keep);
@@ -88,18 +81,47 @@ void SweepController::connectPanel() {
 }
 
 void SweepController::update(Parts parts) {
-  if (parts.has(Part::Scene)) {
+  if (parts.has_any(Part::Scene | Part::Scenes)) {
+    panel_->setSceneCount(static_cast<int>(bench_.session.scenes().size()));
     showPlan();
-    if (sweep_.points.empty()) showPlots();
   }
-  const bool is_gone = sweep_.scene != 0 && !bench_.session.find_scene(sweep_.scene);
-  if (parts.has(Part::Scenes) && is_gone) {
-    bench_.jobs.cancel(job_);
-    sweep_ = {};
-    shown_ = {};
-    chosen_.reset();
+  if (parts.has(Part::Scene) && !current()) showPlots();
+}
+
+void SweepController::followSweeps() {
+  const bool is_gone = current_ != 0 && !current();
+  if (is_gone || current_ == 0) {
+    const auto& all = bench_.scenes.sweeps().all();
+    showSweep(all.empty() ? 0 : all.back().id);
+  } else {
+    if (chosen_ && !bench_.scenes.sweeps().find(current_, *chosen_)) chosen_.reset();
+    showList();
     showPlots();
   }
+}
+
+const Sweep* SweepController::current() const {
+  return bench_.scenes.sweeps().find(current_);
+}
+
+void SweepController::showSweep(std::uint64_t id) {
+  if (id != current_) chosen_.reset();
+  current_ = id;
+  showList();
+  showPlots();
+}
+
+void SweepController::showList() {
+  QStringList titles;
+  int row = -1;
+  std::vector<quint64> ids;
+  for (const Sweep& each : bench_.scenes.sweeps().all()) {
+    if (each.id == current_) row = static_cast<int>(titles.size());
+    titles << title_of(each);
+    ids.push_back(each.id);
+  }
+  panel_->setSweeps(titles, ids, row);
+  panel_->setScenes(current() ? scene_choices(*current()) : QStringList());
 }
 
 void SweepController::showMethod() {
@@ -120,10 +142,11 @@ void SweepController::showMethod() {
   showPlan();
 }
 
-Sweep SweepController::planned() const {
+SweepController::Planned SweepController::planned() const {
   const RunRequest request = method_.request();
   const std::vector<ParameterDescription> descriptions = descriptions_of(request);
-  Sweep sweep;
+  Planned planned;
+  Sweep& sweep = planned.sweep;
   sweep.base = request_of(request);
   sweep.base.options.views = ViewSelection::Center;
   for (const SweepPanel::Choice& choice : panel_->choices()) {
@@ -138,16 +161,28 @@ Sweep SweepController::planned() const {
   if (sweep.swept.empty()) {
     throw InvalidInput(tr("This method has no number that could be varied.").toStdString());
   }
-  sweep.planned = sweep_points(descriptions, request.values, sweep.swept);
-  return sweep;
+  planned.points = sweep_points(descriptions, request.values, sweep.swept);
+  const Session& session = bench_.session;
+  for (const OpenScene* each : session.scenes()) {
+    if (panel_->isOnAllScenes() || each->id == session.generation()) {
+      sweep.scenes.push_back({each->id, each->name});
+    }
+  }
+  return planned;
 }
 
 void SweepController::showPlan() {
   if (!bench_.session.scene()) return panel_->setPlan(tr("Open a light field first."), false);
   try {
-    const auto count = planned().planned.size();
-    panel_->setPlan(tr("%1 runs on the centre view, the present values first").arg(count),
-                    job_ == 0);
+    const Planned plan = planned();
+    const auto count = plan.points.size();
+    const auto scenes = plan.sweep.scenes.size();
+    panel_->setPlan(scenes > 1
+                        ? tr("%1 runs on each of %2 centre views, the present values first")
+                              .arg(count)
+                              .arg(scenes)
+                        : tr("%1 runs on the centre view, the present values first").arg(count),
+                    !runs_->isRunning());
   } catch (const InvalidInput& error) {
     QString sentence = with_minus(QString::fromUtf8(error.what()));
     if (!sentence.isEmpty()) sentence[0] = sentence[0].toUpper();
@@ -156,173 +191,171 @@ void SweepController::showPlan() {
 }
 
 void SweepController::run() {
-  if (job_ != 0 || !bench_.session.scene()) return;
+  if (runs_->isRunning() || !bench_.session.scene()) return;
   dropShown();
-  chosen_.reset();
-  sweep_ = planned();
-  const Session& session = bench_.session;
-  const GroundTruth& truth = *session.scene()->truth;
-  sweep_.number = ++last_number_;
-  sweep_.scene = session.generation();
-  sweep_.scene_name = session.light_field()->info().name;
-  sweep_.has_truth = truth.has_disparity() || truth.has_layers();
-  job_ = bench_.jobs.start<bool>(
-      Lane::Estimate,
-      tr("Sweep of %1").arg(QString::fromStdString(find_estimator(sweep_.base.method).info.name)),
-      work(sweep_), [](bool) {}, [this, number = sweep_.number] { end(number); });
+  Planned plan = planned();
+  const std::uint64_t id = runs_->run(std::move(plan.sweep), plan.points);
   panel_->setRunning(true);
   showPlan();
-  showPlots();
+  showSweep(id);
 }
 
-std::function<bool(const Progress&)> SweepController::work(const Sweep& sweep) {
-  return [scene = bench_.session.scene(), base = sweep.base, points = sweep.planned,
-          post = queued_post(&bench_.jobs), self = QPointer(this),
-          number = sweep.number](const Progress& progress) {
-    EstimatePtr reference;
-    const auto count = static_cast<double>(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto begin = static_cast<double>(i);
-      SweepPoint point = run_sweep_point(
-          *scene, base, points[i], reference.get(),
-          progress.part(begin / count, (begin + 1) / count)
-              .titled(std::to_string(i + 1) + " / " + std::to_string(points.size())));
-      if (i == 0) reference = point.estimate;
-      post([self, number, point = std::move(point)] {
-        if (self) self->take(number, point);
-      });
-    }
-    return true;
-  };
-}
-
-void SweepController::take(std::uint64_t number, SweepPoint point) {
-  if (number != sweep_.number) return;
-  sweep_.points.push_back(std::move(point));
-  if (bytes_of(sweep_.points) > kMapBudget) sweep_.points.back().estimate = nullptr;
-  sweep_.lines = lines_of(sweep_.points, sweep_.swept);
-  showPlots();
-}
-
-void SweepController::end(std::uint64_t number) {
-  job_ = 0;
+void SweepController::end(quint64 id) {
   panel_->setRunning(false);
   showPlan();
-  if (number != sweep_.number) return;
-  const auto failed = std::ranges::find_if(
-      sweep_.points, [](const SweepPoint& point) { return !point.problem.empty(); });
-  if (failed != sweep_.points.end()) {
-    bench_.messages.warn(tr("%1: %2").arg(QString::fromStdString(name_of(sweep_, *failed)),
+  showPlots();
+  const Sweep* sweep = bench_.scenes.sweeps().find(id);
+  if (!sweep) return;
+  for (const SweepScene& scene : sweep->scenes) {
+    const auto failed = std::ranges::find_if(
+        scene.points, [](const SweepPoint& point) { return !point.problem.empty(); });
+    if (failed == scene.points.end()) continue;
+    bench_.messages.warn(tr("%1: %2").arg(QString::fromStdString(name_of(*sweep, *failed)),
                                           QString::fromStdString(failed->problem)));
+    return;
   }
 }
 
 void SweepController::showPlots() {
-  panel_->setMeasures(measure_names(sweep_), 0, 1);
-  const auto& scene = bench_.session.scene();
-  const QString instead = job_ != 0 ? tr("The first point is being computed.")
-                          : !scene  ? tr("Open a light field first.")
-                          : sweep_.points.empty()
-                              ? tr("Run: the points appear here one after the other.")
-                              : tr("The points have no such number.");
-  const auto [upper, lower] = panel_->measures();
-  panel_->setPlots(plot_of(sweep_, upper), plot_of(sweep_, lower), instead);
-  panel_->setExportable(!sweep_.points.empty());
+  const Sweep nothing;
+  const Sweep& sweep = current() ? *current() : nothing;
+  panel_->setMeasures(measure_names(sweep), 0, 1);
+  const bool is_running = runs_->isRunning() && runs_->sweep() == current_;
+  const bool has_points = std::ranges::any_of(
+      sweep.scenes, [](const SweepScene& each) { return !each.points.empty(); });
+  const QString instead = is_running                ? tr("The first point is being computed.")
+                          : !bench_.session.scene() ? tr("Open a light field first.")
+                          : !has_points ? tr("Run: the points appear here one after the other.")
+                                        : tr("The points have no such number.");
+  const auto measures = panel_->measures();
+  for (std::size_t i = 0; i < charts_.size(); ++i) {
+    charts_[i] = chart_of(sweep, measures[i], panel_->scene());
+  }
+  panel_->setPlots(charts_[0].plot, charts_[1].plot, instead);
+  panel_->setExportable(has_points);
   describe();
 }
 
-void SweepController::choose(const PlotPlace& place) {
-  showPoint(sweep_.lines.at(place.series).places.at(place.point).point);
+// A point of the mean shows the map of the light field that is in sight.
+void SweepController::choose(int plot, const PlotPlace& chosen) {
+  const auto& places = charts_.at(static_cast<std::size_t>(plot)).places;
+  const SweepChart::Place place = places.at(chosen.series).at(chosen.point);
+  const auto& scenes = current()->scenes;
+  const auto seen = std::ranges::find(scenes, bench_.session.generation(), &SweepScene::scene);
+  const auto usual = seen == scenes.end() ? 0 : static_cast<std::size_t>(seen - scenes.begin());
+  showPoint({place.scene.value_or(usual), place.point});
 }
 
-void SweepController::showPoint(std::size_t point) {
-  chosen_ = point;
-  const SweepPoint& shown = sweep_.points[point];
-  if (bench_.session.generation() != sweep_.scene) {
-    bench_.scenes.show(sweep_.scene, [this, point, number = sweep_.number] {
-      if (number == sweep_.number && bench_.session.generation() == sweep_.scene) showPoint(point);
+void SweepController::showPoint(SweepPlace place) {
+  const SweepPoint* point = bench_.scenes.sweeps().find(current_, place);
+  if (!point) return;
+  chosen_ = place;
+  const std::uint64_t scene = current()->scenes[place.scene].scene;
+  if (bench_.session.generation() != scene) {
+    bench_.scenes.show(scene, [this, place, scene, sweep = current_] {
+      if (sweep == current_ && bench_.session.generation() == scene) showPoint(place);
     });
-  } else if (shown.estimate) {
-    dropShown();
-    shown_.id = bench_.session.add_estimate(shown.estimate, shown.display_range, sweep_.scene);
-    bench_.session.rename_estimate(shown_.id, name_of(sweep_, shown));
-    shown_.name = bench_.session.find_estimate(shown_.id)->name;
-  } else if (shown.problem.empty()) {
-    runAgain(point);
+  } else if (point->estimate) {
+    showMap(place, point->estimate);
+  } else if (point->problem.empty()) {
+    runAgain(place);
   }
   describe();
 }
 
-void SweepController::runAgain(std::size_t point) {
-  const EstimateRequest request{sweep_.base.method,
-                                values_at(sweep_.base.parameters, sweep_.points[point].point),
-                                sweep_.base.options};
+void SweepController::showMap(SweepPlace place, const EstimatePtr& map) {
+  dropShown();
+  Session& session = bench_.session;
+  const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
+  const int id = session.add_estimate(map, point.display_range, session.generation());
+  session.rename_estimate(id, name_of(*current(), point));
+  shown_[session.generation()] = {id, session.find_estimate(id)->name};
+}
+
+void SweepController::runAgain(SweepPlace place) {
+  const Sweep& sweep = *current();
+  const SweepPoint& point = *bench_.scenes.sweeps().find(current_, place);
+  const EstimateRequest request{sweep.base.method, values_at(sweep.base.parameters, point.point),
+                                sweep.base.options};
   bench_.jobs.start<FinishedEstimate>(
-      Lane::Estimate, QString::fromStdString(name_of(sweep_, sweep_.points[point])),
+      Lane::Estimate, QString::fromStdString(name_of(sweep, point)),
       [light_field = bench_.session.light_field(), request](const Progress& progress) {
         return run_estimator(*light_field, request, progress);
       },
-      [this, point, number = sweep_.number](const FinishedEstimate& finished) {
-        if (number != sweep_.number) return;
-        sweep_.points[point].estimate = finished.estimate;
-        if (chosen_ == point) showPoint(point);
-        if (bytes_of(sweep_.points) > kMapBudget) sweep_.points[point].estimate = nullptr;
+      [this, place, id = current_,
+       scene = sweep.scenes[place.scene].scene](const FinishedEstimate& finished) {
+        SweepList& sweeps = bench_.scenes.sweeps();
+        if (!sweeps.find(id, place) || sweeps.find(id)->scenes[place.scene].scene != scene) return;
+        sweeps.set_map(id, place, finished.estimate);
+        if (id != current_ || chosen_ != place || bench_.session.generation() != scene) return;
+        showMap(place, finished.estimate);
+        describe();
       });
 }
 
 // What the user named, annotated or saved stays.
 void SweepController::dropShown() {
-  const Shown former = std::exchange(shown_, {});
   Session& session = bench_.session;
+  const Shown former = std::exchange(shown_[session.generation()], {});
   const EstimateEntry* entry = session.find_estimate(former.id);
   if (!entry || entry->name != former.name || !entry->note.empty() || entry->is_saved) return;
   session.remove_estimate(former.id);
 }
 
+SweepController::Shown SweepController::shownHere() const {
+  const auto found = shown_.find(bench_.session.generation());
+  return found == shown_.end() ? Shown() : found->second;
+}
+
 void SweepController::describe() {
-  if (!chosen_) {
-    const QString hint = sweep_.points.empty() ? QString()
-                         : sweep_.has_truth    ? tr("Click a point to see its map.")
-                                            : tr("No ground truth: click a point to see its map.");
-    return panel_->setChosen(std::nullopt, hint, false);
+  const Sweep* sweep = current();
+  if (!sweep || !chosen_ || !bench_.scenes.sweeps().find(current_, *chosen_)) {
+    const bool has_points = sweep && !charts_[0].places.empty() && panel_->isExportable();
+    const bool is_judged = sweep && std::ranges::any_of(sweep->scenes, has_truth);
+    const QString hint = !has_points ? QString()
+                         : is_judged ? tr("Click a point to see its map.")
+                                     : tr("No ground truth: click a point to see its map.");
+    return panel_->setChosen({}, hint, false, false);
   }
-  panel_->setChosen(place_of(sweep_, *chosen_), text_of(sweep_, sweep_.points[*chosen_]),
-                    shown_.id != 0);
+  panel_->setChosen({place_in(charts_[0], *chosen_), place_in(charts_[1], *chosen_)},
+                    text_of(*sweep, *chosen_), shownHere().id != 0, true);
 }
 
 void SweepController::keep() {
-  const Shown kept = std::exchange(shown_, {});
+  const Shown kept = std::exchange(shown_[bench_.session.generation()], {});
   bench_.messages.hint(
       tr("%1 stays in the list of results.").arg(QString::fromStdString(kept.name)));
   describe();
 }
 
 void SweepController::use() {
-  method_.setRequest({sweep_.base.method,
-                      values_at(sweep_.base.parameters, sweep_.points[*chosen_].point),
+  const Sweep& sweep = *current();
+  const SweepPoint& point = *bench_.scenes.sweeps().find(current_, *chosen_);
+  method_.setRequest({sweep.base.method, values_at(sweep.base.parameters, point.point),
                       method_.request().all_views});
   showMethod();
   bench_.messages.hint(tr("The form of the Estimate tab has the values of this point."));
 }
 
 void SweepController::save() {
+  const Sweep& sweep = *current();
   const std::string parameters =
-      joined(changed_parameters(sweep_.base.method, sweep_.base.parameters), " ",
+      joined(changed_parameters(sweep.base.method, sweep.base.parameters), " ",
              [](const auto& each) { return each.first + "=" + to_text(each.second); });
-  const QString text = QString::fromStdString(table_to_csv(sweep_table(
-      sweep_.points,
-      {{"scene", sweep_.scene_name}, {"method", sweep_.base.method}, {"parameters", parameters}})));
-  ask_where_to_save(
-      &bench_.window,
-      {.name = "save_sweep",
-       .title = tr("Save the sweep"),
-       .filter = tr("CSV (*.csv)"),
-       .proposal =
-           QString::fromStdString(sweep_.scene_name + "_" + sweep_.base.method + "_sweep.csv")},
-      [this, text](const QString& path) {
-        write_in_background(bench_.jobs, bench_.messages, path,
-                            [path, text](const Progress&) { write_text_file(path, text); });
-      });
+  const QString text = QString::fromStdString(table_to_csv(
+      sweep_table(sweep.scenes, {{"method", sweep.base.method}, {"parameters", parameters}})));
+  const std::string stem = sweep.scenes.size() == 1 ? sweep.scenes.front().name + "_" : "";
+  ask_where_to_save(&bench_.window,
+                    {.name = "save_sweep",
+                     .title = tr("Save the sweep"),
+                     .filter = tr("CSV (*.csv)"),
+                     .proposal = QString::fromStdString(stem + sweep.base.method + "_sweep.csv")},
+                    [this, text, written = sweep](const QString& path) {
+                      write_in_background(
+                          bench_.jobs, bench_.messages, path,
+                          [path, text](const Progress&) { write_text_file(path, text); },
+                          [this, written] { bench_.scenes.sweeps().mark_saved(written); });
+                    });
 }
 
 }  // namespace episcope

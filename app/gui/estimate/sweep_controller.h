@@ -7,8 +7,9 @@
 
 #include <QObject>
 
+#include <array>
 #include <cstdint>
-#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -16,12 +17,14 @@ namespace episcope {
 
 class MethodPanel;
 class SweepPanel;
+class SweepRuns;
 struct PlotPlace;
 
 /// The tab of sweeps: runs the method of the form with a grid of values of one or two of its
-/// parameters on the light field that is shown, in the background, and plots what comes of it. The
-/// maps of the points are kept here and not in the list of results: the one of the point that was
-/// chosen last stands there, in the place of the one before, until the user keeps it.
+/// parameters on the light field that is shown, or on all that are open, in the background, and
+/// plots what comes of it. Sweeps stay as long as their light fields, and with the project. The
+/// maps of the points are not in the list of results: the one of the point that was chosen last
+/// stands there, in the place of the one before, until the user keeps it.
 class SweepController : public QObject {
   Q_OBJECT
 
@@ -34,22 +37,34 @@ class SweepController : public QObject {
     int id = 0;
     std::string name;
   };
+  /// What Run would do.
+  struct Planned {
+    Sweep sweep;
+    std::vector<ParameterSet> points;
+  };
 
   void addTab();
   void connectPanel();
   void update(Parts parts);
+  void followSweeps();
   void showMethod();
   void showPlan();
   /// Throws InvalidInput, a sentence, for what cannot be run.
-  [[nodiscard]] Sweep planned() const;
+  [[nodiscard]] Planned planned() const;
   void run();
-  [[nodiscard]] std::function<bool(const Progress&)> work(const Sweep& sweep);
-  void take(std::uint64_t number, SweepPoint point);
-  void end(std::uint64_t number);
+  void end(quint64 sweep);
+  /// The sweep that is shown; null if there is none.
+  [[nodiscard]] const Sweep* current() const;
+  void showSweep(std::uint64_t id);
+  void showList();
   void showPlots();
-  void choose(const PlotPlace& place);
-  void showPoint(std::size_t point);
-  void runAgain(std::size_t point);
+  void choose(int plot, const PlotPlace& place);
+  void showPoint(SweepPlace place);
+  /// Of a point of the light field that is in sight.
+  void showMap(SweepPlace place, const EstimatePtr& map);
+  void runAgain(SweepPlace place);
+  /// On the light field that is in sight.
+  [[nodiscard]] Shown shownHere() const;
   void dropShown();
   void describe();
   void keep();
@@ -58,12 +73,12 @@ class SweepController : public QObject {
 
   Workbench bench_;
   MethodPanel& method_;
+  SweepRuns* runs_;
   SweepPanel* panel_ = nullptr;
-  Sweep sweep_;
-  quint64 job_ = 0;  // of the sweep; 0 = none runs
-  std::uint64_t last_number_ = 0;
-  std::optional<std::size_t> chosen_;  // among the points
-  Shown shown_;
+  std::uint64_t current_ = 0;
+  std::array<SweepChart, 2> charts_;  // upper and lower
+  std::optional<SweepPlace> chosen_;
+  std::map<std::uint64_t, Shown> shown_;  // by scene
 };
 
 }  // namespace episcope

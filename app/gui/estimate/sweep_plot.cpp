@@ -9,6 +9,7 @@
 #include <QCoreApplication>
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace episcope {
@@ -33,9 +34,48 @@ constexpr Measured kMeasures[] = {
     {SweepMeasure::Seconds, QT_TRANSLATE_NOOP("episcope::SweepPlot", "Time [s]")}};
 constexpr int kOfTruth = 4;  // of them
 
+bool has_points(const Sweep& sweep) {
+  return std::ranges::any_of(sweep.scenes, [](const auto& each) { return !each.points.empty(); });
+}
+
 std::span<const Measured> measures_of(const Sweep& sweep) {
   const std::span all(kMeasures);
-  return sweep.points.empty() || sweep.has_truth ? all : all.subspan(kOfTruth);
+  const bool is_judged = std::ranges::any_of(sweep.scenes, has_truth);
+  return is_judged || !has_points(sweep) ? all : all.subspan(kOfTruth);
+}
+
+// NaN where there is none, which is not drawn.
+using Value = std::function<std::optional<double>(std::size_t point)>;
+
+void add_line(SweepChart& chart, const SweepLine& line, const QString& name,
+              std::optional<std::size_t> scene, const Value& value) {
+  PlotSeries& series = chart.plot.series.emplace_back();
+  series.name = name;
+  auto& places = chart.places.emplace_back();
+  for (const SweepLine::Place& place : line.places) {
+    series.points.emplace_back(place.x, value(place.point).value_or(qQNaN()));
+    places.push_back({scene, place.point});
+  }
+}
+
+void add_scene(SweepChart& chart, const Sweep& sweep, std::size_t place, SweepMeasure measure,
+               bool is_named) {
+  const SweepScene& scene = sweep.scenes[place];
+  const auto value = [&](std::size_t point) { return measure_of(scene.points[point], measure); };
+  for (const SweepLine& line : lines_of(scene.points, sweep.swept)) {
+    add_line(chart, line, QString::fromStdString(is_named ? scene.name : line.name), place, value);
+  }
+}
+
+void add_mean(SweepChart& chart, const Sweep& sweep, SweepMeasure measure) {
+  const auto& all = sweep.scenes.front().points;
+  const auto count = static_cast<std::ptrdiff_t>(common_count(sweep.scenes));
+  const std::vector<SweepPoint> common(all.begin(), all.begin() + count);
+  const auto value = [&](std::size_t point) { return mean_of(sweep.scenes, point, measure); };
+  for (const SweepLine& line : lines_of(common, sweep.swept)) {
+    const QString name = QString::fromStdString(line.name);
+    add_line(chart, line, name.isEmpty() ? Text::tr("Mean") : name, std::nullopt, value);
+  }
 }
 
 }  // namespace
@@ -52,34 +92,57 @@ QStringList measure_names(const Sweep& sweep) {
   return names;
 }
 
-Plot plot_of(const Sweep& sweep, int measure) {
-  Plot plot;
-  const auto measures = measures_of(sweep);
-  if (sweep.swept.empty() || measure < 0 || measure >= std::ssize(measures)) return plot;
-  for (const ParameterDescription& each : find_estimator(sweep.base.method).parameters) {
-    if (each.key == sweep.swept.front().key) plot.x = {axis_text(each), each.logarithmic};
-  }
-  const Measured& measured = measures[static_cast<std::size_t>(measure)];
-  plot.y = {Text::tr(measured.name)};
-  for (const SweepLine& line : sweep.lines) {
-    PlotSeries& series = plot.series.emplace_back();
-    series.name = QString::fromStdString(line.name);
-    for (const SweepLine::Place& place : line.places) {
-      const auto value = measure_of(sweep.points[place.point], measured.measure);
-      series.points.emplace_back(place.x, value.value_or(qQNaN()));
-    }
-  }
-  return plot;
+QStringList scene_choices(const Sweep& sweep) {
+  if (sweep.scenes.size() < 2) return {};
+  QStringList names{sweep.swept.size() < 2 ? Text::tr("Each and the mean") : Text::tr("Mean")};
+  for (const SweepScene& each : sweep.scenes) names << QString::fromStdString(each.name);
+  return names;
 }
 
-std::optional<PlotPlace> place_of(const Sweep& sweep, std::size_t point) {
-  for (std::size_t line = 0; line < sweep.lines.size(); ++line) {
-    const auto& places = sweep.lines[line].places;
-    const auto found = std::ranges::find(places, point, &SweepLine::Place::point);
-    if (found == places.end()) continue;
-    return PlotPlace{line, static_cast<std::size_t>(found - places.begin())};
+SweepChart chart_of(const Sweep& sweep, int measure, int choice) {
+  SweepChart chart;
+  const auto measures = measures_of(sweep);
+  if (sweep.scenes.empty() || measure < 0 || measure >= std::ssize(measures)) return chart;
+  for (const ParameterDescription& each : find_estimator(sweep.base.method).parameters) {
+    if (each.key == sweep.swept.front().key) chart.plot.x = {axis_text(each), each.logarithmic};
   }
-  return std::nullopt;
+  const Measured& measured = measures[static_cast<std::size_t>(measure)];
+  chart.plot.y = {Text::tr(measured.name)};
+  const bool is_one = sweep.scenes.size() == 1;
+  if (is_one || (choice > 0 && choice <= std::ssize(sweep.scenes))) {
+    const int place = is_one ? 0 : choice - 1;
+    add_scene(chart, sweep, static_cast<std::size_t>(place), measured.measure, false);
+    return chart;
+  }
+  for (std::size_t i = 0; sweep.swept.size() < 2 && i < sweep.scenes.size(); ++i) {
+    add_scene(chart, sweep, i, measured.measure, true);
+  }
+  add_mean(chart, sweep, measured.measure);
+  return chart;
+}
+
+std::optional<PlotPlace> place_in(const SweepChart& chart, SweepPlace point) {
+  std::optional<PlotPlace> mean;
+  for (std::size_t line = 0; line < chart.places.size(); ++line) {
+    for (std::size_t i = 0; i < chart.places[line].size(); ++i) {
+      const SweepChart::Place& each = chart.places[line][i];
+      if (each.point != point.point) continue;
+      if (each.scene == point.scene) return PlotPlace{line, i};
+      if (!each.scene) mean = {line, i};
+    }
+  }
+  return mean;
+}
+
+QString title_of(const Sweep& sweep) {
+  const std::string keys = joined(sweep.swept, ", ", [](const auto& each) { return each.key; });
+  const QString what =
+      QString::fromStdString(find_estimator(sweep.base.method).info.name + ", " + keys);
+  if (sweep.scenes.size() > 1)
+    return Text::tr("%1 · %2 light fields").arg(what).arg(sweep.scenes.size());
+  return sweep.scenes.empty()
+             ? what
+             : QString("%1 · %2").arg(what, QString::fromStdString(sweep.scenes.front().name));
 }
 
 std::string name_of(const Sweep& sweep, const SweepPoint& point) {
@@ -88,8 +151,12 @@ std::string name_of(const Sweep& sweep, const SweepPoint& point) {
                 [](const auto& each) { return each.first + " " + to_text(each.second); });
 }
 
-QString text_of(const Sweep& sweep, const SweepPoint& point) {
-  QStringList texts{QString::fromStdString(name_of(sweep, point))};
+QString text_of(const Sweep& sweep, SweepPlace place) {
+  const SweepScene& scene = sweep.scenes[place.scene];
+  const SweepPoint& point = scene.points[place.point];
+  QStringList texts;
+  if (sweep.scenes.size() > 1) texts << QString::fromStdString(scene.name);
+  texts << QString::fromStdString(name_of(sweep, point));
   if (!point.problem.empty()) texts << QString::fromStdString(point.problem);
   if (const auto mse = measure_of(point, SweepMeasure::MseTimes100)) {
     texts << Text::tr("MSE×100 %1").arg(number_text(*mse, 3));

@@ -3,12 +3,14 @@
 
 #include "app/gui/frame/floating.h"
 #include "app/gui/frame/panes.h"
+#include "app/gui/frame/tab_stack.h"
 #include "widgets/style/theme.h"
 
 #include <QMenu>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -22,6 +24,42 @@ constexpr int kTabsWidth = 372;
 
 QString pane_id(const QString& tab) {
   return "tab." + tab;
+}
+
+// Tabs that do not fit are scrolled; here are all of them, also those that wait.
+QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
+  auto* button = new QToolButton(parent);
+  button->setObjectName("tabs.list");
+  button->setAccessibleName(Frame::tr("All tabs"));
+  button->setToolTip(Frame::tr("All tabs"));
+  button->setArrowType(Qt::DownArrow);
+  button->setAutoRaise(true);
+  button->setFocusPolicy(Qt::NoFocus);
+  button->setPopupMode(QToolButton::InstantPopup);
+  auto* menu = new QMenu(button);
+  QObject::connect(menu, &QMenu::aboutToShow, &frame, [&frame, menu] {
+    menu->clear();
+    for (const Tab& tab : frame.tabs()) {
+      QAction* action =
+          menu->addAction(tab.title, &frame, [&frame, id = tab.id] { frame.showTab(id); });
+      action->setCheckable(true);
+      action->setChecked(frame.panes().isSeen(pane_id(tab.id)));
+    }
+  });
+  button->setMenu(menu);
+  return button;
+}
+
+// The tabs, and below them those that the user puts there.
+QSplitter* make_books(QTabWidget* tabs, TabStack* stack, QWidget* parent) {
+  auto* split = new QSplitter(Qt::Vertical, parent);
+  split->setObjectName("split.side");
+  split->setChildrenCollapsible(false);
+  for (QTabWidget* book : {tabs, static_cast<QTabWidget*>(stack)}) {
+    split->addWidget(book);
+    split->setStretchFactor(split->indexOf(book), 1);
+  }
+  return split;
 }
 
 }  // namespace
@@ -47,9 +85,14 @@ Frame::Frame(QWidget* parent)
   book_ = new QTabWidget(side_);
   book_->setObjectName("tabs");
   book_->setDocumentMode(true);
+  book_->setUsesScrollButtons(true);
+  book_->tabBar()->setElideMode(Qt::ElideNone);
+  book_->setCornerWidget(make_list_of_tabs(*this, book_), Qt::TopRightCorner);
+  auto* stack = new TabStack(side_);
+  panes_->setStack(stack);
   right_ = new QVBoxLayout(side_);
   right_->setContentsMargins(0, 0, theme::kSpacing, 0);
-  right_->addWidget(book_, 1);
+  right_->addWidget(make_books(book_, stack, side_), 1);
 
   auto* split = new QSplitter(Qt::Horizontal, this);
   split->setObjectName("split.tabs");
@@ -67,7 +110,7 @@ Frame::Frame(QWidget* parent)
   connect(book_, &QTabWidget::currentChanged, this, [this] { emit tabShown(shownTab()); });
   connect(panes_, &Panes::changed, this, [this](const QString& id) {
     for (const Tab& tab : tabs_) {
-      if (pane_id(tab.id) == id && panes_->isTorn(id)) emit tabShown(tab.id);
+      if (pane_id(tab.id) == id && panes_->isSeen(id)) emit tabShown(tab.id);
     }
   });
   book_->tabBar()->setContextMenuPolicy(Qt::CustomContextMenu);
@@ -84,6 +127,8 @@ void Frame::askWhereTabGoes(int index, const QPoint& at) {
   QMenu menu(this);
   menu.addAction(tr("In a window of its own"), this,
                  [this, id = pane_id(tab->id)] { panes_->tear(id); });
+  menu.addAction(tr("Below the other tabs"), this,
+                 [this, id = pane_id(tab->id)] { panes_->stack(id); });
   menu.exec(book_->tabBar()->mapToGlobal(at));
 }
 
@@ -163,6 +208,7 @@ void Frame::showTab(const QString& id) {
   }
   setPanelsShown(true);
   if (found == tabs_.end()) return;
+  if (panes_->isStacked(pane_id(id))) return panes_->stack(pane_id(id));
   book_->setTabVisible(book_->indexOf(found->widget), true);
   book_->setCurrentWidget(found->widget);
 }

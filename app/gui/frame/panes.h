@@ -14,8 +14,9 @@ class QWidget;
 namespace episcope {
 
 class PaneWindow;
+class TabStack;
 
-/// A part of the window that can be in a window of its own.
+/// A part of the window that can be elsewhere.
 struct Pane {
   QString id;
   QString title;
@@ -23,8 +24,9 @@ struct Pane {
   std::function<void()> put_back;  ///< Gives the widget its place in the main window again.
 };
 
-/// The panes that can be torn off. Those that are stay above the main window, hear its keys, and
-/// come back when their own window is closed.
+/// The panes that can be torn off, or stacked one over the other behind tabs of their own. Those
+/// that are torn off stay above the main window, hear its keys, and come back when their own window
+/// is closed.
 class Panes : public QObject {
   Q_OBJECT
 
@@ -33,34 +35,47 @@ class Panes : public QObject {
   explicit Panes(QWidget& home);
   ~Panes() override;
 
+  /// Where panes are stacked; nowhere without it. Outlives this.
+  void setStack(TabStack* stack);
   void add(Pane pane);
   [[nodiscard]] bool isTorn(const QString& id) const { return windows_.contains(id); }
+  [[nodiscard]] bool isStacked(const QString& id) const { return stacked_.contains(id); }
   /// Opens a window of its own, where and as large as it was the last time. Raises it if there is
   /// one. Ignored for an unknown id.
   void tear(const QString& id);
-  /// Back into the main window; ignored if it is there.
+  /// Whether it is in front where it is. False for an unknown id.
+  [[nodiscard]] bool isSeen(const QString& id) const;
+  /// Puts it behind a tab of the stack, and shows it there. Ignored for an unknown id.
+  void stack(const QString& id);
+  /// Back to its own place; ignored if it is there.
   void putBack(const QString& id);
   void toggle(const QString& id);
+  void toggleStacked(const QString& id);
+  /// Of what is behind a tab of the stack; empty for another widget.
+  [[nodiscard]] QString stackedPane(const QWidget* widget) const;
 
-  /// Remembers in the settings which are torn off; `restore` tears them off again.
+  /// Remembers in the settings which are elsewhere; `restore` puts them there again.
   void save() const;
   void restore();
   /// All come back, and their places are forgotten.
   void reset();
 
  signals:
-  /// It was torn off or has come back.
+  /// It is elsewhere.
   void changed(const QString& id);
   /// A window was opened, which should hear the keys of the viewer.
   void opened(QWidget* window);
 
  private:
   [[nodiscard]] const Pane* find(const QString& id) const;
+  void leave(const QString& id);
   void remember(const QString& id) const;
 
   QWidget& home_;
   std::vector<Pane> panes_;
+  TabStack* stack_ = nullptr;
   QHash<QString, PaneWindow*> windows_;
+  QStringList stacked_;
 };
 
 }  // namespace episcope

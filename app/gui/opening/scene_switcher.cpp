@@ -48,6 +48,7 @@ SceneSwitcher::SceneSwitcher(Session& session, Jobs& jobs, Messages& messages, Q
       budget_(third_of_memory()) {
   session_.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Scene | Part::Scenes)) keepBudget();
+    if (parts.has(Part::Scenes)) keepSweeps();
   });
 }
 
@@ -131,6 +132,13 @@ void SceneSwitcher::finish(std::uint64_t id, const Read& read) {
   if (!scene || scene->scene) return;
   session_.load(id, read.scene, read.estimates);
   if (!read.failures.isEmpty()) messages_.warn(read.failures.join(' '));
+}
+
+// Those of closed scenes go with them.
+void SceneSwitcher::keepSweeps() {
+  std::vector<std::uint64_t> open;
+  for (const OpenScene* each : session_.scenes()) open.push_back(each->id);
+  sweeps_.keep_scenes(open);
 }
 
 void SceneSwitcher::setBudget(std::size_t bytes) {

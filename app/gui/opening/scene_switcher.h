@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/session/session.h"
+#include "app/session/sweep/sweep_list.h"
 
 #include <QObject>
 #include <QString>
@@ -17,8 +18,9 @@ class Jobs;
 class Messages;
 
 /// Shows another of the open scenes: at once if it is in memory, else after reading it and its
-/// results in the background. Lets go of the memory of scenes that were not looked at for long
-/// while all of them take more than a budget; what was computed for them is in files by then.
+/// results in the background; keeps the sweeps over them. Lets go of the memory of scenes that were
+/// not looked at for long while all of them take more than a budget; what was computed for them is
+/// in files by then.
 class SceneSwitcher : public QObject {
   Q_OBJECT
 
@@ -31,6 +33,9 @@ class SceneSwitcher : public QObject {
   void step(int step);
   /// The one that was shown last, if nothing is shown.
   void showLatest();
+
+  /// What was swept over them, whichever is shown.
+  [[nodiscard]] SweepList& sweeps() { return sweeps_; }
 
   /// Memory for all scenes together; a third of the machine's at first.
   void setBudget(std::size_t bytes);
@@ -53,12 +58,14 @@ class SceneSwitcher : public QObject {
   [[nodiscard]] static Read read_all(const OpenScene& scene, const std::filesystem::path& cache,
                                      const Progress& progress);
   void keepBudget();
+  void keepSweeps();
 
   Session& session_;
   Jobs& jobs_;
   Messages& messages_;
   std::filesystem::path cache_folder_;
   std::size_t budget_;
+  SweepList sweeps_;
   std::uint64_t wanted_ = 0;  // asked for last, and on its way
 };
 

@@ -5,6 +5,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/frame/queued_post.h"
+#include "app/gui/opening/scene_switcher.h"
 #include "app/session/project/project_file.h"
 #include "app/session/project/session_project.h"
 #include "app/session/project/stored_project.h"
@@ -18,11 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLater_ms = 1500;
+constexpr int kLater_ms = 500;  // what changes with every movement of the hand
 
 // A light field that was merely opened is opened again as quickly.
 bool is_worth_keeping(const Project& project) {
-  return project.scenes.size() > 1 ||
+  return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
            return !scene.results.empty() || scene.labels.covers_many() ||
                   !scene.place.measured.list.empty() || !scene.place.capture.pairs.empty();
@@ -49,6 +50,7 @@ Autosave::Autosave(const Workbench& bench)
   connect(&later_, &QTimer::timeout, this, &Autosave::schedule);
   connect(&bench.frame, &Frame::ended, this, [this] { is_over_ = true; });
   bench.session.on_changed([this](Parts parts) { follow(parts); });
+  bench.scenes.sweeps().on_changed([this] { schedule(); });
 }
 
 Autosave::~Autosave() {
@@ -57,7 +59,8 @@ Autosave::~Autosave() {
 }
 
 void Autosave::follow(Parts parts) {
-  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) {
+  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Measured | Part::Capture |
+                    Part::Judged | Part::LabelLook)) {
     schedule();
   } else if (!later_.isActive()) {
     later_.start();
@@ -85,6 +88,7 @@ void Autosave::write() {
   is_due_ = false;
   later_.stop();
   Project project = project_of(bench_.session);
+  project.sweeps = bench_.scenes.sweeps().all();
   project.saved_as = project_file_;
   if (is_over_ || (!workspace_ && !is_worth_keeping(project)) || !makeWorkspace()) return;
   is_writing_ = true;
@@ -145,8 +149,7 @@ void Autosave::takeOver(const fs::path& folder) {
   runner_ = std::make_unique<JobRunner>(queued_post(this));  // what was being written is dropped
   is_writing_ = false;
   if (workspace_) workspace_->remove();
-  workspace_ = std::move(taken);
-  schedule();
+  workspace_ = std::move(taken);  // written when its scenes are open
 }
 
 void Autosave::setProjectFile(fs::path file) {

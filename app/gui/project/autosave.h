@@ -30,7 +30,8 @@ class Autosave : public QObject {
   /// Where workspaces are, the user's own folder at first; empty = nothing is kept.
   void setRoot(std::filesystem::path root) { root_ = std::move(root); }
   [[nodiscard]] const std::filesystem::path& root() const { return root_; }
-  /// Goes on with a workspace that was left; the present one is removed. Throws IoError.
+  /// Goes on with a workspace that was left, and is left as it is until the scenes of it are open;
+  /// the present one is removed. Throws IoError.
   void takeOver(const std::filesystem::path& folder);
   /// The user's own file of what is open; empty = none yet.
   void setProjectFile(std::filesystem::path file);

@@ -85,6 +85,11 @@ std::string ProjectController::content() const {
     }
     if (scene->labels.covers_many()) text += std::to_string(scene->labels.strokes) + '\n';
   }
+  for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
+    text += "sweep " + std::to_string(sweep.id);
+    for (const SweepScene& scene : sweep.scenes) text += ' ' + std::to_string(scene.points.size());
+    text += '\n';
+  }
   return text;
 }
 
@@ -148,6 +153,7 @@ void ProjectController::saveTo(const QString& path, std::function<void()> then) 
 void ProjectController::write(const QString& path, std::function<void()> then) {
   bench_.document.endStroke();
   Project project = project_of(bench_.session);
+  project.sweeps = bench_.scenes.sweeps().all();
   const std::vector<EditedDocument> documents = bench_.document.editedDocuments();
   for (const EditedDocument& each : documents) {
     const auto scene = std::ranges::find(project.scenes, each.scene, &ProjectScene::id);
@@ -174,6 +180,7 @@ void ProjectController::noteSaved(const QString& path, const Project& written) {
       bench_.session.mark_saved(result.id);
     }
   }
+  for (const Sweep& sweep : written.sweeps) bench_.scenes.sweeps().mark_saved(sweep);
   setFile(path);
   bench_.messages.written(path);
 }

@@ -3,11 +3,13 @@
 
 #include "app/gui/document/document_controller.h"
 #include "app/gui/frame/jobs.h"
+#include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/project_controller.h"
 #include "app/session/session.h"
 
 #include <QAbstractButton>
 
+#include <algorithm>
 #include <utility>
 
 namespace episcope {
@@ -28,6 +30,7 @@ ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
   bench.session.on_changed([this](Parts parts) {
     if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) is_settled_ = false;
   });
+  bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
   connect(&bench.jobs, &Jobs::added, this, [this] {
     const int count = bench_.jobs.count(Lane::Estimate);
     if (count == 1 && !is_settled_) running_.start();
@@ -47,6 +50,14 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
       if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
         loss.results.push_back(entry.name);
       }
+    }
+  }
+  for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
+    const bool is_left = what != Leaving::Scene ||
+                         std::ranges::count(sweep.scenes, session.generation(), &SweepScene::scene);
+    if (is_left && !sweep.is_saved && (has_file || seconds_of(sweep) >= worth_keeping_s_)) {
+      loss.results.push_back(
+          tr("sweep of %1").arg(QString::fromStdString(sweep.base.method)).toStdString());
     }
   }
   loss.is_running = isRunning();

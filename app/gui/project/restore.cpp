@@ -50,13 +50,20 @@ void show_project(const Workbench& bench, ReadProject read, ProjectOrigin origin
   make_way(bench, read.project, origin);
   bench.session.set_bad_threshold(read.project.bad_threshold_px);
   std::uint64_t current = 0;
+  std::map<std::uint64_t, std::uint64_t> ids;  // of scenes: those of the project, those of now
   for (std::size_t i = 0; i < read.project.scenes.size(); ++i) {
     const std::uint64_t id = bench.session.add_aside(scene_of(read.project.scenes[i], is_saved));
+    ids[read.project.scenes[i].id] = id;
     if (i <= read.project.current) current = id;
     const auto strokes = read.strokes.find(i);
     if (strokes == read.strokes.end()) continue;
     strokes->second.owner.source = read.project.scenes[i].input;
     bench.document.bring(id, std::move(strokes->second), is_saved);
+  }
+  for (Sweep& sweep : read.project.sweeps) {
+    for (SweepScene& scene : sweep.scenes) scene.scene = ids[scene.scene];
+    sweep.is_saved = is_saved;
+    bench.scenes.sweeps().add(std::move(sweep));
   }
   if (!read.failures.isEmpty()) bench.messages.warn(read.failures.join(' '));
   bench.scenes.show(current);

@@ -8,6 +8,7 @@
 #include "app/gui/frame/messages.h"
 #include "app/gui/project/autosave.h"
 #include "app/gui/project/restore.h"
+#include "app/session/document/unheld_journals.h"
 #include "engine/core/error.h"
 #include "widgets/controls/message_bar.h"
 
@@ -24,13 +25,18 @@ std::size_t result_count(const Project& project) {
   return count;
 }
 
-// The journals that the killed session left: each belongs to the scene that it was painted on.
+// The journals that the killed session left: each belongs to the scene that it was painted on. Also
+// where all of it is in the user's own project: what is recovered goes on from there.
 void name_journals(ReadProject& read, const std::filesystem::path& folder) {
-  for (const LeftJournal& journal : left_journals(folder)) {
-    const auto scene =
-        std::ranges::find(read.project.scenes, journal.owner.source, &ProjectScene::input);
-    if (scene != read.project.scenes.end() && scene->strokes.empty()) {
-      scene->strokes = journal.path;
+  for (const UnheldJournal& journal : unheld_journals(folder)) {
+    try {
+      const JournalOwner owner = read_journal(journal.path).owner;
+      const auto scene = std::ranges::find(read.project.scenes, owner.source, &ProjectScene::input);
+      if (scene != read.project.scenes.end() && scene->strokes.empty()) {
+        scene->strokes = journal.path;
+      }
+    } catch (const IoError&) {
+      // Not even its beginning can be read: it is of no scene.
     }
   }
 }

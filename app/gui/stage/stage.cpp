@@ -116,8 +116,10 @@ bool Stage::eventFilter(QObject* watched, QEvent* event) {
 
 void Stage::addPanesTo(Panes& panes) {
   const auto add = [&panes](const QString& id, EpiPane* pane, QWidget* place) {
-    panes.add(
-        {id, pane->accessibleName(), pane, [pane, place] { place->layout()->addWidget(pane); }});
+    panes.add({id, pane->accessibleName(), pane, [pane, place] {
+                 place->layout()->addWidget(pane);
+                 pane->show();
+               }});
   };
   add("epi.horizontal", horizontal_epi_, horizontal_place_);
   add("epi.vertical", vertical_epi_, vertical_place_);
@@ -126,9 +128,9 @@ void Stage::addPanesTo(Panes& panes) {
 
 // The horizontal EPI is as wide as the view: the legend moves below where nothing is above it.
 void Stage::fitPlaces() {
-  const bool has_vertical = vertical_epi_->window() == window();
+  const bool has_vertical = vertical_place_->isAncestorOf(vertical_epi_);
   vertical_place_->setVisible(has_vertical && center_->currentWidget() == canvas_);
-  horizontal_place_->setVisible(horizontal_epi_->window() == window());
+  horizontal_place_->setVisible(horizontal_place_->isAncestorOf(horizontal_epi_));
   QSplitter* legend_place = has_vertical ? lower_ : rows_;
   if (legend_->parentWidget() != legend_place) legend_place->addWidget(legend_);
   lower_->setVisible(has_vertical || !horizontal_place_->isHidden());

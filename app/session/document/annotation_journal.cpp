@@ -2,6 +2,7 @@
 #include "app/session/document/annotation_journal.h"
 
 #include "app/session/document/journal_records.h"
+#include "app/session/document/unheld_journals.h"
 #include "engine/core/error.h"
 #include "engine/io/durable/make_folder.h"
 
@@ -14,15 +15,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kSuffix = ".journal";
-
 fs::path new_path(const fs::path& folder, const std::string& name) {
   std::random_device random;
   char suffix[24];
   std::snprintf(suffix, sizeof suffix, "-%08x", static_cast<unsigned>(random()));
   std::string stem = name.substr(0, 60);
   std::ranges::replace(stem, '/', '_');
-  return folder / ((stem.empty() ? "session" : stem) + suffix + kSuffix);
+  return folder / ((stem.empty() ? "session" : stem) + suffix + kJournalSuffix);
 }
 
 }  // namespace
@@ -73,25 +72,18 @@ RecoveredAnnotation read_journal(const fs::path& path) {
 
 std::vector<LeftJournal> left_journals(const fs::path& folder) {
   std::vector<LeftJournal> left;
-  std::error_code error;
-  std::vector<fs::path> paths;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == kSuffix) paths.push_back(entry.path());
-  }
-  for (const fs::path& path : paths) {
-    if (io::is_held(path)) continue;
+  for (const UnheldJournal& each : unheld_journals(folder)) {
     try {
-      RecoveredAnnotation found = read_journal(path);
+      RecoveredAnnotation found = read_journal(each.path);
       if (found.document.has_unsaved_changes()) {
-        left.push_back({path, std::move(found.owner), fs::last_write_time(path, error)});
+        left.push_back({each.path, std::move(found.owner), each.last_change});
         continue;
       }
     } catch (const IoError&) {
       // Nothing in it can be had: it is of no use to anybody.
     }
-    discard_journal(path);
+    discard_journal(each.path);
   }
-  std::ranges::sort(left, std::greater{}, &LeftJournal::last_change);
   return left;
 }
 

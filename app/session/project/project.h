@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/session/open_scene.h"
+#include "app/session/sweep/sweep.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -30,7 +31,8 @@ struct ProjectScene {
   std::uint64_t sample_hash = 0;  ///< LightField::sample_hash; 0 = unknown.
   ParameterSet reading;           ///< Options that it was read with (io::open_schema).
   ScenePlace place;
-  std::uint64_t id = 0;  ///< OpenScene::id. Not part of a project file.
+  /// OpenScene::id; of a project that was read, its place in the list, from 1.
+  std::uint64_t id = 0;
   std::vector<ProjectResult> results;
   std::filesystem::path strokes;  ///< Journal of what was painted; empty = nothing was.
   KeptLabels labels{};            ///< In memory only while the program runs.
@@ -41,6 +43,7 @@ struct Project {
   std::vector<ProjectScene> scenes;
   std::size_t current = 0;  ///< The one that is shown.
   double bad_threshold_px = kBadPixelThreshold_px;
+  std::vector<Sweep> sweeps{};     ///< Their scenes are named by ProjectScene::id.
   std::filesystem::path saved_as;  ///< Of a workspace: the user's own file of it; empty = none yet.
 };
 

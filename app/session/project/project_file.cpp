@@ -3,6 +3,7 @@
 
 #include "annotation/document/label_set.h"
 #include "app/session/project/own_folders.h"
+#include "app/session/project/sweep_json.h"
 #include "app/session/run/result_source.h"
 #include "app/session/scene/load_scene.h"
 #include "engine/core/error.h"
@@ -276,7 +277,9 @@ Project project_of(const Json& json, const fs::path& path) {
   Project project;
   for (const Json& each : json.at("scenes")) {
     project.scenes.push_back(scene_of(each, fs::absolute(path)));
+    project.scenes.back().id = project.scenes.size();
   }
+  if (json.contains("sweeps")) project.sweeps = sweeps_of(json.at("sweeps"), project.scenes);
   project.current = static_cast<std::size_t>(std::max(0, io::int_of(json.at("current"))));
   project.bad_threshold_px = json.at("bad_threshold_px");
   project.saved_as = json.value("saved_as", "");
@@ -319,6 +322,7 @@ void write_project(const fs::path& path, const Project& project) {
   for (const ProjectScene& each : project.scenes) {
     json["scenes"].push_back(scene_json(each, fs::absolute(path)));
   }
+  if (!project.sweeps.empty()) json["sweeps"] = sweeps_json(project);
   const std::string text = json.dump(1) + '\n';
   io::write_atomically(path, text);
 }

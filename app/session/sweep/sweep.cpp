@@ -51,6 +51,20 @@ void fill(const Scene& scene, const EstimateRequest& request, const Estimate* re
 
 }  // namespace
 
+bool has_truth(const SweepScene& scene) {
+  return std::ranges::any_of(scene.points, [](const SweepPoint& point) {
+    return !point.vmv2013.empty() || !point.benchmark2016.empty();
+  });
+}
+
+double seconds_of(const Sweep& sweep) {
+  double seconds = 0;
+  for (const SweepScene& scene : sweep.scenes) {
+    for (const SweepPoint& point : scene.points) seconds += point.seconds;
+  }
+  return seconds;
+}
+
 ParameterSet values_at(const ParameterSet& values, const ParameterSet& point) {
   ParameterSet changed = values;
   for (const auto& [key, value] : point) {

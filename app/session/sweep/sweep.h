@@ -5,6 +5,7 @@
 #include "engine/core/light_field/scene.h"
 #include "engine/evaluation/metrics/metrics.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +37,30 @@ struct SweepPoint {
   std::optional<double> change_px{};
   std::string problem{};  ///< Why it failed, a sentence; empty = it did not.
 };
+
+/// What a sweep found out on one light field.
+struct SweepScene {
+  std::uint64_t scene = 0;  ///< OpenScene::id.
+  std::string name;         ///< Of the light field.
+  /// In the order of `sweep_points`, as far as they are there.
+  std::vector<SweepPoint> points{};
+};
+
+/// Whether points were judged.
+[[nodiscard]] bool has_truth(const SweepScene& scene);
+
+/// A method with a grid of values of its parameters on one or several of the open light fields:
+/// what was asked for, and the points that are there.
+struct Sweep {
+  std::uint64_t id = 0;  ///< Never given twice.
+  EstimateRequest base;
+  std::vector<SweptParameter> swept;  ///< One or two.
+  std::vector<SweepScene> scenes;
+  bool is_saved = false;  ///< A file of the user's holds what is there.
+};
+
+/// Seconds that its points took.
+[[nodiscard]] double seconds_of(const Sweep& sweep);
 
 /// Runs a point on the centre view and judges it. `reference` is the estimate of the first point;
 /// null while there is none. What the method throws is the problem of the point; throws Cancelled.

@@ -55,6 +55,35 @@ std::string text_of(const std::optional<double>& value) {
   return value ? fmt::format("{}", *value) : std::string();
 }
 
+using MetricKeys = std::array<std::vector<std::string>, kMetrics.size()>;
+
+// Of all points, in the order in which they are met first.
+MetricKeys metric_keys(const std::vector<SweepScene>& scenes) {
+  MetricKeys keys;
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    for (const SweepScene& scene : scenes) {
+      for (const SweepPoint& point : scene.points) {
+        for (const auto& [key, value] : point.*kMetrics[i].metrics) {
+          if (std::ranges::count(keys[i], key) == 0) keys[i].push_back(key);
+        }
+      }
+    }
+  }
+  return keys;
+}
+
+void add_cells(const SweepPoint& point, const MetricKeys& keys, std::vector<std::string>& cells) {
+  for (const auto& [key, value] : point.point) cells.push_back(to_text(value));
+  for (std::size_t i = 0; i < kMetrics.size(); ++i) {
+    for (const auto& key : keys[i]) {
+      cells.push_back(text_of(find_metric(point.*kMetrics[i].metrics, key)));
+    }
+  }
+  cells.push_back(text_of(measure_of(point, SweepMeasure::Seconds)));
+  cells.push_back(text_of(point.change_px));
+  cells.push_back(point.problem);
+}
+
 }  // namespace
 
 std::optional<double> measure_of(const SweepPoint& point, SweepMeasure measure) {
@@ -85,34 +114,47 @@ std::vector<SweepLine> lines_of(const std::vector<SweepPoint>& points,
   return lines;
 }
 
-TextTable sweep_table(const std::vector<SweepPoint>& points,
+std::optional<double> mean_of(const std::vector<SweepScene>& scenes, std::size_t point,
+                              SweepMeasure measure) {
+  double sum = 0;
+  for (const SweepScene& scene : scenes) {
+    if (point >= scene.points.size()) return std::nullopt;
+    const auto value = measure_of(scene.points[point], measure);
+    if (!value) return std::nullopt;
+    sum += *value;
+  }
+  if (scenes.empty()) return std::nullopt;
+  return sum / static_cast<double>(scenes.size());
+}
+
+std::size_t common_count(const std::vector<SweepScene>& scenes) {
+  if (scenes.empty()) return 0;
+  return std::ranges::min_element(scenes, {},
+                                  [](const SweepScene& each) { return each.points.size(); })
+      ->points.size();
+}
+
+TextTable sweep_table(const std::vector<SweepScene>& scenes,
                       const std::vector<std::pair<std::string, std::string>>& columns_of_all) {
   TextTable table;
+  table.header.emplace_back("scene");
   for (const auto& [key, value] : columns_of_all) table.header.push_back(key);
-  if (points.empty()) return table;
-  for (const auto& [key, value] : points.front().point) table.header.push_back(key);
-  std::array<std::vector<std::string>, kMetrics.size()> keys;
+  const auto judged =
+      std::ranges::find_if(scenes, [](const SweepScene& each) { return !each.points.empty(); });
+  if (judged == scenes.end()) return table;
+  for (const auto& [key, value] : judged->points.front().point) table.header.push_back(key);
+  const MetricKeys keys = metric_keys(scenes);
   for (std::size_t i = 0; i < kMetrics.size(); ++i) {
-    for (const SweepPoint& point : points) {
-      for (const auto& [key, value] : point.*kMetrics[i].metrics) {
-        if (std::ranges::count(keys[i], key) == 0) keys[i].push_back(key);
-      }
-    }
     for (const auto& key : keys[i]) table.header.push_back(kMetrics[i].name + ("." + key));
   }
   table.header.insert(table.header.end(), {"seconds", "change_px", "problem"});
-  for (const SweepPoint& point : points) {
-    auto& cells = table.rows.emplace_back();
-    for (const auto& [key, value] : columns_of_all) cells.push_back(value);
-    for (const auto& [key, value] : point.point) cells.push_back(to_text(value));
-    for (std::size_t i = 0; i < kMetrics.size(); ++i) {
-      for (const auto& key : keys[i]) {
-        cells.push_back(text_of(find_metric(point.*kMetrics[i].metrics, key)));
-      }
+  for (const SweepScene& scene : scenes) {
+    for (const SweepPoint& point : scene.points) {
+      auto& cells = table.rows.emplace_back();
+      cells.push_back(scene.name);
+      for (const auto& [key, value] : columns_of_all) cells.push_back(value);
+      add_cells(point, keys, cells);
     }
-    cells.push_back(text_of(measure_of(point, SweepMeasure::Seconds)));
-    cells.push_back(text_of(point.change_px));
-    cells.push_back(point.problem);
   }
   return table;
 }

@@ -31,10 +31,17 @@ struct SweepLine {
 [[nodiscard]] std::vector<SweepLine> lines_of(const std::vector<SweepPoint>& points,
                                               const std::vector<SweptParameter>& swept);
 
-/// A row for each point: the swept values, every metric ("vmv2013.mse_100"), seconds, change and
-/// problem, after the same text columns for all.
+/// Mean of a measure over light fields at a point, which has the same place in all of them; none
+/// unless each has that measure there.
+[[nodiscard]] std::optional<double> mean_of(const std::vector<SweepScene>& scenes,
+                                            std::size_t point, SweepMeasure measure);
+/// How many points every one of them has.
+[[nodiscard]] std::size_t common_count(const std::vector<SweepScene>& scenes);
+
+/// A row for each point: the light field, the swept values, every metric ("vmv2013.mse_100"),
+/// seconds, change and problem, with the same text columns for all after the light field.
 [[nodiscard]] TextTable sweep_table(
-    const std::vector<SweepPoint>& points,
+    const std::vector<SweepScene>& scenes,
     const std::vector<std::pair<std::string, std::string>>& columns_of_all);
 
 }  // namespace episcope

@@ -2,8 +2,10 @@
 #include "widgets/canvas/view_canvas.h"
 #include "tests/widgets/pictures.h"
 #include "tests/window_test_main.h"
+#include "widgets/canvas/canvas_text.h"
 #include "widgets/style/picture.h"
 
+#include <QPainter>
 #include <QSignalSpy>
 
 #include <cmath>
@@ -27,6 +29,19 @@ class ViewCanvasTest : public QObject {
     QVERIFY(QTest::qWaitForWindowExposed(canvas_.get()));
   }
   void cleanup() { canvas_.reset(); }
+
+  void longCaption_staysInItsTile() {
+    QImage picture(120, 80, QImage::Format_RGB32);
+    QPainter painter(&picture);
+    const QRectF tile(0, 0, 120, 80);
+
+    const QRectF plate =
+        draw_plate(painter, tile, Qt::AlignLeft | Qt::AlignTop,
+                   "PLANE_PM, smoothness 0.25, smoothness of labels 12", Qt::white, Side::A);
+
+    QVERIFY(tile.contains(plate));
+    QVERIFY(plate.width() > 100);
+  }
 
   void wheel_keepsThePixelUnderTheCursor_data() {
     QTest::addColumn<QPointF>("at");

@@ -5,6 +5,7 @@
 #include "app/gui/frame/commands.h"
 #include "tests/app/gui/compare/compared.h"
 #include "tests/window_test_main.h"
+#include "widgets/browse/epi_pane.h"
 #include "widgets/browse/value_bar.h"
 #include "widgets/canvas/tile_wall.h"
 #include "widgets/canvas/view_canvas.h"
@@ -98,15 +99,20 @@ void CompareTest::sideBySide_showsAAndB() {
 void CompareTest::flip_marksWhichOneIsSeen() {
   Compared f({0.0F, 0.5F});
   QTRY_VERIFY_WITH_TIMEOUT(!f.window.bench().overlay.picture().isNull(), kPatience);
+  EpiPane* epi = f.window.bench().stage.horizontalEpi();
   const QImage of_a = f.canvas()->grab().toImage();
+  const QImage epi_of_a = epi->grab().toImage();
   const QRect badge(0, 0, 26, 26);
 
   QTest::keyPress(f.canvas(), Qt::Key_Tab);
   const QImage of_b = f.canvas()->grab().toImage();
+  const QImage epi_of_b = epi->grab().toImage();
   QVERIFY(f.window.bench().overlay.isFlipped());
   QTest::keyRelease(f.canvas(), Qt::Key_Tab);
 
   QVERIFY(of_a.copy(badge) != of_b.copy(badge));
+  QVERIFY(epi_of_a != epi_of_b);  // the line and its label are of B, too
+  QCOMPARE(epi->grab().toImage(), epi_of_a);
   QCOMPARE(f.canvas()->grab().toImage(), of_a);
 }
 

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Sweeps, driven in the window that ships.
+#include "app/gui/opening/scene_switcher.h"
+#include "app/gui/project/project_controller.h"
+#include "app/gui/project/project_guard.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
@@ -8,10 +11,12 @@
 #include "widgets/plot/line_plot.h"
 #include "widgets/sweep/sweep_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QLabel>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QPushButton>
 
 #include <algorithm>
@@ -81,6 +86,11 @@ class SweepWindowTest : public QObject {
   void withoutTruth_plotsChangeAndTime();
   void export_writesEveryPoint();
   void closedScene_takesItsSweepAway();
+  void severalScenes_arePlottedWithTheirMean();
+  void twoParametersOfSeveralScenes_arePlottedAsTheMean();
+  void sweeps_areListed_andRemoved();
+  void sweeps_comeBackWithTheProject();
+  void sweep_isAskedForBeforeItIsLost();
 };
 
 void SweepWindowTest::run_plotsEveryValue() {
@@ -246,6 +256,124 @@ void SweepWindowTest::closedScene_takesItsSweepAway() {
   QCoreApplication::processEvents();
   QVERIFY(f.upper().plot().series.empty());
   QVERIFY(!f.button("sweep.run").isEnabled());
+}
+
+void SweepWindowTest::severalScenes_arePlottedWithTheirMean() {
+  Sweeping f;
+  QVERIFY(!f.window.findChild<QCheckBox*>("sweep.everywhere")->isVisible());
+  const auto edge = f.session().generation();
+  f.openSmall("slant");
+  f.window.bench().scenes.setBudget(1);  // the other one is on disk only
+  QTRY_VERIFY(!f.session().find_scene(edge)->scene);
+  f.vary("sweep.first", "inner_scale", "0.6, 0.9");
+  f.click("sweep.everywhere");
+  QVERIFY(f.text("sweep.plan").contains("2 centre views"));
+
+  f.run();
+
+  const auto& series = f.upper().plot().series;
+  QCOMPARE(series.size(), 3U);
+  QCOMPARE(series[0].name, QString("edge"));
+  QCOMPARE(series[1].name, QString("slant"));
+  QCOMPARE(series[2].name, QString("Mean"));
+  for (int i = 0; i < 2; ++i) {
+    QCOMPARE(series[2].points[i].y(), (series[0].points[i].y() + series[1].points[i].y()) / 2);
+  }
+  QVERIFY(f.lower().plot().y.title.contains("BadPix"));
+  QCOMPARE(f.lower().plot().series.size(), 3U);
+  f.clickPoint(f.upper(), {2, 1});  // of the mean: the light field that is shown
+  QVERIFY(f.session().shown()->name.find("inner_scale 0.9") != std::string::npos);
+  QCOMPARE(f.session().light_field()->info().name, std::string("slant"));
+  f.clickPoint(f.upper(), {0, 1});
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().generation(), edge, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(f.session().shown(), kScenePatience);
+  QVERIFY(f.session().shown()->name.find("inner_scale 0.9") != std::string::npos);
+
+  auto* of = f.window.findChild<QComboBox*>("sweep.scene");
+  of->setCurrentIndex(2);
+  emit of->activated(2);
+  QCOMPARE(f.upper().plot().series.size(), 1U);
+}
+
+void SweepWindowTest::twoParametersOfSeveralScenes_arePlottedAsTheMean() {
+  Sweeping f;
+  f.openSmall("slant");
+  f.vary("sweep.first", "inner_scale", "0.6, 0.9");
+  f.vary("sweep.second", "outer_scale", "1, 2");
+  f.click("sweep.everywhere");
+  f.run();
+  const auto& series = f.upper().plot().series;
+  QCOMPARE(series.size(), 2U);
+  QVERIFY(series[0].name.contains("outer_scale 1"));
+  QVERIFY(series[0].points[1].y() > 0);
+}
+
+void SweepWindowTest::sweeps_areListed_andRemoved() {
+  Sweeping f;
+  for (const char* values : {"0.6, 0.9", "0.7, 0.8, 1"}) {
+    f.vary("sweep.first", "inner_scale", values);
+    f.run();
+  }
+  auto* list = f.window.findChild<QComboBox*>("sweep.list");
+  QCOMPARE(list->count(), 2);
+  QCOMPARE(f.upper().plot().series[0].points.size(), 3U);
+
+  list->setCurrentIndex(0);
+  emit list->activated(0);
+  QCOMPARE(f.upper().plot().series[0].points.size(), 2U);
+  f.click("sweep.remove");
+  QCoreApplication::processEvents();
+  QCOMPARE(list->count(), 1);
+  QCOMPARE(f.upper().plot().series[0].points.size(), 3U);
+}
+
+void SweepWindowTest::sweeps_comeBackWithTheProject() {
+  Sweeping f;
+  f.openSmall("slant");
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.click("sweep.everywhere");
+  f.run();
+  const Plot before = f.upper().plot();
+  const QString path = f.path("work.episcope");
+  bool is_saved = false;
+  find<ProjectController>(f.window).saveTo(path, [&is_saved] { is_saved = true; });
+  QTRY_VERIFY_WITH_TIMEOUT(is_saved, kScenePatience);
+
+  Sweeping other;
+  other.window.bench().opener.open(path);
+  QTRY_COMPARE_WITH_TIMEOUT(other.window.bench().scenes.sweeps().all().size(), 1U, kScenePatience);
+  QTRY_VERIFY_WITH_TIMEOUT(other.session().scenes().size() == 2 && other.session().scene(),
+                           kScenePatience);
+  QCoreApplication::processEvents();
+  const auto& series = other.upper().plot().series;
+  QCOMPARE(series.size(), before.series.size());
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    QCOMPARE(series[i].name, before.series[i].name);
+    QVERIFY(series[i].points == before.series[i].points);
+  }
+  // Maps are computed again when they are looked at.
+  other.clickPoint(other.upper(), {1, 0});
+  QTRY_VERIFY_WITH_TIMEOUT(other.session().shown(), kScenePatience);
+  QVERIFY(other.session().shown()->name.find("inner_scale 0.6") != std::string::npos);
+  const EvaluationKey key{other.session().shown()->id, judged_view(*other.session().scene()),
+                          Protocol::Vmv2013};
+  EvaluationPtr evaluation;
+  QTRY_VERIFY_WITH_TIMEOUT((evaluation = other.session().evaluation(key)), kPatience);
+  QCOMPARE(find_metric(evaluation->metrics, "mse_100").value(), series[1].points[0].y());
+}
+
+void SweepWindowTest::sweep_isAskedForBeforeItIsLost() {
+  Sweeping f;
+  find<ProjectGuard>(f.window).setWorthKeeping(0);
+  f.vary("sweep.first", "inner_scale", "0.6, 1.2");
+  f.run();
+  f.window.close();
+  auto* box = f.window.findChild<QMessageBox*>("unsaved_results");
+  QVERIFY(box);
+  QVERIFY2(box->text().contains("sweep of epi_l"), qPrintable(box->text()));
+  QVERIFY(f.window.isVisible());
+  box->button(QMessageBox::Discard)->click();
+  QTRY_VERIFY(!f.window.isVisible());
 }
 
 }  // namespace episcope::in_sweep_window_test

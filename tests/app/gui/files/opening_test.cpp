@@ -10,10 +10,12 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDir>
 #include <QDragEnterEvent>
 #include <QDropEvent>
 #include <QFile>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -35,6 +37,7 @@ class OpeningTest : public QObject {
   void brokenFile_isToldAndKeepsTheScene();
   void brokenFile_withoutScene_isDrawnAsError();
   void brokenFile_ofTheDialog_isTold();
+  void dialog_remembersItsFolder();
   void droppedFile_isOpened();
   void anotherScene_hasItsOwnResults();
   void closedScene_leavesTheEmptyWindow();
@@ -144,6 +147,20 @@ void OpeningTest::brokenFile_withoutScene_isDrawnAsError() {
 }
 
 // It has the signature of HDF5, and ends there.
+void OpeningTest::dialog_remembersItsFolder() {
+  WindowFixture f;
+  const QString scene = f.writeScene("edge", WindowFixture::smallOptions());
+  f.trigger("file.open");
+  auto* dialog = f.window.findChild<QFileDialog*>();
+  emit dialog->fileSelected(scene);
+  dialog->close();
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene(), kPatience);
+  QTRY_VERIFY(!f.window.findChild<QFileDialog*>());
+
+  f.trigger("file.open");
+  QCOMPARE(f.window.findChild<QFileDialog*>()->directory().path(), QFileInfo(scene).path());
+}
+
 void OpeningTest::brokenFile_ofTheDialog_isTold() {
   WindowFixture f;
   f.openSmall();

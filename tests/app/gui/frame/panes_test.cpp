@@ -7,10 +7,12 @@
 #include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
+#include <QMenu>
 #include <QSettings>
 #include <QSplitter>
 #include <QTabBar>
 #include <QTabWidget>
+#include <QToolButton>
 
 namespace episcope::in_panes_test {
 
@@ -43,6 +45,10 @@ class PanesTest : public QObject {
   void tabs_canBeTornOff_andComeBackAtTheirPlace();
   void tornOffPane_hearsTheKeysOfTheViewer();
   void layout_isRememberedAndReset();
+  void panes_areStackedBelowTheTabs_andComeBack();
+  void stackedPane_mayBeTornOff();
+  void stack_isRememberedAndReset();
+  void everyTab_isInTheList();
 };
 
 void PanesTest::epis_canBeOfAnyHeight() {
@@ -176,6 +182,109 @@ void PanesTest::layout_isRememberedAndReset() {
   QVERIFY(!other.bench().frame.panes().isTorn("tab.cloud"));
   QVERIFY(other.bench().frame.arePanelsShown());
   QTRY_COMPARE_WITH_TIMEOUT(other.bench().jobs.count(), 0, kScenePatience);
+}
+
+void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
+  WindowFixture f;
+  f.openSmall();
+  Frame& frame = f.window.bench().frame;
+  auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  auto* stack = f.window.findChild<QTabWidget*>("tabs.stack");
+  QVERIFY(!stack->isVisible());
+  frame.showTab("compare");
+  QWidget* compare = tabs->currentWidget();
+  const int place = tabs->currentIndex();
+
+  f.key(Qt::Key_F6, Qt::ShiftModifier);
+  QVERIFY(stack->isVisible() && compare->isVisible());
+  QVERIFY(stack->currentWidget()->isAncestorOf(compare));
+  frame.showTab("estimate");
+  QVERIFY(compare->isVisible());  // both are seen
+
+  f.key(Qt::Key_F7, Qt::ShiftModifier);
+  f.key(Qt::Key_F8, Qt::ShiftModifier);
+  auto& stage = f.window.bench().stage;
+  QCOMPARE(stack->count(), 3);
+  QVERIFY(stage.verticalEpi()->isVisible() && !stage.horizontalEpi()->isVisible());
+  QVERIFY(!compare->isVisible());
+  QVERIFY(f.window.height() <= 800);  // what finds no room is scrolled
+  frame.showTab("compare");
+  QVERIFY(compare->isVisible() && !stage.verticalEpi()->isVisible());
+
+  f.key(Qt::Key_F7, Qt::ShiftModifier);
+  QTRY_VERIFY(stage.horizontalEpi()->isVisible());
+  QVERIFY(!stack->isAncestorOf(stage.horizontalEpi()));
+  emit stack->tabCloseRequested(stack->currentIndex());
+  QCOMPARE(tabs->indexOf(compare), place);
+  QCOMPARE(frame.shownTab(), QString("compare"));
+  f.trigger("panes.stack.epi.vertical");
+  QVERIFY(!stack->isVisible());
+  QTRY_VERIFY(stage.verticalEpi()->isVisible());
+}
+
+void PanesTest::stackedPane_mayBeTornOff() {
+  WindowFixture f;
+  f.openSmall();
+  auto* epi = f.window.bench().stage.horizontalEpi();
+  f.trigger("panes.stack.epi.horizontal");
+  f.trigger("panes.epi.horizontal");
+  QVERIFY(epi->isVisible() && epi->window() != &f.window);
+  QVERIFY(!f.window.findChild<QTabWidget*>("tabs.stack")->isVisible());
+  f.trigger("panes.stack.epi.horizontal");
+  QCOMPARE(epi->window(), &f.window);
+  QVERIFY(f.window.findChild<QTabWidget*>("tabs.stack")->isAncestorOf(epi) && epi->isVisible());
+  QVERIFY(!f.window.bench().commands.find("panes.epi.horizontal")->isChecked());
+}
+
+void PanesTest::stack_isRememberedAndReset() {
+  WindowFixture f;
+  f.openSmall();
+  f.window.bench().frame.showTab("compare");
+  f.trigger("panes.stack_tab");
+  f.trigger("panes.stack.epi.vertical");
+  drag_handle(splitter(f.window, "split.side"), {0, 60});
+  const int height = f.window.findChild<QTabWidget*>("tabs.stack")->height();
+  f.window.close();
+
+  MainWindow other;
+  other.resize(1280, 800);
+  other.show();
+  other.start(f.path("edge/lf.h5"));
+  auto* stack = other.findChild<QTabWidget*>("tabs.stack");
+  QCOMPARE(stack->count(), 2);
+  // The panels below may want some pixels more or less than before.
+  QTRY_VERIFY2(std::abs(stack->height() - height) < 10,
+               qPrintable(QString::number(stack->height())));
+  QVERIFY(other.bench().frame.panes().isStacked("tab.compare"));
+  QVERIFY(stack->isAncestorOf(other.bench().stage.verticalEpi()));
+
+  QVERIFY(other.bench().commands.trigger("panes.reset"));
+  QCOMPARE(stack->count(), 0);
+  QVERIFY(!stack->isVisible());
+  QTRY_COMPARE_WITH_TIMEOUT(other.bench().jobs.count(), 0, kScenePatience);
+}
+
+// However many there are, and however long their titles.
+void PanesTest::everyTab_isInTheList() {
+  WindowFixture f;
+  f.openSmall();
+  const Frame& frame = f.window.bench().frame;
+  for (const Tab& tab : frame.tabs()) f.window.bench().frame.showTab(tab.id);
+  auto* tabs = f.window.findChild<QTabWidget*>("tabs");
+  QVERIFY(tabs->tabBar()->width() <= tabs->width());
+  auto* list = f.window.findChild<QToolButton*>("tabs.list");
+  QVERIFY(list->isVisible());
+  emit list->menu()->aboutToShow();
+  const auto actions = list->menu()->actions();
+  QCOMPARE(static_cast<std::size_t>(actions.size()), frame.tabs().size());
+
+  for (int i = 0; i < actions.size(); ++i) {
+    actions[i]->trigger();
+    const QRect shown = tabs->tabBar()->tabRect(tabs->currentIndex());
+    QCOMPARE(frame.shownTab(), frame.tabs()[static_cast<std::size_t>(i)].id);
+    QVERIFY2(shown.left() >= -20 && shown.right() <= tabs->tabBar()->width() + 20,
+             qPrintable(frame.shownTab()));  // it is scrolled to
+  }
 }
 
 }  // namespace episcope::in_panes_test

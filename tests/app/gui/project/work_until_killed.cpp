@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The window that ships, worked with on several light fields until it is killed: methods, strokes,
-// names, one light field after the other. After each step it tells how many results there are, how
-// many of them files keep, and how many strokes.
-// Usage: work_until_killed <state folder> <seed> <light field>…
+// names, a project that is saved, one light field after the other. After each step it tells how
+// many results there are, how many of them files keep, and how many strokes. Usage:
+// work_until_killed <state folder> <seed> <light field>…
 #include "app/gui/annotate/annotate_controller.h"
 #include "app/gui/document/document_controller.h"
 #include "app/gui/estimate/estimate_controller.h"
@@ -11,6 +11,7 @@
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/autosave.h"
+#include "app/gui/project/project_controller.h"
 #include "app/session/session.h"
 #include "tests/app/gui/paint_stroke.h"
 #include "tests/patience.h"
@@ -46,6 +47,13 @@ void estimate(MainWindow& window) {
   window.findChild<EstimateController*>()->run({"st_ch_l", {}, {.views = ViewSelection::Center}});
   (void)QTest::qWaitFor([&] { return window.bench().session.estimates().size() > before; },
                         kScenePatience);
+}
+
+void save(MainWindow& window, const std::filesystem::path& file) {
+  bool is_saved = false;
+  window.findChild<ProjectController*>()->saveTo(QString::fromStdString(file.string()),
+                                                 [&is_saved] { is_saved = true; });
+  (void)QTest::qWaitFor([&] { return is_saved; }, kScenePatience);
 }
 
 void tell(const MainWindow& window, int strokes) {
@@ -88,12 +96,15 @@ int main(int argc, char** argv) {
   window.findChild<AnnotateController*>()->setAnnotating(true);
   int strokes = 0;
   for (int number = 0;; ++number) {
-    switch (random() % 4) {
+    switch (random() % 5) {
       case 0:
         show_any(window, random);
         break;
       case 1:
         estimate(window);
+        break;
+      case 2:
+        save(window, state / "work.episcope");
         break;
       default: {
         // What changes no pixel is no step.

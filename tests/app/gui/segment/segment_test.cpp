@@ -160,6 +160,9 @@ void SegmentTest::overlays_areDrawn() {
   QCOMPARE(f.window.bench().overlay.quantity(), Quantity::View);
   f.key(Qt::Key_P);
   QCOMPARE(f.window.bench().overlay.quantity(), Quantity::Probability);
+  const QString label = QString::fromStdString(f.window.bench().labels.info()->name);
+  const Overlay& overlay = f.window.bench().overlay;
+  QVERIFY2(overlay.describe(overlay.choice()).contains(label), qPrintable(label));
 }
 
 void SegmentTest::recolouredLabel_isSeenAtOnce() {

@@ -43,7 +43,19 @@ Project sample(const std::filesystem::path& folder) {
   scene.labels.strokes = 0x123456789abcdef0;
   ProjectScene demo;
   demo.name = demo.input = "demo";
-  return {{scene, demo}, 1, 0.1, {}};
+  scene.id = 11;
+  demo.id = 12;
+  SweepPoint point{.point = {{"inner_scale", 0.5}}, .estimate = {}, .display_range = {-1, 2}};
+  point.seconds = 1.5;
+  point.vmv2013 = {{"mse_100", 0.25}};
+  point.change_px = 0.125;
+  SweepPoint failed{.point = {{"inner_scale", 1.0}}, .estimate = {}};
+  failed.problem = "not enough memory";
+  Sweep sweep;
+  sweep.base = {"epi_l", {{"outer_scale", 2.0}}, {.views = ViewSelection::Center}};
+  sweep.swept = {{"inner_scale", {0.5, 1.0}}};
+  sweep.scenes = {{12, "demo", {point, failed}}, {11, scene.name, {point}}};
+  return {{scene, demo}, 1, 0.1, {sweep}, {}};
 }
 
 std::string text_of(const std::filesystem::path& path) {
@@ -59,6 +71,8 @@ class ProjectFileTest : public QObject {
 
  private slots:
   void project_readsBack();
+  void sweeps_readBack();
+  void sweepsOfUnknownMethods_areLeftOut();
   void paths_moveWithTheFile();
   void truncatedFile_isRefusedInASentence();
   void otherFiles_areRefused_data();
@@ -99,6 +113,47 @@ void ProjectFileTest::project_readsBack() {
   QVERIFY(scene.results[0].is_shown && !scene.results[0].is_compared);
   QCOMPARE(read.scenes[1].input, std::string("demo"));
   QVERIFY(!read.scenes[1].place.quantity);
+}
+
+void ProjectFileTest::sweeps_readBack() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  const Project project = sample(root);
+
+  write_project(root / "work.episcope", project);
+  const Project read = read_project(root / "work.episcope");
+
+  QCOMPARE(read.sweeps.size(), 1U);
+  const Sweep& sweep = read.sweeps[0];
+  QCOMPARE(sweep.base.method, std::string("epi_l"));
+  QVERIFY(sweep.base.parameters == project.sweeps[0].base.parameters);
+  QCOMPARE(sweep.swept.size(), 1U);
+  QVERIFY(sweep.swept[0].values == project.sweeps[0].swept[0].values);
+  QCOMPARE(sweep.scenes.size(), 2U);
+  QCOMPARE(sweep.scenes[0].scene, read.scenes[1].id);
+  QCOMPARE(sweep.scenes[0].name, std::string("demo"));
+  const SweepPoint& point = sweep.scenes[0].points.at(0);
+  const SweepPoint& before = project.sweeps[0].scenes[0].points[0];
+  QVERIFY(point.point == before.point && point.vmv2013 == before.vmv2013);
+  QCOMPARE(point.change_px, before.change_px);
+  QCOMPARE(point.seconds, 1.5);
+  QCOMPARE(point.display_range, (Interval{-1, 2}));
+  QCOMPARE(sweep.scenes[0].points.at(1).problem, std::string("not enough memory"));
+}
+
+// As a later program may write them.
+void ProjectFileTest::sweepsOfUnknownMethods_areLeftOut() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  Project project = sample(root);
+  project.sweeps.push_back(project.sweeps[0]);
+  project.sweeps[0].base.method = "later";
+  project.sweeps.push_back(project.sweeps[1]);
+  project.sweeps[2].swept[0].key = "later";
+
+  write_project(root / "work.episcope", project);
+
+  QCOMPARE(read_project(root / "work.episcope").sweeps.size(), 1U);
 }
 
 void ProjectFileTest::paths_moveWithTheFile() {

@@ -3,6 +3,7 @@
 #include "tests/test_main.h"
 
 #include "app/session/judge/judge.h"
+#include "app/session/sweep/sweep_list.h"
 #include "app/session/sweep/sweep_table.h"
 #include "app/session/sweep/sweep_values.h"
 #include "engine/core/error.h"
@@ -116,13 +117,55 @@ class SweepTest : public QObject {
     QCOMPARE(lines[1].places[0].x, 1.0);
   }
 
+  void mean_isOfAllLightFieldsThatHaveThePoint() {
+    SweepPoint one{.point = {{"lambda", 1.0}}, .estimate = {}}, other = one;
+    one.vmv2013 = {{"mse_100", 0.5}};
+    other.vmv2013 = {{"mse_100", 1.5}};
+    const std::vector<SweepScene> scenes{{1, "edge", {one, one}}, {2, "slant", {other}}};
+
+    QCOMPARE(mean_of(scenes, 0, SweepMeasure::MseTimes100), std::optional(1.0));
+    QVERIFY(!mean_of(scenes, 1, SweepMeasure::MseTimes100));  // of one only
+    QVERIFY(!mean_of(scenes, 0, SweepMeasure::Seconds));
+    QCOMPARE(common_count(scenes), 1U);
+    const TextTable table = sweep_table(scenes, {{"method", "epi_s"}});
+    QCOMPARE(table.rows.size(), 3U);
+    QCOMPARE(table.rows[2][0], std::string("slant"));
+  }
+
+  void list_givesBackWhatItWasGiven_andForgetsClosedScenes() {
+    int changes = 0;
+    SweepList list;
+    list.on_changed([&changes] { ++changes; });
+    Sweep sweep;
+    sweep.scenes = {{7, "edge"}, {8, "slant"}};
+    const std::uint64_t id = list.add(sweep);
+    list.add_point(id, 8, {.point = {{"lambda", 1.0}}, .estimate = {}});
+    list.add_point(id, 9, {.point = {{"lambda", 1.0}}, .estimate = {}});  // of no scene of it
+    QVERIFY(list.find(id, {1, 0}));
+    QVERIFY(!list.find(id, {1, 1}) && !list.find(id, {0, 0}));
+    QCOMPARE(changes, 2);
+
+    const Sweep written = *list.find(id);
+    list.mark_saved(written);
+    QVERIFY(list.find(id)->is_saved);
+    list.add_point(id, 7, {.point = {{"lambda", 1.0}}, .estimate = {}});
+    list.mark_saved(written);  // which lacks a point
+    QVERIFY(!list.find(id)->is_saved);
+
+    list.keep_scenes({8, 20});
+    QCOMPARE(list.find(id)->scenes.size(), 1U);
+    QCOMPARE(list.find(id)->scenes[0].scene, 8U);
+    list.keep_scenes({});
+    QVERIFY(list.all().empty());
+  }
+
   void table_hasARowForEachPoint() {
     SweepPoint judged{.point = {{"lambda", 1.0}}, .estimate = {}};
     judged.seconds = 2;
     judged.vmv2013 = {{"mse_100", 0.5}};
     SweepPoint failed{.point = {{"lambda", 2.0}}, .estimate = {}};
     failed.problem = "not enough memory";
-    const TextTable table = sweep_table({judged, failed}, {{"scene", "edge"}});
+    const TextTable table = sweep_table({{1, "edge", {judged, failed}}}, {});
     QVERIFY(table.header == std::vector<std::string>({"scene", "lambda", "vmv2013.mse_100",
                                                       "seconds", "change_px", "problem"}));
     QVERIFY(table.rows[0] == std::vector<std::string>({"edge", "1", "0.5", "2", "", ""}));

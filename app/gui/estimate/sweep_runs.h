@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/session/sweep/sweep.h"
+
+#include <QObject>
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope {
+
+/// Runs sweeps in the background, one at a time, one light field after the other; those that are on
+/// disk only are read for it. Points go to the list of sweeps (SceneSwitcher::sweeps).
+class SweepRuns : public QObject {
+  Q_OBJECT
+
+ public:
+  explicit SweepRuns(const Workbench& bench);
+
+  /// Begins a sweep at these points (`sweep_points`). Returns its id. Precondition: none runs, and
+  /// its scenes are open.
+  std::uint64_t run(Sweep sweep, const std::vector<ParameterSet>& points);
+  void cancel();
+  [[nodiscard]] bool isRunning() const { return job_ != 0; }
+  /// Of the one that runs, or ran last.
+  [[nodiscard]] std::uint64_t sweep() const { return sweep_; }
+
+ signals:
+  void ended(quint64 sweep);
+
+ private:
+  Workbench bench_;
+  quint64 job_ = 0;  // 0 = none runs
+  std::uint64_t sweep_ = 0;
+};
+
+}  // namespace episcope

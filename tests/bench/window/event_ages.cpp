@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "tests/bench/window/event_ages.h"
+
+#include <QCoreApplication>
+#include <QTest>
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+
+namespace episcope::bench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Milliseconds = std::chrono::duration<double, std::milli>;
+
+constexpr auto kInterval = std::chrono::milliseconds(5);
+
+}  // namespace
+
+std::vector<double> event_ages(QObject& window, const std::function<void(int)>& input,
+                               const std::function<bool()>& has_ended, int patience_ms) {
+  std::vector<double> ages;
+  std::atomic<bool> ends{false};
+  std::jthread clock([&] {
+    for (int number = 0; !ends; ++number) {
+      QMetaObject::invokeMethod(
+          &window,
+          [&, number, posted = Clock::now()] {
+            ages.push_back(Milliseconds(Clock::now() - posted).count());
+            if (number % kEventsPerInput == 0) input(number / kEventsPerInput);
+          },
+          Qt::QueuedConnection);
+      std::this_thread::sleep_for(kInterval);
+    }
+  });
+  (void)QTest::qWaitFor(has_ended, patience_ms);
+  ends = true;
+  clock.join();
+  QCoreApplication::processEvents();  // the last of them still refer to `ages`
+  return ages;
+}
+
+double percentile(std::vector<double> values, double share) {
+  std::sort(values.begin(), values.end());
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+}  // namespace episcope::bench
