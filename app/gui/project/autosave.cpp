@@ -25,7 +25,7 @@ bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
            return !scene.results.empty() || scene.labels.covers_many() ||
-                  !scene.place.measured.list.empty() || !scene.place.capture.pairs.empty();
+                  !scene.place.measured.list.empty() || !scene.place.capture.empty();
          });
 }
 
@@ -57,7 +57,7 @@ Autosave::~Autosave() {
 }
 
 void Autosave::follow(Parts parts) {
-  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) {
+  if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture)) {
     schedule();
   } else if (!later_.isActive()) {
     later_.start();
