@@ -293,9 +293,10 @@ void Session::set_measurements(const Measurements& measured) {
 }
 
 void Session::set_capture(const CaptureWork& work) {
-  if (!now_->scene || work == now_->place.capture) return;
-  now_->place.capture = work;
-  changed(Part::Capture);
+  if (!now_->scene) return;
+  const bool is_news = work != now_->place.capture;
+  now_->place.capture = work;  // poses, which follow from it, may be news although it is none
+  if (is_news) changed(Part::Capture);
 }
 
 void Session::set_judged(std::uint64_t id, const JudgedPart& part) {

@@ -158,7 +158,7 @@ class Session {
 
   /// What was measured by hand in EPIs.
   void set_measurements(const Measurements& measured);
-  /// The mesh that is posed before the light field, and the pairs picked on it.
+  /// What was done on the way from photographs to ground truth.
   void set_capture(const CaptureWork& work);
   /// Which pixels metrics are of, of an open scene. Ignored for an unknown one.
   void set_judged(std::uint64_t scene, const JudgedPart& part);

@@ -664,16 +664,8 @@
         <translation>Lichtfeld (*.h5)</translation>
     </message>
     <message>
-        <source>Opening %1</source>
-        <translation>%1 wird geöffnet</translation>
-    </message>
-    <message>
         <source>%1 · %2 faces</source>
         <translation>%1 · %2 Dreiecke</translation>
-    </message>
-    <message>
-        <source>Depth of the mesh</source>
-        <translation>Tiefe des Netzes</translation>
     </message>
     <message>
         <source>Open a light field first.</source>
@@ -711,12 +703,59 @@
         <source>, ± %1 px of disparity</source>
         <translation>, ± %1 px Disparität</translation>
     </message>
+    <message>
+        <source>%1 is being read…</source>
+        <translation>%1 wird gelesen…</translation>
+    </message>
+    <message>
+        <source>%1 cannot be read</source>
+        <translation>%1 kann nicht gelesen werden</translation>
+    </message>
 </context>
 <context>
     <name>episcope::CaptureFiles</name>
     <message>
         <source>%1 is there already; name a new file, so that no light field is lost</source>
         <translation>%1 gibt es schon; eine neue Datei angeben, damit kein Lichtfeld verloren geht</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::CaptureObjects</name>
+    <message>
+        <source>Remove</source>
+        <translation>Entfernen</translation>
+    </message>
+    <message>
+        <source>Removes this object with its pairs</source>
+        <translation>Entfernt dieses Objekt mit seinen Punktpaaren</translation>
+    </message>
+    <message>
+        <source>Objects</source>
+        <translation>Objekte</translation>
+    </message>
+    <message>
+        <source>The object whose pairs are picked; type to rename it. Each has its own mesh and pose.</source>
+        <translation>Das Objekt, dessen Punktpaare gewählt werden; zum Umbenennen tippen. Jedes hat sein eigenes Netz und seine eigene Pose.</translation>
+    </message>
+    <message>
+        <source>Add…</source>
+        <translation>Hinzufügen…</translation>
+    </message>
+    <message>
+        <source>Adds one more object, with a mesh of its own</source>
+        <translation>Fügt ein weiteres Objekt mit eigenem Netz hinzu</translation>
+    </message>
+    <message>
+        <source>Open mesh…</source>
+        <translation>Netz öffnen…</translation>
+    </message>
+    <message>
+        <source>A scan of what the light field shows: PLY, OBJ or STL</source>
+        <translation>Ein Scan dessen, was das Lichtfeld zeigt: PLY, OBJ oder STL</translation>
+    </message>
+    <message>
+        <source>No mesh</source>
+        <translation>Kein Netz</translation>
     </message>
 </context>
 <context>
@@ -734,24 +773,8 @@
         <translation>Das Fadenkreuz und der markierte Punkt des Netzes sind derselbe Punkt</translation>
     </message>
     <message>
-        <source>Undo</source>
-        <translation>Rückgängig</translation>
-    </message>
-    <message>
-        <source>Takes back the last change</source>
-        <translation>Nimmt die letzte Änderung zurück</translation>
-    </message>
-    <message>
         <source>Takes the corner or the centre of the blob beside the cross-hair, to a fraction of a pixel</source>
         <translation>Nimmt die Ecke oder die Mitte des Flecks neben dem Fadenkreuz, auf Bruchteile eines Pixels</translation>
-    </message>
-    <message>
-        <source>Open mesh…</source>
-        <translation>Netz öffnen…</translation>
-    </message>
-    <message>
-        <source>A scan of what the light field shows: PLY, OBJ or STL</source>
-        <translation>Ein Scan dessen, was das Lichtfeld zeigt: PLY, OBJ oder STL</translation>
     </message>
     <message>
         <source>Open a mesh of what the light field shows. Then set the cross-hair in the centre view, click the same point of the mesh here, and add the pair. Four pairs give its pose.
@@ -830,10 +853,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Schreibt das Lichtfeld mit der Tiefe des Netzes in allen Ansichten</translation>
     </message>
     <message>
-        <source>No mesh</source>
-        <translation>Kein Netz</translation>
-    </message>
-    <message>
         <source>%1 px</source>
         <translation>%1 px</translation>
     </message>
@@ -860,6 +879,14 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>A locked pair is right: it is not removed, nor taken for a wrong pick</source>
         <translation>Ein gesperrtes Punktpaar ist richtig: Es wird nicht entfernt und nicht für falsch gewählt gehalten</translation>
+    </message>
+    <message>
+        <source>Undo the last change of this tab</source>
+        <translation>Die letzte Änderung in diesem Reiter zurücknehmen</translation>
+    </message>
+    <message>
+        <source>Redo the last undone change</source>
+        <translation>Die zuletzt zurückgenommene Änderung wiederherstellen</translation>
     </message>
 </context>
 <context>
@@ -3073,6 +3100,24 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     </message>
 </context>
 <context>
+    <name>episcope::MeshResults</name>
+    <message>
+        <source>Left out, for lack of a mesh or a pose: %1.</source>
+        <translation>Ausgelassen, weil Netz oder Pose fehlt: %1.</translation>
+    </message>
+    <message>
+        <source>Depth of the mesh</source>
+        <translation>Tiefe des Netzes</translation>
+    </message>
+</context>
+<context>
+    <name>episcope::MeshShelf</name>
+    <message>
+        <source>Opening %1</source>
+        <translation>%1 wird geöffnet</translation>
+    </message>
+</context>
+<context>
     <name>episcope::MessageBar</name>
     <message>
         <source>Close this message</source>
@@ -4140,6 +4185,10 @@ s</translation>
     <message>
         <source>sweep of %1</source>
         <translation>Versuchsreihe mit %1</translation>
+    </message>
+    <message>
+        <source>Pairs of points that are not saved: on %1.</source>
+        <translation>Nicht gespeicherte Punktpaare: auf %1.</translation>
     </message>
 </context>
 <context>

@@ -14,8 +14,13 @@ Project seed_project(const std::filesystem::path& folder) {
   scene.results.push_back({.name = "EPI_S", .file = folder / "seed_files/a_EPI_S.h5"});
   scene.place.tone.gamma = 2;
   scene.place.label_marks.hidden = {1, 2};
-  scene.place.capture.mesh = (folder / "mesh.ply").string();
-  scene.place.capture.pairs = {{"p", 1, 2, {3, 4, 5}}};
+  scene.place.capture.lens = CaptureLens{.camera = {64, 48, 60, 60, 32, 24, {-0.1}, 0.2},
+                                         .photographs = {{"01.png", 0.2}, {"02.png", 0, "blur"}}};
+  scene.place.capture.rows = RowAlignment{{0.1, 0.5}, {0.01, 0.05}};
+  scene.place.capture.objects = {{.name = "head",
+                                  .mesh = (folder / "mesh.ply").string(),
+                                  .pairs = {{"p", 1, 2, {3, 4, 5}}},
+                                  .pose = capture::SolvedPose{.pairs = {{0.5}}}}};
   scene.place.measured.list.push_back({.name = "line"});
   scene.place.comparison.shows_difference = true;
   Project project;

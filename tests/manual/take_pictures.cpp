@@ -122,8 +122,7 @@ class Player {
     if (const QString problem = run("tab.capture"); !problem.isEmpty()) return problem;
     auto& capture = find<CaptureController>(fixture_.window);
     capture.photographs().makeDemo(fixture_.path(""), {});
-    const bool is_there =
-        QTest::qWaitFor([&] { return !capture.pairs().all().empty(); }, kPatience_ms);
+    const bool is_there = QTest::qWaitFor([&] { return !capture.pairs().empty(); }, kPatience_ms);
     return is_there ? QString() : "the demo is not there";
   }
 

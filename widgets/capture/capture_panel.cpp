@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "widgets/capture/capture_panel.h"
 
+#include "widgets/capture/capture_objects.h"
 #include "widgets/capture/photograph_steps.h"
 #include "widgets/cloud/point_cloud_view.h"
-#include "widgets/controls/elided_label.h"
+#include "widgets/controls/tool_button.h"
 #include "widgets/style/number_text.h"
 #include "widgets/style/theme.h"
 
@@ -16,9 +17,11 @@
 #include <QSignalBlocker>
 #include <QStackedLayout>
 #include <QTableWidget>
+#include <QToolButton>
 #include <QVBoxLayout>
 
 #include <algorithm>
+#include <initializer_list>
 #include <memory>
 
 namespace episcope {
@@ -58,14 +61,16 @@ QString point_text(const std::array<double, 3>& point) {
 CapturePanel::CapturePanel(QWidget* parent)
     : QWidget(parent),
       steps_(new PhotographSteps(this)),
-      mesh_(make_text(this, "capture.mesh")),
+      objects_(new CaptureObjects(this)),
       hint_(make_text(this, "capture.hint")),
       next_(make_text(this, "capture.next")),
       pose_(make_text(this, "capture.pose")),
       snap_(new QCheckBox(tr("Snap"), this)),
       add_(make_button(this, "capture.add", tr("Add pair"),
                        tr("The cross-hair and the marked point of the mesh are the same point"))),
-      undo_(make_button(this, "capture.undo", tr("Undo"), tr("Takes back the last change"))),
+      undo_(
+          make_tool_button({"capture.undo", "undo", tr("Undo the last change of this tab")}, this)),
+      redo_(make_tool_button({"capture.redo", "redo", tr("Redo the last undone change")}, this)),
       table_(new QTableWidget(this)),
       stack_(new QStackedLayout) {
   setObjectName("capturePanel");
@@ -80,20 +85,16 @@ CapturePanel::CapturePanel(QWidget* parent)
   layout->addWidget(makeView(), 3);
   layout->addWidget(makePairs(), 2);
   layout->addWidget(makeResults());
-  setMesh({}, std::make_shared<const CloudParts>());
+  setMesh(std::make_shared<const CloudParts>());
   setRows({});
   setNext({}, std::nullopt, false);
   setPose({}, false);
   setUndoable(false);
+  setRedoable(false);
 }
 
 QWidget* CapturePanel::makeView() {
   auto* part = new QWidget(this);
-  auto* open = make_button(part, "capture.open", tr("Open mesh…"),
-                           tr("A scan of what the light field shows: PLY, OBJ or STL"));
-  auto* row = new QHBoxLayout;
-  row->addWidget(mesh_, 1);
-  row->addWidget(open);
   hint_->setText(
       tr("Open a mesh of what the light field shows. Then set the cross-hair in the "
          "centre view, click the same point of the mesh here, and add the pair. Four "
@@ -106,9 +107,8 @@ QWidget* CapturePanel::makeView() {
   stack_->addWidget(made);
   auto* layout = new QVBoxLayout(part);
   layout->setContentsMargins(0, 0, 0, 0);
-  layout->addLayout(row);
+  layout->addWidget(objects_);
   layout->addLayout(stack_, 1);
-  connect(open, &QPushButton::clicked, this, &CapturePanel::openRequested);
   return part;
 }
 
@@ -135,7 +135,9 @@ QWidget* CapturePanel::makePairs() {
   auto* import = make_button(part, "capture.import", tr("Import…"), tr("Adds pairs from CSV"));
   auto* save = make_button(part, "capture.export", tr("Export…"), tr("Writes all pairs as CSV"));
   auto* buttons = new QHBoxLayout;
-  for (QPushButton* each : {remove, undo_, import, save}) buttons->addWidget(each);
+  for (QWidget* each : std::initializer_list<QWidget*>{remove, undo_, redo_, import, save}) {
+    buttons->addWidget(each);
+  }
   auto* next = new QHBoxLayout;
   next->addWidget(next_, 1);
   next->addWidget(snap_);
@@ -148,7 +150,8 @@ QWidget* CapturePanel::makePairs() {
   connect(snap_, &QCheckBox::toggled, this, &CapturePanel::snapChanged);
   connect(add_, &QPushButton::clicked, this, &CapturePanel::addRequested);
   connect(remove, &QPushButton::clicked, this, &CapturePanel::removeRequested);
-  connect(undo_, &QPushButton::clicked, this, &CapturePanel::undoRequested);
+  connect(undo_, &QToolButton::clicked, this, &CapturePanel::undoRequested);
+  connect(redo_, &QToolButton::clicked, this, &CapturePanel::redoRequested);
   connect(import, &QPushButton::clicked, this, &CapturePanel::importRequested);
   connect(save, &QPushButton::clicked, this, &CapturePanel::exportRequested);
   return part;
@@ -176,8 +179,7 @@ QWidget* CapturePanel::makeResults() {
   return part;
 }
 
-void CapturePanel::setMesh(const QString& title, const CloudPartsPtr& mesh) {
-  mesh_->setText(title.isEmpty() ? tr("No mesh") : title);
+void CapturePanel::setMesh(const CloudPartsPtr& mesh) {
   stack_->setCurrentIndex(mesh->empty() ? 0 : 1);
   if (!view_ || mesh->empty()) return;
   view_->setParts(mesh);
@@ -258,6 +260,10 @@ void CapturePanel::setPose(const QString& text, bool is_known) {
 
 void CapturePanel::setUndoable(bool is_undoable) {
   undo_->setEnabled(is_undoable);
+}
+
+void CapturePanel::setRedoable(bool is_redoable) {
+  redo_->setEnabled(is_redoable);
 }
 
 bool CapturePanel::snaps() const {

@@ -16,9 +16,11 @@ class QLabel;
 class QPushButton;
 class QStackedLayout;
 class QTableWidget;
+class QToolButton;
 
 namespace episcope {
 
+class CaptureObjects;
 class PhotographSteps;
 class PointCloudView;
 
@@ -39,8 +41,8 @@ class CapturePanel : public QWidget {
  public:
   explicit CapturePanel(QWidget* parent = nullptr);
 
-  /// `title`: what is known of the mesh, or why there is none.
-  void setMesh(const QString& title, const CloudPartsPtr& mesh);
+  /// The mesh of the current object; without parts a hint is shown.
+  void setMesh(const CloudPartsPtr& mesh);
   void setRows(const std::vector<CaptureRow>& rows);
   /// What the next pair would be: the text of its pixel, its point if one is marked, and whether
   /// both are there.
@@ -54,21 +56,23 @@ class CapturePanel : public QWidget {
   /// What is known of the pose, or what is missing.
   void setPose(const QString& text, bool is_known);
   void setUndoable(bool is_undoable);
+  void setRedoable(bool is_redoable);
   /// Whether picks are to move to the corner or blob beside them.
   [[nodiscard]] bool snaps() const;
   [[nodiscard]] PhotographSteps* steps() const { return steps_; }
+  [[nodiscard]] CaptureObjects* objects() const { return objects_; }
   [[nodiscard]] std::vector<int> selectedRows() const;
   /// It is selected, or under the mouse.
   [[nodiscard]] bool isEmphasised(int row) const;
 
  signals:
-  void openRequested();
   void importRequested();
   void exportRequested();
   void snapChanged();
   void addRequested();
   void removeRequested();
   void undoRequested();
+  void redoRequested();
   void renamed(int row, const QString& name);
   void lockChanged(int row, bool is_locked);
   /// Rows were selected, or the mouse is over another one.
@@ -93,13 +97,14 @@ class CapturePanel : public QWidget {
 
  private:
   PhotographSteps* steps_;
-  QLabel* mesh_;
+  CaptureObjects* objects_;
   QLabel* hint_;
   QLabel* next_;
   QLabel* pose_;
   QCheckBox* snap_;
   QPushButton* add_;
-  QPushButton* undo_;
+  QToolButton* undo_;
+  QToolButton* redo_;
   QTableWidget* table_;
   QStackedLayout* stack_;
   std::vector<QPushButton*> of_pose_;  // need one

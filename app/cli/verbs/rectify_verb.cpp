@@ -116,12 +116,13 @@ void run_rectify(const VerbArguments& arguments, std::stop_token stop) {
   Job job(std::move(stop), request.job);
   Scene scene = load_input(request.input, request.read, job.progress().part(0, 0.2));
   for (const auto& warning : scene.convention.warnings) job.note(warning);
-  const auto [rectified, pairs] = rectify_to_file({std::move(scene),
-                                                   camera,
-                                                   {request.step.value_or(1), request.equalise},
-                                                   request.output,
-                                                   std::move(picks)},
-                                                  job.progress().part(0.2, 1));
+  CaptureWork work{.lens = CaptureLens{.camera = camera},
+                   .rectify = {request.step.value_or(1), request.equalise}};
+  work.objects = {{.name = request.picks, .pairs = std::move(picks)}};
+  const RectifiedFile made = rectify_to_file({std::move(scene), std::move(work), request.output},
+                                             job.progress().part(0.2, 1));
+  const std::vector<capture::PointPair>& pairs = made.work.objects[0].pairs;
+  const capture::Rectified& rectified = made.rectified;
   if (!pairs.empty()) capture::write_pairs(request.pairs, pairs);
   job.finish();
   if (request.is_json) return print_json(answer(rectified, request.output));

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/capture_controller.h"
 
+#include "app/gui/capture/capture_documents.h"
 #include "app/gui/capture/capture_files.h"
+#include "app/gui/capture/mesh_results.h"
+#include "app/gui/capture/mesh_shelf.h"
 #include "app/gui/capture/pair_marks.h"
 #include "app/gui/capture/photographs.h"
+#include "app/gui/capture/pose_text.h"
+#include "app/gui/frame/commands.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/frame.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/stage.h"
-#include "app/session/capture/mesh_truth.h"
 #include "app/session/scene/gantry_scene.h"
-#include "app/session/scene/scene_range.h"
 #include "app/session/session.h"
-#include "engine/capture/mesh/mesh_file.h"
 #include "engine/capture/pose/pairs_file.h"
-#include "engine/capture/pose/pose_file.h"
 #include "engine/core/error.h"
-#include "engine/io/archive/write_scene.h"
 #include "widgets/canvas/view_canvas.h"
+#include "widgets/capture/capture_objects.h"
 #include "widgets/capture/capture_panel.h"
 
+#include <QAction>
 #include <QCursor>
 #include <QEvent>
 #include <QFileInfo>
+#include <QKeyEvent>
 #include <QLocale>
 #include <QVBoxLayout>
 
@@ -33,25 +36,23 @@
 
 namespace episcope {
 
-// What a worker makes of a file.
-struct CaptureController::Loaded {
-  std::shared_ptr<const capture::TriangleMesh> mesh;
-  CloudPartsPtr cloud;
-};
-
 CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
     : QObject(&bench.owner),
       bench_(bench),
       tab_(tab),
-      photographs_(new Photographs(
-          bench, [this] { return now_->pairs.all(); }, this)) {
-  followPhotographs();
+      documents_(new CaptureDocuments(bench, this)),
+      shelf_(new MeshShelf(bench, this)),
+      photographs_(new Photographs(bench, *documents_, this)),
+      results_(new MeshResults(bench, *documents_, *shelf_, this)) {
   tab->installEventFilter(this);
+  bench.stage.canvas()->installEventFilter(this);
+  connect(documents_, &CaptureDocuments::changed, this, &CaptureController::show);
+  connect(shelf_, &MeshShelf::changed, this, &CaptureController::show);
   connect(&bench.frame, &Frame::tabShown, this, [this](const QString& id) {
     if (id == "capture") makePanel();
   });
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has(Part::Scene)) followScene();
+    if (parts.has(Part::Scene)) followGantry();
     if (parts.has_any(Part::View | Part::CrossHair)) showNext();
     if (parts.has(Part::View)) showMarks();
   });
@@ -62,55 +63,33 @@ CaptureController::CaptureController(const Workbench& bench, QWidget* tab)
   });
 }
 
-void CaptureController::followScene() {
-  const auto [found, is_new] = of_scenes_.try_emplace(bench_.session.generation());
-  if (is_new) found->second.pairs = PickedPairs(bench_.session.place().capture.pairs);
-  if (std::exchange(now_, &found->second) == &found->second) return;
-  openFormerMesh();
-  changed();
-  followGantry();
+const CaptureWork& CaptureController::work() const {
+  return documents_->now().work();
+}
+
+const std::vector<capture::PointPair>& CaptureController::pairs() const {
+  return documents_->now().pairs();
+}
+
+const std::optional<capture::SolvedPose>& CaptureController::pose() const {
+  static const std::optional<capture::SolvedPose> kNone;
+  const CaptureObject* object = work().object();
+  return object ? object->pose : kNone;
+}
+
+const ReadMesh* CaptureController::mesh() const {
+  const CaptureObject* object = work().object();
+  return object ? shelf_->find(object->mesh) : nullptr;
 }
 
 void CaptureController::followGantry() {
-  if (!panel_ || !is_gantry(builtin_scene_id(bench_.session.input()))) return;
-  if (!now_->pairs.all().empty()) return;
-  const auto demo = gantry_folder(bench_.session.input(), bench_.opener.cacheFolder());
-  if (!demo) return;
-  importPairs(QString::fromStdString(demo->picks().string()));
-  openMesh(QString::fromStdString(demo->mesh().string()));
-  photographs_->calibrateGantry(*demo);
-}
-
-// The mesh that a project names, once it can be seen.
-void CaptureController::openFormerMesh() {
-  const std::string& file = bench_.session.place().capture.mesh;
-  if (panel_ && !file.empty() && file != mesh_file_) loadMesh(QString::fromStdString(file));
-}
-
-// For the project; light fields that are just opened are followed first.
-void CaptureController::keep() {
-  const auto found = of_scenes_.find(bench_.session.generation());
-  if (found == of_scenes_.end() || &found->second != now_) return;
-  std::string mesh = mesh_file_.string();
-  const std::string& former = bench_.session.place().capture.mesh;
-  if (mesh.empty() || now_->pairs.all().empty()) mesh = former;
-  bench_.session.set_capture({mesh, now_->pairs.all()});
-}
-
-// Light fields that it opens are shown already, and not yet told of.
-void CaptureController::followPhotographs() {
-  connect(photographs_, &Photographs::rectified, this,
-          [this](const std::vector<capture::PointPair>& pairs) {
-            followScene();
-            now_->pairs.add(pairs);
-            changed();
-          });
-  connect(photographs_, &Photographs::demoOpened, this,
-          [this](const QString& mesh, const QString& picks) {
-            followScene();
-            importPairs(picks);
-            openMesh(mesh);
-          });
+  const CaptureDocument& document = documents_->now();
+  const std::string& input = bench_.session.input();
+  if (!panel_ || !is_gantry(builtin_scene_id(input))) return;
+  if (!document.work().objects.empty() || document.history().count() > 0) return;
+  if (const auto demo = gantry_folder(input, bench_.opener.cacheFolder())) {
+    photographs_->beginGantry(*demo);
+  }
 }
 
 void CaptureController::makePanel() {
@@ -121,105 +100,128 @@ void CaptureController::makePanel() {
   auto* layout = new QVBoxLayout(tab_);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(panel_);
-  connectPanel();
+  connectObjects();
+  connectPairs();
+  connectResults();
+  connectFiles();
   photographs_->attach(panel_->steps());
-  openFormerMesh();
-  changed();
+  show();
   followGantry();
 }
 
-void CaptureController::connectPanel() {
-  const auto ask = [this](const char* name, const QString& title, const QString& filter,
-                          void (CaptureController::*answer)(const QString&), bool saves,
-                          const QString& proposal = {}) {
-    const FileQuestion question{
-        .name = name, .title = title, .filter = filter, .proposal = proposal};
-    const auto to = [this, answer](const QString& path) { (this->*answer)(path); };
-    return saves ? ask_where_to_save(&bench_.window, question, to)
-                 : ask_for_file(&bench_.window, question, to);
-  };
-  connect(panel_, &CapturePanel::openRequested, this, [=, this] {
-    ask("open_mesh", tr("Open a mesh"), tr("Meshes (*.ply *.obj *.stl)"),
-        &CaptureController::openMesh, false);
+void CaptureController::change(const Change& change) {
+  documents_->change(change);
+}
+
+void CaptureController::connectObjects() {
+  const CaptureObjects* objects = panel_->objects();
+  connect(objects, &CaptureObjects::chosen, this, [this](int object) {
+    change([=](CaptureDocument& document) { document.choose(object); });
   });
-  connect(panel_, &CapturePanel::importRequested, this, [=, this] {
-    ask("import_pairs", tr("Import pairs"), tr("Pairs (*.csv)"), &CaptureController::importPairs,
-        false);
+  connect(objects, &CaptureObjects::renamed, this, [this](const QString& name) {
+    change([&](CaptureDocument& document) { document.rename_object(name.toStdString()); });
   });
-  connect(panel_, &CapturePanel::exportRequested, this, [=, this] {
-    ask("export_pairs", tr("Export pairs"), tr("Pairs (*.csv)"), &CaptureController::exportPairs,
-        true, "pairs.csv");
-  });
-  connect(panel_, &CapturePanel::savePoseRequested, this, [=, this] {
-    ask("save_pose", tr("Save the pose"), tr("Pose (*.json)"), &CaptureController::savePose, true,
-        "pose.json");
-  });
-  connect(panel_, &CapturePanel::writeTruthRequested, this, [=, this] {
-    ask("write_truth", tr("Write the light field with its ground truth"), tr("Light field (*.h5)"),
-        &CaptureController::writeTruth, true, "lf.h5");
-  });
+  connect(objects, &CaptureObjects::removeRequested, this,
+          [this] { change(&CaptureDocument::remove_object); });
+  connect(panel_, &CapturePanel::undoRequested, this, [this] { change(&CaptureDocument::undo); });
+  connect(panel_, &CapturePanel::redoRequested, this, [this] { change(&CaptureDocument::redo); });
+}
+
+void CaptureController::connectPairs() {
   connect(panel_, &CapturePanel::snapChanged, this, &CaptureController::showNext);
   connect(panel_, &CapturePanel::addRequested, this, &CaptureController::addPair);
   connect(panel_, &CapturePanel::emphasisChanged, this, &CaptureController::showMarks);
-  connect(panel_, &CapturePanel::lockChanged, this, [this](int row, bool is_locked) {
-    now_->pairs.lock(row, is_locked);
-    changed();
-  });
   connect(panel_, &CapturePanel::vertexPicked, this, &CaptureController::pickVertex);
-  connect(panel_, &CapturePanel::showRequested, this, &CaptureController::showOverView);
-  connect(panel_, &CapturePanel::removeRequested, this, [this] {
-    now_->pairs.remove(panel_->selectedRows());
-    changed();
+  connect(panel_, &CapturePanel::lockChanged, this, [this](int row, bool is_locked) {
+    change([=](CaptureDocument& document) { document.lock_pair(row, is_locked); });
   });
-  connect(panel_, &CapturePanel::undoRequested, this, [this] {
-    now_->pairs.undo();
-    changed();
+  connect(panel_, &CapturePanel::removeRequested, this, [this] {
+    change([this](CaptureDocument& document) { document.remove_pairs(panel_->selectedRows()); });
   });
   connect(panel_, &CapturePanel::renamed, this, [this](int row, const QString& name) {
-    now_->pairs.rename(row, name.toStdString());
-    changed();
+    change([&](CaptureDocument& document) { document.rename_pair(row, name.toStdString()); });
   });
-  connect(panel_, &CapturePanel::rowChosen, this, [this](int row) {
-    const capture::PointPair& pair = now_->pairs.all()[row];
-    bench_.session.set_view(bench_.session.light_field()->center());
-    bench_.session.set_cross_hair(
-        {static_cast<int>(std::lround(pair.x_px)), static_cast<int>(std::lround(pair.y_px))});
+  connect(panel_, &CapturePanel::rowChosen, this,
+          [this](int row) { goTo(pairs()[static_cast<std::size_t>(row)]); });
+}
+
+void CaptureController::goTo(const capture::PointPair& pair) {
+  bench_.session.set_view(bench_.session.light_field()->center());
+  bench_.session.set_cross_hair(
+      {static_cast<int>(std::lround(pair.y_px)), static_cast<int>(std::lround(pair.x_px))});
+}
+
+void CaptureController::connectResults() {
+  connect(panel_, &CapturePanel::showRequested, results_, &MeshResults::showOverView);
+  connect(panel_, &CapturePanel::savePoseRequested, this, [this] {
+    ask_where_to_save(&bench_.window,
+                      {.name = "save_pose",
+                       .title = tr("Save the pose"),
+                       .filter = tr("Pose (*.json)"),
+                       .proposal = "pose.json"},
+                      [this](const QString& path) { savePose(path); });
+  });
+  connect(panel_, &CapturePanel::writeTruthRequested, this, [this] {
+    ask_where_to_save(&bench_.window,
+                      {.name = "write_truth",
+                       .title = tr("Write the light field with its ground truth"),
+                       .filter = tr("Light field (*.h5)"),
+                       .proposal = "lf.h5"},
+                      [this](const QString& path) { writeTruth(path); });
+  });
+}
+
+void CaptureController::connectFiles() {
+  const auto ask_for_mesh = [this](void (CaptureController::*open)(const QString&)) {
+    ask_for_file(&bench_.window,
+                 {.name = "open_mesh",
+                  .title = tr("Open a mesh"),
+                  .filter = tr("Meshes (*.ply *.obj *.stl)")},
+                 [this, open](const QString& path) { (this->*open)(path); });
+  };
+  connect(panel_->objects(), &CaptureObjects::openMeshRequested, this,
+          [=] { ask_for_mesh(&CaptureController::openMesh); });
+  connect(panel_->objects(), &CaptureObjects::addRequested, this,
+          [=] { ask_for_mesh(&CaptureController::addObject); });
+  connect(panel_, &CapturePanel::importRequested, this, [this] {
+    ask_for_file(
+        &bench_.window,
+        {.name = "import_pairs", .title = tr("Import pairs"), .filter = tr("Pairs (*.csv)")},
+        [this](const QString& path) { importPairs(path); });
+  });
+  connect(panel_, &CapturePanel::exportRequested, this, [this] {
+    ask_where_to_save(&bench_.window,
+                      {.name = "export_pairs",
+                       .title = tr("Export pairs"),
+                       .filter = tr("Pairs (*.csv)"),
+                       .proposal = "pairs.csv"},
+                      [this](const QString& path) { exportPairs(path); });
+  });
+}
+
+void CaptureController::readMesh(const QString& path, const Change& then) {
+  bench_.frame.showTab("capture");
+  makePanel();
+  shelf_->read(path.toStdString(), [this, then] {
+    vertex_.reset();
+    change(then);
   });
 }
 
 void CaptureController::openMesh(const QString& path) {
-  bench_.frame.showTab("capture");
-  makePanel();
-  loadMesh(path);
+  readMesh(path,
+           [file = path.toStdString()](CaptureDocument& document) { document.set_mesh(file); });
 }
 
-void CaptureController::loadMesh(const QString& path) {
-  bench_.jobs.start<Loaded>(
-      Lane::Load, tr("Opening %1").arg(QFileInfo(path).fileName()),
-      [file = path_of(path)](const Progress& progress) {
-        Loaded loaded;
-        loaded.mesh = std::make_shared<const capture::TriangleMesh>(
-            capture::read_mesh(file, progress.part(0, 0.8)));
-        loaded.cloud = mesh_parts(*loaded.mesh);
-        return loaded;
-      },
-      [this, path](const Loaded& loaded) {
-        mesh_ = loaded.mesh;
-        mesh_file_ = path_of(path);
-        vertex_.reset();
-        panel_->setMesh(
-            tr("%1 · %2 faces")
-                .arg(QFileInfo(path).fileName(),
-                     QLocale::c().toString(static_cast<qulonglong>(mesh_->faces.size()))),
-            loaded.cloud);
-        changed();
-      });
+void CaptureController::addObject(const QString& mesh) {
+  readMesh(mesh,
+           [file = mesh.toStdString()](CaptureDocument& document) { document.add_object(file); });
 }
 
 void CaptureController::importPairs(const QString& path) {
   try {
-    now_->pairs.add(capture::read_pairs(path_of(path)));
-    changed();
+    const auto pairs = capture::read_pairs(path_of(path));
+    change([&](CaptureDocument& document) { document.add_pairs(pairs); });
   } catch (const Error& error) {
     bench_.messages.fail(QString::fromUtf8(error.what()));
   }
@@ -228,90 +230,65 @@ void CaptureController::importPairs(const QString& path) {
 void CaptureController::exportPairs(const QString& path) {
   if (!has_suffix(path, {"csv"}, bench_.messages)) return;
   write_in_background(bench_.jobs, bench_.messages, path,
-                      [file = path_of(path), pairs = now_->pairs.all()](const Progress&) {
+                      [file = path_of(path), pairs = pairs()](const Progress&) {
                         capture::write_pairs(file, pairs);
                       });
 }
 
 void CaptureController::savePose(const QString& path) {
-  if (!pose_ || !has_suffix(path, {"json"}, bench_.messages)) return;
-  capture::PoseStory story{mesh_file_, bench_.session.input(),
-                           bench_.session.light_field()->info().camera, now_->pairs.all(), *pose_};
-  write_in_background(
-      bench_.jobs, bench_.messages, path,
-      [file = path_of(path), story](const Progress&) { capture::write_pose(file, story); });
+  results_->savePose(path);
 }
 
 void CaptureController::writeTruth(const QString& path) {
-  if (!pose_ || !mesh_ || !is_new_light_field(path, bench_.messages)) return;
-  write_in_background(bench_.jobs, bench_.messages, path,
-                      [file = path_of(path), mesh = mesh_, pose = pose_->pose,
-                       scene = bench_.session.scene()](const Progress& progress) {
-                        const Scene made =
-                            with_mesh_truth(*mesh, pose, *scene, progress.part(0, 0.9));
-                        io::write_archive(file, made, progress.part(0.9, 1));
-                      });
+  results_->writeTruth(path);
 }
 
 void CaptureController::pickVertex(std::size_t vertex) {
-  if (!mesh_ || vertex >= mesh_->vertices.size()) return;
+  if (!mesh() || vertex >= mesh()->mesh->vertices.size()) return;
   vertex_ = vertex;
   showNext();
 }
 
 void CaptureController::addPair() {
-  if (!vertex_ || !bench_.session.scene()) return;
+  if (!vertex_ || !mesh() || !bench_.session.scene()) return;
   const PixelIndex pixel = bench_.session.cross_hair();
   const auto mark = snapped();
-  const auto& [x, y, z] = mesh_->vertices[*vertex_];
-  now_->pairs.add({{"",
-                    mark ? mark->place.x : static_cast<double>(pixel.x),
-                    mark ? mark->place.y : static_cast<double>(pixel.y),
-                    {x, y, z}}});
+  const auto& [x, y, z] = mesh()->mesh->vertices[*vertex_];
+  const capture::PointPair pair{"",
+                                mark ? mark->place.x : static_cast<double>(pixel.x),
+                                mark ? mark->place.y : static_cast<double>(pixel.y),
+                                {x, y, z}};
   vertex_.reset();
-  changed();
+  change([&](CaptureDocument& document) { document.add_pairs({pair}); });
 }
 
-void CaptureController::showOverView() {
-  if (!pose_ || !mesh_) return;
-  bench_.jobs.start<EstimatePtr>(
-      Lane::Estimate, tr("Depth of the mesh"),
-      [mesh = mesh_, pose = pose_->pose, scene = bench_.session.scene()](const Progress& progress) {
-        return std::make_shared<const Estimate>(mesh_estimate(*mesh, pose, *scene, progress));
-      },
-      [this, scene = bench_.session.generation()](const EstimatePtr& estimate) {
-        OfScene& of_scene = of_scenes_[scene];
-        if (scene == bench_.session.generation()) bench_.session.remove_estimate(of_scene.result);
-        of_scene.result = bench_.session.add_estimate(estimate, display_range(*estimate), scene);
-      });
-}
-
-void CaptureController::changed() {
-  keep();
-  solve();
+void CaptureController::show() {
+  if (!panel_) return;
+  shelf_->keep(documents_->meshes());
+  showMesh();
   showPairs();
   showNext();
 }
 
-void CaptureController::solve() {
-  pose_.reset();
-  problem_.clear();
-  if (!mesh_ || !obstacle().isEmpty() || now_->pairs.all().size() < 4) return;
-  try {
-    pose_ = capture::solve_pose(now_->pairs.all(), bench_.session.light_field()->info().camera);
-  } catch (const InvalidInput& error) {
-    problem_ = QString::fromUtf8(error.what());
+void CaptureController::showMesh() {
+  QStringList names;
+  for (const CaptureObject& each : work().objects) names << QString::fromStdString(each.name);
+  panel_->objects()->setObjects(names, work().current);
+  const CaptureObject* object = work().object();
+  const ReadMesh* read = mesh();
+  QString text;
+  if (object && !object->mesh.empty()) {
+    const QString name = QFileInfo(QString::fromStdString(object->mesh)).fileName();
+    const auto count = static_cast<qulonglong>(read ? read->mesh->faces.size() : 0);
+    text = read ? tr("%1 · %2 faces").arg(name, QLocale::c().toString(count))
+           : shelf_->isReading(object->mesh) ? tr("%1 is being read…").arg(name)
+                                             : tr("%1 cannot be read").arg(name);
   }
-}
-
-QString CaptureController::obstacle() const {
-  if (!bench_.session.scene()) return tr("Open a light field first.");
-  if (!bench_.session.light_field()->info().camera.pinhole) {
-    return tr(
-        "This light field does not tell its focal length and centre in pixels, which a pose "
-        "needs. Rectify photographs with their calibrated lens; pairs are carried over.");
-  }
-  return {};
+  panel_->objects()->setMesh(text);
+  const void* shown = read ? read->mesh.get() : nullptr;
+  if (std::exchange(shown_mesh_, shown) == shown) return;
+  vertex_.reset();
+  panel_->setMesh(read ? read->cloud : std::make_shared<const CloudParts>());
 }
 
 std::optional<capture::SnappedPick> CaptureController::snapped() {
@@ -336,8 +313,8 @@ void CaptureController::showNext() {
   const bool is_here =
       bench_.session.scene() && bench_.session.view() == bench_.session.light_field()->center();
   std::optional<std::array<double, 3>> point;
-  if (mesh_ && vertex_) {
-    const auto& [x, y, z] = mesh_->vertices[*vertex_];
+  if (mesh() && vertex_) {
+    const auto& [x, y, z] = mesh()->mesh->vertices[*vertex_];
     point = {x, y, z};
   }
   const QString elsewhere = bench_.session.scene() ? tr("go to the centre view (Home)") : QString();
@@ -347,10 +324,11 @@ void CaptureController::showNext() {
 }
 
 void CaptureController::showPairs() {
-  if (!panel_) return;
-  panel_->setRows(pair_rows(now_->pairs.all(), pose_));
-  panel_->setUndoable(now_->pairs.is_undoable());
-  panel_->setPose(poseText(), pose_.has_value());
+  const History<CaptureEdit>& history = documents_->now().history();
+  panel_->setRows(pair_rows(pairs(), pose()));
+  panel_->setUndoable(history.next_undo() != nullptr);
+  panel_->setRedoable(history.next_redo() != nullptr);
+  panel_->setPose(pose_text(bench_.session, *documents_), pose() && mesh());
   showMarks();
 }
 
@@ -359,35 +337,39 @@ void CaptureController::showMarks() {
   const Session& session = bench_.session;
   PairMarks marks;
   if (session.scene()) {
-    marks = pair_marks(now_->pairs.all(), pose_ ? &pose_->pose : nullptr,
+    marks = pair_marks(pairs(), pose() ? &pose()->pose : nullptr,
                        session.light_field()->info().camera.pinhole,
                        [this](int row) { return panel_->isEmphasised(row); });
   }
   const bool is_here = session.scene() && session.view() == session.light_field()->center();
   if (!is_here || !tab_->isVisible()) marks.on_view.clear();
-  if (!mesh_) marks.on_mesh.clear();
+  if (!mesh()) marks.on_mesh.clear();
   bench_.stage.canvas()->setMarks(std::move(marks.on_view));
   panel_->setMarks(marks.on_mesh);
 }
 
-bool CaptureController::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Show || event->type() == QEvent::Hide) showMarks();
-  return QObject::eventFilter(watched, event);
+bool CaptureController::hearKey(const QKeyEvent& event) {
+  const QKeySequence key(event.keyCombination());
+  const bool is_undo = bench_.commands.keys("annotate.undo").contains(key);
+  if (!is_undo && !bench_.commands.keys("annotate.redo").contains(key)) return false;
+  if (!panel_ || !tab_->isVisible() || bench_.commands.find("annotate.mode")->isChecked()) {
+    return false;
+  }
+  if (event.type() == QEvent::KeyPress) {
+    change(is_undo ? &CaptureDocument::undo : &CaptureDocument::redo);
+  }
+  return true;
 }
 
-QString CaptureController::poseText() const {
-  const QString missing = obstacle();
-  if (!missing.isEmpty()) return missing;
-  if (!problem_.isEmpty()) return problem_;
-  const auto count = static_cast<int>(now_->pairs.all().size());
-  if (!pose_) return tr("%1 of at least 4 pairs; 10 are better.").arg(count);
-  QString text = tr("Mean reprojection error %1 px; depth to ± %2 (unit of the mesh)")
-                     .arg(pose_->reprojection_error_px, 0, 'f', 2)
-                     .arg(pose_->delta_tz, 0, 'g', 3);
-  if (std::isfinite(pose_->delta_tz_px)) {
-    text += tr(", ± %1 px of disparity").arg(pose_->delta_tz_px, 0, 'f', 4);
+bool CaptureController::eventFilter(QObject* watched, QEvent* event) {
+  const QEvent::Type type = event->type();
+  if (watched == tab_ && (type == QEvent::Show || type == QEvent::Hide)) showMarks();
+  const bool is_key = type == QEvent::ShortcutOverride || type == QEvent::KeyPress;
+  if (is_key && hearKey(*static_cast<QKeyEvent*>(event))) {
+    event->accept();  // else the undo of labels takes it
+    return true;
   }
-  return text + '.';
+  return QObject::eventFilter(watched, event);
 }
 
 }  // namespace episcope

@@ -3,35 +3,38 @@
 
 #include "app/gui/bench/workbench.h"
 #include "app/gui/capture/pick_snapper.h"
-#include "app/gui/capture/picked_pairs.h"
-#include "app/gui/frame/jobs.h"
-#include "app/session/parts.h"
-#include "engine/capture/mesh/triangle_mesh.h"
-#include "engine/capture/pose/solve_pose.h"
+#include "app/session/capture/capture_work.h"
 
 #include <QObject>
 #include <QString>
 
 #include <cstddef>
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
+#include <functional>
 #include <optional>
+#include <vector>
+
+class QKeyEvent;
 
 namespace episcope {
 
+class CaptureDocument;
+class CaptureDocuments;
 class CapturePanel;
+class MeshResults;
+class MeshShelf;
 class Photographs;
+struct ReadMesh;
 
-/// From a mesh and pairs of points to a pose, a result and ground truth, of the open light field.
+/// The Capture tab: objects with their meshes, picks on view and mesh, and what follows from them.
 class CaptureController : public QObject {
   Q_OBJECT
 
  public:
   CaptureController(const Workbench& bench, QWidget* tab);
 
+  /// The mesh of the current object; the first one becomes an object.
   void openMesh(const QString& path);
+  void addObject(const QString& mesh);
   void importPairs(const QString& path);
   void exportPairs(const QString& path);
   void savePose(const QString& path);
@@ -41,58 +44,55 @@ class CaptureController : public QObject {
 
   [[nodiscard]] Photographs& photographs() { return *photographs_; }
   /// Of the light field that is shown.
-  [[nodiscard]] const PickedPairs& pairs() const { return now_->pairs; }
-  [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const { return pose_; }
+  [[nodiscard]] const CaptureWork& work() const;
+  /// Of the current object.
+  [[nodiscard]] const std::vector<capture::PointPair>& pairs() const;
+  [[nodiscard]] const std::optional<capture::SolvedPose>& pose() const;
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
-  struct Loaded;
-  /// What belongs to one of the open light fields.
-  struct OfScene {
-    PickedPairs pairs;
-    int result = 0;  ///< Of the mesh.
-  };
+  using Change = std::function<void(CaptureDocument&)>;
 
   void makePanel();
-  void connectPanel();
-  void followScene();
-  void openFormerMesh();
-  void loadMesh(const QString& path);
-  void keep();
-  void followPhotographs();
+  void connectObjects();
+  void connectPairs();
+  void connectResults();
+  void connectFiles();
+  void change(const Change& change);
+  void readMesh(const QString& path, const Change& then);
+  void goTo(const capture::PointPair& pair);
   void addPair();
-  void showOverView();
-  void changed();
-  void solve();
+  /// Undo and redo are of this tab while it is worked in. Returns whether the key was one of them.
+  bool hearKey(const QKeyEvent& event);
+  /// The document, or the mesh of its object, is another.
+  void show();
+  void showMesh();
+  void showPairs();
+  /// What the next pair would take.
   void showNext();
-  /// What the next pair would take in the view, px.
+  /// The pairs on the centre view and on the mesh, while the tab is there.
+  void showMarks();
   /// The mark beside the cross-hair, if picks are to move to one.
   [[nodiscard]] std::optional<capture::SnappedPick> snapped();
   /// The place in the view that the next pair would take.
   [[nodiscard]] QString nextText();
-  void showPairs();
-  /// The pairs on the centre view and on the mesh, while the tab is there.
-  void showMarks();
-  /// The demo brings its lens, its mesh and its picks.
+  /// The built-in gantry brings its lens, its mesh and its picks.
   void followGantry();
-  [[nodiscard]] QString poseText() const;
-  /// Why there can be no pose; empty = there can.
-  [[nodiscard]] QString obstacle() const;
+  /// Of the current object; null = it has none, or it is not read yet.
+  [[nodiscard]] const ReadMesh* mesh() const;
 
   Workbench bench_;
   QWidget* tab_;
+  CaptureDocuments* documents_;
+  MeshShelf* shelf_;
   Photographs* photographs_;
+  MeshResults* results_;
   CapturePanel* panel_ = nullptr;
-  std::filesystem::path mesh_file_;
-  std::shared_ptr<const capture::TriangleMesh> mesh_;
+  const void* shown_mesh_ = nullptr;  // to see whether it is another
   std::optional<std::size_t> vertex_;
   PickSnapper snapper_;
-  std::optional<capture::SolvedPose> pose_;
-  QString problem_;  // why there is no pose
-  std::map<std::uint64_t, OfScene> of_scenes_;
-  OfScene* now_ = &of_scenes_[0];
 };
 
 }  // namespace episcope

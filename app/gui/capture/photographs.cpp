@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/capture/photographs.h"
 
+#include "app/gui/capture/capture_documents.h"
 #include "app/gui/capture/capture_files.h"
 #include "app/gui/capture/form_question.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/jobs.h"
 #include "app/gui/frame/messages.h"
 #include "app/gui/opening/scene_opener.h"
+#include "app/session/capture/rectify_photographs.h"
 #include "app/session/session.h"
 #include "engine/capture/demo/demo_folder.h"
+#include "engine/capture/pose/pairs_file.h"
 #include "engine/core/error.h"
 #include "widgets/capture/photograph_steps.h"
 #include "widgets/style/number_text.h"
@@ -31,13 +34,6 @@ std::vector<fs::path> paths_of(const QStringList& names) {
   return paths;
 }
 
-std::vector<fs::path> files_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder)) files.push_back(entry.path());
-  std::ranges::sort(files);
-  return files;
-}
-
 // A folder that is not there yet.
 fs::path new_folder(const QString& parent) {
   const QString name = QDir(parent).filePath("gantry_demo");
@@ -46,28 +42,44 @@ fs::path new_folder(const QString& parent) {
   return path_of(free);
 }
 
-QString details_of(const capture::Calibration& calibration) {
-  QStringList lines;
-  for (const capture::PatternPhotograph& each : calibration.photographs) {
-    const QString name = QFileInfo(QString::fromStdString(each.name)).fileName();
-    lines << (each.is_used() ? Photographs::tr("%1: %2 px").arg(name).arg(each.rms, 0, 'f', 3)
-                             : Photographs::tr("%1: left out, %2")
-                                   .arg(name, QString::fromStdString(each.problem)));
+// What the tool tip of the lens tells.
+QString details_of(const CaptureLens& lens) {
+  if (!lens.file.empty()) return QString::fromStdString(lens.file);
+  const auto used = std::ranges::count_if(
+      lens.photographs, [](const CalibratedPhotograph& each) { return each.problem.empty(); });
+  QStringList lines{
+      Photographs::tr("%1 of %2 photographs used").arg(used).arg(lens.photographs.size())};
+  for (const CalibratedPhotograph& each : lens.photographs) {
+    const QString name = QString::fromStdString(each.name);
+    lines << (each.problem.empty() ? Photographs::tr("%1: %2 px").arg(name).arg(each.rms, 0, 'f', 3)
+                                   : Photographs::tr("%1: left out, %2")
+                                         .arg(name, QString::fromStdString(each.problem)));
   }
   return lines.join('\n');
 }
 
-QString alignment_text(const capture::Rectified& rectified) {
+QString alignment_text(const RowAlignment& rows) {
   return Photographs::tr("Rows aligned to %1 px (before %2 px)")
-      .arg(rectified.after.percentile_95, 0, 'f', 2)
-      .arg(rectified.before.percentile_95, 0, 'f', 2);
+      .arg(rows.after.percentile_95, 0, 'f', 2)
+      .arg(rows.before.percentile_95, 0, 'f', 2);
+}
+
+// As the demo begins, but for the lens.
+CaptureWork work_of(const GantryFolder& demo) {
+  CaptureWork work;
+  work.pattern = capture::demo_pattern();
+  work.rectify.step = capture::DemoRig().step;
+  work.objects.push_back({.name = demo.mesh().stem().string(),
+                          .mesh = demo.mesh().string(),
+                          .pairs = capture::read_pairs(demo.picks())});
+  return work;
 }
 
 }  // namespace
 
-Photographs::Photographs(const Workbench& bench,
-                         std::function<std::vector<capture::PointPair>()> picks, QObject* parent)
-    : QObject(parent), bench_(bench), picks_(std::move(picks)) {
+Photographs::Photographs(const Workbench& bench, CaptureDocuments& documents, QObject* parent)
+    : QObject(parent), bench_(bench), documents_(documents) {
+  connect(&documents, &CaptureDocuments::changed, this, &Photographs::show);
   bench_.session.on_changed([this](Parts parts) {
     if (parts.has(Part::Scene)) show();
   });
@@ -102,39 +114,41 @@ void Photographs::attach(PhotographSteps* steps) {
 
 void Photographs::askForPattern() {
   const auto photographs = [this](const ParameterSet& values) {
-    pattern_ = capture::pattern_schema().parse(values);
+    const capture::Pattern pattern = capture::pattern_schema().parse(values);
     ask_for_files(&bench_.window,
                   {.name = "calibrate",
                    .title = tr("Photographs of the pattern"),
                    .filter = tr("Images (*.png *.jpg *.jpeg *.tif *.tiff *.bmp);;All files (*)")},
-                  [this](const QStringList& paths) { calibrate(paths, pattern_); });
+                  [this, pattern](const QStringList& paths) { calibrate(paths, pattern); });
   };
   ask_for_values(&bench_.window,
                  {.name = "pattern",
                   .title = tr("The pattern that was photographed"),
                   .accept = tr("Photographs…"),
                   .parameters = capture::pattern_schema().descriptions(),
-                  .values = capture::pattern_schema().values(pattern_)},
+                  .values = capture::pattern_schema().values(documents_.now().work().pattern)},
                  photographs);
 }
 
 void Photographs::askForRectified() {
   const auto save = [this](const ParameterSet& values) {
-    options_ = capture::rectify_schema().parse(values);
+    documents_.change([&](CaptureDocument& document) {
+      document.set_rectify(capture::rectify_schema().parse(values));
+    });
     ask_where_to_save(&bench_.window,
                       {.name = "save_rectified",
                        .title = tr("Save the rectified light field"),
                        .filter = tr("Light field (*.h5)"),
                        .proposal = "rectified.h5",
                        .confirms_overwrite = false},
-                      [this](const QString& path) { rectify(path, options_); });
+                      [this](const QString& path) { rectify(path); });
   };
   ask_for_values(&bench_.window,
                  {.name = "rectify",
                   .title = tr("Rectify the photographs"),
                   .accept = tr("Save as…"),
                   .parameters = capture::rectify_schema().descriptions(),
-                  .values = capture::rectify_schema().values(options_)},
+                  .values = capture::rectify_schema().values(documents_.now().work().rectify)},
                  save);
 }
 
@@ -144,25 +158,28 @@ void Photographs::calibrate(const QStringList& photographs, const capture::Patte
       [files = paths_of(photographs), pattern](const Progress& progress) {
         return capture::calibrate(files, pattern, progress);
       },
-      [this](const capture::Calibration& calibration) { take(calibration); });
+      [this, pattern](const capture::Calibration& calibration) { take(calibration, pattern); });
 }
 
-void Photographs::calibrateGantry(const GantryFolder& demo) {
-  pattern_ = capture::demo_pattern();
-  options_.step = capture::DemoRig().step;
+void Photographs::beginGantry(const GantryFolder& demo) {
+  try {
+    documents_.begin(work_of(demo));
+  } catch (const Error& error) {
+    bench_.messages.fail(QString::fromUtf8(error.what()));
+  }
   QStringList files;
   for (const fs::path& each : demo.pattern()) files << QString::fromStdString(each.string());
-  calibrate(files, pattern_);
+  calibrate(files, capture::demo_pattern());
   bench_.messages.hint(
       tr("These are photographs of a gantry, with points picked. "
          "Rectify them to find the pose of the mesh."));
 }
 
-void Photographs::take(const capture::Calibration& calibration) {
+void Photographs::take(const capture::Calibration& calibration, const capture::Pattern& pattern) {
+  documents_.change(
+      [&](CaptureDocument& document) { document.set_lens(lens_of(calibration), pattern); });
   const auto& all = calibration.photographs;
   const auto used = std::ranges::count_if(all, &capture::PatternPhotograph::is_used);
-  take(calibration.camera,
-       tr("%1 of %2 photographs used").arg(used).arg(all.size()) + '\n' + details_of(calibration));
   if (used < std::ssize(all)) {
     bench_.messages.warn(tr("%1 of %2 photographs of the pattern were left out; the tool tip of "
                             "“Lens” tells why.")
@@ -171,90 +188,73 @@ void Photographs::take(const capture::Calibration& calibration) {
   }
 }
 
-void Photographs::take(const capture::LensCamera& camera, const QString& details) {
-  camera_ = camera;
-  camera_details_ = details;
-  show();
-}
-
 void Photographs::openCamera(const QString& path) {
   try {
-    take(capture::read_camera(path_of(path)), path);
+    const CaptureLens lens{.camera = capture::read_camera(path_of(path)),
+                           .file = path.toStdString()};
+    documents_.change(
+        [&](CaptureDocument& document) { document.set_lens(lens, document.work().pattern); });
   } catch (const Error& error) {
     bench_.messages.fail(QString::fromUtf8(error.what()));
   }
 }
 
 void Photographs::saveCamera(const QString& path) {
-  if (!camera_ || !has_suffix(path, {"yml", "yaml"}, bench_.messages)) return;
+  const auto& lens = documents_.now().work().lens;
+  if (!lens || !has_suffix(path, {"yml", "yaml"}, bench_.messages)) return;
   write_in_background(bench_.jobs, bench_.messages, path,
-                      [file = path_of(path), camera = *camera_](const Progress&) {
+                      [file = path_of(path), camera = lens->camera](const Progress&) {
                         capture::write_camera(file, camera);
                       });
 }
 
-void Photographs::rectify(const QString& path, const capture::RectifyOptions& options) {
+void Photographs::rectify(const QString& path) {
   if (!canRectify() || !is_new_light_field(path, bench_.messages)) return;
-  const RectifyTask task{*bench_.session.scene(), *camera_, options, path_of(path), picks_()};
-  bench_.jobs.start<RectifiedFile>(
+  const RectifyTask task{*bench_.session.scene(), documents_.now().work(), path_of(path)};
+  bench_.jobs.start<CaptureWork>(
       Lane::Load, tr("Rectifying"),
-      [task](const Progress& progress) { return rectify_to_file(task, progress); },
-      [this, path](const RectifiedFile& made) {
-        bench_.opener.open(path, [this, text = alignment_text(made.rectified), pairs = made.pairs] {
-          alignments_[bench_.session.generation()] = text;
-          show();
-          emit rectified(pairs);
-        });
+      [task](const Progress& progress) { return rectify_to_file(task, progress).work; },
+      [this, path](const CaptureWork& work) {
+        bench_.opener.open(path, [this, work] { documents_.begin(work); });
       });
 }
 
 void Photographs::makeDemo(const QString& folder, const capture::DemoOptions& options) {
-  const fs::path made = new_folder(folder);
-  bench_.jobs.start<capture::Calibration>(
+  const GantryFolder demo{new_folder(folder)};
+  bench_.jobs.start<bool>(
       Lane::Load, tr("Making the demo"),
-      [made, options](const Progress& progress) {
-        capture::write_demo_folder(made, options, progress.part(0, 0.8));
-        return capture::calibrate(files_in(made / "pattern"), capture::demo_pattern(),
-                                  progress.part(0.8, 1));
+      [demo, options](const Progress& progress) {
+        capture::write_demo_folder(demo.path, options, progress);
+        return true;
       },
-      [this, made](const capture::Calibration& calibration) {
-        take(calibration);
-        pattern_ = capture::demo_pattern();
-        options_.step = capture::DemoRig().step;
-        const auto file = [&](const char* name) {
-          return QString::fromStdString((made / name).string());
-        };
-        bench_.opener.open(file("photographs"),
-                           [this, mesh = file("mesh.ply"), picks = file("picks.csv")] {
-                             emit demoOpened(mesh, picks);
-                             bench_.messages.hint(
-                                 tr("These are photographs of a gantry, with points picked. "
-                                    "Rectify them to find the pose of the mesh."));
-                           });
+      [this, demo](bool) {
+        bench_.opener.open(QString::fromStdString(demo.photographs().string()),
+                           [this, demo] { beginGantry(demo); });
       });
 }
 
 bool Photographs::canRectify() const {
-  return camera_ && bench_.session.scene() && !bench_.session.light_field()->info().camera.pinhole;
+  return documents_.now().work().lens && bench_.session.scene() &&
+         !bench_.session.light_field()->info().camera.pinhole;
 }
 
 void Photographs::show() {
   if (!steps_) return;
+  const CaptureWork& work = documents_.now().work();
   QString lens;
-  if (camera_) {
+  if (work.lens) {
     lens = tr("Lens: focal length %1 px, error %2 px")
-               .arg(camera_->focal_x, 0, 'f', 0)
-               .arg(camera_->rms, 0, 'f', 2);
+               .arg(work.lens->camera.focal_x, 0, 'f', 0)
+               .arg(work.lens->camera.rms, 0, 'f', 2);
   }
-  steps_->setCamera(lens, camera_details_, camera_.has_value());
+  steps_->setCamera(lens, work.lens ? details_of(*work.lens) : QString(), work.lens.has_value());
   QString text = tr("Open the folder of photographs.");
   if (bench_.session.scene()) {
-    const auto made = alignments_.find(bench_.session.generation());
     const bool is_rectified = bench_.session.light_field()->info().camera.pinhole.has_value();
     text = is_rectified ? tr("The light field tells its lens; it is rectified.")
-           : camera_    ? tr("Photographs of a gantry are rectified next.")
+           : work.lens  ? tr("Photographs of a gantry are rectified next.")
                         : tr("Photographs of a gantry need the lens first.");
-    if (made != alignments_.end()) text = made->second;
+    if (work.rows) text = alignment_text(*work.rows);
   }
   steps_->setAlignment(text, canRectify());
 }

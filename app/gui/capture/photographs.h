@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
-#include "app/session/capture/rectify_photographs.h"
 #include "app/session/scene/gantry_scene.h"
 #include "engine/capture/calibrate/calibrate.h"
 #include "engine/capture/demo/demo_scene.h"
@@ -11,14 +10,9 @@
 #include <QString>
 #include <QStringList>
 
-#include <cstdint>
-#include <functional>
-#include <map>
-#include <optional>
-#include <vector>
-
 namespace episcope {
 
+class CaptureDocuments;
 class PhotographSteps;
 
 /// From photographs of a pattern to a camera, and from the photographs that are open to a light
@@ -27,48 +21,32 @@ class Photographs : public QObject {
   Q_OBJECT
 
  public:
-  /// `picks`: in the centre view of the photographs that are shown.
-  Photographs(const Workbench& bench, std::function<std::vector<capture::PointPair>()> picks,
-              QObject* parent);
+  Photographs(const Workbench& bench, CaptureDocuments& documents, QObject* parent);
 
   /// Shows the state there from now on, and does what is asked for there.
   void attach(PhotographSteps* steps);
 
   void calibrate(const QStringList& photographs, const capture::Pattern& pattern);
-  /// The lens of the demo from its photographs, and the step of its gantry.
-  void calibrateGantry(const GantryFolder& demo);
+  /// Begins with the mesh of the demo, its picks and the step of its gantry, and calibrates.
+  void beginGantry(const GantryFolder& demo);
   void openCamera(const QString& path);
   void saveCamera(const QString& path);
-  /// Writes the light field of what is open, and opens it.
-  void rectify(const QString& path, const capture::RectifyOptions& options);
+  /// Writes the light field of what is open, and opens it; the work goes on there.
+  void rectify(const QString& path);
   /// Writes photographs of a gantry, of a pattern and a mesh into a new folder in `folder`,
   /// calibrates, and opens the photographs.
   void makeDemo(const QString& folder, const capture::DemoOptions& options = {});
 
-  [[nodiscard]] const std::optional<capture::LensCamera>& camera() const { return camera_; }
-
- signals:
-  /// The rectified light field is shown.
-  void rectified(const std::vector<capture::PointPair>& pairs);
-  /// The photographs of the demo are shown.
-  void demoOpened(const QString& mesh, const QString& picks);
-
  private:
   void askForPattern();
   void askForRectified();
-  void take(const capture::Calibration& calibration);
-  void take(const capture::LensCamera& camera, const QString& details);
+  void take(const capture::Calibration& calibration, const capture::Pattern& pattern);
   void show();
   [[nodiscard]] bool canRectify() const;
 
   Workbench bench_;
-  std::function<std::vector<capture::PointPair>()> picks_;
+  CaptureDocuments& documents_;
   PhotographSteps* steps_ = nullptr;
-  std::optional<capture::LensCamera> camera_;
-  QString camera_details_;
-  capture::Pattern pattern_;
-  capture::RectifyOptions options_;
-  std::map<std::uint64_t, QString> alignments_;  // of light fields made here
 };
 
 }  // namespace episcope

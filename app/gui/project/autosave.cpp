@@ -26,7 +26,7 @@ bool is_worth_keeping(const Project& project) {
   return project.scenes.size() > 1 || !project.sweeps.empty() ||
          std::ranges::any_of(project.scenes, [](const ProjectScene& scene) {
            return !scene.results.empty() || scene.labels.covers_many() ||
-                  !scene.place.measured.list.empty() || !scene.place.capture.pairs.empty();
+                  !scene.place.measured.list.empty() || !scene.place.capture.empty();
          });
 }
 

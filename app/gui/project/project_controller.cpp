@@ -12,6 +12,7 @@
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/autosave.h"
 #include "app/gui/project/restore.h"
+#include "app/session/project/capture_json.h"
 #include "app/session/project/moved_inputs.h"
 #include "app/session/project/own_folders.h"
 #include "app/session/project/project_file.h"
@@ -27,6 +28,15 @@
 #include <utility>
 
 namespace episcope {
+namespace {
+
+// What the user did for ground truth: poses follow from it.
+std::string done_text(CaptureWork work) {
+  for (CaptureObject& each : work.objects) each.pose.reset();
+  return work.empty() ? std::string() : capture_to_json(work, "/") + '\n';
+}
+
+}  // namespace
 
 ProjectController::ProjectController(const Workbench& bench, Autosave& autosave)
     : QObject(&bench.owner), bench_(bench), autosave_(autosave) {
@@ -84,6 +94,7 @@ std::string ProjectController::content() const {
       text += std::to_string(entry.id) + ' ' + entry.name + ' ' + entry.note + '\n';
     }
     if (scene->labels.covers_many()) text += std::to_string(scene->labels.strokes) + '\n';
+    text += done_text(scene->place.capture);
   }
   for (const Sweep& sweep : bench_.scenes.sweeps().all()) {
     text += "sweep " + std::to_string(sweep.id);

@@ -5,6 +5,7 @@
 #include "app/gui/frame/jobs.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/project_controller.h"
+#include "app/session/scene/load_scene.h"
 #include "app/session/session.h"
 
 #include <QAbstractButton>
@@ -21,6 +22,13 @@ QString list_of(const std::vector<std::string>& names) {
   return texts.join(QStringLiteral(", "));
 }
 
+// Those of the built-in gantry come with it.
+bool has_picks(const OpenScene& scene) {
+  return builtin_scene_id(scene.input).empty() &&
+         std::ranges::any_of(scene.place.capture.objects,
+                             [](const CaptureObject& each) { return !each.pairs.empty(); });
+}
+
 }  // namespace
 
 ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
@@ -28,7 +36,9 @@ ProjectGuard::ProjectGuard(const Workbench& bench, ProjectController& project)
   bench.guards.add({.may_leave = [this](Leaving what) { return loss(what).empty(); },
                     .ask = [this](Leaving what, const Continue& go_on) { ask(what, go_on); }});
   bench.session.on_changed([this](Parts parts) {
-    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates)) is_settled_ = false;
+    if (parts.has_any(Part::Scene | Part::Scenes | Part::Estimates | Part::Capture)) {
+      is_settled_ = false;
+    }
   });
   bench.scenes.sweeps().on_changed([this] { is_settled_ = false; });
   connect(&bench.jobs, &Jobs::added, this, [this] {
@@ -45,6 +55,7 @@ ProjectGuard::Loss ProjectGuard::loss(Leaving what) const {
   const bool has_file = !project_.file().isEmpty();
   for (const OpenScene* scene : session.scenes()) {
     if (what == Leaving::Scene && scene->id != session.generation()) continue;
+    if (!has_file && has_picks(*scene)) loss.picked.push_back(scene->name);
     for (const EstimateEntry& entry : scene->estimates) {
       const double seconds = entry.estimate ? entry.estimate->seconds : worth_keeping_s_;
       if (!entry.is_saved && (has_file || seconds >= worth_keeping_s_)) {
@@ -81,6 +92,9 @@ QString ProjectGuard::sentence(const Loss& loss) {
   if (!loss.results.empty()) sentences << tr("Not saved: %1.").arg(list_of(loss.results));
   if (!loss.scribbled.empty()) {
     sentences << tr("Scribbles that are not saved: on %1.").arg(list_of(loss.scribbled));
+  }
+  if (!loss.picked.empty()) {
+    sentences << tr("Pairs of points that are not saved: on %1.").arg(list_of(loss.picked));
   }
   if (loss.of_project && sentences.isEmpty()) sentences << tr("The project has changed.");
   if (loss.is_running) {

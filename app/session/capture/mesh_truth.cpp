@@ -4,17 +4,18 @@
 #include "engine/capture/depth/visible_depth.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace episcope {
 namespace {
 
-GroundTruth depth_of(const capture::TriangleMesh& mesh, const capture::RigidPose& pose,
-                     const LightField& field, GridShape grid, const Progress& progress) {
-  const std::array placed{capture::PlacedMesh{&mesh, pose}};
+GroundTruth depth_of(std::span<const PosedMesh> meshes, const LightField& field, GridShape grid,
+                     const Progress& progress) {
+  std::vector<capture::PlacedMesh> placed;
+  for (const PosedMesh& each : meshes) placed.push_back({each.mesh.get(), each.pose});
   const capture::DepthGrid cameras{grid, field.height(), field.width(), field.info().camera};
   return capture::visible_depth(placed, cameras, {}, progress);
 }
@@ -29,11 +30,11 @@ ViewStack<T> as_view(const ViewStack<T>& only, ViewIndex index) {
 
 }  // namespace
 
-Estimate mesh_estimate(const capture::TriangleMesh& mesh, const capture::RigidPose& pose,
-                       const Scene& scene, const Progress& progress) {
+Estimate mesh_estimate(std::span<const PosedMesh> meshes, const Scene& scene,
+                       const Progress& progress) {
   const auto begin = std::chrono::steady_clock::now();
   const LightField& field = *scene.light_field;
-  const GroundTruth truth = depth_of(mesh, pose, field, {1, 1}, progress);
+  const GroundTruth truth = depth_of(meshes, field, {1, 1}, progress);
   Estimate estimate;
   estimate.method = "mesh";
   estimate.source = field.info().source;
@@ -45,11 +46,11 @@ Estimate mesh_estimate(const capture::TriangleMesh& mesh, const capture::RigidPo
   return estimate;
 }
 
-Scene with_mesh_truth(const capture::TriangleMesh& mesh, const capture::RigidPose& pose,
-                      const Scene& scene, const Progress& progress) {
+Scene with_mesh_truth(std::span<const PosedMesh> meshes, const Scene& scene,
+                      const Progress& progress) {
   Scene made = scene;
   made.truth = std::make_shared<GroundTruth>(
-      depth_of(mesh, pose, *scene.light_field, scene.light_field->grid(), progress));
+      depth_of(meshes, *scene.light_field, scene.light_field->grid(), progress));
   return made;
 }
 

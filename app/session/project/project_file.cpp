@@ -2,6 +2,7 @@
 #include "app/session/project/project_file.h"
 
 #include "annotation/document/label_set.h"
+#include "app/session/project/capture_json.h"
 #include "app/session/project/own_folders.h"
 #include "app/session/project/sweep_json.h"
 #include "app/session/run/result_source.h"
@@ -148,19 +149,6 @@ ScenePlace place_of(const Json& json) {
   return place;
 }
 
-Json capture_json(const CaptureWork& work, const fs::path& project) {
-  Json pairs = Json::array();
-  for (const capture::PointPair& each : work.pairs) {
-    pairs.push_back({{"name", each.name},
-                     {"pixel", {each.x_px, each.y_px}},
-                     {"point", {each.point.x, each.point.y, each.point.z}}});
-    if (each.is_locked) pairs.back()["locked"] = true;
-  }
-  Json json{{"pairs", pairs}};
-  if (!work.mesh.empty()) json["mesh"] = source_text(work.mesh, project);
-  return json;
-}
-
 constexpr std::array<const char*, 5> kJudged{"whole", "rectangle", "label", "common", "mask"};
 
 Json judged_json(const JudgedPart& part, const fs::path& project) {
@@ -192,7 +180,7 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
     json["results"].push_back(result_json(each, project));
   }
   const CaptureWork& capture = scene.place.capture;
-  if (!capture.empty()) json["capture"] = capture_json(capture, project);
+  if (!capture.empty()) json["capture"] = Json::parse(capture_to_json(capture, project));
   const JudgedPart& judged = scene.place.judged;
   if (judged != JudgedPart{}) json["judged"] = judged_json(judged, project);
   if (!scene.strokes.empty()) json["strokes"] = source_text(scene.strokes.string(), project);
@@ -205,20 +193,6 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
 
 std::string absolute_path(const std::string& text, const fs::path& project) {
   return (project.parent_path() / text).lexically_normal().string();
-}
-
-CaptureWork capture_of(const Json& json, const fs::path& project) {
-  CaptureWork work;
-  if (json.contains("mesh")) work.mesh = absolute_path(json.at("mesh"), project);
-  for (const Json& each : json.at("pairs")) {
-    const Json& point = each.at("point");
-    work.pairs.push_back({each.at("name"),
-                          each.at("pixel").at(0),
-                          each.at("pixel").at(1),
-                          {point.at(0), point.at(1), point.at(2)},
-                          each.value("locked", false)});
-  }
-  return work;
 }
 
 // What a later program can choose is the whole view here.
@@ -259,7 +233,9 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   scene.reading = io::parameters_from_json(json.at("reading").dump());
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
-  if (json.contains("capture")) scene.place.capture = capture_of(json.at("capture"), project);
+  if (json.contains("capture")) {
+    scene.place.capture = capture_from_json(json.at("capture").dump(), project);
+  }
   if (json.contains("judged")) scene.place.judged = judged_of(json.at("judged"), project);
   if (json.contains("strokes")) scene.strokes = absolute_path(json.at("strokes"), project);
   if (json.contains("labels")) {

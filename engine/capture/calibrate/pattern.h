@@ -23,6 +23,7 @@ struct Pattern {
   int columns = 9;  ///< Inner corners of a chessboard or ChArUco board, circles of a grid.
   int rows = 6;
   double square = 1;  ///< Distance of neighbouring points, in any unit.
+  friend bool operator==(const Pattern&, const Pattern&) = default;
 };
 
 [[nodiscard]] Schema<Pattern> pattern_schema();

@@ -14,6 +14,7 @@ namespace episcope::capture {
 struct RectifyOptions {
   double step = 1;        ///< Between neighbouring positions of the gantry, in the mesh's unit.
   bool equalise = false;  ///< Divide each view by its gain.
+  friend bool operator==(const RectifyOptions&, const RectifyOptions&) = default;
 };
 
 [[nodiscard]] Schema<RectifyOptions> rectify_schema();
@@ -22,6 +23,7 @@ struct RectifyOptions {
 struct RowErrors {
   double median = 0;
   double percentile_95 = 0;
+  friend bool operator==(const RowErrors&, const RowErrors&) = default;
 };
 
 struct Rectified {

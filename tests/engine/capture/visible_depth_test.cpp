@@ -155,6 +155,37 @@ class VisibleDepthTest : public QObject {
     }
   }
 
+  void discontinuities_ofAnyDirection_areMasked() {
+    // The front is a half-plane whose edge runs through the picture at every 15 degrees.
+    const TriangleMesh back = rectangle(-900, -900, 900, 900, 800, 0);
+    const DepthGrid cameras = grid();
+    const Pinhole& pinhole = *cameras.camera.pinhole;
+    for (int degrees = 0; degrees < 360; degrees += 15) {
+      const double across = degrees * std::numbers::pi / 180;
+      const double nx = std::cos(across), ny = std::sin(across);
+      TriangleMesh front = rectangle(-900, -900, 3.7F, 900, 500, 0);
+      for (Vertex& v : front.vertices) {
+        v = {static_cast<float>(nx * v[0] - ny * v[1]), static_cast<float>(ny * v[0] + nx * v[1]),
+             v[2]};
+      }
+      const std::vector<PlacedMesh> placed{{&back, {}}, {&front, {}}};
+      const GroundTruth truth = visible_depth(placed, cameras, {}, Progress(1));
+      for (int y = 0; y < cameras.height; ++y) {
+        for (int x = 0; x < cameras.width; ++x) {
+          const double off =
+              nx * (x - pinhole.center_x) + ny * (y - pinhole.center_y) - 3.7 * kFocal / 500;
+          const bool is_valid = truth.field.valid.view({0, 0}).at(y, x) == 1;
+          // A pixel reaches that far across the edge; a corner of 1e-4 px² counts as none, which is
+          // at most sqrt(2e-4 · 0.5) px deep.
+          const double reach = (std::abs(nx) + std::abs(ny)) / 2;
+          QVERIFY(!is_valid || std::abs(off) > reach - 0.011);
+          QVERIFY(is_valid || std::abs(off) < 1);
+          if (is_valid) QCOMPARE(truth.labels.view({0, 0}).at(y, x), off < 0 ? 2 : 1);
+        }
+      }
+    }
+  }
+
   void holes_showNothing() {
     // Through the hole of a closed surface its inside is seen: no truth there.
     TriangleMesh mesh = sphere(60);

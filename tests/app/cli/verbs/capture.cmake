@@ -42,6 +42,7 @@ expect(ground-truth 0 OUT "depth of 9 views from 1 mesh"
 expect(info 0 ARGS info lf.h5 --json)
 json_is("${out}" all truth views)
 json_near("${out}" 80 99.99 truth valid_percent)
+expect("benchmark on it" 0 ARGS benchmark lf.h5 --methods epi_l -o bench --quiet)
 expect("ground-truth without a pose" 2 ERR "--pose" ARGS ground-truth raw.h5 -o other.h5)
 expect("ground-truth over its input" 1 ERR "raw.h5"
        ARGS ground-truth raw.h5 --pose pose.json -o raw.h5 --overwrite --quiet)

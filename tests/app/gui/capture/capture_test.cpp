@@ -1,98 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "app/gui/capture/capture_controller.h"
 #include "app/gui/capture/photographs.h"
 #include "app/gui/capture/pick_snapper.h"
 #include "app/gui/opening/scene_opener.h"
 #include "app/gui/stage/stage.h"
 #include "app/session/session.h"
-#include "engine/capture/demo/scan_mesh.h"
-#include "engine/capture/mesh/mesh_file.h"
-#include "engine/capture/pose/pairs_file.h"
 #include "engine/capture/pose/pose_file.h"
 #include "engine/io/open/open.h"
-#include "tests/app/gui/window_fixture.h"
+#include "tests/app/gui/capture/capturing.h"
 #include "tests/window_test_main.h"
 #include "widgets/canvas/view_canvas.h"
-#include "widgets/controls/elided_label.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QCheckBox>
 #include <QDialog>
 #include <QFile>
 #include <QFileDialog>
-#include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
+#include <QToolButton>
 
 #include <array>
 #include <cmath>
 
 namespace episcope::in_capture_test {
-
-namespace {
-
-constexpr Pinhole kPinhole{120, 47.5, 47.5};
-
-// Turned by 0.1 about y, 900 mm away.
-capture::RigidPose true_pose() {
-  const double c = std::cos(0.1), s = std::sin(0.1);
-  return {{c, 0, s, 0, 1, 0, -s, 0, c}, {5, -8, 900}};
-}
-
-capture::PointPair pair_of(const std::string& name, const capture::Vertex& vertex) {
-  const capture::Point3 on_mesh{vertex[0], vertex[1], vertex[2]};
-  const capture::Point3 p = true_pose().apply(on_mesh);
-  return {name, kPinhole.focal_px * p.x / p.z + kPinhole.center_x,
-          kPinhole.focal_px * p.y / p.z + kPinhole.center_y, on_mesh};
-}
-
-/// The window on a light field that knows its pinhole, or does not.
-class Capturing : public WindowFixture {
- public:
-  explicit Capturing(bool has_pinhole = true) : mesh(capture::scan_mesh(12)) {
-    capture::write_mesh(file("scan.ply"), mesh);
-    Scene scene = scenes::render_builtin("edge", smallOptions(), Progress());
-    LightFieldInfo info = scene.light_field->info();
-    info.camera.baseline = 10;
-    info.camera.focal_length = kPinhole.focal_px;
-    info.camera.shift = 10 * 120.0 / 900;
-    if (has_pinhole) info.camera.pinhole = kPinhole;
-    const auto& samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
-    scene.light_field = std::make_shared<LightField>(samples.clone(), info);
-    window.bench().session.open(std::make_shared<const Scene>(std::move(scene)), "edge");
-    trigger("tab.capture");
-  }
-
-  [[nodiscard]] std::filesystem::path file(const char* name) const {
-    return path(name).toStdString();
-  }
-  CaptureController& capture() { return find<CaptureController>(window); }
-  [[nodiscard]] QString text(const char* label) const {
-    return window.findChild<QLabel*>(label)->text();
-  }
-  [[nodiscard]] QString full(const char* label) const {
-    return window.findChild<ElidedLabel*>(label)->fullText();
-  }
-  void openMesh() {
-    capture().openMesh(path("scan.ply"));
-    QTRY_VERIFY2_WITH_TIMEOUT(text("capture.mesh").startsWith("scan.ply"),
-                              qPrintable(text("capture.mesh")), kPatience);
-  }
-  /// Exact pairs of vertices far apart.
-  void importPairs(std::size_t count) {
-    std::vector<capture::PointPair> pairs;
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::size_t vertex = (i * 7919) % mesh.vertices.size();
-      pairs.push_back(pair_of("p" + std::to_string(i + 1), mesh.vertices[vertex]));
-    }
-    capture::write_pairs(file("pairs.csv"), pairs);
-    capture().importPairs(path("pairs.csv"));
-  }
-
-  capture::TriangleMesh mesh;
-};
-
-}  // namespace
 
 class CaptureTest : public QObject {
   Q_OBJECT
@@ -142,7 +72,7 @@ class CaptureTest : public QObject {
     QVERIFY(f.capture().pose()->pairs[11].is_outlier);
 
     table->item(11, 1)->setCheckState(Qt::Checked);
-    QVERIFY(f.capture().pairs().all()[11].is_locked);
+    QVERIFY(f.capture().pairs()[11].is_locked);
     QVERIFY(!f.capture().pose()->pairs[11].is_outlier);
     table->selectAll();
     f.click("capture.remove");
@@ -160,7 +90,7 @@ class CaptureTest : public QObject {
     f.importPairs(8);
     const ViewCanvas& canvas = *f.window.bench().stage.canvas();
     QCOMPARE(canvas.marks().size(), std::size_t{8});
-    const capture::PointPair& third = f.capture().pairs().all()[2];
+    const capture::PointPair& third = f.capture().pairs()[2];
     QCOMPARE(canvas.marks()[2].name, QString("p3"));
     QCOMPARE(canvas.marks()[2].at, QPointF(third.x_px + 0.5, third.y_px + 0.5));
     QVERIFY(canvas.marks()[2].wanted);  // exact pairs
@@ -182,8 +112,8 @@ class CaptureTest : public QObject {
     Capturing f;
     f.window.bench().opener.setCacheFolder(f.file("cache"));
     f.window.bench().opener.open("demo:gantry?size=400x300&grid=3x3");
-    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kScenePatience);
-    QVERIFY(f.capture().pairs().all().size() >= 4);
+    QTRY_VERIFY_WITH_TIMEOUT(f.full("capture.mesh").startsWith("mesh.ply"), kScenePatience);
+    QVERIFY(f.capture().pairs().size() >= 4);
     QTRY_VERIFY_WITH_TIMEOUT(f.full("capture.camera").contains("focal length"), kScenePatience);
     QVERIFY(f.window.findChild<QPushButton*>("capture.rectify")->isEnabled());
     QCOMPARE(f.window.bench().session.estimates().size(), std::size_t{0});
@@ -207,9 +137,9 @@ class CaptureTest : public QObject {
     QVERIFY2(f.text("capture.next").contains(kind), qPrintable(f.text("capture.next")));
     f.capture().pickVertex(5);
     f.click("capture.add");
-    QCOMPARE(f.capture().pairs().all().size(), std::size_t{1});
-    QCOMPARE(f.capture().pairs().all()[0].x_px, mark->place.x);
-    QCOMPARE(f.capture().pairs().all()[0].y_px, mark->place.y);
+    QCOMPARE(f.capture().pairs().size(), std::size_t{1});
+    QCOMPARE(f.capture().pairs()[0].x_px, mark->place.x);
+    QCOMPARE(f.capture().pairs()[0].y_px, mark->place.y);
   }
 
   void exactPairs_giveTheExactDepth() {
@@ -254,10 +184,10 @@ class CaptureTest : public QObject {
     Session& session = f.window.bench().session;
     const std::uint64_t scene = session.generation();
     session.add(session.scene(), "the same again");
-    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{0});
+    QTRY_COMPARE(f.capture().pairs().size(), std::size_t{0});
     QVERIFY(!f.capture().pose());
     session.choose(scene);
-    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{8});
+    QTRY_COMPARE(f.capture().pairs().size(), std::size_t{8});
     QVERIFY(f.capture().pose());
   }
 
@@ -267,18 +197,18 @@ class CaptureTest : public QObject {
     f.importPairs(8);
     Session& session = f.window.bench().session;
     const CaptureWork kept = session.place().capture;
-    QCOMPARE(kept.mesh, f.file("scan.ply").string());
-    QCOMPARE(kept.pairs.size(), std::size_t{8});
+    QCOMPARE(kept.objects.at(0).mesh, f.file("scan.ply").string());
+    QCOMPARE(kept.objects[0].pairs.size(), std::size_t{8});
     f.click("capture.undo");
-    QVERIFY(session.place().capture.pairs.empty());
+    QVERIFY(session.place().capture.objects.at(0).pairs.empty());
 
     // Another light field comes with its work, as when a project is opened.
     session.add(session.scene(), "as it was kept");
     session.set_capture(kept);
-    QTRY_COMPARE(f.capture().pairs().all().size(), std::size_t{8});
-    QVERIFY(f.capture().pairs().all() == kept.pairs);
+    QTRY_COMPARE(f.capture().pairs().size(), std::size_t{8});
+    QVERIFY(f.capture().work() == kept);
     QVERIFY(f.capture().pose());
-    QVERIFY(!f.capture().pairs().is_undoable());
+    QVERIFY(!f.window.findChild<QToolButton*>("capture.undo")->isEnabled());
   }
 
   void wrongPick_isNamed() {
@@ -332,10 +262,10 @@ class CaptureTest : public QObject {
     small.detail = 50;
     photographs.makeDemo(f.path(""), small);
     QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().session.light_field()->grid().v, 3, kScenePatience);
-    QTRY_VERIFY_WITH_TIMEOUT(f.text("capture.mesh").startsWith("mesh.ply"), kScenePatience);
-    QVERIFY2(f.full("capture.camera").contains("focal length"),
-             qPrintable(f.full("capture.camera")));
-    const std::size_t picked = f.capture().pairs().all().size();
+    QTRY_VERIFY_WITH_TIMEOUT(f.full("capture.mesh").startsWith("mesh.ply"), kScenePatience);
+    QTRY_VERIFY2_WITH_TIMEOUT(f.full("capture.camera").contains("focal length"),
+                              qPrintable(f.full("capture.camera")), kScenePatience);
+    const std::size_t picked = f.capture().pairs().size();
     QVERIFY(picked >= 4);
     QVERIFY(!f.capture().pose());
 
@@ -348,7 +278,7 @@ class CaptureTest : public QObject {
     QVERIFY(file);
     emit file->fileSelected(f.path("rectified.h5"));
     QTRY_VERIFY_WITH_TIMEOUT(f.capture().pose(), kScenePatience);
-    QCOMPARE(f.capture().pairs().all().size(), picked);
+    QCOMPARE(f.capture().pairs().size(), picked);
     QVERIFY(f.capture().pose()->reprojection_error_px < 1.5);
     QVERIFY(!rectify->isEnabled());
     QVERIFY2(f.full("capture.alignment").contains("aligned"),
@@ -371,7 +301,7 @@ class CaptureTest : public QObject {
     photographs.openCamera(f.path("nowhere.yml"));
     const auto* messages = f.window.findChild<MessageBar*>("messageBar");
     QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("nowhere.yml"), kPatience);
-    QCOMPARE(photographs.camera()->focal_x, 120.0);
+    QCOMPARE(f.capture().work().lens->camera.focal_x, 120.0);
   }
 
   void brokenFiles_areTold() {
@@ -383,7 +313,7 @@ class CaptureTest : public QObject {
     f.capture().openMesh(f.path("broken.ply"));
     const auto* messages = f.window.findChild<MessageBar*>("messageBar");
     QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("broken.ply"), kPatience);
-    QCOMPARE(f.text("capture.mesh"), QString("No mesh"));
+    QCOMPARE(f.full("capture.mesh"), QString("No mesh"));
     f.capture().importPairs(f.path("nowhere.csv"));
     QTRY_VERIFY_WITH_TIMEOUT(messages->text().contains("nowhere.csv"), kPatience);
   }

@@ -31,8 +31,10 @@ Project sample(const std::filesystem::path& folder) {
                  {0.05, 2, 1.5},
                  {CompareMode::Wipe, 0.3, true}};
   scene.place.judged = {JudgedPixels::Mask, {1, 2, 30, 40}, (folder / "data/mask.png").string()};
-  scene.place.capture = {(folder / "data/scan.ply").string(),
-                         {{"p1", 1.5, 2.25, {1, 2, -3}}, {"p2", 7, 8, {0.5, 0, 4}, true}}};
+  scene.place.capture.objects = {
+      {.name = "scan",
+       .mesh = (folder / "data/scan.ply").string(),
+       .pairs = {{"p1", 1.5, 2.25, {1, 2, -3}}, {"p2", 7, 8, {0.5, 0, 4}, true}}}};
   scene.results = {{.name = "mine",
                     .file = folder / "work_files/a.h5",
                     .display_range = {-1, 2},

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "app/gui/bench/workbench.h"
+#include "app/session/capture/capture_document.h"
+
+#include <QObject>
+#include <QString>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+namespace episcope {
+
+/// What the user does in the Capture tab: a document for each open light field, which the session
+/// keeps with it. A light field that is opened after another goes on with its lens; what was
+/// prepared before any was open belongs to the first.
+class CaptureDocuments : public QObject {
+  Q_OBJECT
+
+ public:
+  CaptureDocuments(const Workbench& bench, QObject* parent);
+
+  /// Of the light field that is shown, with poses.
+  [[nodiscard]] const CaptureDocument& now() const { return documents_.at(scene_); }
+  /// Why the current object has no pose although it has pairs enough; empty = no such reason.
+  [[nodiscard]] const QString& problem() const { return problem_; }
+  /// Meshes of all open light fields.
+  [[nodiscard]] std::set<std::string> meshes() const;
+
+  /// Changes the document of the light field that is shown.
+  void change(const std::function<void(CaptureDocument&)>& change);
+  /// What the light field that is shown begins with; nothing of it can be undone.
+  void begin(CaptureWork work);
+  /// Light fields that were just opened are told of later: this follows at once.
+  void follow();
+
+ signals:
+  /// The document that is shown changed, or another one is.
+  void changed();
+
+ private:
+  [[nodiscard]] CaptureWork firstWork() const;
+  void settle();
+
+  Workbench bench_;
+  std::map<std::uint64_t, CaptureDocument> documents_;  // by OpenScene::id
+  std::uint64_t scene_ = 0;
+  QString problem_;
+};
+
+}  // namespace episcope
