@@ -16,9 +16,9 @@ namespace {
 
 std::vector<std::vector<int>> chains_of(GridShape grid) {
   std::vector<std::vector<int>> chains;
-  for (const ViewChain& chain : view_chains(grid)) {
-    std::iota(chains.emplace_back(chain.end - chain.begin).begin(), chains.back().end(),
-              chain.begin);
+  for (const ViewChain& each : view_chains(grid)) {
+    std::vector<int>& chain = chains.emplace_back(each.end - each.begin);
+    std::iota(chain.begin(), chain.end(), each.begin);
   }
   std::ranges::stable_sort(chains, std::ranges::greater{}, &std::vector<int>::size);
   return chains;
