@@ -25,7 +25,8 @@ struct Arguments {
   bool only_center = false;  ///< When times are taken.
   int size = 192;
   IntervalOrAuto range;  ///< Searched when times are taken; else as methods find it.
-  std::string methods;   ///< What ids begin with.
+  std::string methods;   ///< What ids begin with,
+  std::string scenes;    ///< and the texts of scenes that are compared on.
 };
 
 bool is_asked(const Arguments& arguments, const LabelRun& run) {
@@ -58,6 +59,7 @@ bool compare_labels(const Arguments& arguments) {
   for (const char* text :
        {"demo", "random?seed=1&kind=room", "random?seed=3&kind=thin", "random?seed=4&grid=1x9",
         "random?seed=4&grid=6x1", "random?seed=7&grid=3x17"}) {
+    if (!std::string(text).starts_with(arguments.scenes)) continue;
     const Scene scene = make_scene(text, arguments.size);
     for (const LabelRun& each : label_runs(scene)) {
       if (is_asked(arguments, each)) passes = compare_run(each, text, table) && passes;
@@ -73,6 +75,7 @@ int compare_all(const Arguments& arguments) {
                    "MSE GPU", "repeatable", "passes"},
                   {}};
   for (const std::string& text : scene_texts()) {
+    if (!text.starts_with(arguments.scenes)) continue;
     const Scene scene = make_scene(text, arguments.size);
     for (const Case& each : cases(arguments.methods)) {
       const Agreement result = compare(each, scene);
@@ -153,6 +156,7 @@ Arguments read_arguments(int count, char** texts) {
     if (text == "--no-cpu") arguments.with_cpu = false;
     if (text == "--size" && has_value) arguments.size = std::stoi(texts[++i]);
     if (text == "--methods" && has_value) arguments.methods = texts[++i];
+    if (text == "--scenes" && has_value) arguments.scenes = texts[++i];
     if (text == "--range" && i + 2 < count) {
       arguments.range = Interval{std::stod(texts[i + 1]), std::stod(texts[i + 2])};
       i += 2;
