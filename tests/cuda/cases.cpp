@@ -111,7 +111,7 @@ Scene make_scene(const std::string& text, int size) {
 }
 
 Scene make_label_scene(int size) {
-  scenes::BuiltinRequest request = scenes::read_request("random?seed=1&kind=room");
+  scenes::BuiltinRequest request = scenes::read_request("random?seed=6");
   request.options.height = request.options.width = size;
   return scenes::render_builtin(request.scene, request.options, Progress());
 }

@@ -117,7 +117,7 @@ void print_timing(const std::string& title, const Timing& timing, const DeviceBo
   std::fflush(stdout);
 }
 
-// 9×9 views of 512² pixels of a room with 13 labels.
+// 9×9 views of 512² pixels, 13 labels.
 void time_labels(const Arguments& arguments, const DeviceBounds& bounds) {
   constexpr int kSize = 512, kViews = 81;
   const std::string label = "label";
