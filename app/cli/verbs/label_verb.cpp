@@ -79,7 +79,8 @@ bool parse(const VerbArguments& arguments, Request& request) {
 
 // What the GPU is for: the estimate, the votes of the forest, and labels along rays.
 void check_device(Device device) {
-  EstimatorInfo label{.name = "label"};
+  EstimatorInfo label;
+  label.name = "label";
   label.devices = {Device::Cpu, Device::Cuda};
   require_device(device, label);
 }
