@@ -11,6 +11,15 @@
 
 namespace episcope {
 
+LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, ViewRectangle views) {
+  LabelProbabilities probabilities;
+  probabilities.ids = ids;
+  probabilities.grid = views.grid;
+  probabilities.first = views.first;
+  probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
+  return probabilities;
+}
+
 Image<std::int32_t> most_probable_labels(VolumeView<const std::uint8_t> probabilities,
                                          const std::vector<std::int32_t>& ids) {
   if (static_cast<int>(ids.size()) != probabilities.layers) {

@@ -3,6 +3,7 @@
 
 #include "engine/core/array/image.h"
 #include "engine/core/array/indices.h"
+#include "engine/core/array/view_rectangle.h"
 #include "engine/core/array/volume.h"
 
 #include <cstdint>
@@ -37,6 +38,10 @@ struct LabelProbabilities {
     return static_cast<std::size_t>(view.v - first.v) * grid.u + (view.u - first.u);
   }
 };
+
+/// No probabilities yet of these views, for labels with these ids.
+[[nodiscard]] LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids,
+                                                     ViewRectangle views);
 
 /// The most probable label of each pixel, `[y][x]`; of equals the lowest id. `ids` names the
 /// layers. Throws InvalidInput unless there is one id for each layer.

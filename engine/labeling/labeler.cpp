@@ -4,11 +4,13 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/core/parallel/stopwatch.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "engine/labeling/features/label_surfaces.h"
 #include "engine/labeling/features/pixel_features.h"
 #include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
-#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/forest/device_forest.h"
+#include "engine/labeling/forest/pixel_votes.h"
 #include "engine/labeling/predict_view.h"
 #include "engine/labeling/rays/disparity_trust.h"
 #include "engine/labeling/rays/edge_probability.h"
@@ -64,15 +66,6 @@ std::vector<Image<float>> color_guides(VolumeView<const float> features) {
   return planes;
 }
 
-LabelProbabilities empty_probabilities(const std::vector<std::int32_t>& ids, ViewRectangle views) {
-  LabelProbabilities probabilities;
-  probabilities.ids = ids;
-  probabilities.grid = views.grid;
-  probabilities.first = views.first;
-  probabilities.views.resize(static_cast<std::size_t>(views.grid.count()));
-  return probabilities;
-}
-
 void require_disparity(Regularizer regularizer, bool has_disparity) {
   if (has_disparity || !info_of(regularizer).joins_views) return;
   throw InvalidInput(
@@ -113,6 +106,9 @@ struct Labeler::State {
   std::shared_ptr<const ViewStack<float>> confidence;
   bool has_own_edges = false;  // Computed here, with or without disparity as `set` says.
   PixelFeatureSet set;
+  Device asked = Device::Auto;
+  Device used = Device::Cpu;  // In the call at hand.
+  std::string note;
   std::deque<std::pair<ViewIndex, Features>> kept;  // The newest last.
   Grown grown;
 
@@ -121,6 +117,25 @@ struct Labeler::State {
     set = wanted;
     kept.clear();
     if (has_own_edges) edges = nullptr;
+  }
+
+  void choose_device(int views) {
+    const bool are_many = views > static_cast<int>(kKeptViews);
+    const bool can = asked == Device::Cuda || (asked == Device::Auto && has_cuda_device());
+    used = are_many && can ? Device::Cuda : Device::Cpu;
+    note = used == Device::Cuda ? "computed on " + known_cuda_device().name : "";
+  }
+
+  /// Does `work` on the device chosen, or on the CPU if that fails and was not demanded.
+  void compute(const std::function<void()>& work) {
+    try {
+      work();
+    } catch (const DeviceFailure& failure) {
+      if (asked == Device::Cuda || used == Device::Cpu) throw;
+      used = Device::Cpu;
+      note = fmt::format("computed on the CPU: {}", failure.what());
+      work();
+    }
   }
 
   [[nodiscard]] Features find_features(ViewIndex view) const {
@@ -175,6 +190,7 @@ struct Labeler::State {
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
                                            VolumeView<const float> features,
+                                           const PixelVotes& votes,
                                            const Progress& progress) const {
     const int labels = learned.forest.label_count();
     const Image<std::int32_t> strokes = carried_strokes(
@@ -190,14 +206,14 @@ struct Labeler::State {
       guides.trust = trust.view();
       LabelSurfaces& own = surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
       if (!trust.empty()) {
-        own.set_support(surface_support(learned.forest, features, own, trust, progress));
+        own.set_support(surface_support(votes, own, trust, progress));
       }
       guides.surfaces = &own;
     }
     const StrokeDistances distances(strokes, labels, guides, progress);
     StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};
     if (is_painted(learned.scribbles, view)) evidence.painted = strokes.view();
-    return predict_view(learned.forest, features, evidence, progress);
+    return predict_view(votes, evidence, progress);
   }
 
   /// Probabilities of the views of `into` that have none yet.
@@ -209,16 +225,22 @@ struct Labeler::State {
     if (missing.size() <= kKeptViews) {
       for (const ViewIndex view : missing) {
         const Features of_view = keep_features(view, progress.part(0, 0));
-        into.view(view) = predict_one(learned, view, of_view->view(), progress.part(0, 0));
+        into.view(view) = predict_one(learned, view, of_view->view(),
+                                      {learned.forest, of_view->view()}, progress.part(0, 0));
       }
       return;
     }
+    const std::shared_ptr<const cuda::DeviceForest> device =
+        used == Device::Cuda ? copy_to_device(learned.forest.flat(), progress.part(0, 0)) : nullptr;
     parallel_for(static_cast<int>(missing.size()), progress, [&](int i) {
       const ViewIndex view = missing[static_cast<std::size_t>(i)];
       const Progress alone = progress.part(0, 0).on_one_thread();
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
-      into.view(view) = predict_one(learned, view, of_view->view(), alone);
+      const VolumeView<const float> features = of_view->view();
+      const PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
+                                      : PixelVotes(learned.forest, features);
+      into.view(view) = predict_one(learned, view, features, votes, alone);
     });
   }
 
@@ -249,8 +271,11 @@ struct Labeler::State {
     RayLabelingParameters options;
     options.smoothness = parameters.smoothness;
     const RayLabelingInput input{&own, disparity.get(), edges.get(), light_field.get()};
-    set_labels(label_rays(input, parameters.regularizer, options, progress.part(0.05, 1)),
-               labeling);
+    compute([&] {
+      options.device = used;
+      set_labels(label_rays(input, parameters.regularizer, options, progress.part(0.05, 1)),
+                 labeling);
+    });
   }
 
   void regularise_alone(const Learned& learned, Labeling& labeling, const Progress& progress) {
@@ -305,6 +330,10 @@ Labeler::~Labeler() = default;
 Labeler::Labeler(Labeler&&) noexcept = default;
 Labeler& Labeler::operator=(Labeler&&) noexcept = default;
 
+void Labeler::compute_on(Device device) {
+  state_->asked = device;
+}
+
 Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& parameters,
                         ViewRectangle views, const Progress& progress,
                         const std::function<void(const Labeling&)>& on_draft) {
@@ -315,13 +344,15 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   const Regularizer regularizer = parameters.regularizer;
   require_disparity(regularizer, state_->disparity != nullptr);
   state_->use({uses_disparity(parameters)});
+  state_->choose_device(views.grid.count());
 
   const Learned learned{scribbles, ids, parameters,
                         state_->train(scribbles, ids, parameters, progress.part(0, 0.1))};
   progress.step(kLabelingStep);
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
-  state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5));
+  state_->compute(
+      [&] { state_->predict(learned, labeling.probabilities, progress.part(0.1, 0.5)); });
   // Not painting: the following steps need the memory.
   if (labeling.probabilities.views.size() > kKeptViews) state_->kept.clear();
   if (regularizer == Regularizer::None || on_draft) {
@@ -337,6 +368,7 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
     }
     state_->regularise(learned, labeling, progress.part(0.5, 1));
   }
+  labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;
 }
@@ -349,9 +381,11 @@ Labeling Labeler::smooth(LabelProbabilities probabilities, const LabelerParamete
     throw InvalidInput("probabilities of all views are needed to label all views");
   }
   state_->use({uses_disparity(parameters)});
+  state_->choose_device(probabilities.grid.count());
   Labeling labeling;
   labeling.probabilities = std::move(probabilities);
   state_->regularise_together(parameters, labeling, progress);
+  labeling.note = state_->note;
   labeling.seconds = watch.seconds();
   return labeling;
 }

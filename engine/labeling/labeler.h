@@ -5,12 +5,14 @@
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/light_field/scene.h"
+#include "engine/core/parallel/device.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/labeling/label_probabilities.h"
 #include "engine/labeling/labeler_parameters.h"
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace episcope {
@@ -22,6 +24,7 @@ struct Labeling {
   bool is_draft = false;             ///< Whether the labels are still to be regularised.
   double gap = 0;                    ///< Relative duality gap of the regulariser.
   double seconds = 0;                ///< Wall-clock time.
+  std::string note;                  ///< Of many views: where they were computed; or empty.
 };
 
 /// Learns from scribbles which label each pixel of a light field has. One object serves many
@@ -64,12 +67,17 @@ class Labeler {
   Labeler(Labeler&&) noexcept;
   Labeler& operator=(Labeler&&) noexcept;
 
+  /// Where the forest votes and labels are smoothed if many views are asked for at once, from the
+  /// next call on. Auto, as at first, takes a GPU if there is one, and the CPU if that fails.
+  void compute_on(Device device);
+
   /// Segments `views`. Labels are those painted anywhere; names and colours in `scribbles` are not
   /// needed. `on_draft`, if given, is called on the calling thread with the labels before
   /// regularisation, if there is any to come. The result depends neither on the number of threads
   /// nor on earlier calls.
   /// Throws InvalidInput if fewer than two labels are painted, if scribbles or `views` do not fit
-  /// the light field, or if disparity is needed and a view lacks it; Cancelled, within 200 ms.
+  /// the light field, or if disparity is needed and a view lacks it; Unavailable if a GPU was
+  /// demanded and fails; Cancelled, within 200 ms.
   [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});

@@ -32,21 +32,21 @@ void keep_strokes(const std::int32_t* strokes, int width, int pitch, float* row)
 
 }  // namespace
 
-ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
-                            const StrokeEvidence& evidence, const Progress& progress) {
-  ProbabilityMap map(features.height, forest.label_count(), features.width);
-  const int pitch = forest.pitch();
+ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evidence,
+                            const Progress& progress) {
+  ProbabilityMap map(votes.height(), votes.label_count(), votes.width());
+  const int pitch = votes.pitch();
   constexpr int kRows = 8;
-  parallel_for_workers((features.height + kRows - 1) / kRows, progress, [&] {
-    const std::size_t size = static_cast<std::size_t>(features.width) * pitch;
+  parallel_for_workers((votes.height() + kRows - 1) / kRows, progress, [&] {
+    const std::size_t size = static_cast<std::size_t>(votes.width()) * pitch;
     return [&, row = std::vector<float>(size)](int item) mutable {
-      const int end = std::min(features.height, (item + 1) * kRows);
+      const int end = std::min(votes.height(), (item + 1) * kRows);
       for (int y = item * kRows; y < end; ++y) {
-        forest.predict_row(features, y, row.data());
+        votes.row(y, row.data());
         if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, pitch, row.data());
         evidence.distances.weigh_row(y, evidence.nearness, pitch, row.data());
         if (!evidence.painted.empty()) {
-          keep_strokes(evidence.painted.row(y), features.width, pitch, row.data());
+          keep_strokes(evidence.painted.row(y), votes.width(), pitch, row.data());
         }
         store_row(row.data(), pitch, map.view(), y);
       }

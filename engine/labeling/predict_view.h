@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/core/array/volume.h"
+#include "engine/core/array/image.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/labeling/features/label_surfaces.h"
 #include "engine/labeling/features/stroke_distance.h"
-#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/forest/pixel_votes.h"
 #include "engine/labeling/label_probabilities.h"
 
 namespace episcope {
@@ -19,9 +19,9 @@ struct StrokeEvidence {
   ImageView<const std::int32_t> painted{};
 };
 
-/// The votes of the forest for each pixel of a view, weighted by what else is known. `features`
-/// `[y][feature][x]` as the forest was trained on. Throws Cancelled.
-[[nodiscard]] ProbabilityMap predict_view(const Forest& forest, VolumeView<const float> features,
-                                          const StrokeEvidence& evidence, const Progress& progress);
+/// The votes of the forest for each pixel of a view, weighted by what else is known. Throws
+/// Cancelled.
+[[nodiscard]] ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evidence,
+                                          const Progress& progress);
 
 }  // namespace episcope

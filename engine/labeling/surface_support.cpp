@@ -34,27 +34,27 @@ void count_row(const float* votes, const float* misfits, int pitch, const float*
 
 }  // namespace
 
-std::vector<float> surface_support(const Forest& forest, VolumeView<const float> features,
-                                   const LabelSurfaces& surfaces, ImageView<const float> trust,
-                                   const Progress& progress) {
-  const int pitch = forest.pitch();
-  const std::size_t row_size = static_cast<std::size_t>(features.width) * pitch;
-  const int rows = (features.height + kRowStep - 1) / kRowStep;
+std::vector<float> surface_support(const PixelVotes& pixel_votes, const LabelSurfaces& surfaces,
+                                   ImageView<const float> trust, const Progress& progress) {
+  const int pitch = pixel_votes.pitch();
+  const auto labels = static_cast<std::size_t>(pixel_votes.label_count());
+  const std::size_t row_size = static_cast<std::size_t>(pixel_votes.width()) * pitch;
+  const int rows = (pixel_votes.height() + kRowStep - 1) / kRowStep;
   // Of each row by itself, so that the sums do not depend on the threads.
   std::vector<std::vector<Counts>> of_rows(static_cast<std::size_t>(rows));
   parallel_for_workers(rows, progress, [&] {
     return [&, votes = std::vector<float>(row_size),
             misfits = std::vector<float>(row_size)](int row) mutable {
-      const int y = std::min(row * kRowStep + kRowStep / 2, features.height - 1);
-      forest.predict_row(features, y, votes.data());
+      const int y = std::min(row * kRowStep + kRowStep / 2, pixel_votes.height() - 1);
+      pixel_votes.row(y, votes.data());
       surfaces.misfits(y, pitch, misfits.data());
       std::vector<Counts>& counts = of_rows[static_cast<std::size_t>(row)];
-      counts.assign(static_cast<std::size_t>(forest.label_count()), {0, 0});
-      count_row(votes.data(), misfits.data(), pitch, trust.row(y), features.width, counts);
+      counts.assign(labels, {0, 0});
+      count_row(votes.data(), misfits.data(), pitch, trust.row(y), pixel_votes.width(), counts);
     };
   });
   std::vector<float> support;
-  for (std::size_t l = 0; l < static_cast<std::size_t>(forest.label_count()); ++l) {
+  for (std::size_t l = 0; l < labels; ++l) {
     Counts sum;
     for (const std::vector<Counts>& counts : of_rows) {
       sum.fitting += counts[l].fitting;

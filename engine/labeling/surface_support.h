@@ -2,10 +2,9 @@
 #pragma once
 
 #include "engine/core/array/image.h"
-#include "engine/core/array/volume.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/labeling/features/label_surfaces.h"
-#include "engine/labeling/forest/forest.h"
+#include "engine/labeling/forest/pixel_votes.h"
 
 #include <vector>
 
@@ -18,11 +17,10 @@ namespace episcope {
 /// exp(−(misfit − least misfit of all labels)) over those pixels, weighted by their trust, with
 /// kPrior pixels that fit; so labels without such pixels are believed.
 ///
-/// `features` `[y][feature][x]` as the forest was trained on; every eighth row is looked at.
+/// Every eighth row is looked at.
 /// `trust` of the disparity `[y][x]` in [0, 1], empty = 1. An own addition; what it gains is in
 /// tests/accuracy/tuning.md. Throws Cancelled.
-[[nodiscard]] std::vector<float> surface_support(const Forest& forest,
-                                                 VolumeView<const float> features,
+[[nodiscard]] std::vector<float> surface_support(const PixelVotes& votes,
                                                  const LabelSurfaces& surfaces,
                                                  ImageView<const float> trust,
                                                  const Progress& progress);

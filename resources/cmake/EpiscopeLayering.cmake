@@ -103,6 +103,7 @@ episcope_forbid(episcope_io ${ui} ${above_engine} "^episcope_(disparity|labeling
 foreach(target episcope_scenes episcope_render)
   episcope_forbid(${target} ${ui} ${above_engine} ${hdf5} "^episcope_(io|disparity|labeling|evaluation)$")
 endforeach()
+episcope_forbid(episcope_labeling_core "^opencv" "^episcope_(labeling|disparity)$")
 foreach(target episcope_disparity episcope_labeling)
   episcope_forbid(${target} ${ui} ${above_engine} ${hdf5} "^episcope_io$")
 endforeach()

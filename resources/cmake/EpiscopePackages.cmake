@@ -3,6 +3,7 @@ find_package(Threads REQUIRED)
 find_package(fmt REQUIRED)
 find_package(Boost REQUIRED)
 if(EPISCOPE_ESTIMATORS_ONLY)
+  find_package(OpenCV QUIET COMPONENTS core imgproc ml)  # for the labeler, if there is one
   return()
 endif()
 find_package(HDF5 REQUIRED COMPONENTS C)

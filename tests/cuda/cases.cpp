@@ -110,4 +110,10 @@ Scene make_scene(const std::string& text, int size) {
   return scene;
 }
 
+Scene make_label_scene(int size) {
+  scenes::BuiltinRequest request = scenes::read_request("random?seed=6");
+  request.options.height = request.options.width = size;
+  return scenes::render_builtin(request.scene, request.options, Progress());
+}
+
 }  // namespace episcope::cuda_tests

@@ -37,4 +37,7 @@ enum class Kind {
 /// channel of 16 bits and "float:".
 [[nodiscard]] Scene make_scene(const std::string& text, int size);
 
+/// Things with 13 labels, in views of size² pixels.
+[[nodiscard]] Scene make_label_scene(int size);
+
 }  // namespace episcope::cuda_tests

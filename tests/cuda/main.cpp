@@ -4,6 +4,7 @@
 #include "engine/cuda/device/cuda_device.h"
 #include "engine/cuda/device/device_bounds.h"
 #include "tests/cuda/agreement.h"
+#include "tests/cuda/label_runs.h"
 #include "tests/cuda/timing.h"
 
 #include <fmt/format.h>
@@ -24,15 +25,57 @@ struct Arguments {
   bool only_center = false;  ///< When times are taken.
   int size = 192;
   IntervalOrAuto range;  ///< Searched when times are taken; else as methods find it.
-  std::string methods;   ///< What ids begin with.
+  std::string methods;   ///< What ids begin with,
+  std::string scenes;    ///< and the texts of scenes that are compared on.
 };
 
-int compare_all(const Arguments& arguments) {
+bool is_asked(const Arguments& arguments, const LabelRun& run) {
+  return run.title.starts_with(arguments.methods);
+}
+
+// Of the bytes of two results, how many are equal.
+double equal_share(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b) {
+  if (a.size() != b.size() || a.empty()) return 0;
+  std::size_t equal = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) equal += a[i] == b[i] ? 1 : 0;
+  return static_cast<double>(equal) / static_cast<double>(a.size());
+}
+
+bool compare_run(const LabelRun& each, const std::string& scene, TextTable& table) {
+  const auto cpu = each.run(Device::Cpu), device = each.run(Device::Cuda);
+  const bool is_repeatable = each.run(Device::Cuda) == device;
+  const double share = equal_share(cpu, device);
+  const bool passes = is_repeatable && share >= each.share;
+  table.rows.push_back({each.title, scene, fmt::format("{:.4f} %", 100 * share),
+                        is_repeatable ? "yes" : "NO", passes ? "yes" : "NO"});
+  return passes;
+}
+
+bool compare_labels(const Arguments& arguments) {
   bool passes = true;
+  TextTable table{{"labels", "scene", "equal", "repeatable", "passes"}, {}};
+  const LabelRun forest = forest_run(arguments.size, 1);
+  if (is_asked(arguments, forest)) passes = compare_run(forest, "-", table);
+  for (const char* text :
+       {"demo", "random?seed=1&kind=room", "random?seed=3&kind=thin", "random?seed=4&grid=1x9",
+        "random?seed=4&grid=6x1", "random?seed=7&grid=3x17"}) {
+    if (!std::string(text).starts_with(arguments.scenes)) continue;
+    const Scene scene = make_scene(text, arguments.size);
+    for (const LabelRun& each : label_runs(scene)) {
+      if (is_asked(arguments, each)) passes = compare_run(each, text, table) && passes;
+    }
+  }
+  if (!table.rows.empty()) fmt::print("{}\n", table_to_text(table));
+  return passes;
+}
+
+int compare_all(const Arguments& arguments) {
+  bool passes = compare_labels(arguments);
   TextTable table{{"method", "scene", "within 1e-4 px", "largest", "confidence", "MSE CPU",
                    "MSE GPU", "repeatable", "passes"},
                   {}};
   for (const std::string& text : scene_texts()) {
+    if (!text.starts_with(arguments.scenes)) continue;
     const Scene scene = make_scene(text, arguments.size);
     for (const Case& each : cases(arguments.methods)) {
       const Agreement result = compare(each, scene);
@@ -44,7 +87,7 @@ int compare_all(const Arguments& arguments) {
                             result.is_repeatable ? "yes" : "NO", result.passes ? "yes" : "NO"});
     }
   }
-  fmt::print("{}\n", table_to_text(table));
+  if (!table.rows.empty()) fmt::print("{}\n", table_to_text(table));
   return passes ? 0 : 1;
 }
 
@@ -62,24 +105,43 @@ void print_kernels(const std::vector<KernelTime>& kernels, const DeviceBounds& b
   fmt::print("{}\n", table_to_text(table));
 }
 
+void print_timing(const std::string& title, const Timing& timing, const DeviceBounds& bounds) {
+  fmt::print("{}: {:.1f} ms, kernels {:.1f} ms", title, 1e3 * timing.seconds,
+             1e3 * timing.kernel_seconds);
+  if (timing.cpu_seconds > 0) {
+    fmt::print(", CPU {:.0f} ms, ratio {:.1f}", 1e3 * timing.cpu_seconds,
+               timing.cpu_seconds / timing.seconds);
+  }
+  fmt::print("\n");
+  print_kernels(timing.kernels, bounds);
+  std::fflush(stdout);
+}
+
+// 9×9 views of 512² pixels, 13 labels.
+void time_labels(const Arguments& arguments, const DeviceBounds& bounds) {
+  constexpr int kSize = 512, kViews = 81;
+  const std::string label = "label";
+  if (!label.starts_with(arguments.methods) && !arguments.methods.starts_with(label)) return;
+  const Scene scene = make_label_scene(kSize);
+  std::vector<LabelRun> runs = label_runs(scene);
+  runs.push_back(forest_run(kSize, kViews));
+  for (const LabelRun& each : runs) {
+    if (!is_asked(arguments, each)) continue;
+    const auto run = [&](Device device) { static_cast<void>(each.run(device)); };
+    print_timing(each.title, time_runs(run, arguments.with_cpu), bounds);
+  }
+}
+
 int time_all(const Arguments& arguments) {
   const DeviceBounds bounds = measure_device_bounds();
   fmt::print("copy {:.0f} GB/s, FP32 {:.0f} GFLOP/s\n\n", bounds.bytes / 1e9,
              bounds.operations / 1e9);
-  Scene scene = make_scene("demo", arguments.size);
+  time_labels(arguments, bounds);
+  const Scene scene = make_scene("demo", arguments.size);
   for (Case& each : cases(arguments.methods)) {
     if (arguments.range) each.values.emplace_back("range", arguments.range);
     if (arguments.only_center) each.views = ViewSelection::Center;
-    const Timing timing = time_case(each, scene, arguments.with_cpu);
-    fmt::print("{}: {:.1f} ms, kernels {:.1f} ms", each.title, 1e3 * timing.seconds,
-               1e3 * timing.kernel_seconds);
-    if (arguments.with_cpu) {
-      fmt::print(", CPU {:.0f} ms, ratio {:.1f}", 1e3 * timing.cpu_seconds,
-                 timing.cpu_seconds / timing.seconds);
-    }
-    fmt::print("\n");
-    print_kernels(timing.kernels, bounds);
-    std::fflush(stdout);
+    print_timing(each.title, time_case(each, scene, arguments.with_cpu), bounds);
   }
   return 0;
 }
@@ -94,6 +156,7 @@ Arguments read_arguments(int count, char** texts) {
     if (text == "--no-cpu") arguments.with_cpu = false;
     if (text == "--size" && has_value) arguments.size = std::stoi(texts[++i]);
     if (text == "--methods" && has_value) arguments.methods = texts[++i];
+    if (text == "--scenes" && has_value) arguments.scenes = texts[++i];
     if (text == "--range" && i + 2 < count) {
       arguments.range = Interval{std::stod(texts[i + 1]), std::stod(texts[i + 2])};
       i += 2;

@@ -5,6 +5,7 @@
 #include "engine/cuda/device/kernel_times.h"
 #include "tests/cuda/cases.h"
 
+#include <functional>
 #include <vector>
 
 namespace episcope::cuda_tests {
@@ -17,5 +18,8 @@ struct Timing {
   std::vector<KernelTime> kernels;
 };
 [[nodiscard]] Timing time_case(const Case& each, const Scene& scene, bool with_cpu);
+
+/// Likewise of anything that can be run on either device.
+[[nodiscard]] Timing time_runs(const std::function<void(Device)>& run, bool with_cpu);
 
 }  // namespace episcope::cuda_tests

@@ -14,6 +14,7 @@
 #include "app/session/labels/save_segmentation.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel/stopwatch.h"
+#include "engine/disparity/common/estimator.h"
 #include "engine/io/labels/scribble_file.h"
 
 #include <iomanip>
@@ -61,6 +62,7 @@ bool parse(const VerbArguments& arguments, Request& request) {
                 "Also write a black and white PNG of every label in every view into this folder");
   parser.flag("--no-probabilities", request.probabilities, StoredProbabilities::None,
               "Write labels only; probabilities take four bytes per ray and label");
+  request.job.run.declare(parser, {run_schema().description("device")});
   parser.flag("--json", request.is_json, "Print one JSON object instead of a table");
   const Schema<LabelerParameters> schema = labeler_schema();
   ParameterOptions options;
@@ -73,6 +75,14 @@ bool parse(const VerbArguments& arguments, Request& request) {
         "label: --features image+truth uses the ground truth, so --disparity would have no effect");
   }
   return true;
+}
+
+// What the GPU is for: the estimate, the votes of the forest, and labels along rays.
+void check_device(Device device) {
+  EstimatorInfo label;
+  label.name = "label";
+  label.devices = {Device::Cpu, Device::Cuda};
+  require_device(device, label);
 }
 
 void check_output(const Request& request) {
@@ -183,6 +193,8 @@ void print_text_answer(const Request& request, const Labeling& labeling,
 void run_label(const VerbArguments& arguments, std::stop_token stop) {
   Request request;
   if (!parse(arguments, request)) return;
+  const Device device = request.job.run_options().device;
+  check_device(device);
   check_input(request.input);
   check_output(request);
 
@@ -193,13 +205,15 @@ void run_label(const VerbArguments& arguments, std::stop_token stop) {
   const Scribbles scribbles = load_scribbles(request, scene, progress);
   const Stopwatch watch;
   const LabelingDisparity disparity = find_labeling_disparity(
-      scene, request.parameters, request.disparity, progress.part(0.1, 0.2));
+      scene, request.parameters, request.disparity, progress.part(0.1, 0.2), device);
   if (disparity.estimate) note_other_source(*disparity.estimate, *scene.light_field, job);
   Labeler labeler(scene.light_field, disparity.field, find_edge_probabilities(scene, progress),
                   disparity.confidence());
+  labeler.compute_on(device);
   const auto labeling = std::make_shared<const Labeling>(
       label_views(labeler, scribbles, scene, request, progress.part(0.2, 0.95)));
   const double seconds = watch.seconds();
+  if (!labeling->note.empty()) job.note(labeling->note);
   progress.step("writing " + request.output);
   Segmentation segmentation;
   segmentation.labeling = labeling;

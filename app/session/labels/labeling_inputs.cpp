@@ -42,7 +42,7 @@ std::shared_ptr<const ViewStack<float>> LabelingDisparity::confidence() const {
 
 LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParameters& parameters,
                                           const std::filesystem::path& result_file,
-                                          const Progress& progress) {
+                                          const Progress& progress, Device device) {
   const LightField& lf = *scene.light_field;
   if (parameters.features == FeatureSet::ImageTruth) return {true_field(scene), "truth", nullptr};
   if (!result_file.empty()) {
@@ -53,8 +53,9 @@ LabelingDisparity find_labeling_disparity(const Scene& scene, const LabelerParam
     bring_to_focus(estimate, lf, progress);
     return disparity_of(std::make_shared<const Estimate>(std::move(estimate)), name);
   }
-  return disparity_of(run_estimator(lf, {kLabelingEstimator, {}, {}}, progress).estimate,
-                      kLabelingEstimator);
+  return disparity_of(
+      run_estimator(lf, {kLabelingEstimator, {}, {.device = device}}, progress).estimate,
+      kLabelingEstimator);
 }
 
 bool has_edge_probabilities(const Scene& scene) {

@@ -32,12 +32,13 @@ inline constexpr const char* kLabelingEstimator = "epi_c";
 
 /// What the set of features asks for: the truth for FeatureSet::ImageTruth, else the result in
 /// `result_file`, brought to the focus plane of the scene, else an estimate of all views by
-/// kLabelingEstimator. Throws InvalidInput if the scene has no true disparity of all views or the
-/// result does not fit or covers fewer views; IoError, Cancelled.
+/// kLabelingEstimator on `device`. Throws InvalidInput if the scene has no true disparity of all
+/// views or the result does not fit or covers fewer views; IoError, Cancelled.
 [[nodiscard]] LabelingDisparity find_labeling_disparity(const Scene& scene,
                                                         const LabelerParameters& parameters,
                                                         const std::filesystem::path& result_file,
-                                                        const Progress& progress);
+                                                        const Progress& progress,
+                                                        Device device = Device::Auto);
 
 /// Whether EDGE_WEIGHTS lie beside the light field.
 [[nodiscard]] bool has_edge_probabilities(const Scene& scene);

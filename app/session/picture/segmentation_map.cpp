@@ -2,6 +2,7 @@
 #include "app/session/picture/segmentation_map.h"
 
 #include "engine/evaluation/metrics/error_maps.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/labeling/rays/edge_probability.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/layers/layer_score.cuh"
 #include "engine/cuda/layers/layer_solver.h"
 #include "engine/cuda/tv_l2/denoise_maps.cuh"
 #include "engine/cuda/tv_l2/tv_l2_solver.cuh"
@@ -98,6 +99,7 @@ class LayerSolver {
     launch(stream_, {name, bytes * count, 8 * count},
            [&] { kernel(blocks_for(maps_.count, kThreads)); });
   }
+  void find_score(const ViewStack<float>& fit, const Progress& progress);
   void find_weights(const Progress& progress);
   void solve_layer(double lambda, float* result, const Progress& progress);
   [[nodiscard]] DeviceArray<float> stack(const ViewStack<float>& host, const Progress& progress) {
@@ -124,8 +126,8 @@ LayerSolver::LayerSolver(const LightField& lf, const LayerSmoothing& smoothing,
       coherence_(stack(maps.coherence, progress)),
       near_(stack(maps.near, progress)),
       far_(stack(maps.far, progress)),
-      data_(stack(maps.score, progress)),
-      weight_(stack(maps.weight, progress)),
+      data_(single_.size(), stream_),
+      weight_(single_.size(), stream_),
       image_edges_(single_.size(), stream_),
       edges_(single_.size(), stream_),
       layers_(upload(maps.layers.data(), maps.layers.size(), stream_, progress)),
@@ -135,7 +137,19 @@ LayerSolver::LayerSolver(const LightField& lf, const LayerSmoothing& smoothing,
             single_.data(), coherence_.data(), near_.data(),
             far_.data(),    layers_.data(),    region_.data(),
             data_.data(),   weight_.data(),    image_edges_.data(),
-            edges_.data()} {}
+            edges_.data()} {
+  find_score(maps.fit, progress);
+}
+
+void LayerSolver::find_score(const ViewStack<float>& fit, const Progress& progress) {
+  const DeviceArray<float> coherence = stack(fit, progress);
+  const PackedFieldMemory packed(light_field_->samples(), stream_);
+  score_layers(packed.field(), views_, static_cast<float>(smoothing_.decision),
+               smoothing_.strictness,
+               {coherence.data(), single_.data(), near_.data(), far_.data(), layers_.data(),
+                data_.data(), weight_.data()},
+               stream_);
+}
 
 // Of either layer's data, and of the variation.
 void LayerSolver::find_weights(const Progress& progress) {

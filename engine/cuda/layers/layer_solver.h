@@ -12,6 +12,8 @@ namespace episcope::cuda {
 
 /// How two layers are told from one and smoothed; see EpiTwoLayerParameters.
 struct LayerSmoothing {
+  double decision = 0.1;
+  float strictness = 3;  ///< Of the fit of lines, line_strictness().
   double region_smoothness = 4;
   int region_iterations = 10;
   double region_gap = 1e-3;
@@ -25,12 +27,11 @@ struct LayerSmoothing {
   double gap = 1e-4;
 };
 
-/// Stacks of the same views. `score` speaks for two layers where it is positive, as `weight` says.
+/// Stacks of the same views. `fit` is the coherence of one orientation before lines were checked.
 /// The others are raw and become results: the coherence of one orientation that of what is there,
 /// `layers` the confidence of two orientations in 1/255 their number.
 struct LayerMaps {
-  const ViewStack<float>& score;
-  const ViewStack<float>& weight;
+  const ViewStack<float>& fit;
   const ViewStack<float>& single;
   ViewStack<float>& coherence;
   ViewStack<float>& near;
@@ -38,7 +39,7 @@ struct LayerMaps {
   ViewStack<std::uint8_t>& layers;
 };
 
-/// Steps 3 and 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. Throws
+/// Steps 2 to 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. Throws
 /// DeviceFailure, Cancelled.
 [[nodiscard]] std::vector<double> solve_layers(const LightField& light_field,
                                                const LayerSmoothing& smoothing,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/parallel/device.h"
 #include "engine/core/parameter/named.h"
 #include "engine/core/parameter/schema.h"
 
@@ -10,8 +11,6 @@ namespace episcope {
 enum class ViewSelection { All, Center };
 [[nodiscard]] Names<ViewSelection> names_of(ViewSelection);
 
-/// Where a method computes; Auto leaves the choice to the method.
-enum class Device { Auto, Cpu, Cuda };
 [[nodiscard]] Names<Device> names_of(Device);
 
 /// How a method is run, whichever it is.

@@ -170,27 +170,14 @@ std::vector<std::string> notes_of(const std::vector<double>& gaps,
           gap_note(*std::max_element(gaps.begin(), gaps.end()))};
 }
 
-// The same on the device, which leaves the score to the CPU.
-std::vector<double> solve_on_device(const LightField& lf, const PackedViews& packed,
-                                    const EpiTwoLayerParameters& parameters,
+// The same on the device.
+std::vector<double> solve_on_device(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                     const ViewStack<float>& fit, Estimate& estimate,
                                     const Progress& progress) {
   LayeredDisparity& layered = estimate.layered;
-  const ViewStack<float>& single = estimate.field.disparity;
-  const auto like_single = [&single] {
-    return ViewStack<float>(single.grid(), single.height(), single.width(), 1, single.first());
-  };
-  ViewStack<float> scores = like_single(), weights = like_single();
-  parallel_for_workers(single.grid().count(), progress.part(0, 0.4), [&] {
-    return [&, score = LayerScore(packed, parameters.decision)](int i) mutable {
-      const ViewIndex view = single.view_at(i);
-      score.judge(view,
-                  {fit.view(view), single.view(view), layered.foreground.disparity.view(view),
-                   layered.background.disparity.view(view), layered.layers.view(view)},
-                  scores.view(view), weights.view(view));
-    };
-  });
   cuda::LayerSmoothing smoothing;
+  smoothing.decision = parameters.decision;
+  smoothing.strictness = line_strictness(lf.grid());
   smoothing.region_smoothness = parameters.region_smoothness;
   smoothing.region_iterations = kRegionIterations;
   smoothing.region_gap = kRegionGap;
@@ -204,22 +191,17 @@ std::vector<double> solve_on_device(const LightField& lf, const PackedViews& pac
   smoothing.gap = parameters.stop.gap;
   return cuda::solve_layers(
       lf, smoothing,
-      {scores, weights, single, estimate.confidence, layered.foreground.disparity,
+      {fit, estimate.field.disparity, estimate.confidence, layered.foreground.disparity,
        layered.background.disparity, layered.layers},
-      progress.part(0.4, 1));
+      progress);
 }
 
 // Replaces the raw maps in `estimate` by the results.
-void solve_views(const LightField& lf, const PackedViews& packed,
-                 const EpiTwoLayerParameters& parameters, const ViewStack<float>& fit,
-                 Estimate& estimate, const Progress& progress, Device device) {
+std::vector<double> solve_on_cpu(const LightField& lf, const PackedViews& packed,
+                                 const EpiTwoLayerParameters& parameters,
+                                 const ViewStack<float>& fit, Estimate& estimate,
+                                 const Progress& progress) {
   LayeredDisparity& layered = estimate.layered;
-  progress.step("layers");
-  if (device == Device::Cuda) {
-    const auto gaps = solve_on_device(lf, packed, parameters, fit, estimate, progress);
-    estimate.notes = notes_of(gaps, layered.layers);
-    return;
-  }
   const GridShape grid = layered.layers.grid();
   const ViewIndex first = layered.layers.first();
   std::vector<double> gaps(grid.count());
@@ -232,7 +214,26 @@ void solve_views(const LightField& lf, const PackedViews& packed,
                  layered.background.disparity.view(view), layered.layers.view(view)});
     };
   });
-  estimate.notes = notes_of(gaps, layered.layers);
+  return gaps;
+}
+
+// Checks the lines of the single layer, and decides and smooths.
+void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters,
+                 const ViewStack<float>& fit, Estimate& estimate, const Progress& progress,
+                 Device device) {
+  const auto solve = [&] {
+    const Progress checking = progress.part(0, 0.15), solving = progress.part(0.15, 1);
+    if (device == Device::Cuda) {
+      check_lines(lf, parameters.line_check, estimate, checking, device);
+      progress.step("layers");
+      return solve_on_device(lf, parameters, fit, estimate, solving);
+    }
+    const PackedViews packed = pack_views(lf, progress.part(0, 0));
+    check_lines(packed, parameters.line_check, estimate, checking);
+    progress.step("layers");
+    return solve_on_cpu(lf, packed, parameters, fit, estimate, solving);
+  };
+  estimate.notes = notes_of(solve(), estimate.layered.layers);
 }
 
 // Overshoot that the tensors left in, and the foreground as the single map for methods with one
@@ -341,13 +342,7 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
-  const PackedViews packed = pack_views(lf, progress.part(0.4, 0.42));
-  if (device == Device::Cuda) {
-    check_lines(lf, parameters.line_check, estimate, progress.part(0.42, 0.5), device);
-  } else {
-    check_lines(packed, parameters.line_check, estimate, progress.part(0.42, 0.5));
-  }
-  solve_views(lf, packed, parameters, fit, estimate, progress.part(0.5, 0.98), device);
+  solve_views(lf, parameters, fit, estimate, progress.part(0.4, 0.98), device);
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;
 }

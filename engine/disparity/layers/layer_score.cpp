@@ -15,19 +15,17 @@ namespace {
 constexpr float kNoiseFit = 0.3F;
 constexpr float kOneLayer = 0.02F;
 
-// Of the fit of lines (raise_by_line_fit): 3 where these reach four views. Nearer, the misfit of
-// another disparity is less, by the square of the distance.
-float strictness(GridShape grid) {
+}  // namespace
+
+float line_strictness(GridShape grid) {
   const int reach = std::clamp(std::max(grid.u, grid.v) / 2, 1, kMaxArmViews);
   return 3.0F * kMaxArmViews * kMaxArmViews / static_cast<float>(reach * reach);
 }
 
-}  // namespace
-
 LayerScore::LayerScore(const PackedViews& packed, double decision)
     : packed_(packed),
       decision_(static_cast<float>(decision)),
-      strictness_(strictness(packed.pixels.grid())),
+      strictness_(line_strictness(packed.pixels.grid())),
       residuals_(packed),
       rows_(packed.pixels.height(), packed.pixels.width()),
       coherence_(packed.pixels.height(), packed.pixels.width()) {}

@@ -5,6 +5,10 @@
 
 namespace episcope {
 
+/// How strictly lines must fit (raise_by_line_fit) in a grid: 3 where they reach four views.
+/// Nearer, the misfit of another disparity is less, by the square of the distance.
+[[nodiscard]] float line_strictness(GridShape grid);
+
 /// Tells view by view whether rays see two layers or one; one object per thread.
 class LayerScore {
  public:

@@ -127,25 +127,33 @@ class Points {
 };
 
 using Ratios = std::vector<std::vector<Ratio>>;  // By view and channel.
+using Logs = std::vector<std::vector<float>>;    // Of the ratios, without a fall-off.
 
-std::vector<double> medians(const Ratios& ratios, double k, const Progress& progress) {
-  std::vector<double> logs(ratios.size());
+Logs without_fall_off(const Ratios& ratios, double k, const Progress& progress) {
+  Logs logs(ratios.size());
   parallel_for(static_cast<int>(ratios.size()), progress, [&](int i) {
-    if (ratios[i].size() < 50) return;
-    std::vector<float> values(ratios[i].size());
-    std::ranges::transform(ratios[i], values.begin(),
-                           [&](const Ratio& r) { return without_fall_off(r, k); });
-    logs[i] = quantile(values, 0.5);
+    logs[i].resize(ratios[i].size());
+    std::ranges::transform(ratios[i], logs[i].begin(),
+                           [&](const Ratio& ratio) { return without_fall_off(ratio, k); });
   });
   return logs;
 }
 
-// How far ratios that fit may be off: noise sets it.
-float tolerance(const std::vector<Ratio>& ratios, double log, double k) {
-  std::vector<float> off(ratios.size());
-  std::ranges::transform(ratios, off.begin(), [&](const Ratio& ratio) {
-    return std::abs(without_fall_off(ratio, k) - static_cast<float>(log));
+std::vector<double> medians(const Logs& logs, const Progress& progress) {
+  std::vector<double> middle(logs.size());
+  parallel_for(static_cast<int>(logs.size()), progress, [&](int i) {
+    if (logs[i].size() < 50) return;
+    std::vector<float> values = logs[i];
+    middle[i] = quantile(values, 0.5);
   });
+  return middle;
+}
+
+// How far ratios that fit may be off: noise sets it.
+float tolerance(const std::vector<float>& logs, double log) {
+  std::vector<float> off(logs.size());
+  std::ranges::transform(logs, off.begin(),
+                         [&](float each) { return std::abs(each - static_cast<float>(log)); });
   return std::max(kLeastTolerance, kTolerance * static_cast<float>(quantile(off, 0.5)));
 }
 
@@ -154,12 +162,14 @@ struct Step {
   double product = 0, square = 1e-9;
 };
 
-Step step_of(const std::vector<Ratio>& ratios, double log, double k) {
+Step step_of(const std::vector<Ratio>& ratios, const std::vector<float>& logs, double log,
+             double k) {
   Step step;
   if (ratios.empty()) return step;
-  const double most = tolerance(ratios, log, k);
-  for (const Ratio& ratio : ratios) {
-    const double off = without_fall_off(ratio, k) - log;
+  const double most = tolerance(logs, log);
+  for (std::size_t i = 0; i < ratios.size(); ++i) {
+    const Ratio& ratio = ratios[i];
+    const double off = logs[i] - log;
     if (std::abs(off) > most) continue;
     const double slope = ratio.here / (1 - k * ratio.here) - ratio.there / (1 - k * ratio.there);
     const double trust = 1 - off * off / (most * most);
@@ -169,12 +179,13 @@ Step step_of(const std::vector<Ratio>& ratios, double log, double k) {
   return step;
 }
 
-// A step of k on points whose ratio fits about, the others being occluded or wrong.
-double better_fall_off(const Ratios& ratios, const std::vector<double>& logs, double k,
-                       const Progress& progress) {
+// A step of k, at which the ratios have these logs, on points whose ratio fits about, the others
+// being occluded or wrong.
+double better_fall_off(const Ratios& ratios, const Logs& logs, double k, const Progress& progress) {
+  const std::vector<double> middle = medians(logs, progress);
   std::vector<Step> steps(ratios.size());
   parallel_for(static_cast<int>(ratios.size()), progress,
-               [&](int i) { steps[i] = step_of(ratios[i], logs[i], k); });
+               [&](int i) { steps[i] = step_of(ratios[i], logs[i], middle[i], k); });
   Step sum;
   for (const Step& step : steps) {
     sum.product += step.product;
@@ -237,11 +248,12 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
     for (int c = 0; c < channels; ++c) ratios[i * channels + c] = std::move(all[c]);
   });
   Brightness brightness;
-  std::vector<double> logs = medians(ratios, 0, progress);
+  Logs corrected = without_fall_off(ratios, 0, progress);
   for (int i = 0; i < kRounds; ++i) {
-    brightness.fall_off = better_fall_off(ratios, logs, brightness.fall_off, progress);
-    logs = medians(ratios, brightness.fall_off, progress);
+    brightness.fall_off = better_fall_off(ratios, corrected, brightness.fall_off, progress);
+    corrected = without_fall_off(ratios, brightness.fall_off, progress);
   }
+  const std::vector<double> logs = medians(corrected, progress);
   brightness.gains.assign(grid.count(), {1, 1, 1});
   for (int i = 0; i < grid.count(); ++i) {
     for (int c = 0; c < channels; ++c) {

@@ -176,10 +176,22 @@ int Forest::leaf_of(const float* sample, int tree) const {
   }
 }
 
+FlatForest Forest::flat() const {
+  FlatForest flat;
+  flat.nodes = nodes_.data();
+  flat.roots = roots_.data();
+  flat.votes_of = leaves_.data();
+  flat.votes = votes_.data();
+  flat.tree_count = tree_count();
+  flat.node_count = static_cast<int>(nodes_.size());
+  flat.leaf_count = static_cast<int>(votes_.size()) / pitch_;
+  flat.pitch = pitch_;
+  return flat;
+}
+
 void Forest::predict_row(VolumeView<const float> features, int y, float* out, Isa isa) const {
   const ForestKernel& kernel = EPISCOPE_CHOOSE_KERNEL(isa, kForestKernel);
-  const FlatForest flat{nodes_.data(), roots_.data(), leaves_.data(),
-                        votes_.data(), tree_count(),  pitch_};
+  const FlatForest trees = flat();
   // A block's features together fit the first-level cache.
   std::vector<float> block(static_cast<std::size_t>(feature_count_) * kForestBlock);
   const float scale = 1.0F / static_cast<float>(tree_count());
@@ -189,7 +201,7 @@ void Forest::predict_row(VolumeView<const float> features, int y, float* out, Is
       std::copy_n(features.row(y, f) + x, count, block.data() + f * kForestBlock);
     }
     float* sums = out + static_cast<std::ptrdiff_t>(x) * pitch_;
-    kernel.vote(flat, block.data(), kForestBlock, count, sums);
+    kernel.vote(trees, block.data(), kForestBlock, count, sums);
     std::transform(sums, sums + static_cast<std::ptrdiff_t>(count) * pitch_, sums,
                    [scale](float sum) { return sum * scale; });
   }

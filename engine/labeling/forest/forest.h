@@ -62,6 +62,9 @@ class Forest {
   /// Floats of a pixel in `predict_row`: labels rounded up to whole vectors.
   [[nodiscard]] int pitch() const { return pitch_; }
 
+  /// All trees as kernels walk them; borrowed.
+  [[nodiscard]] FlatForest flat() const;
+
   /// The leaf that a sample reaches in a tree, counted over all trees; for tests.
   [[nodiscard]] int leaf_of(const float* sample, int tree) const;
 

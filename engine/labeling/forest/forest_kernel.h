@@ -23,6 +23,7 @@ struct FlatForest {
   const int* votes_of = nullptr;  ///< Row of `votes` for each node that is a leaf.
   const float* votes = nullptr;   ///< `[leaf][label]`, `pitch` apart, rows that sum to 1.
   int tree_count = 0;
+  int node_count = 0, leaf_count = 0;
   int pitch = 0;  ///< Labels, rounded up to whole vectors of the widest kind.
 };
 

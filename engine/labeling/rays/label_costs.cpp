@@ -11,8 +11,6 @@
 namespace episcope {
 namespace {
 
-constexpr int kNearViews = 5;
-
 // What one thread sums up of one row.
 struct Row {
   explicit Row(int width) : targets(width), weight(width) {}

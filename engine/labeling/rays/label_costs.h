@@ -19,10 +19,13 @@ using CostTable = std::array<float, 256>;
 void fill_costs(VolumeView<const std::uint8_t> probabilities, const CostTable& table,
                 VolumeView<float> costs);
 
+/// Side of the square of views that are nearest to one.
+inline constexpr int kNearViews = 5;
+
 /// Which rays of a scene point contribute.
 enum class TrackViews {
   All,   ///< Those of all views.
-  Near,  ///< Those of the nearest 5×5 views.
+  Near,  ///< Those of the nearest kNearViews² views.
 };
 
 /// What fill_track_costs gathers from: everything is borrowed.

@@ -2,7 +2,7 @@
 #include "engine/labeling/rays/line_smoothing.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/labeling/rays/label_costs.h"
 #include "engine/labeling/rays/ray_lines.h"
 #include "engine/labeling/rays/solve_views.h"

@@ -47,9 +47,13 @@ class RayColors {
     return table_[std::min(sum, kNoTrust)];
   }
 
- private:
-  static constexpr int kNoTrust = 1600;  // squares summed over three channels
+  /// What is compared, of 8 bits; null if nothing is known.
+  [[nodiscard]] const ViewStack<std::uint8_t>* samples() const { return colors_; }
+  /// Trust of each squared difference of colours, summed over three channels; 0 from the last on.
+  static constexpr int kNoTrust = 1600;
+  [[nodiscard]] const std::array<float, kNoTrust + 1>& trusts() const { return table_; }
 
+ private:
   std::unique_ptr<const ViewStack<std::uint8_t>> rounded_;
   const ViewStack<std::uint8_t>* colors_ = nullptr;  // of the light field, or `rounded_`
   std::array<float, kNoTrust + 1> table_ = {};

@@ -3,6 +3,7 @@
 
 #include "engine/core/light_field/disparity_field.h"
 #include "engine/core/light_field/light_field.h"
+#include "engine/core/parallel/device.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/labeling/label_probabilities.h"
 
@@ -21,6 +22,8 @@ struct RayLabelingParameters {
   double gap_all_views = 1e-2;  ///< and label_rays in each view,
   double gap_joint = 4e-3;      ///< or of all views where they are one problem.
   int max_iterations = 300;     ///< In each view, or of all together.
+  /// Where label_rays computes, for all views and one problem a view; Auto = on the CPU.
+  Device device = Device::Cpu;
 };
 
 /// What is known about the rays; borrowed for the call.

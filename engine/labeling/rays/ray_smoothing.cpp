@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/rays/ray_smoothing.h"
 
+#include "engine/labeling/rays/device_labeling.h"
 #include "engine/labeling/rays/ray_vote.h"
 #include "engine/labeling/rays/solve_views.h"
 
@@ -38,6 +39,10 @@ void vote(const RayLabelingInput& input, const RayColors& colors, const Progress
 
 RayLabeling smooth_rays(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                         const Progress& progress) {
+  if (is_for_device(input, parameters)) {
+    const RayColors colors = colors_of(input, progress.part(0, 0));
+    return label_on_device(input, parameters, {&colors, kVotes}, progress);
+  }
   const ViewProblems problems = problems_of(input, parameters, TrackViews::Near, progress);
   RayLabeling result = solve_views(problems, progress.part(0, 0.9));
   vote(input, problems.colors, progress.part(0.9, 1), result);

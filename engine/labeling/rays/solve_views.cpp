@@ -13,21 +13,6 @@ namespace {
 constexpr int kLongestChain = 9;
 constexpr int kMinChains = 8;
 
-struct Chain {
-  int begin = 0, end = 0;  // of the views' numbers
-};
-
-std::vector<Chain> chains_of(GridShape grid) {
-  const int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
-  std::vector<Chain> chains;
-  for (int v = 0; v < grid.v; ++v) {
-    for (int u = 0; u < grid.u; u += length) {
-      chains.push_back({v * grid.u + u, v * grid.u + std::min(u + length, grid.u)});
-    }
-  }
-  return chains;
-}
-
 void add(const SimplexResult& part, RayLabeling& result) {
   result.energy += part.energy;
   result.bound += part.bound;
@@ -36,10 +21,21 @@ void add(const SimplexResult& part, RayLabeling& result) {
 
 }  // namespace
 
+std::vector<ViewChain> view_chains(GridShape grid) {
+  const int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
+  std::vector<ViewChain> chains;
+  for (int v = 0; v < grid.v; ++v) {
+    for (int u = 0; u < grid.u; u += length) {
+      chains.push_back({v * grid.u + u, v * grid.u + std::min(u + length, grid.u)});
+    }
+  }
+  return chains;
+}
+
 RayLabeling solve_views(const ViewProblems& problems, const Progress& progress) {
   const LabelProbabilities& p = *problems.input.probabilities;
   RayLabeling result = unlabeled(p);
-  const std::vector<Chain> chains = chains_of(p.grid);
+  const std::vector<ViewChain> chains = view_chains(p.grid);
   std::vector<SimplexResult> parts(p.views.size());
   progress.step("views");
   // Whole views side by side: threads that share a view wait for each other at every iteration.

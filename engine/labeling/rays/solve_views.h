@@ -4,8 +4,15 @@
 #include "engine/labeling/rays/view_problem.h"
 
 #include <functional>
+#include <vector>
 
 namespace episcope {
+
+/// Views of one row of the grid, numbers [begin, end), that are solved one after the other.
+struct ViewChain {
+  int begin = 0, end = 0;
+};
+[[nodiscard]] std::vector<ViewChain> view_chains(GridShape grid);
 
 /// The separate problems of the views, and how the costs of a view get into its problem. Borrows
 /// the input and the parameters.

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/rays/view_problem.h"
 
-#include "engine/labeling/rays/edge_probability.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/labeling/rays/ray_targets.h"
 
 namespace episcope {
-namespace {
-
-// A check of the gap costs half an iteration, and 30 iterations are enough.
-constexpr int kCheckEvery = 5;
-
-}  // namespace
 
 ViewProblem::ViewProblem(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const RayColors& colors)
@@ -57,7 +51,7 @@ SimplexResult ViewProblem::solve(const Task& task, const Progress& progress,
   SimplexOptions options;
   options.gap = task.gap;
   options.max_iterations = parameters_.max_iterations;
-  options.check_every = kCheckEvery;
+  options.check_every = kGapCheckEvery;
   if (task.last) options.from_last = places_in(*task.last, task.view);
   return solver_.solve({costs_.view(), g, parameters_.smoothness}, options, progress, labels);
 }

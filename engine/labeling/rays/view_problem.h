@@ -9,6 +9,10 @@
 
 namespace episcope {
 
+/// Iterations between two looks at the gap: one costs half an iteration, and 30 iterations are
+/// enough.
+inline constexpr int kGapCheckEvery = 5;
+
 /// The labeling of one view as a problem of its own, and room to solve it for many views: costs of
 /// its labels, weights of its boundaries, the solver. One object per solving thread.
 class ViewProblem {

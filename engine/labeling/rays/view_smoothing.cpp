@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/rays/view_smoothing.h"
 
+#include "engine/labeling/rays/device_labeling.h"
 #include "engine/labeling/rays/solve_views.h"
 
 namespace episcope {
@@ -17,6 +18,7 @@ ViewProblems problems_of(const RayLabelingInput& input, const RayLabelingParamet
 
 RayLabeling smooth_views(const RayLabelingInput& input, const RayLabelingParameters& parameters,
                          const Progress& progress) {
+  if (is_for_device(input, parameters)) return label_on_device(input, parameters, {}, progress);
   RayLabeling result = solve_views(problems_of(input, parameters), progress);
   replace_layers_by_ids(input.probabilities->ids, result);
   return result;

@@ -2,6 +2,7 @@
 #include "engine/labeling/consistency.h"
 
 #include "engine/core/error.h"
+#include "engine/labeling/rays/boundary_weights.h"
 #include "engine/labeling/rays/edge_probability.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"

@@ -2,6 +2,7 @@
 #include "engine/labeling/labeler.h"
 
 #include "engine/core/error.h"
+#include "engine/cuda/device/cuda_device.h"
 #include "engine/scenes/builtin.h"
 #include "tests/test_main.h"
 
@@ -69,6 +70,7 @@ class LabelerTest : public QObject {
   void result_dependsNeitherOnThreads_norOnEarlierCalls();
   void forest_isGrownAgainOnlyForOtherStrokesOrOptions();
   void badInput_isToldInASentence();
+  void missingGpu_isToldOnlyIfDemanded();
   void stop_cancels();
 };
 
@@ -206,6 +208,23 @@ void LabelerTest::badInput_isToldInASentence() {
       InvalidInput,
       (void)without.label(scene().scribbles, parameters(FeatureSet::Image, Regularizer::Rayspace),
                           kAll, Progress()));
+}
+
+void LabelerTest::missingGpu_isToldOnlyIfDemanded() {
+  if (has_cuda_device()) QSKIP("there is a GPU, which tests/cuda is for");
+  scenes::RenderOptions options;
+  options.grid = {4, 3};
+  options.height = options.width = kSize;
+  const Scene larger = scenes::render_builtin("objects", options, Progress());
+  Labeler labeler(larger.light_field, {larger.truth, &larger.truth->field});
+  const ViewRectangle all{{0, 0}, options.grid};
+
+  labeler.compute_on(Device::Cuda);
+  QVERIFY_THROWS_EXCEPTION(Unavailable, (void)labeler.label(larger.scribbles, {}, all, Progress()));
+  labeler.compute_on(Device::Auto);
+  const Labeling labeling = labeler.label(larger.scribbles, {}, all, Progress());
+  QCOMPARE(labeling.labels.grid().count(), 12);
+  QVERIFY(labeling.note.empty());
 }
 
 void LabelerTest::stop_cancels() {

@@ -48,7 +48,7 @@ struct Halves {
   [[nodiscard]] std::vector<float> support(int threads = 2) const {
     const Forest forest = Forest::train(samples, {.trees = 8}, Progress());
     const LabelSurfaces surfaces(strokes.view(), 2, disparity.view(), trust.view());
-    return surface_support(forest, features.view(), surfaces, trust.view(), Progress(threads));
+    return surface_support({forest, features.view()}, surfaces, trust.view(), Progress(threads));
   }
 };
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/parallel/progress.h"
+#include "engine/cuda/simplex/simplex_fields.cuh"
+#include "engine/cuda/simplex/simplex_measure.cuh"
+
+#include <cstdint>
+#include <vector>
+
+namespace episcope::cuda {
+
+/// As SimplexOptions.
+struct SimplexSettings {
+  double smoothness = 1;  ///< > 0
+  double gap = 1e-3;
+  int max_iterations = 300;
+  int check_every = 10;
+};
+
+/// As SimplexResult.
+struct SimplexAnswer {
+  int iterations = 0;
+  double energy = 0, relaxed = 0, bound = 0;
+};
+
+/// Several SimplexProblems of one size and at least two labels, solved side by side by the method
+/// of engine/solvers/simplex/simplex_labeling.h. One object for many calls, as SimplexSolver.
+class SimplexBatch {
+ public:
+  /// Bytes of the device that each problem takes.
+  [[nodiscard]] static std::size_t bytes_of_problem(int height, int layers, int width);
+
+  /// At most kMostProblems. The stream must outlive it. Throws DeviceFailure.
+  SimplexBatch(int problems, int height, int layers, int width, const DeviceStream& stream);
+
+  /// Costs and weights, to be written in the order of the stream before each call.
+  [[nodiscard]] const SimplexFields& fields() const { return levels_.front().fields; }
+  /// Solves the first `count` problems. `places` as in SimplexOptions::from_last, `[problem][y][x]`
+  /// on the device; null = afresh. Labels are then in `labels()`. Throws DeviceFailure, Cancelled.
+  [[nodiscard]] std::vector<SimplexAnswer> solve(int count, const std::int32_t* places,
+                                                 const SimplexSettings& settings,
+                                                 const Progress& progress);
+  [[nodiscard]] const std::int32_t* labels() const { return best_.data(); }
+
+ private:
+  // A size, with what belongs to it.
+  struct Level {
+    Level(int problems, int height, int layers, int width, const DeviceStream& stream);
+    DeviceArray<float> memory;
+    SimplexFields fields;
+  };
+  void set_steps(double smoothness, SimplexFields& fields) const;
+  void start(double smoothness);
+  void take_over(const std::int32_t* places);
+  void measure(int count, SolvedMask solved, std::vector<SimplexAnswer>& answers);
+
+  const DeviceStream& stream_;
+  std::vector<Level> levels_;  // The finest first.
+  std::size_t unknowns_;       // Of the finest, of as many problems as there is room for.
+  DeviceArray<float> last_;    // u and duals of the call before, if ever taken over from.
+  DeviceArray<std::int32_t> labels_, best_;
+  DeviceArray<double> partial_;
+  DeviceArray<SimplexMeasure> measures_;
+};
+
+}  // namespace episcope::cuda

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/cuda/simplex/simplex_fields.cuh"
+
+namespace episcope::cuda {
+
+/// One iteration of every problem that is not solved, as SimplexKernel's moves of all rows: u with
+/// the duals as they were, then the duals. Throws DeviceFailure.
+void move_simplex(const SimplexFields& fields, SolvedMask solved, const DeviceStream& stream);
+
+}  // namespace episcope::cuda
