@@ -5,7 +5,10 @@
 #include "engine/labeling/features/pixel_features.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
+#include <map>
+#include <numeric>
 #include <set>
 
 namespace episcope::accuracy {
@@ -51,6 +54,29 @@ CorrectionCounts count_corrections(const PaintedScene& painted, const LabelerPar
     for (std::size_t i = 0; i < counts.size(); ++i) {
       if (!counts[i] && share >= kWantedShares[i]) counts[i] = stroke;
     }
+  }
+  return counts;
+}
+
+CorrectionCounts least_corrections(ImageView<const std::int32_t> truth) {
+  std::map<std::int32_t, std::size_t> of_label;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (truth.data[i] > 0) ++of_label[truth.data[i]];
+  }
+  std::vector<std::size_t> areas;
+  for (const auto& [label, area] : of_label) areas.push_back(area);
+  std::ranges::sort(areas, std::greater<>());
+  const auto all = static_cast<double>(std::accumulate(areas.begin(), areas.end(), std::size_t{0}));
+  CorrectionCounts counts;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    double right = 0;
+    int strokes = 0;
+    for (const std::size_t area : areas) {
+      if (right >= kWantedShares[i] * all) break;
+      right += static_cast<double>(area);
+      ++strokes;
+    }
+    counts[i] = strokes;
   }
   return counts;
 }

@@ -26,6 +26,11 @@ using CorrectionCounts = std::array<std::optional<int>, kWantedShares.size()>;
                                                  const LabelerParameters& parameters,
                                                  const LabelingDisparity& disparity);
 
+/// Strokes that no way of labeling can do without: as many as there are labels, the largest first,
+/// which together have each of kWantedShares of the pixels of `truth` (0 = not judged). A labeler
+/// that had all of a label right after its first stroke would reach them. All counts are given.
+[[nodiscard]] CorrectionCounts least_corrections(ImageView<const std::int32_t> truth);
+
 /// The count that half of the scenes do not exceed; those that were not reached count as the most.
 /// nullopt if that is among these, or if there are no counts.
 [[nodiscard]] std::optional<int> median_count(std::vector<std::optional<int>> counts);

@@ -45,6 +45,18 @@ class CorrectionsTest : public QObject {
     QCOMPARE(accuracy::median_count({}), std::optional<int>());
   }
 
+  void least_isOneForEachLargeLabel() {
+    Image<std::int32_t> truth(10, 12);  // 100 pixels that are judged.
+    std::fill_n(truth.data(), 60, 7);
+    std::fill_n(truth.data() + 60, 34, 2);
+    std::fill_n(truth.data() + 94, 3, 5);
+    std::fill_n(truth.data() + 97, 3, 4);
+
+    const accuracy::CorrectionCounts counts = accuracy::least_corrections(truth.view());
+
+    QCOMPARE(counts, (accuracy::CorrectionCounts{2, 3, 4}));
+  }
+
   void names_makeFiles() {
     QCOMPARE(accuracy::file_stem("demo:random?seed=1&kind=room"),
              std::string("demo_random_seed_1_kind_room"));

@@ -117,6 +117,9 @@ void print_table(const Request& request) {
   }
 }
 
+// What no features can do without.
+constexpr const char* kLeast = "a stroke for each label";
+
 void print_counts(const std::string& name, const std::string& features,
                   const CorrectionCounts& counts) {
   fmt::print("| {} | {} |", name, features);
@@ -133,6 +136,9 @@ void print_corrections(const Request& request) {
   std::puts("\n|---|---|---:|---:|---:|");
   std::map<std::string, std::vector<CorrectionCounts>> of_features;
   for_scenes(request, [&](const PaintedScene& painted) {
+    const ViewIndex center = painted.scene.light_field->center();
+    of_features[kLeast].push_back(least_corrections(painted.truth.view(center)));
+    print_counts(painted.name, kLeast, of_features[kLeast].back());
     for_features(painted, request, [&](LabelerParameters parameters, const auto& disparity) {
       parameters.regularizer = Regularizer::View;
       const std::string features = name_of(parameters.features);
