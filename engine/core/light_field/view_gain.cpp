@@ -55,14 +55,12 @@ class BlockRatios {
         side_(std::max(kMinBlock, std::min(stack.height(), stack.width()) / kBlocksAcross)) {}
 
   // Logarithms of the ratios of each quantity, by blocks that can be compared.
-  [[nodiscard]] std::vector<Quantities> of(const Pair& pair) const {
-    std::vector<Quantities> ratios;
-    for (int y = 0; y + side_ <= stack_.height(); y += side_) {
-      for (int x = 0; x + side_ <= stack_.width(); x += side_) {
-        if (const auto ratio = best_match(pair, {y, x})) ratios.push_back(*ratio);
-      }
+  [[nodiscard]] std::vector<Quantities> of(const Pair& pair, GainBlocks wanted) const {
+    if (wanted == GainBlocks::OneOfFour) {
+      std::vector<Quantities> some = every(2, pair);
+      if (some.size() >= kMinBlocks) return some;
     }
-    return ratios;
+    return every(1, pair);
   }
 
  private:
@@ -70,6 +68,17 @@ class BlockRatios {
     Quantities log_ratio;
     float misfit = 0;
   };
+
+  // Of one block of `step` in each direction.
+  [[nodiscard]] std::vector<Quantities> every(int step, const Pair& pair) const {
+    std::vector<Quantities> ratios;
+    for (int y = 0; y + side_ <= stack_.height(); y += step * side_) {
+      for (int x = 0; x + side_ <= stack_.width(); x += step * side_) {
+        if (const auto ratio = best_match(pair, {y, x})) ratios.push_back(*ratio);
+      }
+    }
+    return ratios;
+  }
 
   // Channels and their sum; empty where the sample does not count.
   [[nodiscard]] std::optional<Quantities> sample(ViewIndex view, PixelIndex at) const {
@@ -191,7 +200,7 @@ std::optional<Ratio> summed_up(const std::vector<Quantities>& blocks, int quanti
 using Ratios = std::array<std::vector<Ratio>, kMaxQuantities>;
 
 Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint8_t>& valid,
-                   const Progress& progress) {
+                   const Progress& progress, GainBlocks wanted) {
   const GridShape grid = grid_of(samples);
   const std::vector<Pair> pairs = pairs_of(grid);
   std::vector<std::vector<Quantities>> blocks(pairs.size());
@@ -199,7 +208,7 @@ Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint
       [&]<class T>(const ViewStack<T>& stack) {
         const BlockRatios<T> ratios(stack, valid);
         parallel_for(static_cast<int>(pairs.size()), progress,
-                     [&](int i) { blocks[i] = ratios.of(pairs[i]); });
+                     [&](int i) { blocks[i] = ratios.of(pairs[i], wanted); });
       },
       samples);
   Ratios ratios;
@@ -270,7 +279,8 @@ ViewIndex ViewGains::most_different() const {
 }
 
 ViewGains measure_view_gains(const LightField::Samples& samples,
-                             const ViewStack<std::uint8_t>& valid, const Progress& progress) {
+                             const ViewStack<std::uint8_t>& valid, const Progress& progress,
+                             GainBlocks blocks) {
   ViewGains gains;
   std::visit(
       [&gains](const auto& stack) {
@@ -280,7 +290,7 @@ ViewGains measure_view_gains(const LightField::Samples& samples,
       samples);
   const GridShape grid = gains.grid;
   const int channels = gains.channels;
-  const Ratios all = find_ratios(samples, valid, progress);
+  const Ratios all = find_ratios(samples, valid, progress, blocks);
   const int center = grid.center().v * grid.u + grid.center().u;
   gains.channel.resize(static_cast<std::size_t>(grid.count()) * channels);
   gains.overall.resize(grid.count());
