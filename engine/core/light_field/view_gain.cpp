@@ -69,8 +69,24 @@ class BlockRatios {
     float misfit = 0;
   };
 
+  struct View {
+    ImageView<const T> samples;
+    ImageView<const std::uint8_t> valid;
+  };
+  // The views of a pair.
+  struct Looked {
+    View from, to;
+    PixelIndex way;
+  };
+
+  [[nodiscard]] View look_at(ViewIndex view) const {
+    return {stack_.view(view),
+            valid_.empty() ? ImageView<const std::uint8_t>() : valid_.view(view)};
+  }
+
   // Of one block of `step` in each direction.
-  [[nodiscard]] std::vector<Quantities> every(int step, const Pair& pair) const {
+  [[nodiscard]] std::vector<Quantities> every(int step, const Pair& views) const {
+    const Looked pair{look_at(views.from), look_at(views.to), views.way};
     std::vector<Quantities> ratios;
     for (int y = 0; y + side_ <= stack_.height(); y += step * side_) {
       for (int x = 0; x + side_ <= stack_.width(); x += step * side_) {
@@ -81,10 +97,10 @@ class BlockRatios {
   }
 
   // Channels and their sum; empty where the sample does not count.
-  [[nodiscard]] std::optional<Quantities> sample(ViewIndex view, PixelIndex at) const {
-    if (at.y < 0 || at.x < 0 || at.y >= stack_.height() || at.x >= stack_.width()) return {};
-    if (!valid_.empty() && valid_.view(view).at(at.y, at.x) == 0) return {};
-    const ImageView<const T> image = stack_.view(view);
+  [[nodiscard]] std::optional<Quantities> sample(const View& view, PixelIndex at) const {
+    const ImageView<const T>& image = view.samples;
+    if (at.y < 0 || at.x < 0 || at.y >= image.height || at.x >= image.width) return {};
+    if (!view.valid.empty() && view.valid.at(at.y, at.x) == 0) return {};
     Quantities values{};
     for (int c = 0; c < image.channels; ++c) {
       values[c] = kUnit<T> * static_cast<float>(image.at(at.y, at.x, c));
@@ -101,7 +117,7 @@ class BlockRatios {
     int count = 0;
   };
 
-  [[nodiscard]] Block block_at(ViewIndex view, PixelIndex begin) const {
+  [[nodiscard]] Block block_at(const View& view, PixelIndex begin) const {
     Block block;
     for (int i = 0; i < kSamples; ++i) {
       const PixelIndex at{begin.y + i / kSamplesAcross * side_ / kSamplesAcross,
@@ -114,7 +130,8 @@ class BlockRatios {
     return block;
   }
 
-  [[nodiscard]] std::optional<Match> match(const Pair& pair, const Block& block, int shift) const {
+  [[nodiscard]] std::optional<Match> match(const Looked& pair, const Block& block,
+                                           int shift) const {
     const int overall = stack_.channels();
     std::array<std::array<float, 2>, kSamples> brightness;
     Quantities from{}, to{};
@@ -143,7 +160,7 @@ class BlockRatios {
   }
 
   // Every other shift first, then those beside the best.
-  [[nodiscard]] std::optional<Quantities> best_match(const Pair& pair, PixelIndex begin) const {
+  [[nodiscard]] std::optional<Quantities> best_match(const Looked& pair, PixelIndex begin) const {
     const Block block = block_at(pair.from, begin);
     if (block.count < kLeastSamples) return {};
     std::optional<Match> best;
