@@ -10,6 +10,8 @@ namespace episcope::io {
 /// (1.3 GB in 27×27 views).
 inline constexpr int kLookedAtClosely = 81;
 
+/// Whether reports on views of this grid come from a part of the pixels. What changes samples
+/// (OpenOptions::equalise) and what marks pixels as invalid is measured closely all the same.
 [[nodiscard]] inline bool has_many_views(GridShape grid) {
   return grid.count() > kLookedAtClosely;
 }
