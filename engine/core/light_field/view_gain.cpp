@@ -55,14 +55,12 @@ class BlockRatios {
         side_(std::max(kMinBlock, std::min(stack.height(), stack.width()) / kBlocksAcross)) {}
 
   // Logarithms of the ratios of each quantity, by blocks that can be compared.
-  [[nodiscard]] std::vector<Quantities> of(const Pair& pair) const {
-    std::vector<Quantities> ratios;
-    for (int y = 0; y + side_ <= stack_.height(); y += side_) {
-      for (int x = 0; x + side_ <= stack_.width(); x += side_) {
-        if (const auto ratio = best_match(pair, {y, x})) ratios.push_back(*ratio);
-      }
+  [[nodiscard]] std::vector<Quantities> of(const Pair& pair, GainBlocks wanted) const {
+    if (wanted == GainBlocks::OneOfFour) {
+      std::vector<Quantities> some = every(2, pair);
+      if (some.size() >= kMinBlocks) return some;
     }
-    return ratios;
+    return every(1, pair);
   }
 
  private:
@@ -71,11 +69,38 @@ class BlockRatios {
     float misfit = 0;
   };
 
+  struct View {
+    ImageView<const T> samples;
+    ImageView<const std::uint8_t> valid;
+  };
+  // The views of a pair.
+  struct Looked {
+    View from, to;
+    PixelIndex way;
+  };
+
+  [[nodiscard]] View look_at(ViewIndex view) const {
+    return {stack_.view(view),
+            valid_.empty() ? ImageView<const std::uint8_t>() : valid_.view(view)};
+  }
+
+  // Of one block of `step` in each direction.
+  [[nodiscard]] std::vector<Quantities> every(int step, const Pair& views) const {
+    const Looked pair{look_at(views.from), look_at(views.to), views.way};
+    std::vector<Quantities> ratios;
+    for (int y = 0; y + side_ <= stack_.height(); y += step * side_) {
+      for (int x = 0; x + side_ <= stack_.width(); x += step * side_) {
+        if (const auto ratio = best_match(pair, {y, x})) ratios.push_back(*ratio);
+      }
+    }
+    return ratios;
+  }
+
   // Channels and their sum; empty where the sample does not count.
-  [[nodiscard]] std::optional<Quantities> sample(ViewIndex view, PixelIndex at) const {
-    if (at.y < 0 || at.x < 0 || at.y >= stack_.height() || at.x >= stack_.width()) return {};
-    if (!valid_.empty() && valid_.view(view).at(at.y, at.x) == 0) return {};
-    const ImageView<const T> image = stack_.view(view);
+  [[nodiscard]] std::optional<Quantities> sample(const View& view, PixelIndex at) const {
+    const ImageView<const T>& image = view.samples;
+    if (at.y < 0 || at.x < 0 || at.y >= image.height || at.x >= image.width) return {};
+    if (!view.valid.empty() && view.valid.at(at.y, at.x) == 0) return {};
     Quantities values{};
     for (int c = 0; c < image.channels; ++c) {
       values[c] = kUnit<T> * static_cast<float>(image.at(at.y, at.x, c));
@@ -92,7 +117,7 @@ class BlockRatios {
     int count = 0;
   };
 
-  [[nodiscard]] Block block_at(ViewIndex view, PixelIndex begin) const {
+  [[nodiscard]] Block block_at(const View& view, PixelIndex begin) const {
     Block block;
     for (int i = 0; i < kSamples; ++i) {
       const PixelIndex at{begin.y + i / kSamplesAcross * side_ / kSamplesAcross,
@@ -105,7 +130,8 @@ class BlockRatios {
     return block;
   }
 
-  [[nodiscard]] std::optional<Match> match(const Pair& pair, const Block& block, int shift) const {
+  [[nodiscard]] std::optional<Match> match(const Looked& pair, const Block& block,
+                                           int shift) const {
     const int overall = stack_.channels();
     std::array<std::array<float, 2>, kSamples> brightness;
     Quantities from{}, to{};
@@ -134,7 +160,7 @@ class BlockRatios {
   }
 
   // Every other shift first, then those beside the best.
-  [[nodiscard]] std::optional<Quantities> best_match(const Pair& pair, PixelIndex begin) const {
+  [[nodiscard]] std::optional<Quantities> best_match(const Looked& pair, PixelIndex begin) const {
     const Block block = block_at(pair.from, begin);
     if (block.count < kLeastSamples) return {};
     std::optional<Match> best;
@@ -191,7 +217,7 @@ std::optional<Ratio> summed_up(const std::vector<Quantities>& blocks, int quanti
 using Ratios = std::array<std::vector<Ratio>, kMaxQuantities>;
 
 Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint8_t>& valid,
-                   const Progress& progress) {
+                   const Progress& progress, GainBlocks wanted) {
   const GridShape grid = grid_of(samples);
   const std::vector<Pair> pairs = pairs_of(grid);
   std::vector<std::vector<Quantities>> blocks(pairs.size());
@@ -199,7 +225,7 @@ Ratios find_ratios(const LightField::Samples& samples, const ViewStack<std::uint
       [&]<class T>(const ViewStack<T>& stack) {
         const BlockRatios<T> ratios(stack, valid);
         parallel_for(static_cast<int>(pairs.size()), progress,
-                     [&](int i) { blocks[i] = ratios.of(pairs[i]); });
+                     [&](int i) { blocks[i] = ratios.of(pairs[i], wanted); });
       },
       samples);
   Ratios ratios;
@@ -270,7 +296,8 @@ ViewIndex ViewGains::most_different() const {
 }
 
 ViewGains measure_view_gains(const LightField::Samples& samples,
-                             const ViewStack<std::uint8_t>& valid, const Progress& progress) {
+                             const ViewStack<std::uint8_t>& valid, const Progress& progress,
+                             GainBlocks blocks) {
   ViewGains gains;
   std::visit(
       [&gains](const auto& stack) {
@@ -280,7 +307,7 @@ ViewGains measure_view_gains(const LightField::Samples& samples,
       samples);
   const GridShape grid = gains.grid;
   const int channels = gains.channels;
-  const Ratios all = find_ratios(samples, valid, progress);
+  const Ratios all = find_ratios(samples, valid, progress, blocks);
   const int center = grid.center().v * grid.u + grid.center().u;
   gains.channel.resize(static_cast<std::size_t>(grid.count()) * channels);
   gains.overall.resize(grid.count());

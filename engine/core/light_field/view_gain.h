@@ -24,6 +24,10 @@ struct ViewGains {
   }
 };
 
+/// Which blocks of two views are compared: all, or one of four, which takes a quarter of the time
+/// and is enough for a report on many views; all of them where too few of those can be compared.
+enum class GainBlocks { All, OneOfFour };
+
 /// Measures the gains of views against each other: the median, over blocks of a tenth of the image,
 /// of the ratio of the brightness of a block in two neighbouring views, and the gains that fit all
 /// these ratios best (least squares of their logarithms). A block is compared where the other view
@@ -33,7 +37,8 @@ struct ViewGains {
 /// `valid`: as LightField::valid. 36 pixels of each block are looked at. Throws Cancelled.
 [[nodiscard]] ViewGains measure_view_gains(const LightField::Samples& samples,
                                            const ViewStack<std::uint8_t>& valid,
-                                           const Progress& progress);
+                                           const Progress& progress,
+                                           GainBlocks blocks = GainBlocks::All);
 
 /// Divides the samples of each view by its gains, channel by channel, in their stored type; views
 /// without a gain stay. Returns the share in [0, 1] of samples that were clipped at the largest

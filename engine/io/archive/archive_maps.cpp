@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_maps.h"
 
 #include "engine/core/error.h"
+#include "engine/io/archive/stored_views.h"
 
 #include <fmt/format.h>
 
@@ -46,6 +47,7 @@ ViewStack<T> read_maps(const Hdf5Input& file, const std::string& name, const Fie
   const ViewIndex first = is_center ? shape.grid.center() : ViewIndex{};
   const GridShape grid = is_center ? GridShape{1, 1} : shape.grid;
   ViewStack<T> stack(grid, shape.height, shape.width, 1, first);
+  if (!is_center && read_stored_views(file, name, stack, progress)) return stack;
   for (int i = 0; i < grid.count(); ++i) {
     progress.check();
     const ViewIndex view = grid.view_at(i, first);

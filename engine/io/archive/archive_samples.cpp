@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_samples.h"
 
 #include "engine/core/array/memory_budget.h"
+#include "engine/io/archive/stored_views.h"
 #include "engine/io/open/center_preview.h"
 
 #include <algorithm>
@@ -32,6 +33,9 @@ ViewStack<T> read_views(const Hdf5Input& file, const ArchiveLayout& layout,
   progress.check();
   read(center);
   on_center(stack.view(center));
+  if (shape.grid.count() > 1 && read_stored_views(file, kArchiveLightField, stack, progress)) {
+    return stack;
+  }
   for (int i = 0; i < shape.grid.count(); ++i) {
     progress.check();
     const ViewIndex view = shape.grid.view_at(i);

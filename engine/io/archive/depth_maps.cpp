@@ -63,6 +63,26 @@ void keep_only_valid_view(DisparityField& field, const std::vector<std::size_t>&
   shrink(field.valid);
 }
 
+/// Turns the depth of a view into disparity, 0 where `valid` is 0 or becomes so because there is no
+/// depth. Written without branches or calls, since all views of a large light field pass through
+/// it. Returns how many pixels are valid.
+std::size_t turn_view(float* z, std::uint8_t* valid, std::size_t size, const CameraGrid& camera) {
+  const double at_depth_one = camera.baseline * camera.focal_length;
+  const double shift = camera.shift;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const float depth = z[i];
+    const bool is_depth = (depth > 0) & (depth <= std::numeric_limits<float>::max());
+    const bool is_valid = is_depth & (valid[i] != 0);
+    const auto disparity =
+        static_cast<float>(at_depth_one / (is_valid ? depth : 1.0F) - shift);  // eq. 1
+    valid[i] = is_valid ? 1 : 0;
+    z[i] = is_valid ? disparity : 0;
+    count += is_valid ? 1 : 0;
+  }
+  return count;
+}
+
 void warn_of_gaps(const std::string& name, std::size_t valid, std::size_t total,
                   ConventionReport& report) {
   if (valid == total) return;
@@ -79,21 +99,22 @@ DisparityField disparity_from_depth(DepthMaps maps, const CameraGrid& camera,
                                     ConventionReport& report, const Progress& progress) {
   DisparityField field;
   const ViewStack<float>& depth = maps.depth;
-  field.valid =
-      ViewStack<std::uint8_t>(depth.grid(), depth.height(), depth.width(), 1, depth.first());
+  // A mask of all views becomes what is valid; another is copied.
+  const bool is_mask_whole = maps.mask.grid() == depth.grid() && maps.mask.first() == depth.first();
+  field.valid = is_mask_whole ? std::move(maps.mask)
+                              : ViewStack<std::uint8_t>(depth.grid(), depth.height(), depth.width(),
+                                                        1, depth.first());
   std::vector<std::size_t> valid_counts(static_cast<std::size_t>(depth.grid().count()));
   parallel_for(depth.grid().count(), progress, [&](int i) {
     const ViewIndex view = depth.view_at(i);
     const auto z = maps.depth.view(view);
     const auto valid = field.valid.view(view);
-    for (int y = 0; y < z.height; ++y) {
-      for (int x = 0; x < z.width; ++x) {
-        const bool is_valid = maps.is_valid(view, y, x);
-        valid.at(y, x) = is_valid ? 1 : 0;
-        z.at(y, x) = is_valid ? static_cast<float>(camera.disparity_from_depth(z.at(y, x))) : 0;
-        valid_counts[static_cast<std::size_t>(i)] += is_valid ? 1 : 0;
-      }
+    if (!is_mask_whole && maps.mask.contains(view)) {
+      std::copy_n(maps.mask.view(view).data, valid.size(), valid.data);
+    } else if (!is_mask_whole) {
+      std::fill_n(valid.data, valid.size(), std::uint8_t{1});
     }
+    valid_counts[static_cast<std::size_t>(i)] = turn_view(z.data, valid.data, z.size(), camera);
   });
   field.disparity = std::move(maps.depth);
   keep_only_valid_view(field, valid_counts);

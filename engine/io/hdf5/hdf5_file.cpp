@@ -306,6 +306,8 @@ template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint8_t>(
     const std::string&) const;
 template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::uint16_t>(
     const std::string&) const;
+template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::int32_t>(
+    const std::string&) const;
 template std::optional<std::uintmax_t> Hdf5Input::place_in_file<float>(const std::string&) const;
 
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {

@@ -73,7 +73,7 @@ class Hdf5Input {
 
   /// Where in the file the samples of a dataset begin if they are stored there as an array of T
   /// would be in memory: one after the other, uncompressed, of the type and byte order of this
-  /// machine, all of them written. T: uint8, uint16 or float. Throws IoError as `dataset`.
+  /// machine, all of them written. T: uint8, int32, uint16 or float. Throws IoError as `dataset`.
   template <class T>
   [[nodiscard]] std::optional<std::uintmax_t> place_in_file(const std::string& name) const;
 

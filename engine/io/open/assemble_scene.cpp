@@ -7,6 +7,7 @@
 #include "engine/io/open/empty_pixels.h"
 #include "engine/io/open/equalise.h"
 #include "engine/io/open/filled_views.h"
+#include "engine/io/open/many_views.h"
 #include "engine/io/open/order_parts.h"
 
 #include <algorithm>
@@ -65,10 +66,10 @@ bool are_on_disk(const LightField::Samples& samples) {
   return std::visit([](const auto& stack) { return stack.is_on_disk(); }, samples);
 }
 
-/// All of a light field that is on disk would take as long to look at as to read: where a first
-/// look finds nothing dark, that is all.
+/// All of a light field that is on disk would take as long to look at as to read, and all of one of
+/// many views is more than is needed: where a first look finds nothing dark, that is all.
 ViewBrightness find_brightness(const SceneParts& parts, const Progress& progress) {
-  if (are_on_disk(parts.samples)) {
+  if (are_on_disk(parts.samples) || has_many_views(grid_of(parts.samples))) {
     ViewBrightness brightness =
         measure_brightness(parts.samples, parts.valid, BrightnessRows::Few, progress);
     if (!brightness.has_dark_parts()) return brightness;

@@ -2,6 +2,7 @@
 #include "engine/io/open/equalise.h"
 
 #include "engine/core/light_field/view_gain.h"
+#include "engine/io/open/many_views.h"
 
 #include <fmt/format.h>
 
@@ -46,8 +47,11 @@ void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
     report.gain = "not measured, since that would read the whole file";
     return;
   }
+  // What is divided by gains needs them as exactly as can be; a report does not.
+  const bool is_quick = !is_wanted && has_many_views(grid_of(parts.samples));
   const ViewGains gains =
-      measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1));
+      measure_view_gains(parts.samples, parts.valid, progress.part(0, is_wanted ? 0.5 : 1),
+                         is_quick ? GainBlocks::OneOfFour : GainBlocks::All);
   const int views = gains.grid.count();
   if (views == 1) return;
   const int unknown = count_unknown(gains);

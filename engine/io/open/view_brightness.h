@@ -30,7 +30,7 @@ struct ViewBrightness {
 };
 
 /// How many rows are looked at: every second one, or one in the middle of each cell, for a first
-/// look at samples that are on disk.
+/// look at samples that are on disk or of many views.
 enum class BrightnessRows { EverySecond, Few };
 
 /// A cell is a twentieth of the shorter side of the views, at least 8 px; every second pixel of the

@@ -2,6 +2,7 @@
 #include "engine/io/order/epi_slopes.h"
 
 #include "engine/core/array/transposed.h"
+#include "engine/io/order/both_axes.h"
 #include "engine/io/order/warp_check.h"
 
 #include <algorithm>
@@ -33,9 +34,13 @@ PixelRect looked_at(int height, int width) {
   return {top, left, top + rows, left + columns};
 }
 
+PixelRect part_of(const LightField::Samples& samples) {
+  return std::visit([](const auto& stack) { return looked_at(stack.height(), stack.width()); },
+                    samples);
+}
+
 Triple load_triple(const LightField::Samples& samples, ViewIndex center, int step, bool is_v) {
-  const PixelRect part = std::visit(
-      [](const auto& stack) { return looked_at(stack.height(), stack.width()); }, samples);
+  const PixelRect part = part_of(samples);
   const auto load = [&](int offset) {
     const ViewIndex view{center.v + (is_v ? offset : 0), center.u + (is_v ? 0 : offset)};
     const Image<float> grey = grey_levels(samples, view, part);
@@ -135,12 +140,12 @@ struct Sums {
 
 SlopeCorrelation correlate(const LightField::Samples& samples, ViewIndex center, int step,
                            double range, const Progress& progress) {
-  const Triple u = load_triple(samples, center, step, false);
-  const Triple v = load_triple(samples, center, step, true);
-  const std::vector<double> along_u = match(u, range, progress);
-  const std::vector<double> along_v = match(v, range, progress);
-  const int columns = (u.middle.width() - 2 * kRadius) / kStride;
-  const int rows = (u.middle.height() - 2 * kRadius) / kStride;
+  const auto [along_u, along_v] = along_both_axes(progress, [&](bool is_v) {
+    return match(load_triple(samples, center, step, is_v), range, progress);
+  });
+  const PixelRect part = part_of(samples);
+  const int columns = (part.x1 - part.x0 - 2 * kRadius) / kStride;
+  const int rows = (part.y1 - part.y0 - 2 * kRadius) / kStride;
   Sums sums;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {

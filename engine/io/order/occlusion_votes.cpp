@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/order/occlusion_votes.h"
 
+#include "engine/io/order/both_axes.h"
 #include "engine/io/order/line_matches.h"
 
 #include <algorithm>
@@ -187,8 +188,9 @@ bool OcclusionVotes::is_decided() const {
 
 OcclusionByAxis count_occlusions(const LightField::Samples& samples, int side,
                                  const Progress& progress) {
-  return {votes_of(match_line(samples, false, side, progress)),
-          votes_of(match_line(samples, true, side, progress))};
+  const auto [u, v] = along_both_axes(
+      progress, [&](bool is_v) { return votes_of(match_line(samples, is_v, side, progress)); });
+  return {u, v};
 }
 
 }  // namespace episcope::io

@@ -2,6 +2,7 @@
 #include "engine/io/order/view_axes.h"
 
 #include "engine/core/text/text_table.h"
+#include "engine/io/order/both_axes.h"
 #include "engine/io/order/warp_check.h"
 
 #include <fmt/format.h>
@@ -86,7 +87,9 @@ std::string ViewAxes::evidence() const {
 }
 
 ViewAxes find_view_axes(const LightField::Samples& samples, const Progress& progress) {
-  return {evidence_along(samples, false, progress), evidence_along(samples, true, progress)};
+  const auto [u, v] =
+      along_both_axes(progress, [&](bool is_v) { return evidence_along(samples, is_v, progress); });
+  return {u, v};
 }
 
 void swap_view_axes(LightField::Samples& samples) {

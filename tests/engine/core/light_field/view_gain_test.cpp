@@ -80,6 +80,33 @@ class ViewGainTest : public QObject {
     QCOMPARE(gains.of(kCenter), 1.0);
   }
 
+  void gains_areRecoveredFromAQuarterOfTheBlocks() {
+    const LightField::Samples samples = views(some_gain);
+    const ViewGains of_all = measure_view_gains(samples, {}, Progress(2));
+
+    const ViewGains gains = measure_view_gains(samples, {}, Progress(2), GainBlocks::OneOfFour);
+
+    QVERIFY2(largest_error(gains, some_gain) < 0.01,
+             qPrintable(QString::number(largest_error(gains, some_gain))));
+    QVERIFY(gains.channel != of_all.channel);
+  }
+
+  void allBlocks_areComparedWhereAQuarterIsTooFew() {
+    const LightField::Samples samples = views(some_gain);
+    ViewStack<std::uint8_t> valid(kGrid, kHeight, kWidth);
+    // Blocks are 12 px large: no pixel of every second row of them is valid.
+    for (int y = 0; y < kHeight; ++y) {
+      for (int i = 0; i < kGrid.count(); ++i) {
+        std::fill_n(valid.view(kGrid.view_at(i)).row(y), kWidth, y / 12 % 2 == 0 ? 0 : 1);
+      }
+    }
+
+    const ViewGains gains = measure_view_gains(samples, valid, Progress(2), GainBlocks::OneOfFour);
+
+    QVERIFY(largest_error(gains, some_gain) < 0.01);
+    QVERIFY(gains.channel == measure_view_gains(samples, valid, Progress(2)).channel);
+  }
+
   void equalViews_haveGainOne() {
     const ViewGains gains = measure_view_gains(views(no_gain), {}, Progress(2));
 

@@ -170,21 +170,36 @@ class DarkViewsTest : public QObject {
     QVERIFY2(scene.light_field->valid().empty(), qPrintable(report_of(scene)));
   }
 
+  void failedCamera_isMarkedAndNotCutAround_data() {
+    QTest::addColumn<int>("side");
+    QTest::addColumn<QString>("marked");
+    QTest::newRow("few views") << 5 << "4.0 % of all pixels, in 1 of 25 views";
+    QTest::newRow("many views") << 10 << "1.0 % of all pixels, in 1 of 100 views";
+  }
   void failedCamera_isMarkedAndNotCutAround() {
-    const Scene scene = assembled({5, 5}, [](ViewIndex view, int, int) {
+    QFETCH(int, side);
+    QFETCH(QString, marked);
+
+    const Scene scene = assembled({side, side}, [](ViewIndex view, int, int) {
       return view == ViewIndex{1, 2} ? 0.0 : 1.0;
     });
 
-    QCOMPARE(scene.light_field->grid(), (GridShape{5, 5}));
+    QCOMPARE(scene.light_field->grid(), (GridShape{side, side}));
     QVERIFY(!scene.light_field->is_valid({1, 2}, 10, 10));
     QVERIFY(scene.light_field->is_valid({1, 1}, 10, 10));
-    QVERIFY2(report_of(scene).contains("4.0 % of all pixels, in 1 of 25 views"),
-             qPrintable(report_of(scene)));
+    QVERIFY2(report_of(scene).contains(marked), qPrintable(report_of(scene)));
   }
 
+  void vignettedPart_isMarked_data() {
+    QTest::addColumn<int>("side");
+    QTest::newRow("few views") << 3;
+    QTest::newRow("many views") << 10;
+  }
   void vignettedPart_isMarked() {
+    QFETCH(int, side);
+
     // The first view sees nothing in its left tenth.
-    const Scene scene = assembled({3, 3}, [](ViewIndex view, int, int x) {
+    const Scene scene = assembled({side, side}, [](ViewIndex view, int, int x) {
       return view == ViewIndex{} && x < 40 ? 0.02 : 1.0;
     });
 

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/core/array/indices.h"
+
+namespace episcope::io {
+
+/// Grids up to this many views are looked at closely when they are opened; what is reported of
+/// larger ones is found from a part of the pixels of each view, so that it does not take seconds
+/// (1.3 GB in 27×27 views).
+inline constexpr int kLookedAtClosely = 81;
+
+/// Whether reports on views of this grid come from a part of the pixels. What changes samples
+/// (OpenOptions::equalise) and what marks pixels as invalid is measured closely all the same.
+[[nodiscard]] inline bool has_many_views(GridShape grid) {
+  return grid.count() > kLookedAtClosely;
+}
+
+}  // namespace episcope::io
