@@ -2,6 +2,7 @@
 #include "engine/io/grid/image_list.h"
 
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/inner_grid.h"
 
 #include <algorithm>
 
@@ -53,7 +54,8 @@ fs::path views_folder(const fs::path& folder) {
     const int inside = images_inside(name);
     if (inside > 1 && inside > count_images(folder)) return folder / name;
   }
-  return folder;
+  const fs::path only = only_grid_inside(folder);
+  return only.empty() ? folder : only;
 }
 
 }  // namespace episcope::io

@@ -96,6 +96,12 @@ std::vector<Form> grid_forms() {
        [](int r, int c) { return print("Cam%d%d.png", r + 1, c + 1); }},
       {"a{row}{col}_b.png", {5, 7}, [](int r, int c) { return print("a%d%d_b.png", r, c); }},
       {"{row}{col}.png", {17, 17}, [](int r, int c) { return print("%02d%02d.png", r, c); }},
+      {"s3_{row}_{col}.png",
+       {5, 7},
+       [](int r, int c) { return print("s3_%d_%d.png", r - 2, c - 3); }},
+      {"u{col}_v{row}.png",
+       {3, 5},
+       [](int r, int c) { return print("u%d_v%d.png", c - 2, r - 1); }},
       {"f_{row}_{col}.png", {1, 7}, [](int, int c) { return print("f_00_%02d.png", c); }},
       {"f_{row}_{col}.png", {7, 1}, [](int r, int) { return print("f_%d_1.png", r + 1); }},
   };
