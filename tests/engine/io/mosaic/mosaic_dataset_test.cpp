@@ -132,7 +132,7 @@ class MosaicDatasetTest : public QObject, private ArchiveFolder {
 
     const std::string said = refusal("flat.h5");
 
-    QVERIFY2(said.find("the dataset Lr_SAI_y of 96×160 px") != std::string::npos, said.c_str());
+    QVERIFY2(said.find("the dataset Lr_SAI_y of 160×96 px") != std::string::npos, said.c_str());
     QVERIFY2(said.find("--grid") != std::string::npos, said.c_str());
   }
 
