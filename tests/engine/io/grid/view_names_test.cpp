@@ -260,7 +260,7 @@ void ViewNamesTest::unclearNumbers_needAPattern_data() {
   QTest::addColumn<int>("kind");
   QTest::newRow("three indices") << 0;
   QTest::newRow("two pairs of equal right") << 1;
-  QTest::newRow("negative") << 2;
+  QTest::newRow("negative, in unequal steps") << 2;
   QTest::newRow("frames of cameras") << 3;
   QTest::newRow("no numbers") << 4;
 }
@@ -270,7 +270,7 @@ void ViewNamesTest::unclearNumbers_needAPattern() {
   const auto names = names_of({8, 4}, [&](int r, int c) {
     if (kind == 0) return print("%d_%d_%d.png", r / 4, r % 4, c);
     if (kind == 1) return print("%d_%d_%d.png", r % 4, c, (r % 4 + c) % 4);
-    if (kind == 2) return print("view_%d_%d.png", r - 4, c - 2);
+    if (kind == 2) return print("view_%d_%d.png", r * r - 4, c - 2);
     if (kind == 3) return print("cam%d_frame%d.png", r, c);
     return std::string(1, static_cast<char>('a' + r)) + static_cast<char>('a' + c) + ".png";
   });
