@@ -8,6 +8,7 @@
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/maps/padding.h"
 #include "engine/io/maps/result_file.h"
+#include "engine/io/mosaic/mosaic_dataset.h"
 
 #include <algorithm>
 
@@ -26,9 +27,10 @@ bool holds_light_field(const io::Hdf5Input& file) {
   const auto names = {"LF", "GT_DEPTH", "GT_DEPTH_FOREGROUND", "GT_DEPTH_BACKGROUND"};
   return std::any_of(names.begin(), names.end(),
                      [&file](const char* name) { return file.has(name); }) ||
-         std::ranges::any_of(file.datasets(), [](const io::Hdf5Dataset& dataset) {
-           return dataset.shape.size() == 5;
-         });
+         std::ranges::any_of(
+             file.datasets(),
+             [](const io::Hdf5Dataset& dataset) { return dataset.shape.size() == 5; }) ||
+         io::find_mosaic_dataset(file.path(), {}).has_value();
 }
 
 /// An HDF5 file of another program with at least one map. Which one is meant is told on reading.

@@ -2,6 +2,7 @@
 #include "engine/io/archive/archive_layout.h"
 
 #include "engine/core/error.h"
+#include "engine/io/archive/archive_group.h"
 #include "engine/io/labels/label_list.h"
 
 #include <fmt/format.h>
@@ -61,7 +62,8 @@ std::string labels_with(const Hdf5Input& file) {
 ArchiveLayout archive_layout(const Hdf5Input& file) {
   const Hdf5Dataset dataset =
       file.dataset(kArchiveLightField,
-                   "choose another file, or name the dataset of a light field with --dataset");
+                   "choose another file, or name the dataset of a light field with --dataset, with "
+                   "--mosaic views and --grid 9x9 if it holds all views in one picture");
   const Hdf5Shape& shape = dataset.shape;
   if (shape.size() != 4 && shape.size() != 5) {
     throw IoError(file.path(), fmt::format("the dataset LF has {} axes ({}), but v × h × y × x × "
@@ -97,7 +99,8 @@ ArchiveLayout archive_layout(const Hdf5Input& file) {
 }
 
 SceneProbe probe_archive(const fs::path& path, const OpenOptions&) {
-  const Hdf5Input file(path);
+  const std::shared_ptr<const Hdf5Input> input = open_archive(path);
+  const Hdf5Input& file = *input;
   if (!file.has(kArchiveLightField)) throw NoLightField(path, "this file holds no light field");
   const ArchiveLayout layout = archive_layout(file);
   return {.grid = layout.shape.grid,

@@ -5,6 +5,7 @@
 #include "engine/core/text/suffix.h"
 #include "engine/io/archive/archive_depth.h"
 #include "engine/io/archive/archive_extras.h"
+#include "engine/io/archive/archive_group.h"
 #include "engine/io/archive/archive_labels.h"
 #include "engine/io/archive/archive_layout.h"
 #include "engine/io/archive/archive_samples.h"
@@ -86,15 +87,21 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
   return own;
 }
 
+/// For the report.
+std::string group_text(const fs::path& path) {
+  const std::string group = archive_group(Hdf5Input(path));
+  return group.empty() ? group : ", group " + group;
+}
+
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
                    const Progress& progress) {
-  const auto input = std::make_shared<const Hdf5Input>(path);
+  const auto input = open_archive(path);
   const Hdf5Input& file = *input;
   const ArchiveLayout layout = archive_layout(file);
   const GridShape grid = layout.shape.grid;
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = "archive (" + path.filename().string() + ")";
+  report.format = "archive (" + path.filename().string() + group_text(path) + ")";
   compare_sizes(file, report);
   LightFieldInfo info{scene_name(path),
                       path.string(),
@@ -150,6 +157,11 @@ bool is_hdf5_name(const fs::path& path) {
   return suffix == ".h5" || suffix == ".hdf5";
 }
 
+bool holds_archive(const fs::path& path) {
+  const Hdf5Input file(path);
+  return file.has(kArchiveLightField) || !archive_group(file).empty();
+}
+
 /// The HDF5 file of a folder that holds a light field; empty if there is none.
 fs::path file_in(const fs::path& folder) {
   if (is_there(folder / "lf.h5")) return folder / "lf.h5";
@@ -163,7 +175,7 @@ fs::path file_in(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end());
   const auto found = std::find_if(files.begin(), files.end(),
-                                  [](const fs::path& path) { return Hdf5Input(path).has("LF"); });
+                                  [](const fs::path& path) { return holds_archive(path); });
   return found == files.end() ? fs::path() : *found;
 }
 
@@ -173,9 +185,8 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
     return fs::is_directory(path) || is_there(folder / "lf.h5") ? file_in(folder) : fs::path();
   }
   if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
-  const Hdf5Input file(path);
-  if (file.has("LF")) return path;
-  if (file.has("estimate")) {
+  if (holds_archive(path)) return path;
+  if (Hdf5Input(path).has("estimate")) {
     throw IoError(path,
                   "this file holds a disparity result, not a light field; open the light field "
                   "that it belongs to");

@@ -37,7 +37,7 @@ std::vector<FileUse> read_other_maps(const std::shared_ptr<const Hdf5Input>& fil
   const ArrayLayout axes{views->shape, layout.has_channel_axis ? "vuyxc" : "vuyx"};
   ArrayMaps maps = read_array_maps(arrays, others, {axes, views->order}, wants_labels, progress);
   if (parts.truth.field.empty() && !maps.truth.field.empty()) {
-    settle_disparity(maps.disparity_name, parts.samples, maps.truth.field, parts.report);
+    settle_disparity(maps.disparity_text(), parts.samples, maps.truth.field, parts.report);
     parts.truth.field = std::move(maps.truth.field);
   } else if (!maps.disparity_name.empty()) {
     const auto use = std::ranges::find(maps.uses, maps.disparity_name, &FileUse::example);

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace episcope::io {
@@ -71,6 +72,26 @@ ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind 
   return mask;
 }
 
+/// The arrays with those last that are named like labels: they may hold disparity, which one that
+/// is called so knows better.
+std::vector<const ArrayEntry*> labels_last(std::vector<const ArrayEntry*> entries) {
+  std::ranges::stable_partition(
+      entries, [](const ArrayEntry* entry) { return kind_of(*entry) != MapKind::Labels; });
+  return entries;
+}
+
+/// By its name, or because floats may have fractions, which labels have not.
+bool may_be_disparity(const ArrayEntry& entry, MapKind kind) {
+  return kind == MapKind::Disparity || (kind == MapKind::Labels && is_float(entry.type));
+}
+
+void take_disparity(const ArrayEntry& entry, ViewStack<float> values, ArrayMaps& maps) {
+  maps.truth.field.disparity = std::move(values);
+  mark_invalid(maps.truth.field);
+  maps.disparity_name = entry.name;
+  maps.is_named_labels = kind_of(entry) == MapKind::Labels;
+}
+
 FileUse not_used(const ArrayEntry& entry) {
   const std::string content = content_text(entry);
   return {entry.other_kind.empty() ? "array of " + content : content, 1, entry.name, false};
@@ -78,22 +99,36 @@ FileUse not_used(const ArrayEntry& entry) {
 
 }  // namespace
 
+std::string ArrayMaps::disparity_text() const {
+  return is_named_labels ? fmt::format("{} ({})", disparity_name, kNamedLabels) : disparity_name;
+}
+
+bool has_fractions(const ViewStack<float>& values) {
+  return std::any_of(values.data(), values.data() + values.size(), [](float value) {
+    return std::isfinite(value) && value != std::trunc(value);
+  });
+}
+
 ArrayMaps read_array_maps(const ArrayFile& file, const std::vector<const ArrayEntry*>& others,
                           const FieldAxes& light_field, bool wants_labels,
                           const Progress& progress) {
   ArrayMaps maps;
   const ArrayLayout& layout = light_field.layout;
   const GridShape grid = layout.grid();
-  for (const ArrayEntry* other : others) {
+  for (const ArrayEntry* other : labels_last(others)) {
     const ArrayEntry& entry = *other;
     progress.check();
-    const auto kind = kind_of(entry);
+    auto kind = kind_of(entry);
     const auto axes = kind ? map_layout(entry, layout, light_field.order) : std::nullopt;
     const bool is_mask = kind == MapKind::Valid || kind == MapKind::Invalid;
+    ViewStack<float> values;
+    if (axes && may_be_disparity(entry, *kind)) {
+      values = read_maps<float>(*file.open(entry), *axes, grid, progress);
+      const bool is_labels = kind == MapKind::Labels && !has_fractions(values);
+      kind = is_labels ? MapKind::Labels : MapKind::Disparity;
+    }
     if (axes && kind == MapKind::Disparity && maps.truth.field.empty()) {
-      maps.truth.field.disparity = read_maps<float>(*file.open(entry), *axes, grid, progress);
-      mark_invalid(maps.truth.field);
-      maps.disparity_name = entry.name;
+      take_disparity(entry, std::move(values), maps);
     } else if (axes && kind == MapKind::Labels && maps.truth.labels.empty()) {
       if (wants_labels) {
         maps.truth.labels = read_maps<std::int32_t>(*file.open(entry), *axes, grid, progress);

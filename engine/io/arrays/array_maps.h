@@ -17,6 +17,10 @@ struct ArrayMaps {
   ViewStack<std::uint8_t> valid;  ///< Likewise; empty = none.
   std::vector<FileUse> uses;      ///< Every array of the file but the light field: used as what.
   std::string disparity_name;     ///< Of the array that holds the disparity.
+  bool is_named_labels = false;   ///< That name is one of labels, but it holds fractions.
+
+  /// For the report: the name, and why it is not taken for labels.
+  [[nodiscard]] std::string disparity_text() const;
 };
 
 /// The axes of the light field, whose letters are those of the stored shape.
@@ -25,10 +29,17 @@ struct FieldAxes {
   IndexOrder order = IndexOrder::C;
 };
 
+/// How reports call a disparity that is named like labels.
+inline constexpr const char* kNamedLabels = "named like labels, but with fractions";
+
+/// Whether any value that is finite is not whole.
+[[nodiscard]] bool has_fractions(const ViewStack<float>& values);
+
 /// Reads disparity, labels and masks (by their names: `map_kind`, or "gt") of the centre view or of
 /// all views, whose axes are those of the light field without channels, among `others` of the file.
-/// What has another name or shape is noted as not used; so is depth, which needs a camera. Throws
-/// IoError, Cancelled.
+/// What has another name or shape is noted as not used; so is depth, which needs a camera. Floats
+/// with fractions that are named like labels are disparity, as EPINET names it, where there is no
+/// other. Throws IoError, Cancelled.
 [[nodiscard]] ArrayMaps read_array_maps(const ArrayFile& file,
                                         const std::vector<const ArrayEntry*>& others,
                                         const FieldAxes& light_field, bool wants_labels,

@@ -2,6 +2,7 @@
 #include "engine/io/arrays/hdf5_array_reader.h"
 
 #include "engine/core/text/suffix.h"
+#include "engine/io/archive/archive_group.h"
 #include "engine/io/arrays/array_scene.h"
 #include "engine/io/arrays/choose_layout.h"
 #include "engine/io/arrays/folder_file.h"
@@ -42,6 +43,7 @@ bool is_meant(const fs::path& path, const OpenOptions& options) {
   if (!options.dataset.empty() || !options.axes.empty()) return true;
   // Results, and what lies beside a light field of the archive.
   if (file->has("estimate")) return false;
+  if (!archive_group(*file).empty()) return false;
   if (path.filename() != "lf.h5" && is_there(path.parent_path() / "lf.h5")) return false;
   const Hdf5Arrays arrays(file);
   const auto& entries = arrays.entries();

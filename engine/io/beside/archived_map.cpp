@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/text/join.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/arrays/array_maps.h"
 #include "engine/io/arrays/array_samples.h"
 #include "engine/io/arrays/matlab_file.h"
 #include "engine/io/arrays/numpy_file.h"
@@ -47,16 +48,23 @@ struct FoundMap {
   ArrayLayout layout;
 };
 
-FoundMap find_map(const ArrayFile& file, GridShape grid, Kinds kinds) {
-  std::vector<FoundMap> maps;
-  for (const ArrayEntry& entry : file.entries()) {
-    if (auto layout = map_layout(entry, grid)) maps.push_back({entry, std::move(*layout)});
-  }
+/// The first one whose name is of these kinds.
+const FoundMap* named_map(const std::vector<FoundMap>& maps, Kinds kinds) {
   const auto named = std::ranges::find_if(maps, [&](const FoundMap& map) {
     const auto kind = map_kind(last_name(map.entry.name));
     return kind && std::ranges::find(kinds, *kind) != kinds.end();
   });
-  if (named != maps.end()) return *named;
+  return named == maps.end() ? nullptr : &*named;
+}
+
+/// `others` are the kinds to look for where no name is of `kinds`.
+FoundMap find_map(const ArrayFile& file, GridShape grid, Kinds kinds, Kinds others) {
+  std::vector<FoundMap> maps;
+  for (const ArrayEntry& entry : file.entries()) {
+    if (auto layout = map_layout(entry, grid)) maps.push_back({entry, std::move(*layout)});
+  }
+  if (const FoundMap* named = named_map(maps, kinds)) return *named;
+  if (const FoundMap* named = named_map(maps, others)) return *named;
   if (maps.size() == 1) return maps.front();
   const std::string held = joined(file.entries(), ", ", [](const ArrayEntry& entry) {
     return entry.name + " (" + content_text(entry) + ")";
@@ -69,9 +77,9 @@ FoundMap find_map(const ArrayFile& file, GridShape grid, Kinds kinds) {
 }
 
 template <class T>
-ViewStack<T> read_archived(const fs::path& path, GridShape grid, Kinds kinds) {
+ViewStack<T> read_archived(const fs::path& path, GridShape grid, Kinds kinds, Kinds others = {}) {
   const std::unique_ptr<const ArrayFile> file = open_archive(path);
-  const FoundMap map = find_map(*file, grid, kinds);
+  const FoundMap map = find_map(*file, grid, kinds, others);
   return read_map_stack<T>(*file->open(map.entry), map.layout, Progress());
 }
 
@@ -83,7 +91,14 @@ bool is_archive_of_maps(const fs::path& path) {
 }
 
 ViewStack<float> read_archived_values(const fs::path& path, GridShape grid) {
-  return read_archived<float>(path, grid, {MapKind::Disparity, MapKind::Depth});
+  return read_archived<float>(path, grid, {MapKind::Disparity, MapKind::Depth}, {MapKind::Labels});
+}
+
+bool holds_archived_fractions(const fs::path& path, GridShape grid) {
+  const std::unique_ptr<const ArrayFile> file = open_archive(path);
+  const FoundMap map = find_map(*file, grid, {MapKind::Labels}, {});
+  return is_float(map.entry.type) &&
+         has_fractions(read_map_stack<float>(*file->open(map.entry), map.layout, Progress()));
 }
 
 ViewStack<std::int32_t> read_archived_labels(const fs::path& path, GridShape grid) {

@@ -2,6 +2,7 @@
 #include "engine/io/beside/beside.h"
 
 #include "engine/io/beside/disparity_beside.h"
+#include "engine/io/beside/fractional_labels.h"
 #include "engine/io/beside/labels_beside.h"
 #include "engine/io/beside/map_file.h"
 #include "engine/io/beside/masks_beside.h"
@@ -38,6 +39,7 @@ FoundBeside read_beside(const BesideViews& views, const BesideNotes& notes,
   progress.step("reading truth");
   for (const std::filesystem::path& folder : maps.folders) notes.account.add_folder(folder);
   set_aside(maps.sets, notes);
+  settle_fractional_labels(maps.sets, views, notes);
   DisparityBeside disparity = read_disparity_beside(maps.sets, views, notes, progress.part(0, 0.6));
   found.truth.field = std::move(disparity.field);
   found.camera = disparity.camera;

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/text_table.h"
+#include "engine/io/arrays/array_maps.h"
 #include "engine/io/beside/baseline_file.h"
 #include "engine/io/beside/depth_fit.h"
 #include "engine/io/beside/map_file.h"
@@ -98,6 +99,11 @@ DepthFit fit_of(const StoredMaps& depth, const StoredMaps& maps, ViewIndex at, d
   return fit_depth(maps.field.view(at), factor, depth.field.view(at));
 }
 
+/// For the report.
+std::string name_of(const MapSet& set) {
+  return set.is_named_labels ? fmt::format("{} ({})", set.pattern, kNamedLabels) : set.pattern;
+}
+
 /// Depth maps of the view by which the disparity is judged.
 StoredMaps read_one_depth(const RankedSets& sets, const BesideViews& views, ViewIndex at) {
   for (const MapSet* set : sets.fit) {
@@ -142,7 +148,7 @@ DisparityBeside from_disparity(StoredMaps maps, const RankedSets& depths, const 
   const double sign = is_reversed(side, fit) ? -1 : 1;
   scale(maps.field, sign * factor);
   ConventionReport& report = notes.report;
-  report.units = "disparity of " + maps.set->pattern + ": " + settled.unit.text +
+  report.units = "disparity of " + name_of(*maps.set) + ": " + settled.unit.text +
                  (sign < 0 ? ", negative = nearer" : "");
   report.units_check = warp_text(settled);
   if (side.is_decided()) append(report.units_check, side_text(side));

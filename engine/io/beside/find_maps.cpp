@@ -3,6 +3,7 @@
 
 #include "engine/core/text/suffix.h"
 #include "engine/io/beside/baseline_file.h"
+#include "engine/io/grid/inner_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -62,7 +63,8 @@ bool is_inner_folder(const fs::path& folder) {
                                                    "image", "rgb",   "color",  "input",
                                                    "sai",   "sais",  "png",    "subaperture"};
   const std::string name = numbered_name(folder.filename().string()).text;
-  return std::ranges::find(names, name) != names.end();
+  return std::ranges::find(names, name) != names.end() ||
+         only_grid_inside(folder.parent_path()) == folder;
 }
 
 /// Places of the first two numbers that vary.

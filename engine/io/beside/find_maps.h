@@ -22,6 +22,7 @@ struct MapSet {
   std::vector<Entry> entries;
   /// Files of such names that belong to no view.
   std::vector<std::filesystem::path> strays;
+  bool is_named_labels = false;  ///< Disparity whose files are named like labels.
 
   [[nodiscard]] std::vector<std::filesystem::path> files() const;
   /// The file of this view; empty if there is none.

@@ -139,6 +139,11 @@ FoundReader reader_of_folder(const fs::path& folder) {
   }
 }
 
+/// Whether the views lie in a folder inside that is an entry of its own.
+bool is_around(const fs::path& folder) {
+  return named_views_folder(folder) == folder && views_folder(folder) != folder;
+}
+
 std::size_t image_count(const FolderListing& listing) {
   return static_cast<std::size_t>(std::ranges::count_if(
       listing.files, [](const ListedFile& file) { return is_image_name(file.path); }));
@@ -176,7 +181,8 @@ FolderRecord scan_folder(const FolderListing& listing) {
   }
   const FoundReader found = reader_of_folder(listing.folder);
   const std::string_view id = found.reader ? found.reader->id : "";
-  const bool is_folder = found.reader && fs::is_directory(found.path);
+  const bool is_folder =
+      found.reader && fs::is_directory(found.path) && !(id == kImageGrid && is_around(found.path));
   if (is_folder && id != kImageGrid) {
     record.descends = false;
     record.entries.push_back(folder_entry(listing, found));

@@ -44,9 +44,12 @@ FolderAccount account_of(const fs::path& source, const fs::path& folder,
   return account;
 }
 
-/// "image grid (out_{row}_{col}.png, snake order)".
-std::string format_of(const NamedGrid& grid, const OpenOptions& options) {
-  std::string format = "image grid (" + grid.pattern;
+/// "image grid (out_{row}_{col}.png, snake order)", with the folder inside of what was opened.
+std::string format_of(const NamedGrid& grid, const fs::path& folder, const fs::path& source,
+                      const OpenOptions& options) {
+  std::string format = "image grid (";
+  if (folder != source) format += folder.filename().string() + "/";
+  format += grid.pattern;
   if (options.snake) format += ", snake order";
   return format + ")";
 }
@@ -78,11 +81,11 @@ Scene read_image_grid(const fs::path& folder, const OpenOptions& options, const 
   const bool is_linear = is_linear_format(views.files.front());
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = extras.format.empty() ? format_of(grid, options) : extras.format;
+  const fs::path& source = extras.source.empty() ? folder : extras.source;
+  report.format = extras.format.empty() ? format_of(grid, folder, source, options) : extras.format;
   if (is_linear) report.format += ", linear float samples";
   report.units = "no depth in an image grid";
   report.warnings = grid.placed.warnings;
-  const fs::path& source = extras.source.empty() ? folder : extras.source;
   LightFieldInfo info{scene_name(source),
                       source.string(),
                       extras.camera,

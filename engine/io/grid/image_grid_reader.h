@@ -12,8 +12,8 @@
 
 namespace episcope::io {
 
-/// Folders of equally sized images on a grid of views, or with such a folder inside named lf,
-/// views, images or rectified.
+/// Folders of equally sized images on a grid of views, or with such a folder inside
+/// (`views_folder`).
 [[nodiscard]] Reader image_grid_reader();
 
 /// What is known of an image grid from files beside it.

@@ -2,6 +2,7 @@
 #include "engine/io/grid/image_list.h"
 
 #include "engine/io/grid/decode_image.h"
+#include "engine/io/grid/inner_grid.h"
 
 #include <algorithm>
 
@@ -40,7 +41,7 @@ int count_images(const fs::path& folder) {
   return count;
 }
 
-fs::path views_folder(const fs::path& folder) {
+fs::path named_views_folder(const fs::path& folder) {
   std::error_code error;
   const auto images_inside = [&](const char* name) {
     const bool is_folder_itself = fs::equivalent(folder / name, folder, error);
@@ -54,6 +55,13 @@ fs::path views_folder(const fs::path& folder) {
     if (inside > 1 && inside > count_images(folder)) return folder / name;
   }
   return folder;
+}
+
+fs::path views_folder(const fs::path& folder) {
+  fs::path named = named_views_folder(folder);
+  if (named != folder) return named;
+  fs::path only = only_grid_inside(folder);
+  return only.empty() ? folder : only;
 }
 
 }  // namespace episcope::io

@@ -19,6 +19,7 @@ constexpr double kMostlyThere = 0.5;    ///< Part of a grid that names must fill
 struct Field {
   bool is_position = false;
   bool is_index = false;              ///< Whole and different from name to name.
+  bool has_signed_run = false;        ///< A position of which `run` and `places` are known, too.
   NumberRun run{{0}};                 ///< Of an index.
   std::vector<std::size_t> places{};  ///< Where in the run each name is.
 };
@@ -32,14 +33,16 @@ Field field_of(const NameGroup& group, std::size_t number) {
   Field field;
   field.is_position = !all_are(
       [&](const NameNumber& each) { return each.is_whole && (has_dashes || !each.has_minus); });
-  if (field.is_position ||
-      !all_are([](const NameNumber& each) { return each.count().has_value(); })) {
-    return field;
-  }
+  if (!all_are([](const NameNumber& each) { return each.count().has_value(); })) return field;
   std::vector<long long> values;
-  for (const NumberedImage& image : group.images) values.push_back(*image.numbers[number].count());
+  for (const NumberedImage& image : group.images) {
+    const NameNumber& each = image.numbers[number];
+    values.push_back(field.is_position ? *each.signed_count() : *each.count());
+  }
   field.run = NumberRun(values);
-  field.is_index = field.run.values.size() > 1;
+  field.is_index = !field.is_position && field.run.values.size() > 1;
+  field.has_signed_run = field.is_position && !field.run.has_gaps() &&
+                         field.run.values.front() < 0 && field.run.values.back() > 0;
   for (const long long value : values) field.places.push_back(*field.run.place_of(value));
   return field;
 }
@@ -95,6 +98,9 @@ class Finder {
 
   IndexFields find() const {
     IndexFields found = find_indices();
+    if (found.form == Form::None) {
+      if (const auto grid = signed_grid()) return *grid;
+    }
     add_positions(found);
     return found;
   }
@@ -163,6 +169,24 @@ class Finder {
       const Field& d = fields_[other.second];
       return !(is_same(a, c) && is_same(b, d)) && !(is_same(a, d) && is_same(b, c));
     });
+  }
+
+  /// Two numbers with signs that form a full grid; nothing if there are more of them.
+  std::optional<IndexFields> signed_grid() const {
+    std::vector<std::size_t> axes;
+    for (std::size_t i = 0; i < fields_.size(); ++i) {
+      if (fields_[i].has_signed_run) axes.push_back(i);
+    }
+    if (axes.size() != 2) return std::nullopt;
+    const Field& a = fields_[axes[0]];
+    const Field& b = fields_[axes[1]];
+    const bool is_full = static_cast<long long>(count_) == a.run.length() * b.run.length();
+    if (!is_full || !tells_names_apart(a, b)) return std::nullopt;
+    IndexFields found =
+        as_grid({.first = axes[0], .second = axes[1], .words = words_.order_of(axes[0], axes[1])});
+    found.form = Form::Grid;
+    found.are_signed = true;
+    return found;
   }
 
   /// A number that counts all names where the others do not form a grid.
@@ -261,7 +285,8 @@ std::string pattern_text(const NameGroup& group, const IndexFields& fields) {
       continue;
     }
     const bool is_index = number == fields.row || number == fields.column || number == fields.index;
-    if (is_index && group.images.front().numbers[number].has_minus) pattern += '-';
+    if (is_index && !fields.are_signed && group.images.front().numbers[number].has_minus)
+      pattern += '-';
     pattern += number_text(group, fields, number++);
   }
   return pattern;

@@ -26,15 +26,17 @@ struct IndexFields {
   std::optional<std::size_t> y{};  ///< Positions of cameras.
   std::optional<std::size_t> x{};
   bool is_told_by_words = false;  ///< Which number is the row and which the column.
+  bool are_signed = false;        ///< Rows and columns are numbered from a negative number on.
 };
 
 /// Finds row and column of a grid among the numbers of names. Negative numbers and those with a
-/// fraction anywhere are positions, never indices. An index runs in equal steps; of several pairs
-/// of numbers that form a full grid those beside words such as row and col come first, then those
-/// that begin at 0 or 1 without gaps, then neighbours; numbers that only repeat a pair in another
-/// form are passed over. One number that varies beside one that is constantly 0 or 1 and written
-/// alike is a single row or column. The first two positions behind row and column are y and x,
-/// unless words tell otherwise. Linear in the number of names.
+/// fraction anywhere are positions, not indices, unless no other number varies and two of them, in
+/// equal steps from below 0 to above it, form a full grid: −2 … 2 by −2 … 2. An index runs in equal
+/// steps; of several pairs of numbers that form a full grid those beside words such as row and col
+/// come first, then those that begin at 0 or 1 without gaps, then neighbours; numbers that only
+/// repeat a pair in another form are passed over. One number that varies beside one that is
+/// constantly 0 or 1 and written alike is a single row or column. The first two positions behind
+/// row and column are y and x, unless words tell otherwise. Linear in the number of names.
 [[nodiscard]] IndexFields find_index_fields(const NameGroup& group);
 
 /// The pattern of the names with these fields: "out_{row}_{col}_{y}_{x}.png"; numbers that vary

@@ -43,6 +43,11 @@ std::optional<long long> NameNumber::count() const {
   return count;
 }
 
+std::optional<long long> NameNumber::signed_count() const {
+  const auto unsigned_count = count();
+  return unsigned_count && has_minus ? -*unsigned_count : unsigned_count;
+}
+
 NameParts split_name(const std::filesystem::path& path) {
   const std::string stem = path.stem().string();
   NameParts parts;

@@ -18,6 +18,8 @@ struct NameNumber {
 
   /// What it would be as an index: whole, of at most 18 digits.
   [[nodiscard]] std::optional<long long> count() const;
+  /// The same with its sign.
+  [[nodiscard]] std::optional<long long> signed_count() const;
   /// What it would be as a position: with its sign.
   [[nodiscard]] double position() const { return has_minus && value != 0 ? -value : value; }
 };

@@ -117,9 +117,13 @@ ViewNames names_of(const Candidate& candidate) {
   ViewNames names{.pattern = pattern_text(*candidate.group, fields)};
   for (const NumberedImage& image : candidate.group->images) {
     NamedView view{.path = image.path};
-    if (fields.row) view.row = *image.numbers[*fields.row].count();
-    if (fields.column) view.column = *image.numbers[*fields.column].count();
-    if (fields.index) view.index = *image.numbers[*fields.index].count();
+    const auto number = [&](std::size_t place) {
+      const NameNumber& each = image.numbers[place];
+      return fields.are_signed ? *each.signed_count() : *each.count();
+    };
+    if (fields.row) view.row = number(*fields.row);
+    if (fields.column) view.column = number(*fields.column);
+    if (fields.index) view.index = number(*fields.index);
     if (fields.y) view.y = image.numbers[*fields.y].position();
     if (fields.x) view.x = image.numbers[*fields.x].position();
     names.views.push_back(std::move(view));

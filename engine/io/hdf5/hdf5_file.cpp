@@ -125,7 +125,7 @@ Listing list_group(hid_t file, const std::string& name) {
 /// Datasets of a group ("" for the root), then those of its groups.
 void add_datasets(hid_t file, const std::string& group, int depth,
                   std::vector<std::string>& names) {
-  const Listing listing = list_group(file, group.empty() ? "/" : group);
+  const Listing listing = list_group(file, group.empty() ? "." : group);
   const std::string prefix = group.empty() ? "" : group + "/";
   for (const std::string& name : listing.datasets) names.push_back(prefix + name);
   if (depth == 0) return;
@@ -140,7 +140,7 @@ bool is_group(hid_t file, const std::string& name) {
          info.type == H5O_TYPE_GROUP;
 }
 
-hid_t open_attribute(hid_t file, const std::string& object, const std::string& name) {
+hid_t attribute_of(hid_t file, const std::string& object, const std::string& name) {
   if (H5Aexists_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return -1;
   return H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
 }
@@ -206,26 +206,41 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
                                     "copy or download it again",
                                     std::filesystem::file_size(path)));
   }
+  root_ = file_;
+}
+
+Hdf5Input::Hdf5Input(const std::filesystem::path& path, const std::string& group)
+    : Hdf5Input(path) {
+  const Hdf5Lock session;
+  if (!path_exists(path_, file_, group) || !is_group(file_, group)) {
+    throw IoError(path, "there is no group " + group + " in this file; choose another file");
+  }
+  root_ = H5Gopen2(file_, group.c_str(), H5P_DEFAULT);
+  if (root_ < 0) {
+    throw IoError(path, "the group " + group +
+                            " cannot be opened: the file is damaged; copy or download it again");
+  }
 }
 
 Hdf5Input::~Hdf5Input() {
   const Hdf5Lock session;
   for (const auto& [name, id] : datasets_) H5Dclose(id);
+  if (root_ >= 0 && root_ != file_) H5Gclose(root_);
   if (file_ >= 0) H5Fclose(file_);
 }
 
 bool Hdf5Input::has(const std::string& name) const {
   const Hdf5Lock session;
-  return path_exists(path_, file_, name);
+  return path_exists(path_, root_, name);
 }
 
 std::vector<Hdf5Dataset> Hdf5Input::datasets() const {
   const Hdf5Lock session;
   std::vector<std::string> names;
-  add_datasets(file_, "", kDeepestGroup, names);
+  add_datasets(root_, "", kDeepestGroup, names);
   std::vector<Hdf5Dataset> found;
   for (const std::string& name : names) {
-    const Hdf5Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle dataset(H5Dopen2(root_, name.c_str(), H5P_DEFAULT), H5Dclose);
     if (dataset.ok() && holds_own_samples(dataset)) found.push_back(describe(dataset, name));
   }
   return found;
@@ -239,7 +254,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advic
                                            : held + "; " + advice));
   }
   const Hdf5Lock session;
-  if (is_group(file_, name)) {
+  if (is_group(root_, name)) {
     throw IoError(path_, name +
                              " is a group in this file, but must be a dataset; store the samples "
                              "as the dataset " +
@@ -253,7 +268,7 @@ Hdf5Dataset Hdf5Input::dataset(const std::string& name, const std::string& advic
 std::int64_t Hdf5Input::open_dataset(const std::string& name) const {
   const auto known = datasets_.find(name);
   if (known != datasets_.end()) return known->second;
-  const hid_t id = open_with_cache(path_, file_, name);
+  const hid_t id = open_with_cache(path_, root_, name);
   if (id < 0) {
     throw IoError(path_, "the dataset " + name +
                              " cannot be opened: the file is damaged; copy or download it again");
@@ -310,9 +325,15 @@ template std::optional<std::uintmax_t> Hdf5Input::place_in_file<std::int32_t>(
     const std::string&) const;
 template std::optional<std::uintmax_t> Hdf5Input::place_in_file<float>(const std::string&) const;
 
+std::int64_t Hdf5Input::open_attribute(const std::string& object, const std::string& name) const {
+  if (object != "/") return attribute_of(root_, object, name);
+  const hid_t own = attribute_of(root_, ".", name);
+  return own >= 0 || root_ == file_ ? own : attribute_of(file_, ".", name);
+}
+
 bool Hdf5Input::has_attribute(const std::string& object, const std::string& name) const {
   const Hdf5Lock session;
-  return Hdf5Handle(open_attribute(file_, object, name), H5Aclose).ok();
+  return Hdf5Handle(open_attribute(object, name), H5Aclose).ok();
 }
 
 std::optional<double> Hdf5Input::number(const std::string& object, const std::string& name) const {
@@ -325,7 +346,7 @@ std::optional<double> Hdf5Input::number(const std::string& object, const std::st
 
 std::vector<double> Hdf5Input::numbers(const std::string& object, const std::string& name) const {
   const Hdf5Lock session;
-  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
   const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
@@ -343,7 +364,7 @@ std::vector<double> Hdf5Input::numbers(const std::string& object, const std::str
 std::optional<std::string> Hdf5Input::text(const std::string& object,
                                            const std::string& name) const {
   const Hdf5Lock session;
-  const Hdf5Handle attribute(open_attribute(file_, object, name), H5Aclose);
+  const Hdf5Handle attribute(open_attribute(object, name), H5Aclose);
   if (!attribute.ok()) return {};
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
   const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);

@@ -50,6 +50,9 @@ class Hdf5Input {
  public:
   /// Throws IoError that tells a missing file, another kind of file and a damaged one apart.
   explicit Hdf5Input(const std::filesystem::path& path);
+  /// The same, with a group in the place of the root, whose attributes are looked up as well. The
+  /// names of `referenced` stay those of the file. Throws IoError if there is no such group.
+  Hdf5Input(const std::filesystem::path& path, const std::string& group);
   ~Hdf5Input();
   Hdf5Input(const Hdf5Input&) = delete;
   Hdf5Input& operator=(const Hdf5Input&) = delete;
@@ -92,9 +95,13 @@ class Hdf5Input {
   friend class Hdf5Output;  // Copies from here.
 
   [[nodiscard]] std::int64_t open_dataset(const std::string& name) const;
+  /// Negative if there is none.
+  [[nodiscard]] std::int64_t open_attribute(const std::string& object,
+                                            const std::string& name) const;
 
   std::filesystem::path path_;
   std::int64_t file_ = -1;
+  std::int64_t root_ = -1;  ///< The file or a group, by which names are looked up.
   mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
 };
 

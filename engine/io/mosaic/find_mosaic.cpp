@@ -4,6 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/io/grid/image_list.h"
 #include "engine/io/grid/image_size.h"
+#include "engine/io/mosaic/mosaic_dataset.h"
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/open/reader.h"
 #include "engine/io/open/scene_folder.h"
@@ -52,7 +53,7 @@ bool is_largest(const fs::path& path, const std::vector<fs::path>& images) {
 }
 
 fs::path find_by_file(const fs::path& path, const OpenOptions& options) {
-  if (!is_image_name(path)) return {};
+  if (!is_image_name(path)) return find_mosaic_dataset(path, options) ? path : fs::path();
   if (wants_mosaic(options) || mosaic_name(path) != MosaicName::Plain) return path;
   const fs::path folder = scene_folder(path);
   if (!is_largest(path, list_images(folder)) || is_other_form(folder, options)) return {};

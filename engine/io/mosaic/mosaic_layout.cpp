@@ -32,6 +32,7 @@ struct Question {
   int width;
   Image<float> along_x;
   Image<float> along_y;
+  std::string subject{};  ///< What messages call it.
 };
 
 struct Answer {
@@ -133,7 +134,7 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
 [[noreturn]] void refuse(const Question& question) {
   const std::string size = fmt::format("of {}×{} px", question.width, question.height);
   if (question.kind == Mosaic::Lenslets) {
-    const std::string reason = "no period of lenslets is found in this picture " + size;
+    const std::string reason = "no period of lenslets is found in " + question.subject + " " + size;
     auto choices = possible_lenslets(question);
     if (!choices.empty()) throw Undecided(question.path, reason, "lenslet", std::move(choices));
     throw IoError(question.path,
@@ -141,7 +142,7 @@ std::vector<ReadingChoice> possible_lenslets(const Question& question) {
   }
   if (question.kind == Mosaic::Views) {
     throw IoError(question.path,
-                  "the number of views in this picture " + size +
+                  "the number of views in " + question.subject + " " + size +
                       " is not found; give rows and columns, for example --grid 9x9");
   }
   throw IoError(
@@ -170,9 +171,10 @@ Question question_of(const AnyImage& picture, ImageSize size, const fs::path& pa
 }  // namespace
 
 MosaicLayout find_mosaic_layout(const AnyImage& picture, const fs::path& path,
-                                const OpenOptions& options) {
+                                const OpenOptions& options, const std::string& subject) {
   const auto [height, width] = size_of(picture);
-  const Question question = question_of(picture, {height, width}, path, options);
+  Question question = question_of(picture, {height, width}, path, options);
+  question.subject = subject;
   std::optional<Answer> answer = find_answer(question);
   if (!answer) refuse(question);
   const GridShape grid = answer->grid;

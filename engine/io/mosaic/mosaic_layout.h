@@ -22,10 +22,12 @@ struct MosaicLayout {
 
 /// Finds the layout by the options `mosaic`, `lenslet` and `grid`, the name of the file, and the
 /// period of the picture. Throws IoError, which names the options, if that is not certain or does
-/// not fit the size of the picture; InvalidInput if options contradict each other.
+/// not fit the size of the picture, which they call `subject`; InvalidInput if options contradict
+/// each other.
 [[nodiscard]] MosaicLayout find_mosaic_layout(const AnyImage& picture,
                                               const std::filesystem::path& path,
-                                              const OpenOptions& options);
+                                              const OpenOptions& options,
+                                              const std::string& subject = "this picture");
 
 /// Rows and columns of a lenslet of a picture of `height` px of which only `top` is decoded, as
 /// `find_mosaic_layout` would find them if its name tells that it consists of lenslets; nothing

@@ -5,6 +5,7 @@
 #include "engine/io/grid/image_header.h"
 #include "engine/io/maps/sample_range.h"
 #include "engine/io/mosaic/find_mosaic.h"
+#include "engine/io/mosaic/mosaic_dataset.h"
 #include "engine/io/mosaic/mosaic_name.h"
 #include "engine/io/mosaic/split_mosaic.h"
 #include "engine/io/open/assemble_scene.h"
@@ -49,11 +50,45 @@ std::vector<FileUse> account_of(const fs::path& path) {
   return account.uses();
 }
 
+/// A picture of all views, and where from.
+struct MosaicPicture {
+  AnyImage picture;
+  MosaicLayout layout;
+  std::string origin;  ///< For the report; empty for an image.
+  std::vector<FileUse> files;
+};
+
+MosaicPicture read_from_image(const fs::path& path, const OpenOptions& options) {
+  AnyImage picture = decode_image(path);
+  MosaicLayout layout = find_mosaic_layout(picture, path, options);
+  return {std::move(picture), std::move(layout), {}, account_of(path)};
+}
+
+/// What the dataset says is as if options said it, unless they do.
+MosaicPicture read_from_dataset(const fs::path& path, const MosaicDataset& dataset,
+                                OpenOptions options) {
+  AnyImage picture = read_mosaic_dataset(path, dataset);
+  if (options.mosaic == Mosaic::Auto && options.lenslet == 0) options.mosaic = dataset.kind;
+  const bool is_stated = options.grid.empty() && options.lenslet == 0 && dataset.grid.count() > 0;
+  if (is_stated) options.grid = fmt::format("{}x{}", dataset.grid.v, dataset.grid.u);
+  MosaicLayout layout = find_mosaic_layout(picture, path, options, "the dataset " + dataset.name);
+  if (is_stated) layout.evidence = "as an attribute says";
+  const char* order = dataset.is_transposed ? ", stored by columns" : "";
+  return {std::move(picture), std::move(layout),
+          fmt::format(", HDF5 dataset {}{}", dataset.name, order), uses_beside(path, dataset)};
+}
+
+MosaicPicture read_picture(const fs::path& path, const OpenOptions& options) {
+  const auto dataset = find_mosaic_dataset(path, options);
+  return dataset ? read_from_dataset(path, *dataset, options) : read_from_image(path, options);
+}
+
 Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progress& progress) {
   progress.step("reading the picture");
-  const AnyImage picture = decode_image(path);
+  MosaicPicture read = read_picture(path, options);
+  const AnyImage& picture = read.picture;
+  const MosaicLayout& layout = read.layout;
   progress.check();
-  const MosaicLayout layout = find_mosaic_layout(picture, path, options);
   LightFieldInfo info{
       scene_name(path), path.string(), {}, std::nullopt, {.reader = "mosaic", .options = {}}};
   if (options.on_center_view) {
@@ -66,7 +101,7 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   }
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = format_of(layout);
+  report.format = format_of(layout) + read.origin;
   report.units = "no depth in a mosaic";
   report_remainder(picture, layout, report);
   progress.step("splitting the picture into views");
@@ -76,14 +111,30 @@ Scene read_mosaic(const fs::path& path, const OpenOptions& options, const Progre
   parts.samples = std::move(samples);
   parts.info = std::move(info);
   parts.expected.reason = "mosaics hold rows and columns of views in order";
-  parts.files = account_of(path);
+  parts.files = std::move(read.files);
   assemble(std::move(parts), options, scene, progress);
   return scene;
+}
+
+SceneProbe probe_dataset(const MosaicDataset& dataset, const OpenOptions& options) {
+  const GridShape grid = given_grid(options).value_or(dataset.grid);
+  if (grid.count() == 0) return {};
+  const auto side = [&](std::size_t axis) { return static_cast<int>(dataset.shape[axis]); };
+  SceneProbe probe{.grid = grid,
+                   .height = side(dataset.is_transposed ? 1 : 0) / grid.v,
+                   .width = side(dataset.is_transposed ? 0 : 1) / grid.u,
+                   .channels = 1};
+  if (dataset.type == Hdf5Type::UInt8) probe.sample_type = SampleType::UInt8;
+  if (dataset.type == Hdf5Type::Float) probe.sample_type = SampleType::Float32;
+  return probe;
 }
 
 /// Lenslets show their period in a part of the picture, views side by side only in the whole.
 SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
   constexpr int kRows = 640;
+  if (const auto dataset = find_mosaic_dataset(path, options)) {
+    return probe_dataset(*dataset, options);
+  }
   const auto header = stated_image_header(path);
   if (!header || !has_png_signature(path)) return {};
   const MosaicName name = mosaic_name(path);
@@ -97,7 +148,8 @@ SceneProbe probe_mosaic(const fs::path& path, const OpenOptions& options) {
           .sample_type = header->sample_type};
 }
 
-constexpr const char* kOptions[] = {"flip", "grid", "crop", "mosaic", "lenslet", "levels"};
+constexpr const char* kOptions[] = {"flip",    "grid",    "crop",  "mosaic",
+                                    "lenslet", "dataset", "levels"};
 
 }  // namespace
 

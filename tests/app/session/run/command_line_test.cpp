@@ -131,6 +131,7 @@ void CommandLineTest::readingOptions_readBack() {
                            {"lenslet", 14},
                            {"dataset", std::string("s/LF")},
                            {"axes", std::string("vuyxc")},
+                           {"levels", std::string("0,1023")},
                            {"frame", 3},
                            {Reading::kFocus, -0.1},
                            {"equalise", true}};

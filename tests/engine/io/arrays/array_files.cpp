@@ -47,6 +47,21 @@ std::string deflated(const std::string& bytes) {
   return out;
 }
 
+/// A 2-D array of doubles.
+matvar_t* map_variable(const std::string& name, ImageView<const float> map) {
+  std::vector<double> numbers;
+  for (int x = 0; x < map.width; ++x) {
+    for (int y = 0; y < map.height; ++y) numbers.push_back(map.at(y, x));
+  }
+  std::size_t dims[] = {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)};
+  return Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, numbers.data(), 0);
+}
+
+void write_variable(mat_t* file, matvar_t* variable, matio_compression compression) {
+  Mat_VarWrite(file, variable, compression);
+  Mat_VarFree(variable);
+}
+
 }  // namespace
 
 std::vector<std::size_t> lengths_of(const ViewStack<std::uint8_t>& views, const std::string& axes) {
@@ -94,8 +109,7 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>
     top = Mat_VarCreateStruct(form.structure.c_str(), 2, one, fields, 1);
     Mat_VarSetStructFieldByName(top, "LF", 0, array);
   }
-  Mat_VarWrite(file, top, compression);
-  Mat_VarFree(top);
+  write_variable(file, top, compression);
   if (form.has_other) {
     double pair[] = {1, 2};
     std::size_t size[] = {1, 2};
@@ -103,11 +117,9 @@ void write_mat5(const std::filesystem::path& path, const ViewStack<std::uint8_t>
     std::size_t length[] = {1, 5};
     matvar_t* matrix = Mat_VarCreate("H", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, size, pair, 0);
     matvar_t* note = Mat_VarCreate("note", MAT_C_CHAR, MAT_T_UINT8, 2, length, text, 0);
-    for (matvar_t* variable : {matrix, note}) {
-      Mat_VarWrite(file, variable, compression);
-      Mat_VarFree(variable);
-    }
+    for (matvar_t* variable : {matrix, note}) write_variable(file, variable, compression);
   }
+  if (!form.label.empty()) write_variable(file, map_variable("label", form.label), compression);
   Mat_Close(file);
 }
 
@@ -129,16 +141,8 @@ void write_mat5_cells(const std::filesystem::path& path, const ViewStack<std::ui
 
 void write_mat5_map(const std::filesystem::path& path, const std::string& name,
                     ImageView<const float> map) {
-  std::vector<double> numbers;
-  for (int x = 0; x < map.width; ++x) {
-    for (int y = 0; y < map.height; ++y) numbers.push_back(map.at(y, x));
-  }
-  std::size_t dims[] = {static_cast<std::size_t>(map.height), static_cast<std::size_t>(map.width)};
   mat_t* file = Mat_CreateVer(path.c_str(), nullptr, MAT_FT_MAT5);
-  matvar_t* array =
-      Mat_VarCreate(name.c_str(), MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, numbers.data(), 0);
-  Mat_VarWrite(file, array, MAT_COMPRESSION_NONE);
-  Mat_VarFree(array);
+  write_variable(file, map_variable(name, map), MAT_COMPRESSION_NONE);
   Mat_Close(file);
 }
 

@@ -21,9 +21,10 @@ namespace episcope::test {
 /// How a MATLAB 5 file is to look like.
 struct Mat5Form {
   bool is_compressed = false;
-  bool is_double = false;   ///< Samples in 0 … 1, not bytes.
-  std::string structure{};  ///< Name of the struct that holds LF; empty = none.
-  bool has_other = false;   ///< Further variables: text, a small matrix.
+  bool is_double = false;          ///< Samples in 0 … 1, not bytes.
+  std::string structure{};         ///< Name of the struct that holds LF; empty = none.
+  bool has_other = false;          ///< Further variables: text, a small matrix.
+  ImageView<const float> label{};  ///< Further variable `label`, of doubles.
 };
 
 /// Writes LF(t, s, v, u, c) by libmatio.

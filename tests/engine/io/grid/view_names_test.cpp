@@ -96,6 +96,12 @@ std::vector<Form> grid_forms() {
        [](int r, int c) { return print("Cam%d%d.png", r + 1, c + 1); }},
       {"a{row}{col}_b.png", {5, 7}, [](int r, int c) { return print("a%d%d_b.png", r, c); }},
       {"{row}{col}.png", {17, 17}, [](int r, int c) { return print("%02d%02d.png", r, c); }},
+      {"s3_{row}_{col}.png",
+       {5, 7},
+       [](int r, int c) { return print("s3_%d_%d.png", r - 2, c - 3); }},
+      {"u{col}_v{row}.png",
+       {3, 5},
+       [](int r, int c) { return print("u%d_v%d.png", c - 2, r - 1); }},
       {"f_{row}_{col}.png", {1, 7}, [](int, int c) { return print("f_00_%02d.png", c); }},
       {"f_{row}_{col}.png", {7, 1}, [](int r, int) { return print("f_%d_1.png", r + 1); }},
   };
@@ -254,7 +260,7 @@ void ViewNamesTest::unclearNumbers_needAPattern_data() {
   QTest::addColumn<int>("kind");
   QTest::newRow("three indices") << 0;
   QTest::newRow("two pairs of equal right") << 1;
-  QTest::newRow("negative") << 2;
+  QTest::newRow("negative, in unequal steps") << 2;
   QTest::newRow("frames of cameras") << 3;
   QTest::newRow("no numbers") << 4;
 }
@@ -264,7 +270,7 @@ void ViewNamesTest::unclearNumbers_needAPattern() {
   const auto names = names_of({8, 4}, [&](int r, int c) {
     if (kind == 0) return print("%d_%d_%d.png", r / 4, r % 4, c);
     if (kind == 1) return print("%d_%d_%d.png", r % 4, c, (r % 4 + c) % 4);
-    if (kind == 2) return print("view_%d_%d.png", r - 4, c - 2);
+    if (kind == 2) return print("view_%d_%d.png", r * r - 4, c - 2);
     if (kind == 3) return print("cam%d_frame%d.png", r, c);
     return std::string(1, static_cast<char>('a' + r)) + static_cast<char>('a' + c) + ".png";
   });
