@@ -15,7 +15,9 @@ QToolButton* make_tool_button(const ToolButtonText& text, QWidget* parent) {
   button->setIconSize({14, 14});
   button->setAutoRaise(true);
   button->setToolTip(text.tip);
-  if (!text.text.isEmpty()) {
+  if (text.text.isEmpty()) {
+    button->setAccessibleName(text.tip);
+  } else {
     button->setText(text.text);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   }

@@ -56,6 +56,8 @@ class Capturing : public WindowFixture {
     const auto scene = std::make_shared<const Scene>(posed_scene(has_pinhole));
     window.bench().session.open(scene, "edge");
     trigger("tab.capture");
+    // The first OpenGL widget has the native window recreated.
+    QTRY_VERIFY(window.findChild<QWidget*>("capturePanel")->isVisible());
   }
 
   [[nodiscard]] std::filesystem::path file(const char* name) const {

@@ -131,9 +131,9 @@ void CommandLineTest::readingOptions_readBack() {
                            {"lenslet", 14},
                            {"dataset", std::string("s/LF")},
                            {"axes", std::string("vuyxc")},
-                           {"levels", std::string("0,1023")},
                            {"frame", 3},
                            {Reading::kFocus, -0.1},
+                           {"levels", std::string("0,1023")},
                            {"equalise", true}};
   QCOMPARE(given.size(), schema.descriptions().size());
 
