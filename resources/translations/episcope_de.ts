@@ -6084,6 +6084,18 @@ s</translation>
         <source>wsg13</source>
         <translation>wsg13</translation>
     </message>
+    <message>
+        <source>choosing sides</source>
+        <translation>Seiten werden gewählt</translation>
+    </message>
+    <message>
+        <source>estimating views</source>
+        <translation>Ansichten werden geschätzt</translation>
+    </message>
+    <message>
+        <source>marking invalid pixels</source>
+        <translation>ungültige Pixel werden markiert</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
