@@ -88,9 +88,8 @@ ArchiveLabels read_labels(const Hdf5Input& file, const FieldShape& shape, Conven
 }
 
 /// For the report.
-std::string group_text(const fs::path& path) {
-  const std::string group = archive_group(Hdf5Input(path));
-  return group.empty() ? group : ", group " + group;
+std::string group_text(const Hdf5Input& file) {
+  return file.group().empty() ? std::string() : ", group " + file.group();
 }
 
 Scene read_archive(const std::filesystem::path& path, const OpenOptions& options,
@@ -101,7 +100,7 @@ Scene read_archive(const std::filesystem::path& path, const OpenOptions& options
   const GridShape grid = layout.shape.grid;
   Scene scene;
   ConventionReport& report = scene.convention;
-  report.format = "archive (" + path.filename().string() + group_text(path) + ")";
+  report.format = "archive (" + path.filename().string() + group_text(file) + ")";
   compare_sizes(file, report);
   LightFieldInfo info{scene_name(path),
                       path.string(),

@@ -211,6 +211,7 @@ Hdf5Input::Hdf5Input(const std::filesystem::path& path) : path_(path) {
 
 Hdf5Input::Hdf5Input(const std::filesystem::path& path, const std::string& group)
     : Hdf5Input(path) {
+  group_ = group;
   const Hdf5Lock session;
   if (!path_exists(path_, file_, group) || !is_group(file_, group)) {
     throw IoError(path, "there is no group " + group + " in this file; choose another file");

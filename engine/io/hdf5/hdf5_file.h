@@ -58,6 +58,8 @@ class Hdf5Input {
   Hdf5Input& operator=(const Hdf5Input&) = delete;
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  /// In the place of the root; empty = the root itself.
+  [[nodiscard]] const std::string& group() const { return group_; }
   [[nodiscard]] bool has(const std::string& name) const;
   /// Datasets of the root group and of the groups in it, at most three deep, by name.
   [[nodiscard]] std::vector<Hdf5Dataset> datasets() const;
@@ -100,6 +102,7 @@ class Hdf5Input {
                                             const std::string& name) const;
 
   std::filesystem::path path_;
+  std::string group_;
   std::int64_t file_ = -1;
   std::int64_t root_ = -1;  ///< The file or a group, by which names are looked up.
   mutable std::map<std::string, std::int64_t> datasets_;  ///< Open ones, with their chunk caches.
