@@ -6,7 +6,7 @@
 #include "engine/core/version.h"
 #include "engine/evaluation/tables/benchmark_tables.h"
 #include "engine/evaluation/tables/search_tables.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/maps/parameter_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -14,10 +14,6 @@ namespace episcope {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json point_json(const ParameterSet& point) {
-  return Json::parse(io::parameters_to_json(point));
-}
 
 Json scene_json(const BenchmarkScene& scene) {
   Json json{{"name", scene.name}, {"input", scene.input}};
@@ -67,7 +63,8 @@ Json choice_json(const MethodSearch& search, const std::optional<std::size_t>& p
 
 Json search_json(const MethodSearch& search) {
   Json json{{"method", search.method}, {"points", Json::array()}, {"scenes", Json::array()}};
-  for (const ParameterSet& point : search.points) json["points"].push_back(point_json(point));
+  for (const ParameterSet& point : search.points)
+    json["points"].push_back(io::parameters_json(point));
   for (std::size_t scene = 0; scene < search.scenes.size(); ++scene) {
     Json scores = Json::array();
     for (const auto& point : search.scores) {

@@ -2,10 +2,10 @@
 #include "app/benchmark/run/record.h"
 
 #include "app/benchmark/run/scene_fingerprint.h"
+#include "app/session/judge/metrics_json.h"
 #include "engine/core/error.h"
 #include "engine/core/version.h"
 #include "engine/io/maps/parameter_json.h"
-#include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -16,18 +16,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json metrics_json(const Metrics& metrics) {
-  Json json = Json::object();
-  for (const auto& [key, value] : metrics) json[key] = value;
-  return json;
-}
-
-Metrics metrics_from(const Json& json) {
-  Metrics metrics;
-  for (const auto& [key, value] : json.items()) metrics.emplace_back(key, value.get<double>());
-  return metrics;
-}
-
 BenchmarkRecord read_record(const Json& json) {
   BenchmarkRecord record;
   record.key = json.at("key");
@@ -37,7 +25,7 @@ BenchmarkRecord read_record(const Json& json) {
   run.kind = value_named<RunKind>(json.at("kind"));
   run.method = json.at("method");
   run.revision = json.at("revision");
-  run.parameters = io::parameters_from_json(json.at("parameters").dump());
+  run.parameters = io::parameters_from(json.at("parameters"));
   run.views = value_named<ViewSelection>(json.at("views"));
   if (json.contains("device")) run.device = value_named<Device>(json.at("device"));
   BenchmarkResult& result = record.result;
@@ -93,7 +81,7 @@ std::string record_to_json(const BenchmarkRecord& record) {
   json["scene"] = result.scene;
   json["input"] = record.input;
   json["method"] = record.run.method;
-  json["parameters"] = Json::parse(io::parameters_to_json(record.run.parameters));
+  json["parameters"] = io::parameters_json(record.run.parameters);
   json["views"] = name_of(record.run.views);
   if (record.run.device != Device::Auto) json["device"] = name_of(record.run.device);
   json["version"] = kVersion;

@@ -7,7 +7,7 @@
 #include "engine/io/durable/append_log.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/make_folder.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/maps/parameter_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -26,7 +26,7 @@ Json run_json(const PlannedRun& planned) {
   return {{"kind", name_of(planned.run.kind)},
           {"method", planned.run.method},
           {"views", name_of(planned.run.views)},
-          {"parameters", Json::parse(io::parameters_to_json(planned.run.parameters))}};
+          {"parameters", io::parameters_json(planned.run.parameters)}};
 }
 
 Json task_json(const PlanTask& task) {

@@ -8,7 +8,7 @@
 #include "engine/core/text/join.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/labels/scribble_file.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/maps/parameter_json.h"
 
 #include <fmt/format.h>
 

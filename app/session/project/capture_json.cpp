@@ -78,14 +78,14 @@ CaptureLens lens_from(const Json& json, const fs::path& project) {
 
 template <class P>
 Json settings_json(const Schema<P>& schema, const P& value) {
-  return Json::parse(io::parameters_to_json(schema.values(value)));
+  return io::parameters_json(schema.values(value));
 }
 
 // Settings that a later program wrote otherwise are those of a new light field.
 template <class P>
 P settings_of(const Schema<P>& schema, const Json& json) {
   try {
-    return schema.parse(io::parameters_from_json(json.dump()));
+    return schema.parse(io::parameters_from(json));
   } catch (const InvalidInput&) {
     return {};
   }

@@ -173,7 +173,7 @@ Json scene_json(const ProjectScene& scene, const fs::path& project) {
   Json json{{"name", scene.name},
             {"source", source_text(scene.input, project)},
             {"hash", fmt::format("{:016x}", scene.sample_hash)},
-            {"reading", Json::parse(io::parameters_to_json(scene.reading))},
+            {"reading", io::parameters_json(scene.reading)},
             {"place", place_json(scene.place)},
             {"results", Json::array()}};
   for (const ProjectResult& each : scene.results) {
@@ -230,7 +230,7 @@ ProjectScene scene_of(const Json& json, const fs::path& project) {
   const std::string source = json.at("source");
   scene.input = builtin_scene_id(source).empty() ? absolute_path(source, project) : source;
   scene.sample_hash = hash_of(json.at("hash"));
-  scene.reading = io::parameters_from_json(json.at("reading").dump());
+  scene.reading = io::parameters_from(json.at("reading"));
   scene.place = place_of(json.at("place"));
   for (const Json& each : json.at("results")) scene.results.push_back(result_of(each, project));
   if (json.contains("capture")) {

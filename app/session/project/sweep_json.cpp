@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/session/project/sweep_json.h"
 
+#include "app/session/judge/metrics_json.h"
 #include "app/session/sweep/sweep_values.h"
 #include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "engine/io/json/bounded_json.h"
 #include "engine/io/maps/parameter_json.h"
-#include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -17,30 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json parameters_json(const ParameterSet& values) {
-  return Json::parse(io::parameters_to_json(values));
-}
-
-ParameterSet parameters_of(const Json& json) {
-  return io::parameters_from_json(json.dump());
-}
-
-Json metrics_json(const Metrics& metrics) {
-  Json json = Json::object();
-  for (const auto& [key, value] : metrics) json[key] = value;  // NaN becomes null
-  return json;
-}
-
-Metrics metrics_of(const Json& json) {
-  Metrics metrics;
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_number()) metrics.emplace_back(key, value.get<double>());
-  }
-  return metrics;
-}
-
 Json point_json(const SweepPoint& point) {
-  Json json{{"values", parameters_json(point.point)},
+  Json json{{"values", io::parameters_json(point.point)},
             {"seconds", point.seconds},
             {"display_range", {point.display_range.min, point.display_range.max}},
             {"vmv2013", metrics_json(point.vmv2013)},
@@ -52,11 +30,11 @@ Json point_json(const SweepPoint& point) {
 
 SweepPoint point_of(const Json& json) {
   SweepPoint point;
-  point.point = parameters_of(json.at("values"));
+  point.point = io::parameters_from(json.at("values"));
   point.seconds = json.at("seconds");
   point.display_range = {json.at("display_range").at(0), json.at("display_range").at(1)};
-  point.vmv2013 = metrics_of(json.at("vmv2013"));
-  point.benchmark2016 = metrics_of(json.at("benchmark2016"));
+  point.vmv2013 = metrics_from(json.at("vmv2013"));
+  point.benchmark2016 = metrics_from(json.at("benchmark2016"));
   if (json.contains("change_px")) point.change_px = json.at("change_px").get<double>();
   point.problem = json.value("problem", "");
   return point;
@@ -65,13 +43,13 @@ SweepPoint point_of(const Json& json) {
 // Its light fields by their place in the project.
 Json sweep_json(const Sweep& sweep, const std::vector<ProjectScene>& scenes) {
   Json json{{"method", sweep.base.method},
-            {"parameters", parameters_json(sweep.base.parameters)},
+            {"parameters", io::parameters_json(sweep.base.parameters)},
             {"varied", Json::array()},
             {"scenes", Json::array()}};
   for (const SweptParameter& each : sweep.swept) {
     Json values = Json::array();
     for (const ParameterValue& value : each.values) {
-      values.push_back(parameters_json({{each.key, value}}).at(each.key));
+      values.push_back(io::parameters_json({{each.key, value}}).at(each.key));
     }
     json["varied"].push_back({{"parameter", each.key}, {"values", values}});
   }
@@ -89,7 +67,7 @@ SweptParameter swept_of(const Json& json) {
   SweptParameter swept;
   swept.key = json.at("parameter");
   for (const Json& value : json.at("values")) {
-    swept.values.push_back(parameters_of({{swept.key, value}}).at(0).second);
+    swept.values.push_back(io::parameters_from({{swept.key, value}}).at(0).second);
   }
   return swept;
 }
@@ -97,7 +75,7 @@ SweptParameter swept_of(const Json& json) {
 Sweep sweep_of(const Json& json, const std::vector<ProjectScene>& scenes) {
   Sweep sweep;
   sweep.base.method = json.at("method");
-  sweep.base.parameters = parameters_of(json.at("parameters"));
+  sweep.base.parameters = io::parameters_from(json.at("parameters"));
   sweep.base.options.views = ViewSelection::Center;
   for (const Json& each : json.at("varied")) sweep.swept.push_back(swept_of(each));
   for (const Json& each : json.at("scenes")) {

@@ -9,7 +9,7 @@
 #include "engine/core/version.h"
 #include "engine/disparity/blocks/run_blocks.h"
 #include "engine/io/maps/result_draft.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/maps/parameter_json.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

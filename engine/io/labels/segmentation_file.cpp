@@ -7,7 +7,7 @@
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/hdf5/map_writer.h"
 #include "engine/io/labels/label_list.h"
-#include "engine/io/maps/result_file.h"
+#include "engine/io/maps/parameter_json.h"
 #include "engine/io/maps/stored_reading.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 
 #include "engine/core/error.h"
 #include "engine/io/json/bounded_json.h"
-#include "engine/io/maps/result_file.h"
 
 #include <nlohmann/json.hpp>
 
@@ -57,18 +56,25 @@ Json parsed(const std::string& text) {
 
 }  // namespace
 
-std::string parameters_to_json(const ParameterSet& parameters) {
+Json parameters_json(const ParameterSet& parameters) {
   Json object = Json::object();
   for (const auto& [key, value] : parameters) object[key] = to_json(value);
-  return object.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return object;
 }
 
-ParameterSet parameters_from_json(const std::string& json) {
-  const Json object = parsed(json);
+std::string parameters_to_json(const ParameterSet& parameters) {
+  return parameters_json(parameters).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+ParameterSet parameters_from(const Json& object) {
   ParameterSet parameters;
   if (!object.is_object()) return parameters;
   for (const auto& [key, value] : object.items()) parameters.emplace_back(key, from_json(value));
   return parameters;
+}
+
+ParameterSet parameters_from_json(const std::string& json) {
+  return parameters_from(parsed(json));
 }
 
 }  // namespace episcope::io

@@ -46,17 +46,15 @@ LogRecord record_of(const std::string& text) {
 }
 
 Json to_json(const BlockProgress& progress) {
-  return {{"pass", progress.pass},
-          {"done", progress.done},
-          {"facts", progress.facts},
-          {"finding", progress.finding},
-          {"seconds", progress.seconds},
-          {"notes", progress.notes}};
+  return {{"pass", progress.pass},       {"done", progress.done},       {"facts", progress.facts},
+          {"finding", progress.finding}, {"seconds", progress.seconds}, {"notes", progress.notes}};
 }
 
 BlockProgress progress_in(const Json& json) {
-  return {int_of(json.at("pass")), int_of(json.at("done")),
-          json.at("facts").get<std::vector<double>>(), json.at("finding").get<double>(),
+  return {int_of(json.at("pass")),
+          int_of(json.at("done")),
+          json.at("facts").get<std::vector<double>>(),
+          json.at("finding").get<double>(),
           json.at("seconds").get<double>(),
           json.at("notes").get<std::vector<std::string>>()};
 }

@@ -33,7 +33,4 @@ void write_result(const std::filesystem::path& path, const Estimate& estimate,
 /// Throws IoError if it is an HDF5 file and damaged.
 [[nodiscard]] bool is_result_file(const std::filesystem::path& path);
 
-/// JSON object of parameter values, as in result files and `--json` answers.
-[[nodiscard]] std::string parameters_to_json(const ParameterSet& parameters);
-
 }  // namespace episcope::io
