@@ -13,9 +13,9 @@
 
 namespace episcope {
 
-std::vector<Estimator> registered_estimators() {
+const std::vector<Estimator>& registered_estimators() {
   // clang-format off
-  return {
+  static const std::vector<Estimator> estimators = {
       epi_l_estimator(),
       epi_s_estimator(),
       epi_c_estimator(),
@@ -31,11 +31,12 @@ std::vector<Estimator> registered_estimators() {
       plane_pm_estimator(),
   };
   // clang-format on
+  return estimators;
 }
 
-Estimator find_estimator(const std::string& id) {
+const Estimator& find_estimator(const std::string& id) {
   std::vector<std::string> ids;
-  for (auto& estimator : registered_estimators()) {
+  for (const Estimator& estimator : registered_estimators()) {
     if (estimator.info.id == id) return estimator;
     ids.push_back(estimator.info.id);
   }

@@ -8,10 +8,10 @@
 
 namespace episcope {
 
-/// Every estimator of this build, in the order of lists.
-[[nodiscard]] std::vector<Estimator> registered_estimators();
+/// Every estimator of this build, in the order of lists; made once, and there until the program ends.
+[[nodiscard]] const std::vector<Estimator>& registered_estimators();
 
 /// Throws Unavailable for an unknown id, naming the nearest.
-[[nodiscard]] Estimator find_estimator(const std::string& id);
+[[nodiscard]] const Estimator& find_estimator(const std::string& id);
 
 }  // namespace episcope

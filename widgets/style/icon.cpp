@@ -20,14 +20,17 @@ namespace {
 /// Draws an SVG whose `currentColor` is the palette's text colour at the time of drawing.
 class TintedSvgEngine : public PaintedIconEngine {
  public:
-  explicit TintedSvgEngine(QByteArray svg) : svg_(std::move(svg)) {}
+  TintedSvgEngine(QString path, QByteArray svg) : path_(std::move(path)), svg_(std::move(svg)) {}
 
   void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
     QByteArray tinted = svg_;
     QSvgRenderer renderer(tinted.replace("currentColor", color(mode).name().toLatin1()));
     renderer.render(painter, rect);
   }
-  [[nodiscard]] QIconEngine* clone() const override { return new TintedSvgEngine(svg_); }
+  [[nodiscard]] QIconEngine* clone() const override { return new TintedSvgEngine(path_, svg_); }
+
+ protected:
+  [[nodiscard]] QString look(QIcon::Mode mode) const override { return path_ + color(mode).name(); }
 
  private:
   static QColor color(QIcon::Mode mode) {
@@ -37,6 +40,7 @@ class TintedSvgEngine : public PaintedIconEngine {
     return palette.color(QPalette::ButtonText);
   }
 
+  QString path_;
   QByteArray svg_;
 };
 
@@ -44,7 +48,7 @@ QIcon drawn_icon(const QString& path) {
   register_resources();
   QFile file(":/episcope/" + path);
   if (!file.open(QIODevice::ReadOnly)) return {};
-  return QIcon(new TintedSvgEngine(file.readAll()));
+  return QIcon(new TintedSvgEngine(path, file.readAll()));
 }
 
 }  // namespace

@@ -19,6 +19,9 @@ class SideIconEngine : public PaintedIconEngine {
   }
   [[nodiscard]] QIconEngine* clone() const override { return new SideIconEngine(side_); }
 
+ protected:
+  [[nodiscard]] QString look(QIcon::Mode) const override { return "side " + side_letter(side_); }
+
  private:
   Side side_;
 };

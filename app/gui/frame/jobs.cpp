@@ -5,9 +5,16 @@
 #include "widgets/style/schema_text.h"
 
 #include <algorithm>
+#include <chrono>
 #include <new>
+#include <utility>
 
 namespace episcope {
+namespace {
+
+constexpr std::chrono::milliseconds kTimeBetweenProgress{100};
+
+}  // namespace
 
 QString failure_sentence(const std::exception_ptr& failure) {
   try {
@@ -23,12 +30,14 @@ QString failure_sentence(const std::exception_ptr& failure) {
 
 Jobs::Jobs(QObject* parent) : QObject(parent) {
   for (auto& each : runners_) each = std::make_unique<JobRunner>(queued_post(this));
+  progress_.setSingleShot(true);
+  connect(&progress_, &QTimer::timeout, this, &Jobs::tellProgress);
 }
 
 Jobs::~Jobs() = default;
 
 quint64 Jobs::add(const QString& title, Lane lane) {
-  jobs_[++last_id_] = {lane, 0, title};
+  jobs_[++last_id_] = {lane, 0, title, std::nullopt};
   emit added(last_id_, title);
   return last_id_;
 }
@@ -38,9 +47,22 @@ void Jobs::attach(quint64 id, JobId runner_id) {
 }
 
 void Jobs::report(quint64 id, const ProgressState& state) {
-  if (jobs_.contains(id)) {
-    emit progressed(id, state.fraction, schema_text(state.step));
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) return;
+  found->second.news = state;
+  if (!progress_.isActive()) tellProgress();
+}
+
+// Methods report more often than anybody reads, and each report is painted.
+void Jobs::tellProgress() {
+  bool has_told = false;
+  for (auto& [id, job] : jobs_) {
+    const auto news = std::exchange(job.news, std::nullopt);
+    if (!news) continue;
+    emit progressed(id, news->fraction, schema_text(news->step));
+    has_told = true;
   }
+  if (has_told) progress_.start(kTimeBetweenProgress);
 }
 
 void Jobs::finish(quint64 id, const std::exception_ptr& failure) {

@@ -6,11 +6,13 @@
 
 #include <QObject>
 #include <QString>
+#include <QTimer>
 
 #include <array>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 namespace episcope {
 
@@ -74,15 +76,18 @@ class Jobs : public QObject {
     Lane lane;
     JobId runner_id = 0;
     QString title;
+    std::optional<ProgressState> news;  // not yet told
   };
   [[nodiscard]] JobRunner& runner(Lane lane) { return *runners_[static_cast<std::size_t>(lane)]; }
   quint64 add(const QString& title, Lane lane);
   void attach(quint64 id, JobId runner_id);
   void report(quint64 id, const ProgressState& state);
+  void tellProgress();
   void finish(quint64 id, const std::exception_ptr& failure);
 
   std::map<quint64, Job> jobs_;
   quint64 last_id_ = 0;
+  QTimer progress_;  // Runs for a while after progress was told.
   std::array<std::unique_ptr<JobRunner>, 5> runners_;
 };
 

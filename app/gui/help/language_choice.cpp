@@ -14,6 +14,7 @@
 #include <QTranslator>
 
 #include <clocale>
+#include <memory>
 
 // Q_INIT_RESOURCE works in the global namespace only.
 static void init_translations() {
@@ -60,10 +61,12 @@ QString native_name(const QString& code) {
   return code == kEnglish ? QString("English") : QLocale(code).nativeLanguageName();
 }
 
-void add_choice(Commands& commands, Messages& messages, const QString& name, const QString& text,
-                const QString& tip) {
-  const auto choose = [&commands, &messages, name] {
+// `chosen` is shared by all choices: settings and translations are not read at every refresh.
+void add_choice(Commands& commands, Messages& messages, const std::shared_ptr<QString>& chosen,
+                const QString& name, const QString& text, const QString& tip) {
+  const auto choose = [&commands, &messages, chosen, name] {
     QSettings().setValue(kSetting, name);
+    *chosen = name;
     commands.refresh();
     messages.hint(Text::tr("The window will be in this language when Episcope starts again."));
   };
@@ -72,7 +75,7 @@ void add_choice(Commands& commands, Messages& messages, const QString& name, con
                 .text = text,
                 .tip = tip,
                 .run = choose,
-                .checked = [name] { return name == remembered_language(); }});
+                .checked = [chosen, name] { return name == *chosen; }});
 }
 
 }  // namespace
@@ -119,11 +122,13 @@ QString remembered_language() {
 }
 
 void add_language_commands(Commands& commands, Messages& messages) {
-  add_choice(commands, messages, kSystem, Text::tr("Follow the desktop"),
+  const auto chosen = std::make_shared<QString>(remembered_language());
+  add_choice(commands, messages, chosen, kSystem, Text::tr("Follow the desktop"),
              Text::tr("The language of the desktop"));
   for (const QString& code : languages()) {
     const QString name = native_name(code);
-    add_choice(commands, messages, code, name, Text::tr("Shows the window in %1").arg(name));
+    add_choice(commands, messages, chosen, code, name,
+               Text::tr("Shows the window in %1").arg(name));
   }
 }
 
