@@ -6,6 +6,7 @@
 #include "app/cli/verbs/program_help.h"
 #include "app/cli/verbs/verbs.h"
 #include "app/session/scene/user_folders.h"
+#include "engine/io/durable/file_size_limit.h"
 
 #include <exception>
 #include <iostream>
@@ -50,6 +51,7 @@ int fail(const std::exception& error, int code) {
 
 int main(int argc, char** argv) {
   try {
+    episcope::io::report_file_size_limit();
     episcope::use_cache_for_scratch();
     run({argv + 1, argv + argc});
     if (!std::cout.flush()) throw Error("standard output cannot be written");

@@ -6,6 +6,7 @@
 #include "app/session/scene/user_folders.h"
 #include "engine/core/parameter/parameter.h"
 #include "engine/core/version.h"
+#include "engine/io/durable/file_size_limit.h"
 #include "widgets/cloud/vtk_version.h"
 #include "widgets/style/icon.h"
 
@@ -120,6 +121,7 @@ int main(int argc, char** argv) {
 
   QGuiApplication::setDesktopFileName("episcope");
   QApplication::setWindowIcon(episcope::program_icon());
+  episcope::io::report_file_size_limit();
   episcope::use_cache_for_scratch();
   episcope::MainWindow window;
   window.show();

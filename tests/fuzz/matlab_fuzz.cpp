@@ -12,6 +12,12 @@ void write_seeds(const std::filesystem::path& folder) {
   write_seed("mat", folder / "version_7.mat");
   test::write_mat5(folder / "plain.mat", views, {});
   test::write_mat5(folder / "compressed.mat", views, {.is_compressed = true, .has_other = true});
+  for (const bool is_compressed : {false, true}) {
+    const char* name = is_compressed ? "packed_cells.mat" : "cells.mat";
+    test::write_mat5_cells(folder / name, views, is_compressed);
+  }
+  test::write_mat5(folder / "map.mat", views,
+                   {.label = seed_scene().truth->field.disparity.view({1, 1})});
   test::write_mat5(folder / "struct.mat", views, {.is_double = true, .structure = "s"});
 }
 

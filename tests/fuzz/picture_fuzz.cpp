@@ -25,7 +25,7 @@ void read(const std::filesystem::path& file) {
   io::OpenOptions options;
   options.mosaic = io::Mosaic::Lenslets;
   options.grid = "3x3";
-  (void)io::open_scene(file, options, Progress(1));
+  (void)io::open_scene(file, options, progress_of_reading());
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void open_light_field(const std::filesystem::path& path) {
     const io::FoundReader found = io::find_reader(path, {});
     if (found.reader && found.reader->probe) (void)found.reader->probe(found.path, {});
   });
-  (void)io::open_scene(path, {}, Progress(1));
+  (void)io::open_scene(path, {}, progress_of_reading());
 }
 
 }  // namespace episcope::fuzz

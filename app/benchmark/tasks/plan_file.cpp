@@ -7,11 +7,11 @@
 #include "engine/io/durable/append_log.h"
 #include "engine/io/durable/atomic_file.h"
 #include "engine/io/durable/make_folder.h"
+#include "engine/io/json/bounded_json.h"
 #include "engine/io/maps/parameter_json.h"
 
 #include <nlohmann/json.hpp>
 
-#include <fstream>
 #include <optional>
 
 namespace episcope {
@@ -46,6 +46,15 @@ PlanTask task_from(const Json& json, std::size_t scene_count) {
   return task;
 }
 
+/// Results go to folders that are named so.
+std::string scene_name_of(const Json& json) {
+  std::string name = json;
+  if (name.empty() || name == ".." || name == "." || name != fs::path(name).filename()) {
+    throw InvalidInput("the name of a scene is none of a folder");
+  }
+  return name;
+}
+
 BenchmarkPlan plan_from(const Json& json) {
   BenchmarkPlan plan;
   plan.command.arguments = json.at("command");
@@ -53,7 +62,8 @@ BenchmarkPlan plan_from(const Json& json) {
   plan.request = json.at("request");
   plan.task_seconds = json.at("task_seconds");
   for (const Json& scene : json.at("scenes")) {
-    plan.scenes.push_back({scene.at("input"), scene.at("name"), scene.at("fingerprint")});
+    plan.scenes.push_back(
+        {scene.at("input"), scene_name_of(scene.at("name")), scene.at("fingerprint")});
   }
   for (const Json& task : json.at("tasks")) {
     plan.tasks.push_back(task_from(task, plan.scenes.size()));
@@ -101,8 +111,7 @@ BenchmarkPlan read_plan(const fs::path& folder) {
 
 BenchmarkPlan read_plan_file(const fs::path& file) {
   try {
-    std::ifstream in(file);
-    return plan_from(Json::parse(in));
+    return plan_from(io::read_json<Json>(file));
   } catch (const std::exception&) {
     throw IoError(file, "is no plan of a benchmark; make it again with --plan or --slurm");
   }

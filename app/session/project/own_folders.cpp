@@ -17,15 +17,17 @@ bool is_below(const fs::path& file, const fs::path& folder) {
 
 }  // namespace
 
-OwnFolders::OwnFolders(const fs::path& project)
-    : folder_(fs::absolute(project).lexically_normal().parent_path()) {
+OwnFolders::OwnFolders(const fs::path& project) {
   std::error_code error;
+  folder_ = fs::weakly_canonical(fs::absolute(project).lexically_normal().parent_path(), error);
   files_ = fs::weakly_canonical(files_of_project(project), error);
 }
 
 bool OwnFolders::contain(const fs::path& file) const {
-  const fs::path plain = file.lexically_normal();
-  return is_below(plain, folder_) || (!files_.empty() && is_below(plain, files_));
+  std::error_code error;
+  const fs::path followed = fs::weakly_canonical(file.lexically_normal(), error);
+  if (error) return false;
+  return is_below(followed, folder_) || (!files_.empty() && is_below(followed, files_));
 }
 
 void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own) {

@@ -13,12 +13,13 @@ class OwnFolders {
  public:
   explicit OwnFolders(const std::filesystem::path& project);
 
-  /// `file`: absolute.
+  /// Whether a file, given by its absolute path, is in one of them when links are followed: a link
+  /// in the folder of a project could lead to any file of the user's.
   [[nodiscard]] bool contain(const std::filesystem::path& file) const;
 
  private:
-  std::filesystem::path folder_;
-  std::filesystem::path files_;  ///< As it is when links are followed.
+  std::filesystem::path folder_;  ///< Both as they are when links are followed.
+  std::filesystem::path files_;
 };
 
 /// Where strokes of a project say that labels are saved (JournalOwner::file) would be written to:

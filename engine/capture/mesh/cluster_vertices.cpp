@@ -52,7 +52,7 @@ std::uint64_t cube_of(const Vertex& vertex, const Vertex& low, double side) {
 
 /// Begins with the smallest index, in the same sense.
 Face rotated(Face face) {
-  std::ranges::rotate(face, std::ranges::min_element(face));
+  std::rotate(face.begin(), std::ranges::min_element(face), face.end());
   return face;
 }
 
@@ -81,7 +81,7 @@ TriangleMesh clustered(const TriangleMesh& mesh, const Vertex& low, double side)
     if (!is_flat) coarse.faces.push_back(rotated(merged));
   }
   std::ranges::sort(coarse.faces);
-  coarse.faces.erase(std::ranges::unique(coarse.faces).begin(), coarse.faces.end());
+  coarse.faces.erase(std::unique(coarse.faces.begin(), coarse.faces.end()), coarse.faces.end());
   for (const Cube& cube : cubes) {
     Vertex& mean = coarse.vertices.emplace_back();
     for (int i = 0; i < 3; ++i) mean[i] = static_cast<float>(cube.sum[i] / cube.count);

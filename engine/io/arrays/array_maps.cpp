@@ -75,8 +75,8 @@ ViewStack<std::uint8_t> mask_of(const ViewStack<std::int32_t>& numbers, MapKind 
 /// The arrays with those last that are named like labels: they may hold disparity, which one that
 /// is called so knows better.
 std::vector<const ArrayEntry*> labels_last(std::vector<const ArrayEntry*> entries) {
-  std::ranges::stable_partition(
-      entries, [](const ArrayEntry* entry) { return kind_of(*entry) != MapKind::Labels; });
+  std::stable_partition(entries.begin(), entries.end(),
+                        [](const ArrayEntry* entry) { return kind_of(*entry) != MapKind::Labels; });
   return entries;
 }
 

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/io/arrays/joined_arrays.h"
+#include "engine/io/arrays/mat5_elements.h"
 #include "engine/io/durable/system_error.h"
 
 #include <fmt/format.h>
@@ -79,32 +80,6 @@ const char* kind_name(const matvar_t& variable) {
 
 IoError damaged(const fs::path& path) {
   return {path, "the MATLAB file is truncated or damaged; copy or save it again"};
-}
-
-std::uint32_t number_at(const char* bytes, bool is_little) {
-  std::uint32_t number = 0;
-  for (int i = 0; i < 4; ++i) {
-    const auto byte = static_cast<unsigned char>(bytes[is_little ? 3 - i : i]);
-    number = number << 8 | byte;
-  }
-  return number;
-}
-
-/// Follows the lengths of all elements to the end of the file: the library reads what is missing in
-/// a truncated file as if it were there.
-void require_whole(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  char order[2] = {};
-  in.seekg(126).read(order, sizeof order);
-  const std::uint64_t size = fs::file_size(path);
-  std::uint64_t at = 128;
-  while (at < size) {
-    char tag[8] = {};
-    in.seekg(static_cast<std::streamoff>(at)).read(tag, sizeof tag);
-    if (!in) throw damaged(path);
-    at += sizeof tag + number_at(tag + 4, order[0] == 'I');
-  }
-  if (at != size) throw damaged(path);
 }
 
 /// MATLAB's shape with its contiguous first axis last.
@@ -226,7 +201,7 @@ bool is_mat5_file(const fs::path& path) {
 
 Mat5File::Mat5File(const fs::path& path) : ArrayFile(path, "MATLAB 5 file") {
   require_readable_file(path);
-  require_whole(path);
+  require_sound_elements(path);
   content_ = std::make_unique<Content>(path);
   while (matvar_t* variable = content_->next()) {
     add_variable(variable->name ? variable->name : "", *variable, 0);

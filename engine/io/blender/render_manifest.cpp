@@ -32,14 +32,21 @@ void replace(std::string& pattern, const std::string& field, int number) {
   if (at != std::string::npos) pattern.replace(at, field.size(), fmt::format("{:02}", number));
 }
 
+/// Whether a path from the folder stays in it, also where its folders are links.
+bool is_inside(const fs::path& folder, const fs::path& path) {
+  if (path.is_absolute() || path.string().find("..") != std::string::npos) return false;
+  std::error_code error;
+  const fs::path root = fs::weakly_canonical(folder, error);
+  const fs::path place = fs::weakly_canonical(folder / path.parent_path(), error);
+  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+}
+
 void require_fields(const fs::path& file, const std::map<std::string, std::string>& patterns) {
   if (!patterns.contains("views")) throw problem(file, "the manifest names no files of views");
   for (const auto& [part, pattern] : patterns) {
-    const fs::path path(pattern);
-    const bool is_inside = path.is_relative() && pattern.find("..") == std::string::npos;
     const bool has_numbers = pattern.find("{row:02}") != std::string::npos &&
                              pattern.find("{column:02}") != std::string::npos;
-    if (is_inside && has_numbers) continue;
+    if (has_numbers && is_inside(file.parent_path(), pattern)) continue;
     throw problem(file, "the names '" + pattern + "' of " + part +
                             " must lie in the folder and hold {row:02} and {column:02}");
   }

@@ -40,9 +40,7 @@ bool flush_to_disk(const fs::path& path, int flags) {
   return file.ok() && ::fsync(file.id()) == 0;
 }
 
-std::string mebibytes(std::uintmax_t bytes) {
-  return std::to_string((bytes + 0xFFFFF) >> 20);
-}
+constexpr double kMebibyte = 1 << 20;
 
 }  // namespace
 
@@ -51,9 +49,10 @@ void require_space(const fs::path& target, const fs::path& folder, std::uintmax_
   const auto space = fs::space(folder, error);
   // Pseudo file systems report no capacity at all; there the write itself has to tell.
   if (error || space.capacity == 0 || space.available >= bytes) return;
-  throw IoError(target, "the disk is full: " + mebibytes(bytes) + " MiB are needed and " +
-                            mebibytes(space.available) +
-                            " MiB are free; free some space or choose another folder");
+  throw IoError(target, fmt::format("the disk is full: {:.1f} MiB are needed and {:.1f} MiB are "
+                                    "free; free some space or choose another folder",
+                                    static_cast<double>(bytes) / kMebibyte,
+                                    static_cast<double>(space.available) / kMebibyte));
 }
 
 AtomicFile::AtomicFile(const fs::path& target, std::uintmax_t bytes)

@@ -44,11 +44,14 @@ void require_readable_file(const std::filesystem::path& path) {
 IoError write_error(const std::filesystem::path& path) {
   const int code = errno;
   const bool is_forbidden = code == EACCES || code == EPERM || code == EROFS;
-  if (code == ENOSPC || code == EDQUOT || (!is_forbidden && is_disk_full(path))) {
-    return {path, "the disk is full; free some space or choose another folder"};
+  if (code == EDQUOT) {
+    return {path, "your quota of disk space is used up; remove files or choose another folder"};
   }
   if (code == EFBIG) {
     return {path, "the file would become larger than allowed here; choose another folder"};
+  }
+  if (code == ENOSPC || (!is_forbidden && is_disk_full(path))) {
+    return {path, "the disk is full; free some space or choose another folder"};
   }
   if (code == ENOENT) {
     return {path, "the folder does not exist; create it or choose another one"};

@@ -118,7 +118,11 @@ Listing list_group(hid_t file, const std::string& name) {
   Listing listing;
   hsize_t next = 0;
   const Hdf5Handle group(H5Oopen(file, name.c_str(), H5P_DEFAULT), H5Oclose);
-  if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, &next, list_object, &listing);
+  // In order of names the library makes a table of links first, which it releases unfilled where a
+  // damaged file ends it.
+  if (group.ok()) H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, &next, list_object, &listing);
+  std::ranges::sort(listing.groups);
+  std::ranges::sort(listing.datasets);
   return listing;
 }
 

@@ -3,9 +3,11 @@
 
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/durable/system_error.h"
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -68,6 +70,10 @@ std::string filters_of(const Form& form, const MovieShape& shape) {
   return fmt::format("scale={}:{}:flags=lanczos,{}", width, height, form.filters);
 }
 
+bool is_of_disk(int error) {
+  return error == ENOSPC || error == EDQUOT || error == EFBIG || error == EROFS || error == EIO;
+}
+
 }  // namespace
 
 bool is_encoded_form(const std::filesystem::path& path) {
@@ -113,6 +119,10 @@ MovieEncoder::MovieEncoder(const std::filesystem::path& file, const std::filesys
 
 int MovieEncoder::require(int code) const {
   if (code >= 0) return code;
+  if (const int error = AVUNERROR(code); is_of_disk(error)) {
+    errno = error;
+    throw write_error(named_);
+  }
   char why[AV_ERROR_MAX_STRING_SIZE] = {};
   av_strerror(code, why, sizeof why);
   throw IoError(named_, std::string("the movie cannot be written (") + why + ")");

@@ -45,6 +45,7 @@ void complete_order(SceneParts& parts, const std::string& swapped, ConventionRep
 
 void bring_in_order(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress) {
+  progress.step("checking the order of views");
   const bool are_axes_known = parts.expected.are_axes_known || !options.axes.empty() ||
                               !options.pattern.empty() || !options.grid.empty();
   const std::string swapped = order_axes(parts, are_axes_known, report, progress);

@@ -189,7 +189,6 @@ OrderFinding find_order(const LightField::Samples& samples, const std::vector<Or
 
 void put_in_order(LightField::Samples& samples, GroundTruth& truth, const ExpectedOrder& expected,
                   Flip choice, ConventionReport& report, const Progress& progress) {
-  progress.step("checking the order of views");
   const GridShape grid = grid_of(samples);
   const OrderFinding finding =
       find_order(samples, evidence_of(truth, grid.center()), expected, choice, progress);

@@ -2,7 +2,7 @@
 // Kills the program at random instants of saving and looks at what is there then: the old file or
 // the new one, never half of either. `kill_saving [--kills N] [NAME]` does so N times for every
 // saver, or for one; `kill_saving --save NAME FOLDER` saves until it is killed.
-#include "tests/app/kills/savers.h"
+#include "tests/app/kills/saved_files.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,9 +14,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -27,15 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 constexpr const char* kThisProgram = "/proc/self/exe";
-
-using Contents = std::map<std::string, std::string>;  // By path from the folder.
-
-Saver saver_named(const std::string& name) {
-  for (Saver& saver : savers()) {
-    if (saver.name == name) return std::move(saver);
-  }
-  throw std::runtime_error("nothing is saved by the name of " + name);
-}
 
 // Where the `count`-th saving goes.
 fs::path place(const Saver& saver, const fs::path& folder, int count) {
@@ -50,32 +38,10 @@ fs::path place(const Saver& saver, const fs::path& folder, int count) {
   }
 }
 
-// Everything below a folder but what the program left unfinished, whose names begin with a dot.
-Contents contents_of(const fs::path& folder) {
-  Contents contents;
-  for (auto it = fs::recursive_directory_iterator(folder); it != fs::end(it); ++it) {
-    if (it->path().filename().string().starts_with(".")) {
-      it.disable_recursion_pending();
-      continue;
-    }
-    if (!it->is_regular_file()) continue;
-    std::ifstream in(it->path(), std::ios::binary);
-    contents[it->path().lexically_relative(folder)] = {std::istreambuf_iterator<char>(in), {}};
-  }
-  return contents;
-}
-
 bool has_unfinished(const fs::path& folder) {
   return std::any_of(
       fs::directory_iterator(folder), fs::directory_iterator(),
       [](const auto& entry) { return entry.path().filename().string().starts_with("."); });
-}
-
-// A folder of its own, empty.
-fs::path empty_folder(const fs::path& folder) {
-  fs::remove_all(folder);
-  fs::create_directories(folder);
-  return folder;
 }
 
 struct Kills {
@@ -92,7 +58,7 @@ class Killing {
       const auto start = Clock::now();
       saver.save(place(saver, whole, 0), variant);
       duration_ = std::chrono::duration<double>(Clock::now() - start).count();
-      (variant == Variant::A ? a_ : b_) = contents_of(whole);
+      (variant == Variant::A ? a_ : b_) = contents_of(whole, Unfinished::IsLeftOut);
     }
     if (a_ == b_) throw std::runtime_error(saver.name + ": both variants are the same");
   }
@@ -125,11 +91,11 @@ class Killing {
  private:
   // Whether every file of the saver is there as one of the variants has it.
   [[nodiscard]] bool is_whole(const fs::path& folder) const {
-    if (!saver_.is_folder) return is_one_of_each(contents_of(folder));
+    if (!saver_.is_folder) return is_one_of_each(contents_of(folder, Unfinished::IsLeftOut));
     for (const auto& entry : fs::directory_iterator(folder)) {
       if (entry.path().filename().string().starts_with(".")) continue;
       Contents found;
-      for (auto& [name, bytes] : contents_of(entry.path())) {
+      for (auto& [name, bytes] : contents_of(entry.path(), Unfinished::IsLeftOut)) {
         found[fs::path(place(saver_, {}, 0)) / name] = std::move(bytes);
       }
       if (found != a_ && found != b_) return false;

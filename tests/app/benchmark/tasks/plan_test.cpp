@@ -12,8 +12,10 @@
 #include <QTemporaryDir>
 
 #include <filesystem>
+#include <fstream>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace episcope::in_plan_test {
 
@@ -165,6 +167,25 @@ class PlanTest : public QObject {
     QVERIFY_EXCEPTION_THROWN((void)run_task(plan, 0, options_, load(), Progress()), InvalidInput);
     QVERIFY_EXCEPTION_THROWN((void)collect_plan(plan, options_, load(), Progress()), InvalidInput);
     QCOMPARE(plan_status(plan, options_.folder).points.done, std::size_t{0});
+  }
+
+  void scenesElsewhere_areRefused() {
+    (void)installed(1000);
+    const fs::path file = options_.folder / BenchmarkPlan::kFileName;
+    std::stringstream text;
+    text << std::ifstream(file).rdbuf();
+    for (const char* name : {"../../elsewhere", "/elsewhere", "..", ""}) {
+      std::string changed = text.str();
+      const std::string old = "\"name\": \"edge\"";
+      const auto at = changed.find(old);
+      QVERIFY(at != std::string::npos);
+      changed.replace(at, old.size(), std::string("\"name\": \"") + name + '"');
+      std::ofstream(file) << changed;
+
+      QVERIFY_EXCEPTION_THROWN((void)read_plan(options_.folder), IoError);
+    }
+    std::ofstream(file) << text.str();
+    QCOMPARE(read_plan(options_.folder).scenes[0].name, std::string("edge"));
   }
 
   void collecting_computesNothing() {

@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# full_disk.sh EPISCOPE_CLI FOLDER: on a disk that is full, then read-only, everything that writes says so in a sentence and
-# leaves what was there as it was. Root only (mounts); skipped otherwise.
+# full_disk.sh EPISCOPE_CLI FOLDER: where files may not grow, then on a disk that is full, then read-only, everything that
+# writes says so in a sentence and leaves what was there as it was. Root only (mounts); skipped otherwise.
 set -eu
 cli=$1
 folder=$2
@@ -18,19 +18,12 @@ mkdir -p "$folder/disk"
 cd "$folder"
 XDG_CACHE_HOME="$folder/cache"
 export XDG_CACHE_HOME
-if ! mount -t tmpfs -o size=256k tmpfs disk; then
-  echo "skipped: nothing can be mounted here"
-  exit 77
-fi
-trap 'umount disk' EXIT
-
-"$cli" synthesize edge -o lf.h5 --views 5x5 --size 96x96 --noise 20 -q
-"$cli" estimate epi_l lf.h5 -o disk/old.h5 --views center -q
 
 # What is on the disk, but for a benchmark that was begun, whose log may be there, and empty.
 contents() { (cd disk && find . -type f -size +0 | sort | xargs -r sha256sum); }
 
 failed=""
+limit=unlimited
 # expect_refused WHAT SENTENCE ARGUMENTS…: fails with one sentence, and the disk is as it was.
 expect_refused() {
   what=$1
@@ -38,7 +31,7 @@ expect_refused() {
   shift 2
   contents >before.txt
   code=0
-  "$cli" "$@" >out.txt 2>err.txt || code=$?
+  (ulimit -f "$limit" && exec "$cli" "$@" >out.txt 2>err.txt) || code=$?
   contents >after.txt
   if [ "$code" -ne 1 ] || ! grep -Eiq "$sentence" err.txt || [ "$(wc -l <err.txt)" -ne 1 ]; then
     echo "$what: exit code $code: $(cat err.txt)"
@@ -64,6 +57,19 @@ expect_all() {
   expect_refused benchmark "$1" benchmark lf.h5 --methods epi_l,epi_s -o disk/tables -q
 }
 
+# Units of 512 bytes: less than the first line of a benchmark's log.
+limit=1
+"$cli" synthesize edge -o lf.h5 --views 5x5 --size 96x96 --noise 20 -q
+"$cli" estimate epi_l lf.h5 -o disk/old.h5 --views center -q
+expect_all 'larger than allowed'
+limit=unlimited
+
+if ! mount -t tmpfs -o size=256k tmpfs disk; then
+  echo "skipped: nothing can be mounted here"
+  exit 77
+fi
+trap 'umount disk' EXIT
+"$cli" estimate epi_l lf.h5 -o disk/old.h5 --views center -q
 head -c 300000 /dev/urandom >disk/full 2>/dev/null || true
 expect_all 'no space|disk (is )?full|not enough (room|space)'
 mount -o remount,ro disk

@@ -81,6 +81,7 @@ class ProjectFileTest : public QObject {
   void otherFiles_areRefused();
   void filesElsewhere_areRefused_data();
   void filesElsewhere_areRefused();
+  void linksElsewhere_areRefused();
   void linkedFolderOfFiles_isTheProjectsOwn();
   void placeToSave_isTheProjectsOwnOrForgotten();
   void movedFolder_isFoundForOthers();
@@ -233,6 +234,29 @@ void ProjectFileTest::filesElsewhere_areRefused() {
     QVERIFY2(QString(error.what()).contains("secret, which is not in the folder"), error.what());
   }
   QCOMPARE(read_project(path, ProjectFiles::Anywhere).scenes[0].input, scene.input);
+}
+
+// What is called like a file of the project may be a link to any file of the user's.
+void ProjectFileTest::linksElsewhere_areRefused() {
+  const QTemporaryDir folder;
+  const std::filesystem::path root = folder.path().toStdString();
+  std::filesystem::create_directories(root / "here");
+  std::ofstream(root / "secret") << "x";
+  Project project = sample(root / "here");
+  project.scenes[0].labels.file = root / "here/labels.h5";
+  write_project(root / "here/work.episcope", project);
+  std::filesystem::create_symlink(root / "secret", root / "here/labels.h5");
+  JournalOwner owner{.name = {}, .source = {}, .file = (root / "here/labels.h5").string()};
+
+  forget_file_elsewhere(owner, OwnFolders(root / "here/work.episcope"));
+
+  QCOMPARE(owner.file, std::string());
+  try {
+    (void)read_project(root / "here/work.episcope");
+    QFAIL("it was read");
+  } catch (const IoError& error) {
+    QVERIFY2(QString(error.what()).contains("labels.h5, which is not in the folder"), error.what());
+  }
 }
 
 // A disk of their own for what is large.

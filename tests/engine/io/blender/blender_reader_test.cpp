@@ -202,6 +202,18 @@ class BlenderReaderTest : public QObject {
     QVERIFY2(failure.find(expected) != std::string::npos, failure.c_str());
   }
 
+  void linkToAnotherFolder_isRefused() {
+    const RenderedFolder folder;
+    const QTemporaryDir elsewhere;
+    fs::rename(folder.path("views"), fs::path(elsewhere.path().toStdString()) / "views");
+    fs::create_directory_symlink(fs::path(elsewhere.path().toStdString()) / "views",
+                                 folder.path("views"));
+
+    const std::string failure = failure_of(folder);
+
+    QVERIFY2(failure.find("must lie in the folder") != std::string::npos, failure.c_str());
+  }
+
   void missingView_isNamed() {
     const RenderedFolder folder;
     fs::remove(folder.path("views/view_04_04.png"));

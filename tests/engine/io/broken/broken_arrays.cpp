@@ -4,6 +4,8 @@
 #include "tests/engine/io/broken/broken.h"
 #include "tests/engine/io/synthetic_scene.h"
 
+#include <zlib.h>
+
 #include <fstream>
 
 namespace episcope::test {
@@ -66,6 +68,15 @@ fs::path npz_of_unknown_method(const fs::path& folder) {
   return write(path, bytes);
 }
 
+std::string zlib_packed(const std::string& bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string packed(size, '\0');
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+           reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  packed.resize(size);
+  return packed;
+}
+
 fs::path cut_mat5(const fs::path& folder, bool is_compressed, double share) {
   const Scene scene = small_scene();
   const fs::path path = folder / "lf.mat";
@@ -73,6 +84,21 @@ fs::path cut_mat5(const fs::path& folder, bool is_compressed, double share) {
   const auto whole = static_cast<double>(fs::file_size(path));
   fs::resize_file(path, static_cast<std::uintmax_t>(whole * share));
   return path;
+}
+
+/// The lengths of its dimensions take 4 GB, says the file: what a fuzzer found.
+fs::path mat5_of_long_dimensions(const fs::path& folder, bool is_compressed) {
+  const fs::path path = folder / "lf.mat";
+  write_mat5(path, bytes_of(small_scene()), {});
+  std::string bytes = bytes_of_file(path);
+  bytes.replace(156, 4, "\x06\xff\xff\xfe");
+  if (is_compressed) {
+    const std::string packed = zlib_packed(bytes.substr(128));
+    std::string tag("\x0f\0\0\0", 4);
+    for (std::size_t i = 0; i < 4; ++i) tag += static_cast<char>(packed.size() >> 8 * i);
+    bytes = bytes.substr(0, 128) + tag + packed;
+  }
+  return write(path, bytes);
 }
 
 std::vector<Broken> broken_npy() {
@@ -133,6 +159,10 @@ std::vector<Broken> broken_arrays() {
       {".mat 5 that is cut", [](const fs::path& f) { return cut_mat5(f, false, 0.5); }, ""},
       {".mat 5 that is cut and compressed",
        [](const fs::path& f) { return cut_mat5(f, true, 0.5); }, ""},
+      {".mat 5 whose dimensions are long",
+       [](const fs::path& f) { return mat5_of_long_dimensions(f, false); }, "damaged"},
+      {".mat 5 whose dimensions are long, compressed",
+       [](const fs::path& f) { return mat5_of_long_dimensions(f, true); }, "damaged"},
       {".mat 5 that ends in its header", [](const fs::path& f) { return cut_mat5(f, false, 0.04); },
        ""},
   };
