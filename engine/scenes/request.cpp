@@ -15,7 +15,8 @@
 namespace episcope::scenes {
 namespace {
 
-constexpr const char* kKeys = "seed=N, kind=NAME, size=256 or 320x240, grid=9x9, noise=SIGMA";
+constexpr const char* kKeys =
+    "seed=N, kind=NAME, size=256 or 320x240, grid=9x9, noise=SIGMA, channels=3 or 1";
 
 [[noreturn]] void refuse(const std::string& text, const std::string& reason) {
   throw InvalidInput(fmt::format("cannot read the built-in scene '{}': {}", text, reason));
@@ -43,6 +44,7 @@ bool read_pair(std::string_view text, int& first, int& second) {
 bool read_value(const std::string& key, const std::string& value, RenderOptions& options) {
   if (key == "seed") return read_number(value, options.seed);
   if (key == "noise") return read_number(value, options.noise_sigma);
+  if (key == "channels") return read_number(value, options.channels);
   if (key == "size") return read_pair(value, options.width, options.height);
   return read_pair(value, options.grid.v, options.grid.u);
 }
@@ -65,7 +67,7 @@ void read_option(const std::string& text, const std::string& option, BuiltinRequ
   const std::string key = option.substr(0, equals);
   const std::string value = equals == option.npos ? std::string() : option.substr(equals + 1);
   if (key == "kind") return read_kind(text, request, value, request.options);
-  const std::vector<std::string> keys = {"seed", "size", "grid", "noise"};
+  const std::vector<std::string> keys = {"seed", "size", "grid", "noise", "channels"};
   if (std::ranges::find(keys, key) == keys.end()) {
     refuse(text,
            fmt::format("'{}' is not known; after '?' there may be, joined by '&': {}", key, kKeys));

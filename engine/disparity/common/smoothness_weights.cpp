@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/smoothness_weights.h"
 
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/core/light_field/gradient_magnitude.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ Image<float> smoothness_weights(const LightField& lf, ViewIndex view, double bet
   Image<float> weights(lf.height(), lf.width(), 1, 1.0F);
   if (beta == 0) return weights;
   gradient_magnitude(lf, view, weights.view());
-  const auto strength = static_cast<float>(-beta);
+  const auto strength = static_cast<float>(-beta * std::sqrt(channel_weight(lf.channels())));
   const auto of_noise = static_cast<float>(4 * lf.channels() * noise_variance);
   for (float& weight : weights) {
     weight = std::exp(strength * std::sqrt(std::max(0.0F, weight * weight - of_noise)));

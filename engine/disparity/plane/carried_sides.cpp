@@ -199,7 +199,7 @@ int carried_reach(GridShape grid, double farthest) {
 
 float carried_cap(const LightField& lf, ViewIndex view, const Progress& progress) {
   const double variance = view_noise_variance(lf, view, progress);
-  return static_cast<float>(kSmallDifference + 2 * std::sqrt(lf.channels() * variance));
+  return static_cast<float>(kSmallDifference + 2 * std::sqrt(3 * variance));
 }
 
 }  // namespace episcope

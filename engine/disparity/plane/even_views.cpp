@@ -211,6 +211,7 @@ std::array<double, 3> gains_of_means(const LightField& lf, ViewIndex view, ViewI
   for (int c = 0; c < lf.channels(); ++c) {
     if (sums[c] > 0 && sums_here[c] > 0) gains[c] = sums[c] / sums_here[c];
   }
+  if (lf.channels() == 1) gains.fill(gains[0]);
   return gains;
 }
 
@@ -256,8 +257,8 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
   const std::vector<double> logs = medians(corrected, progress);
   brightness.gains.assign(grid.count(), {1, 1, 1});
   for (int i = 0; i < grid.count(); ++i) {
-    for (int c = 0; c < channels; ++c) {
-      brightness.gains[i][c] = std::exp(logs[i * channels + c]);
+    for (int c = 0; c < 3; ++c) {
+      brightness.gains[i][c] = std::exp(logs[i * channels + std::min(c, channels - 1)]);
     }
   }
   return brightness;

@@ -11,7 +11,7 @@ namespace episcope {
 
 /// How the brightness of views differs from that of one of them.
 struct Brightness {
-  /// Of every view and channel, 1 for the reference; empty = all 1.
+  /// Of every view and channel, 1 for the reference; alike of a single channel; empty = all 1.
   std::vector<std::array<double, 3>> gains;
   /// k of the fall-off 1 − k·r² that all views have, r² = 1 in the corners.
   double fall_off = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/jump_labeling.h"
 
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/cuda/messages/message_labeling.h"
 #include "engine/solvers/messages/message_labeling.h"
@@ -57,8 +58,9 @@ PairWeights pair_weights(const LightField& lf, ViewIndex view, double beta, doub
   const Image<float> image = lf.view_as_float(view);
   PairWeights weights{Image<float>(lf.height(), lf.width(), 1, 1.0F),
                       Image<float>(lf.height(), lf.width(), 1, 1.0F)};
+  const double strength = beta * std::sqrt(channel_weight(lf.channels()));
   const auto weight = [&](PixelIndex a, PixelIndex b) {
-    return static_cast<float>(std::max(least, std::exp(-beta * distance(image, a, b))));
+    return static_cast<float>(std::max(least, std::exp(-strength * distance(image, a, b))));
   };
   parallel_for(lf.height(), progress, [&](int y) {
     for (int x = 0; x < lf.width(); ++x) {

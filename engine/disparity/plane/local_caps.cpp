@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/local_caps.h"
 
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -43,14 +44,15 @@ float mean_difference(const Products& g, GridShape grid, ViewIndex view) {
 Image<float> local_caps(const LightField& lf, ViewIndex view, const Image<float>& variance,
                         const LocalCapOptions& options, const Progress& progress) {
   const Image<float> image = lf.view_as_float(view);
+  const auto of_channels = static_cast<float>(1 / std::sqrt(channel_weight(lf.channels())));
+  const float lowest = of_channels * options.lowest, highest = of_channels * options.highest;
   Image<float> caps(lf.height(), lf.width());
   parallel_for(lf.height(), progress, [&](int y) {
     for (int x = 0; x < lf.width(); ++x) {
       const float off =
           options.offset * mean_difference(gradient_products(image, y, x), lf.grid(), view);
       const float noise = std::sqrt(variance.at(y, x) * static_cast<float>(lf.channels()));
-      caps.at(y, x) =
-          std::clamp(off, options.lowest, options.highest) + options.noise_share * noise;
+      caps.at(y, x) = std::clamp(off, lowest, highest) + options.noise_share * noise;
     }
   });
   return caps;

@@ -10,6 +10,7 @@ namespace episcope {
 struct LocalCapOptions {
   float offset = 0.03F;  ///< Error of disparity that is still to cost its due, px.
   float noise_share = 2;
+  /// In three channels; in one, 1/√3 of them.
   float lowest = 0.01F;
   float highest = 0.015F;
 };

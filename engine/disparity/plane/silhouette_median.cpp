@@ -2,6 +2,7 @@
 #include "engine/disparity/plane/silhouette_median.h"
 
 #include "engine/core/array/image.h"
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace {
 constexpr int kRadius = 4;
 constexpr int kBand = 3;
 constexpr float kJump_px = 0.2F;
-// σ of colours, as a share of their spread, and at most.
+// σ of colours, as a share of their spread, and at most, in three channels.
 constexpr double kShareOfSpread = 0.25;
 constexpr double kMostSigma = 0.08;
 constexpr double kLeastSigma = 1e-3;
@@ -95,8 +96,10 @@ class Silhouettes {
         disparity_(disparity),
         samples_(lf.view_as_float(view)),
         places_(place_weights()) {
-    const double sigma = std::clamp(kShareOfSpread * spread(samples_), kLeastSigma, kMostSigma);
-    strength_ = static_cast<float>(-1 / (2 * sigma * sigma));
+    const double channels = channel_weight(lf.channels());
+    const double sigma = std::clamp(kShareOfSpread * std::sqrt(channels) * spread(samples_),
+                                    kLeastSigma, kMostSigma);
+    strength_ = static_cast<float>(-channels / (2 * sigma * sigma));
   }
 
   [[nodiscard]] float median(int y, int x) const {

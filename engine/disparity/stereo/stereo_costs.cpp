@@ -3,6 +3,7 @@
 
 #include "engine/core/array/memory_budget.h"
 #include "engine/core/array/quantile.h"
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/disparity_range.h"
 #include "engine/disparity/common/local_noise.h"
@@ -21,14 +22,14 @@ namespace {
 constexpr int kProbedRows = 24;
 // At least so many labels there: between coarse ones the residual is not that of noise.
 constexpr int kProbedLabels = 64;
-// ε in residuals, and the least: below it the steps of 8-bit samples are cut off.
+// ε in residuals, and the least in three channels: below it the steps of 8-bit samples are cut off.
 constexpr double kCapInResiduals = 2;
 constexpr double kMinCap = 0.015;
 // The residual that noise of σ = 1 leaves in three channels (1.6·√(1 + Σw²) = 2.1), and a third
 // more for what is not noise in it. One channel leaves half of that.
 constexpr double kResidualOfNoise = 2.8;
-// Regularization of the guided filter, variance of samples in [0, 1], and of their noise variance:
-// whatever contrast is not noise is an edge.
+// Regularization of the guided filter, variance of samples in [0, 1] in three channels, and of
+// their noise variance: whatever contrast is not noise is an edge.
 constexpr double kLeastGuideVariance = 3e-5;
 constexpr double kNoiseInGuide = 8;
 
@@ -131,7 +132,8 @@ void choose_places(const LightField& lf, const ViewPlaces& stated, StereoCosts& 
 }
 
 void make_guide(const LightField& lf, int radius, StereoCosts& costs, const Progress& progress) {
-  const double regularization = kLeastGuideVariance + kNoiseInGuide * median_noise(costs);
+  const double regularization =
+      (kLeastGuideVariance + kNoiseInGuide * median_noise(costs)) / channel_weight(lf.channels());
   if (costs.matcher) return costs.matcher->aggregate(radius, regularization);
   costs.guide = std::make_shared<GuideImage>(lf, costs.view, radius, regularization, progress);
 }
@@ -233,7 +235,8 @@ StereoCosts prepare_stereo(const LightField& lf, MatchedViews views,
       compensate_noise(compared, residuals.lower_quartile, costs, progress.part(0.8, 0.9));
     }
     if (parameters.epsilon == 0) {
-      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, kMinCap, kUncapped);
+      const double least = kMinCap / std::sqrt(channel_weight(compared.channels()));
+      costs.matching.cap = std::clamp(kCapInResiduals * residuals.median, least, kUncapped);
     }
   }
   if (parameters.aggregation > 0) {

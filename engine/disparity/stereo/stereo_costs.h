@@ -74,7 +74,8 @@ struct StereoCosts {
 /// residual is smaller with them than on the regular grid: whatever they say, they do no harm.
 /// The guide of the aggregation keeps whatever contrast is not noise: its regularization is
 /// 3·10⁻⁵ + 8σ², σ² the median of that noise over the view (0 without `compensate_noise`). Evidence
-/// for all three: tests/accuracy/tuning.md. Throws InvalidInput (no such view, a single view),
+/// for all three: tests/accuracy/tuning.md. One channel counts as three equal ones
+/// (channel_weight.h). Throws InvalidInput (no such view, a single view),
 /// DeviceFailure, Cancelled.
 [[nodiscard]] StereoCosts prepare_stereo(const LightField& light_field, MatchedViews views,
                                          const StereoCostParameters& parameters,
@@ -109,9 +110,9 @@ class StereoCostRows {
 [[nodiscard]] double looked_at_bytes(const LightField& light_field, const StereoCosts& costs,
                                      int rows);
 
-/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Samples on disk are dropped
-/// from memory on the way, so that they take no more than a quarter of the memory budget if a few
-/// rows do not. Throws Cancelled.
+/// The costs of all rows, on the CPU: height · width · labels · 4 bytes. Samples on disk are
+/// dropped from memory on the way, so that they take no more than a quarter of the memory budget if
+/// a few rows do not. Throws Cancelled.
 [[nodiscard]] Volume<float> stereo_volume(const LightField& light_field, const StereoCosts& costs,
                                           const Progress& progress);
 

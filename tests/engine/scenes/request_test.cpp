@@ -22,7 +22,8 @@ class RequestTest : public QObject {
   }
 
   void everyKey_isRead() {
-    const auto request = read_request("random?seed=7&kind=thin&size=320x240&grid=5x7&noise=2.5");
+    const auto request =
+        read_request("random?seed=7&kind=thin&size=320x240&grid=5x7&noise=2.5&channels=1");
 
     QCOMPARE(request.scene, std::string("random"));
     QCOMPARE(request.options.seed, 7U);
@@ -31,6 +32,7 @@ class RequestTest : public QObject {
     QCOMPARE(request.options.height, 240);
     QCOMPARE(request.options.grid, (GridShape{5, 7}));
     QCOMPARE(request.options.noise_sigma, 2.5);
+    QCOMPARE(request.options.channels, 1);
     QVERIFY(!request.is_plain());
     QCOMPARE(request.name(), std::string("random_thin_7"));
   }
