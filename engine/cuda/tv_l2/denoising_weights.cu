@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/light_field/channel_weight.h"
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/tv_l2/denoise_maps.cuh"
 
@@ -123,9 +124,10 @@ void fill_weights(const DeviceSamples& samples, const MappedViews& views, int fi
   const dim3 grid(blocks_for(samples.width, 32), blocks_for(samples.height, 8),
                   static_cast<unsigned>(count));
   const double pixels = static_cast<double>(samples.height) * samples.width * count;
+  const auto strength =
+      static_cast<float>(denoising.edge_strength * std::sqrt(channel_weight(samples.channels)));
   launch(stream, {"denoise: edges", pixels * (samples.channels + 4), pixels * 20}, [&] {
-    fill_edges<<<grid, block, 0, stream.get()>>>(
-        {samples, views, first}, static_cast<float>(denoising.edge_strength), weights.edges);
+    fill_edges<<<grid, block, 0, stream.get()>>>({samples, views, first}, strength, weights.edges);
   });
   const auto all = static_cast<long>(pixels);
   const Power power{denoising.weight_power, denoising.min_weight};
