@@ -357,6 +357,10 @@
         <source>The scribbles on “%1” have not been saved.</source>
         <translation>Die Striche in „%1“ sind nicht gespeichert.</translation>
     </message>
+    <message>
+        <source>Reloading replaces the labels and strokes that are open here.</source>
+        <translation>Neuladen ersetzt die hier geöffneten Labels und Striche.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::Autosave</name>
@@ -896,10 +900,6 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>Die Datei wurde geändert</translation>
     </message>
     <message>
-        <source>Another program has written %1 since it was read here. Saving replaces what that program wrote; reloading replaces the labels and strokes that are open here.</source>
-        <translation>Ein anderes Programm hat %1 geschrieben, seit die Datei hier gelesen wurde. Speichern ersetzt, was dieses Programm schrieb; Neuladen ersetzt die hier geöffneten Labels und Striche.</translation>
-    </message>
-    <message>
         <source>Save to another file…</source>
         <translation>In anderer Datei speichern…</translation>
     </message>
@@ -910,6 +910,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
     <message>
         <source>Reload</source>
         <translation>Neu laden</translation>
+    </message>
+    <message>
+        <source>Another program has written %1 since it was read or saved here. Saving replaces what that program wrote.</source>
+        <translation>Ein anderes Programm hat %1 geschrieben, seit die Datei hier gelesen oder gespeichert wurde. Speichern ersetzt, was dieses Programm schrieb.</translation>
     </message>
 </context>
 <context>
@@ -4155,6 +4159,10 @@ s</translation>
         <source>Choose folder…</source>
         <translation>Ordner wählen…</translation>
     </message>
+    <message>
+        <source>Reloading replaces what is open here.</source>
+        <translation>Neuladen ersetzt, was hier geöffnet ist.</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ProjectGuard</name>
@@ -4356,6 +4364,10 @@ s</translation>
     <message>
         <source>%1 has no map of the centre view, which is submitted.</source>
         <translation>%1 hat keine Karte der mittleren Ansicht, die eingereicht wird.</translation>
+    </message>
+    <message>
+        <source>Reloading adds what is in the file to the list of results.</source>
+        <translation>Neuladen fügt der Liste der Ergebnisse hinzu, was in der Datei steht.</translation>
     </message>
 </context>
 <context>

@@ -168,7 +168,9 @@ void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
   ask_about_changed_file(&bench_.window, path,
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { askForPlace(then); },
-                          .reload = [this, path] { reload(path); }});
+                          .reload = [this, path] { reload(path); },
+                          .of_reloading = tr("Reloading replaces the labels and strokes that are "
+                                             "open here.")});
 }
 
 void AnnotationFiles::reload(const QString& path) {

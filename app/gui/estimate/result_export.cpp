@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "app/gui/estimate/result_export.h"
 
+#include "app/gui/frame/changed_file.h"
 #include "app/gui/frame/dialogs.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/opening/result_opener.h"
 #include "app/session/save/save_result.h"
 #include "app/session/session.h"
 #include "engine/io/maps/submission_folder.h"
 
 #include <QCoreApplication>
+
+#include <filesystem>
+#include <functional>
+#include <memory>
 
 namespace episcope {
 namespace {
@@ -15,6 +21,48 @@ namespace {
 struct Text {
   Q_DECLARE_TR_FUNCTIONS(episcope::ResultExport)
 };
+
+using Write = std::function<void(const Progress&)>;
+
+/// What writes an entry in a form; null, and the user is told, if there is no such map.
+Write writer_of(const Workbench& bench, const EstimateEntry& entry,
+                const std::filesystem::path& file) {
+  const EstimatePtr result = entry.estimate;
+  const auto form = map_form_of(file);
+  if (form == MapForm::Result) {
+    return [file, result, input = bench.session.input()](const Progress& progress) {
+      save_result(file, *result, input, progress);
+    };
+  }
+  const ViewIndex view = bench.session.view();
+  if (!result->contains(view)) {
+    bench.messages.hint(Text::tr("%1 has no map of this view: go to the centre view (Home) first.")
+                            .arg(QString::fromStdString(entry.name)));
+    return nullptr;
+  }
+  return [file, result, view, light_field = bench.session.light_field(),
+          is_cloud = form == MapForm::PointCloud](const Progress&) {
+    is_cloud ? save_point_cloud(file, *light_field, view, result->field.view(view))
+             : save_map(file, result->field.view(view));
+  };
+}
+
+void write_result(const Workbench& bench, const EstimateEntry& entry, const QString& path) {
+  const std::filesystem::path file = path.toStdString();
+  const Write write = writer_of(bench, entry, file);
+  if (!write) return;
+  const auto stamp = std::make_shared<FileStamp>();
+  write_in_background(
+      bench.jobs, bench.messages, path,
+      [write, file, stamp](const Progress& progress) {
+        write(progress);
+        *stamp = stamp_of(file);
+      },
+      [&session = bench.session, &files = bench.results.files(), file, stamp, id = entry.id] {
+        files.note(file, *stamp);
+        if (map_form_of(file) == MapForm::Result) session.mark_saved(id);
+      });
+}
 
 }  // namespace
 
@@ -34,31 +82,27 @@ void ask_to_export(const Workbench& bench, const EstimateEntry& entry) {
 
 void export_result(const Workbench& bench, const EstimateEntry& entry, const QString& path) {
   if (!has_suffix(path, {"h5", "pfm", "tiff", "ply"}, bench.messages)) return;
-  const std::filesystem::path file = path.toStdString();
-  const EstimatePtr result = entry.estimate;
-  const auto form = map_form_of(file);
-  if (form == MapForm::Result) {
-    write_in_background(
-        bench.jobs, bench.messages, path,
-        [file, result, input = bench.session.input()](const Progress& progress) {
-          save_result(file, *result, input, progress);
-        },
-        [&session = bench.session, id = entry.id] { session.mark_saved(id); });
+  if (!bench.results.files().has_changed(path.toStdString())) {
+    write_result(bench, entry, path);
     return;
   }
-  const ViewIndex view = bench.session.view();
-  if (!result->contains(view)) {
-    bench.messages.hint(Text::tr("%1 has no map of this view: go to the centre view (Home) first.")
-                            .arg(QString::fromStdString(entry.name)));
-    return;
+  const auto with_entry = [bench, id = entry.id](auto act) {
+    return [bench, id, act] {
+      if (const auto* found = bench.session.find_estimate(id)) act(bench, *found);
+    };
+  };
+  ChangedFileAnswers answers{
+      .overwrite = with_entry([path](const Workbench& of, const EstimateEntry& found) {
+        write_result(of, found, path);
+      }),
+      .elsewhere = with_entry(ask_to_export),
+      .reload = nullptr,
+      .of_reloading = {}};
+  if (is_result(path)) {
+    answers.reload = [bench, path] { bench.results.open(path); };
+    answers.of_reloading = Text::tr("Reloading adds what is in the file to the list of results.");
   }
-  write_in_background(bench.jobs, bench.messages, path,
-                      [file, result, view, light_field = bench.session.light_field(),
-                       is_cloud = form == MapForm::PointCloud](const Progress&) {
-                        is_cloud
-                            ? save_point_cloud(file, *light_field, view, result->field.view(view))
-                            : save_map(file, result->field.view(view));
-                      });
+  ask_about_changed_file(&bench.window, path, answers);
 }
 
 void ask_to_submit(const Workbench& bench, const EstimateEntry& entry) {

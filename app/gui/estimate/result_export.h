@@ -14,7 +14,8 @@ void ask_to_export(const Workbench& bench, const EstimateEntry& entry);
 
 /// Writes a result in the background; the suffix of `path` says the form: .h5 all views, .pfm or
 /// .tiff the map and .ply the point cloud of the current view. The user is told if it has another
-/// suffix, or if there is no such map.
+/// suffix, or if there is no such map, and asked if another program has changed the file since a
+/// result was read from it or written to it.
 void export_result(const Workbench& bench, const EstimateEntry& entry, const QString& path);
 
 /// Asks for a folder and adds the shown scene's centre view and time to the submission there.

@@ -18,9 +18,10 @@ void ask_about_changed_file(QWidget* window, const QString& path,
                             const ChangedFileAnswers& answers) {
   auto* box = new QMessageBox(
       QMessageBox::Warning, Text::tr("The file has changed"),
-      Text::tr("Another program has written %1 since it was read here. Saving replaces what that "
-               "program wrote; reloading replaces the labels and strokes that are open here.")
-          .arg(path),
+      Text::tr("Another program has written %1 since it was read or saved here. Saving replaces "
+               "what that program wrote.")
+              .arg(path) +
+          ' ' + answers.of_reloading,
       QMessageBox::Cancel, window);
   box->setObjectName("changed_file");
   box->setAttribute(Qt::WA_DeleteOnClose);
@@ -34,7 +35,9 @@ void ask_about_changed_file(QWidget* window, const QString& path,
       answers.elsewhere);
   add("changed_file.overwrite", Text::tr("Overwrite"), QMessageBox::DestructiveRole,
       answers.overwrite);
-  add("changed_file.reload", Text::tr("Reload"), QMessageBox::DestructiveRole, answers.reload);
+  if (answers.reload) {
+    add("changed_file.reload", Text::tr("Reload"), QMessageBox::DestructiveRole, answers.reload);
+  }
   box->setDefaultButton(QMessageBox::Cancel);
   box->open();
 }

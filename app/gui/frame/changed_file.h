@@ -13,7 +13,8 @@ namespace episcope {
 struct ChangedFileAnswers {
   std::function<void()> overwrite;
   std::function<void()> elsewhere;  ///< Save to another file.
-  std::function<void()> reload;     ///< Take what is in the file.
+  std::function<void()> reload;     ///< Take what is in the file; not offered if empty.
+  QString of_reloading;             ///< A sentence: what reloading does to what is open.
 };
 
 /// Asks; one of the answers is called, or none. Blocks nothing.

@@ -20,10 +20,12 @@ namespace {
 struct ReadEstimate : FinishedEstimate {
   bool is_of_others = false;
   std::string differing_options;
+  FileStamp stamp;
 };
 
 ReadEstimate read_estimate(const LightField& light_field, const std::string& path,
                            const Progress& progress) {
+  const FileStamp stamp = stamp_of(path);
   auto estimate = std::make_shared<Estimate>(read_result_of(light_field, path));
   progress.check();
   check_fits(*estimate, light_field, path);
@@ -32,7 +34,7 @@ ReadEstimate read_estimate(const LightField& light_field, const std::string& pat
   bring_to_focus(*estimate, light_field, progress);
   const Interval range = display_range(*estimate);
   std::string options = differing_options(*estimate, light_field);
-  return {{std::move(estimate), range}, is_of_others && !is_moved, std::move(options)};
+  return {{std::move(estimate), range}, is_of_others && !is_moved, std::move(options), stamp};
 }
 
 }  // namespace
@@ -55,7 +57,8 @@ void ResultOpener::open(const QString& path) {
       [light_field = session_.light_field(), path = path.toStdString()](const Progress& progress) {
         return read_estimate(*light_field, path, progress);
       },
-      [this, generation = session_.generation(), name](const ReadEstimate& read) {
+      [this, generation = session_.generation(), name, path](const ReadEstimate& read) {
+        files_.note(path.toStdString(), read.stamp);
         session_.add_estimate(read.estimate, read.display_range, generation);
         if (!read.differing_options.empty()) {
           messages_.warn(tr("%1 was estimated with%2: its errors may be meaningless. Choose the "

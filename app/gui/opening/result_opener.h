@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "app/session/save/known_files.h"
+
 #include <QObject>
 #include <QString>
 
@@ -23,11 +25,14 @@ class ResultOpener : public QObject {
 
   /// Precondition: a light field is open.
   void open(const QString& path);
+  /// Files that results were read from or written to.
+  [[nodiscard]] KnownFiles& files() { return files_; }
 
  private:
   Session& session_;
   Jobs& jobs_;
   Messages& messages_;
+  KnownFiles files_;
 };
 
 }  // namespace episcope

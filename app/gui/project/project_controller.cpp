@@ -158,7 +158,8 @@ void ProjectController::saveTo(const QString& path, std::function<void()> then) 
   ask_about_changed_file(&bench_.window, path,
                          {.overwrite = [this, path, then] { write(path, then); },
                           .elsewhere = [this, then] { saveAs(then); },
-                          .reload = [this, path] { read(path); }});
+                          .reload = [this, path] { read(path); },
+                          .of_reloading = tr("Reloading replaces what is open here.")});
 }
 
 void ProjectController::write(const QString& path, std::function<void()> then) {

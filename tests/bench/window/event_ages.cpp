@@ -2,7 +2,8 @@
 #include "tests/bench/window/event_ages.h"
 
 #include <QCoreApplication>
-#include <QTest>
+#include <QEventLoop>
+#include <QTimer>
 
 #include <algorithm>
 #include <atomic>
@@ -34,7 +35,15 @@ std::vector<double> event_ages(QObject& window, const std::function<void(int)>& 
       std::this_thread::sleep_for(kInterval);
     }
   });
-  (void)QTest::qWaitFor(has_ended, patience_ms);
+  // Not QTest::qWaitFor, which sleeps for 10 ms in every round, whatever waits to be handled.
+  QEventLoop loop;
+  QTimer look;
+  QObject::connect(&look, &QTimer::timeout, &loop, [&] {
+    if (has_ended()) loop.quit();
+  });
+  look.start(kInterval);
+  QTimer::singleShot(patience_ms, &loop, &QEventLoop::quit);
+  loop.exec();
   ends = true;
   clock.join();
   QCoreApplication::processEvents();  // the last of them still refer to `ages`

@@ -9,6 +9,7 @@
 #include "tests/app/gui/window_fixture.h"
 #include "tests/bench/window/event_ages.h"
 #include "tests/bench/window/process.h"
+#include "tests/bench/window/timed_application.h"
 #include "tests/widgets/pictures.h"
 #include "widgets/browse/epi_pane.h"
 #include "widgets/canvas/tile_wall.h"
@@ -33,13 +34,22 @@ constexpr std::size_t kMostResults = 6;
 constexpr std::array kMethods = {"epi_l", "st_ch_l", "epi_s", "st_ch_s", "st_ch_g", "epi_g"};
 constexpr double kLate_ms = 50;
 
-/// A user that does one thing every 20 ms while methods run one after the other.
+/// A user that does one thing every 20 ms, while methods run one after the other if they shall.
 class User {
  public:
-  explicit User(WindowFixture& f) : f_(f) {}
+  User(WindowFixture& f, bool runs_methods) : f_(f), runs_methods_(runs_methods) {}
+
+  /// A result of each light field.
+  void estimateOnce() {
+    for (int i = 0; i < 2; ++i) {
+      keepRunning(1);
+      (void)QTest::qWaitFor([this] { return f_.window.bench().jobs.count() == 0; }, kScenePatience);
+      f_.window.bench().scenes.step(1);
+    }
+  }
 
   void act(int number) {
-    keepRunning(number);
+    if (runs_methods_) keepRunning(number);
     static constexpr std::array actions = {
         Action{"mouse", &User::hover},     Action{"mouse", &User::hover},
         Action{"cross-hair", &User::aim},  Action{"mouse", &User::hover},
@@ -123,6 +133,7 @@ class User {
   void scene(int) { f_.window.bench().scenes.step(1); }
 
   WindowFixture& f_;
+  bool runs_methods_;
   int runs_ = 0;
   std::vector<std::string> done_;
 };
@@ -150,17 +161,20 @@ void report(const std::vector<double>& ages, const User& user) {
 
 }  // namespace
 
-void measure_use(double seconds) {
+void measure_use(TimedApplication& application, double seconds, bool runs_methods) {
   WindowFixture f;
   f.openScene("edge", {});  // 9×9 views of 512×512
   f.openScene("slant", {});
   f.trigger("segment.live");
-  User user(f);
+  User user(f, runs_methods);
+  user.estimateOnce();
+  application.begin();
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   const auto ages = event_ages(
       f.window, [&](int number) { user.act(number); }, [&] { return Clock::now() > end; },
       static_cast<int>(1000 * seconds) + 60'000);
   report(ages, user);
+  application.report();
   const Process process = this_process();
   std::printf("%zu inputs; %.0f MiB, at most %.0f MiB\n", user.done().size(), process.memory_mib,
               process.most_memory_mib);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What was computed is not lost by mistake.
 #include "app/gui/estimate/estimate_controller.h"
+#include "app/gui/opening/result_opener.h"
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/project/project_guard.h"
 #include "app/session/project/project_file.h"
@@ -45,6 +46,22 @@ class Working : public WindowFixture {
         },
         [](int) {});
   }
+  /// Through the dialog; waits until it is written, or asked about.
+  void exportTo(const QString& file) {
+    trigger("file.export");
+    auto* dialog = window.findChild<QFileDialog*>("export_result");
+    QVERIFY(dialog);
+    emit dialog->fileSelected(file);
+    dialog->close();
+    QTRY_COMPARE_WITH_TIMEOUT(window.bench().jobs.count(), 0, kScenePatience);
+    QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  }
+  /// Another program writes a result of its own into a file.
+  void changeByOthers(const QString& file) {
+    Estimate theirs = io::read_result(file.toStdString(), session().light_field()->grid());
+    theirs.method = "st_ch_l";
+    io::write_result(file.toStdString(), theirs, Progress());
+  }
   QTreeWidget* tree() { return window.findChild<QTreeWidget*>("results.tree"); }
 };
 
@@ -63,6 +80,10 @@ class KeptResultsTest : public QObject {
   void quit_asksForUnsavedResults();
   void saveAll_writesThemAndGoesOn();
   void exportedResult_isNotAskedFor();
+  void changedResultFile_isNotOverwrittenSilently_data();
+  void changedResultFile_isNotOverwrittenSilently();
+  void ownExport_isNoChangeOnDisk();
+  void openedResultFile_isKnown();
   void runningMethod_isAskedFor();
 };
 
@@ -216,6 +237,61 @@ void KeptResultsTest::exportedResult_isNotAskedFor() {
 
   f.trigger("file.quit");
   QTRY_VERIFY(!f.window.isVisible());
+}
+
+void KeptResultsTest::changedResultFile_isNotOverwrittenSilently_data() {
+  QTest::addColumn<QString>("button");
+  QTest::addColumn<QString>("method");  // whose result the file holds then
+  QTest::addColumn<int>("results");     // in the list then
+  QTest::newRow("cancel") << QString() << "st_ch_l" << 1;
+  QTest::newRow("overwrite") << "changed_file.overwrite"
+                             << "epi_l" << 1;
+  QTest::newRow("reload") << "changed_file.reload"
+                          << "st_ch_l" << 2;
+}
+
+void KeptResultsTest::changedResultFile_isNotOverwrittenSilently() {
+  QFETCH(QString, button);
+  QFETCH(QString, method);
+  QFETCH(int, results);
+  Working f;
+  f.runAndWait();
+  const QString file = f.path("kept.h5");
+  f.exportTo(file);
+  f.changeByOthers(file);
+
+  f.exportTo(file);
+
+  auto* box = f.window.findChild<QMessageBox*>("changed_file");
+  QVERIFY(box);
+  button.isEmpty() ? box->reject() : f.click(button);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().jobs.count(), 0, kScenePatience);
+  QCOMPARE(f.session().estimates().size(), static_cast<std::size_t>(results));
+  QCOMPARE(QString::fromStdString(
+               io::read_result(file.toStdString(), f.session().light_field()->grid()).method),
+           method);
+}
+
+void KeptResultsTest::ownExport_isNoChangeOnDisk() {
+  Working f;
+  f.runAndWait();
+  for (int i = 0; i < 2; ++i) f.exportTo(f.path("kept.h5"));
+  f.exportTo(f.path("other.h5"));
+  QVERIFY(!f.window.findChild<QMessageBox*>("changed_file"));
+}
+
+void KeptResultsTest::openedResultFile_isKnown() {
+  Working f;
+  f.runAndWait();
+  const QString file = f.path("kept.h5");
+  io::write_result(file.toStdString(), *f.session().shown()->estimate, Progress());
+  f.window.bench().results.open(file);
+  QTRY_COMPARE_WITH_TIMEOUT(f.session().estimates().size(), 2U, kScenePatience);
+  f.changeByOthers(file);
+
+  f.exportTo(file);
+
+  QVERIFY(f.window.findChild<QPushButton*>("changed_file.elsewhere"));
 }
 
 void KeptResultsTest::runningMethod_isAskedFor() {
