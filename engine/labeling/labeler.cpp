@@ -15,6 +15,7 @@
 #include "engine/labeling/rays/disparity_trust.h"
 #include "engine/labeling/rays/edge_probability.h"
 #include "engine/labeling/surface_support.h"
+#include "engine/labeling/thin_gaps.h"
 
 #include <fmt/format.h>
 
@@ -189,8 +190,7 @@ struct Labeler::State {
   }
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
-                                           VolumeView<const float> features,
-                                           const PixelVotes& votes,
+                                           VolumeView<const float> features, PixelVotes votes,
                                            const Progress& progress) const {
     const int labels = learned.forest.label_count();
     const Image<std::int32_t> strokes = carried_strokes(
@@ -206,6 +206,8 @@ struct Labeler::State {
       guides.trust = trust.view();
       LabelSurfaces& own = surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
       if (!trust.empty()) {
+        votes.count_all(progress);
+        own.set_gaps(labels_in_thin_gaps(votes, own, progress));
         own.set_support(surface_support(votes, own, trust, progress));
       }
       guides.surfaces = &own;
@@ -238,9 +240,9 @@ struct Labeler::State {
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
       const VolumeView<const float> features = of_view->view();
-      const PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
-                                      : PixelVotes(learned.forest, features);
-      into.view(view) = predict_one(learned, view, features, votes, alone);
+      PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
+                                : PixelVotes(learned.forest, features);
+      into.view(view) = predict_one(learned, view, features, std::move(votes), alone);
     });
   }
 

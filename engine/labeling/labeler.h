@@ -37,14 +37,15 @@ struct Labeling {
 /// features (engine/labeling/features/pixel_features.h). Its votes are weighted by how well the
 /// disparity of a pixel fits the surface on which the strokes of each label lie, if the parameters
 /// ask for it (engine/labeling/features/label_surfaces.h), as far as that surface holds where the
-/// image alone is sure (engine/labeling/surface_support.h; of estimates only), and, since a forest
-/// knows nothing about what lies between a pixel and a stroke, by how near the strokes of each
-/// label are along surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h).
+/// image alone is sure (engine/labeling/surface_support.h; of estimates only) and not in the gaps
+/// of thin things (engine/labeling/thin_gaps.h; likewise), and, since a forest knows nothing about
+/// what lies between a pixel and a stroke, by how near the strokes of each label are along
+/// surfaces, exp(−nearness·excess) (engine/labeling/features/stroke_distance.h).
 /// Pixels that are painted on a view keep their labels there before smoothing. Labels are then made
 /// consistent (engine/labeling/rays/regularizer.h). With `rayspace`, a single view uses its rays in
 /// neighbouring views only, for a quick answer; all views use those of all.
 ///
-/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. Both weightings are additions; what they
+/// Source: Wanner, Straehle, Goldluecke 2013 [WSG13]. The weightings are additions; what they
 /// gain is in tests/accuracy/tuning.md.
 ///
 /// Not thread-safe: a call must wait for the one in progress, or cancel it.

@@ -151,7 +151,22 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
       *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);
     }
   }
+  if (!gaps_.empty()) open_gaps(y, pitch, out);
   if (!support_.empty()) relieve(pitch, out);
+}
+
+bool LabelSurfaces::lies_behind(int label, int y, int x) const {
+  const Surface& surface = surfaces_[static_cast<std::size_t>(label)];
+  const auto& [at, across, down] = surface.plane;
+  const double expected = at + across * (x - surface.x) + down * (y - surface.y);
+  return surface.is_known && expected < static_cast<double>(disparity_.at(y, x));
+}
+
+void LabelSurfaces::open_gaps(int y, int pitch, float* misfits) const {
+  const std::int32_t* const label = gaps_.row(y);
+  for (int x = 0; x < disparity_.width; ++x, misfits += pitch) {
+    if (label[x] > 0) misfits[label[x] - 1] = 0;
+  }
 }
 
 void LabelSurfaces::relieve(int pitch, float* misfits) const {

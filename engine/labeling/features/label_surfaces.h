@@ -39,6 +39,13 @@ class LabelSurfaces {
   /// by this share only. Before, all hold.
   void set_support(std::vector<float> support) { support_ = std::move(support); }
 
+  /// Labels that show in gaps of what lies before them (engine/labeling/thin_gaps.h), `[y][x]`, an
+  /// index plus one, 0 = none: from now on disparity does not speak against them there.
+  void set_gaps(Image<std::int32_t> labels) { gaps_ = std::move(labels); }
+
+  /// Whether the surface of a label is known and lies behind the disparity of a pixel.
+  [[nodiscard]] bool lies_behind(int label, int y, int x) const;
+
   /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
   /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.
   /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch` apart.
@@ -63,12 +70,14 @@ class LabelSurfaces {
   static Surface fit(const std::vector<Sample>& samples, double ridge_px2);
   static void solve(const std::vector<Sample>& samples, const std::vector<double>& weights,
                     double ridge_px2, Surface& surface);
+  void open_gaps(int y, int pitch, float* misfits) const;
   void relieve(int pitch, float* misfits) const;
 
   ImageView<const float> disparity_;
   ImageView<const float> trust_;
   Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
+  Image<std::int32_t> gaps_;    // Empty = none.
   std::vector<float> support_;  // Empty = 1.
 };
 
