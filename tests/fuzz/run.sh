@@ -24,7 +24,7 @@ if [ -z "${TMPDIR:-}" ] && [ -w /dev/shm ]; then
   TMPDIR=/dev/shm
   export TMPDIR
 fi
-options="-len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -detect_leaks=0"
+options="-len_control=0 -rss_limit_mb=2560 -malloc_limit_mb=1024 -timeout=30 -detect_leaks=0 -print_funcs=0"
 # length_of NAME: texts are short, and arrays of a few views take little more than their headers.
 length_of() {
   case "$1" in

@@ -7,26 +7,47 @@
 
 #include <opencv2/core.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <vector>
 
 namespace episcope::capture {
 namespace {
 
+constexpr std::uintmax_t kLargest = 1 << 20;  ///< Bytes; a camera takes some hundred.
+
 std::string text_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw IoError(path, "this file cannot be read; make one with episcope-cli calibrate");
+  if (std::error_code error; std::filesystem::file_size(path, error) > kLargest) {
+    throw IoError(path, "this file is too large for a camera; choose another");
+  }
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-cv::Mat matrix_of(const cv::FileStorage& file, const char* name) {
-  cv::Mat stored;
-  file[name] >> stored;
-  cv::Mat matrix;
-  if (!stored.empty()) stored.convertTo(matrix, CV_64F);
+/// Of OpenCV's YAML. Its own reading believes the sizes that are stated, or missing.
+struct StoredMatrix {
+  int rows = 0;
+  int columns = 0;
+  std::vector<double> numbers{};  ///< Row by row; empty unless there are as many as stated.
+};
+
+StoredMatrix matrix_of(const cv::FileStorage& file, const char* name) {
+  const cv::FileNode node = file[name];
+  if (!node.isMap() || !node["data"].isSeq()) return {};
+  const cv::FileNode data = node["data"];
+  StoredMatrix matrix{whole_int(node["rows"].real()).value_or(0),
+                      whole_int(node["cols"].real()).value_or(0)};
+  const bool is_whole = matrix.rows > 0 && matrix.columns > 0 &&
+                        data.size() / static_cast<std::size_t>(matrix.rows) ==
+                            static_cast<std::size_t>(matrix.columns) &&
+                        data.size() % static_cast<std::size_t>(matrix.rows) == 0;
+  if (!is_whole) return {};
+  for (const cv::FileNode& number : data) matrix.numbers.push_back(number.real());
   return matrix;
 }
 
@@ -37,25 +58,23 @@ bool is_camera(const LensCamera& camera) {
 
 LensCamera parse(const std::filesystem::path& path, const std::string& text) {
   const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
-  const cv::Mat matrix = matrix_of(file, "camera_matrix");
-  const cv::Mat distortion = matrix_of(file, "distortion_coefficients");
+  const StoredMatrix matrix = matrix_of(file, "camera_matrix");
+  const std::vector<double> distortion = matrix_of(file, "distortion_coefficients").numbers;
   LensCamera camera;
   camera.width = whole_int(file["image_width"].real()).value_or(0);
   camera.height = whole_int(file["image_height"].real()).value_or(0);
-  if (matrix.size() == cv::Size(3, 3)) {
-    camera.focal_x = matrix.at<double>(0, 0);
-    camera.focal_y = matrix.at<double>(1, 1);
-    camera.center_x = matrix.at<double>(0, 2);
-    camera.center_y = matrix.at<double>(1, 2);
+  if (matrix.rows == 3 && matrix.columns == 3) {
+    camera.focal_x = matrix.numbers[0];
+    camera.focal_y = matrix.numbers[4];
+    camera.center_x = matrix.numbers[2];
+    camera.center_y = matrix.numbers[5];
   }
-  if (distortion.total() > camera.distortion.size()) {
-    throw IoError(path, "this lens has " + std::to_string(distortion.total()) +
+  if (distortion.size() > camera.distortion.size()) {
+    throw IoError(path, "this lens has " + std::to_string(distortion.size()) +
                             " distortion coefficients, but 5 are understood (k1, k2, p1, p2, k3); "
                             "calibrate again with episcope-cli calibrate");
   }
-  for (std::size_t i = 0; i < distortion.total(); ++i) {
-    camera.distortion[i] = distortion.ptr<double>()[i];
-  }
+  std::ranges::copy(distortion, camera.distortion.begin());
   const cv::FileNode rms = file["avg_reprojection_error"];
   if (!rms.empty()) camera.rms = rms.real();
   return camera;

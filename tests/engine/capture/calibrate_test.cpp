@@ -5,6 +5,7 @@
 #include "engine/capture/demo/pattern_photograph.h"
 #include "engine/core/error.h"
 
+#include "tests/engine/io/memory_use.h"
 #include "tests/test_main.h"
 
 #include <QTemporaryDir>
@@ -121,6 +122,27 @@ class CalibrateTest : public QObject {
     QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
     std::ofstream(path) << "\x01\x02 no yaml {";
     QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
+  }
+
+  void camerasOfHugeMatrices_areRefused_data() {
+    QTest::addColumn<QString>("sizes");
+    QTest::newRow("claimed") << "rows: 60000\n   cols: 60000";
+    QTest::newRow("left out") << "rows: 3";  // whatever memory held, for OpenCV
+    QTest::newRow("negative") << "rows: -3\n   cols: -3";
+    QTest::newRow("none") << "rows: 0\n   cols: 0";
+  }
+  void camerasOfHugeMatrices_areRefused() {
+    QFETCH(QString, sizes);
+    const QTemporaryDir folder;
+    const std::filesystem::path path = folder.filePath("camera.yml").toStdString();
+    std::ofstream(path) << "%YAML:1.0\n---\nimage_width: 100\nimage_height: 100\n"
+                           "camera_matrix: !!opencv-matrix\n   "
+                        << sizes.toStdString()
+                        << "\n   dt: d\n   data: [ 50., 0., 50., 0., 50., 50., 0., 0., 1. ]\n";
+    const test::PeakMemory memory;
+
+    QVERIFY_EXCEPTION_THROWN((void)read_camera(path), IoError);
+    QVERIFY(memory.used() < (std::uintmax_t{64} << 20));
   }
 
   void tooFewPhotographs_areNamed() {
