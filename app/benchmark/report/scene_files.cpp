@@ -34,6 +34,17 @@ DisparityField one_view(const DisparityField& field, ViewIndex view) {
   return {one_view(field.disparity, view), one_view(field.valid, view)};
 }
 
+// Labels of the centre view of a scene.
+MapSource labels_source(const Scene& scene, Quantity quantity) {
+  MapSource source;
+  source.quantity = quantity;
+  source.view = scene.light_field->center();
+  source.light_field = scene.light_field;
+  source.label_infos = scene.scribbles.labels;
+  source.true_labels = true_labels_of(scene.truth);
+  return source;
+}
+
 }  // namespace
 
 std::string scene_file(const std::string& scene, const std::string& what) {
@@ -82,12 +93,8 @@ std::vector<std::string> write_pictures(const std::filesystem::path& folder,
 
 bool write_label_truth(const std::filesystem::path& folder, const std::string& name,
                        const Scene& scene) {
-  const MapSource source{.quantity = Quantity::TrueLabels,
-                         .view = scene.light_field->center(),
-                         .light_field = scene.light_field,
-                         .truth = scene.truth,
-                         .label_infos = scene.scribbles.labels,
-                         .true_labels = true_labels_of(scene.truth)};
+  MapSource source = labels_source(scene, Quantity::TrueLabels);
+  source.truth = scene.truth;
   if (!reason_against(source).empty()) return false;
   write_map(folder / scene_file(name, "labels"), source, {});
   return true;
@@ -97,12 +104,8 @@ std::vector<std::string> write_label_pictures(const std::filesystem::path& folde
                                               const std::string& name, const Scene& scene,
                                               const LabelingPtr& labeling,
                                               const std::string& entry) {
-  MapSource source{.quantity = Quantity::Segmentation,
-                   .view = scene.light_field->center(),
-                   .light_field = scene.light_field,
-                   .labeling = labeling,
-                   .label_infos = scene.scribbles.labels,
-                   .true_labels = true_labels_of(scene.truth)};
+  MapSource source = labels_source(scene, Quantity::Segmentation);
+  source.labeling = labeling;
   std::vector<std::string> files{picture_file(name, entry, "labels")};
   write_map(folder / files.front(), source, {});
   source.quantity = Quantity::WrongLabels;

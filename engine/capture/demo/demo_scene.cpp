@@ -3,6 +3,8 @@
 
 #include "engine/capture/demo/scan_mesh.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -108,7 +110,7 @@ std::vector<PointPair> demo_picks(const DemoRig& rig, const TriangleMesh& mesh,
     const bool is_inside = pixel.x > 30 && pixel.y > 30 && pixel.x < options.width - 30 &&
                            pixel.y < options.height - 30;
     if (!is_inside) continue;
-    picks.push_back({"p" + std::to_string(picks.size() + 1),
+    picks.push_back({fmt::format("p{}", picks.size() + 1),
                      pixel.x + options.pick_px * normal(random),
                      pixel.y + options.pick_px * normal(random), on_scan});
   }

@@ -6,6 +6,11 @@
 #include <immintrin.h>
 #endif
 
+// The intrinsics of GCC 12 leave lanes that they overwrite uninitialised (GCC PR105593).
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
+
 namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
 namespace {
 

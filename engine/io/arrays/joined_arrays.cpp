@@ -107,7 +107,7 @@ std::optional<ArrayEntry> whole_of(const std::vector<ArrayEntry>& entries,
   whole.stated_axes.clear();
   for (const Numbered& one : series) whole.parts.push_back(entries[one.at].name);
   if (series.front().numbers.size() == 1) {
-    whole.leading = "n";
+    whole.leading = 'n';
     whole.shape.insert(whole.shape.begin(), series.size());
     return whole;
   }
@@ -203,7 +203,7 @@ void join_channels(std::vector<ArrayEntry>& entries) {
     ArrayEntry whole = first;
     whole.name = before.empty() ? "rgb" : before.substr(0, before.size() - 1);
     whole.stated_axes.clear();
-    whole.leading = "c";
+    whole.leading = 'c';
     whole.shape.insert(whole.shape.begin(), places.size());
     for (const std::size_t place : places) whole.parts.push_back(entries[place].name);
     replace(entries, places, std::move(whole));

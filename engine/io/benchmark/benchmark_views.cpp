@@ -78,8 +78,11 @@ ViewFiles benchmark_views(const fs::path& folder, const std::optional<ConfigFile
   const std::map<int, fs::path> found = numbered_views(folder);
   const auto count = static_cast<int>(found.size());
   GridShape grid;
-  const auto columns = config ? config->number("num_cams_x") : std::nullopt;
-  const auto rows = config ? config->number("num_cams_y") : std::nullopt;
+  std::optional<double> columns, rows;
+  if (config) {
+    columns = config->number("num_cams_x");
+    rows = config->number("num_cams_y");
+  }
   if (given) {
     grid = *given;
   } else if (columns && rows) {

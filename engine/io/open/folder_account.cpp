@@ -3,6 +3,8 @@
 
 #include "engine/core/text/suffix.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <unordered_map>
 #include <utility>
@@ -29,7 +31,7 @@ std::string kind_by_numbers(const std::string& name) {
 
 /// "*.txt".
 std::string kind_by_suffix(const std::string& name) {
-  return "*" + suffix_of(name);
+  return fmt::format("*{}", suffix_of(name));
 }
 
 std::string kind_of_others(const std::string&) {

@@ -27,8 +27,9 @@ constexpr const char* kThisProgram = "/proc/self/exe";
 
 // Where the `count`-th saving goes.
 fs::path place(const Saver& saver, const fs::path& folder, int count) {
-  const std::string number = saver.is_folder ? "_" + std::to_string(count) : "";
-  return folder / (saver.file + number);
+  std::string name = saver.file;
+  if (saver.is_folder) name.append("_").append(std::to_string(count));
+  return folder / name;
 }
 
 [[noreturn]] void save_until_killed(const Saver& saver, const fs::path& folder) {

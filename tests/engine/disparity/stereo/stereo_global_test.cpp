@@ -87,7 +87,8 @@ void StereoGlobalTest::flatPatch_isPlacedByItsSurroundings() {
   const LightField lf = make_light_field({5, 5}, 48, 48, 1, [](ViewIndex view, int y, int x, int) {
     const double py = y + d * (view.v - 2), px = x + d * (view.u - 2);
     const bool is_patch = std::fabs(py - 24) < 9 && std::fabs(px - 24) < 9;
-    const double texture = 0.2 * std::sin(0.9 * px) + 0.2 * std::sin(0.8 * py);
+    // One channel counts as three equal ones, whose difference is √3 times its own.
+    const double texture = 0.2 / std::sqrt(3) * (std::sin(0.9 * px) + std::sin(0.8 * py));
     return static_cast<float>(0.5 + (is_patch ? 0 : texture));
   });
   StereoGlobalParameters p = parameters();
