@@ -11,7 +11,7 @@ target_compile_options(episcope_options
                        INTERFACE $<$<COMPILE_LANGUAGE:CXX>:$<BUILD_INTERFACE:-Wall;-Wextra;-Wshadow;-Wnon-virtual-dtor>>)
 target_include_directories(episcope_options INTERFACE $<BUILD_INTERFACE:${CMAKE_SOURCE_DIR}>
                                                       $<INSTALL_INTERFACE:include/episcope>)
-option(EPISCOPE_WERROR "Treat warnings as errors; clean with gcc 12" OFF)
+option(EPISCOPE_WERROR "Treat warnings as errors" OFF)
 if(EPISCOPE_WERROR)
   target_compile_options(episcope_options
                          INTERFACE $<$<COMPILE_LANGUAGE:CXX>:$<BUILD_INTERFACE:-Werror>>)
