@@ -87,10 +87,16 @@ cv::Mat reach_of(const cv::Mat& thin) {
       return static_cast<std::uint8_t>(is_large ? 255 : 0);
     });
   }
+  cv::Mat reach = cv::Mat::zeros(thin.size(), CV_8U);
+  // Most labels have none, and few are everywhere: a disc is no product of lines, and slow.
+  const cv::Rect box = cv::boundingRect(large);
+  if (box.empty()) return reach;
+  const cv::Rect around = cv::Rect(box.x - kReach_px, box.y - kReach_px, box.width + 2 * kReach_px,
+                                   box.height + 2 * kReach_px) &
+                          cv::Rect({0, 0}, thin.size());
   const cv::Mat disc =
       cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kReach_px + 1, 2 * kReach_px + 1});
-  cv::Mat reach;
-  cv::dilate(large, reach, disc);
+  cv::dilate(large(around), reach(around), disc);
   return reach;
 }
 
