@@ -5,6 +5,7 @@
 
 #include <QMenu>
 #include <QScrollArea>
+#include <QSplitter>
 #include <QTabBar>
 
 namespace episcope {
@@ -39,7 +40,17 @@ void TabStack::take(QWidget* pane, const QString& title) {
   area->setWidget(pane);
   pane->show();
   setCurrentIndex(addTab(area, title));
+  const bool was_hidden = isHidden();
   show();
+  if (was_hidden) takeHalf();
+}
+
+// Of what it shares with the tabs: its own size hint is that of an empty scroll area.
+void TabStack::takeHalf() {
+  auto* split = qobject_cast<QSplitter*>(parentWidget());
+  if (!split) return;
+  const int half = split->height() / 2;
+  split->setSizes({half, half});
 }
 
 int TabStack::placeOf(const QWidget* pane) const {

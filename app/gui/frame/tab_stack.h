@@ -26,6 +26,7 @@ class TabStack : public QTabWidget {
   void release(QWidget* pane);
 
  private:
+  void takeHalf();
   void askWhereTabGoes(const QPoint& at);
   [[nodiscard]] QString paneAt(int index) const;
   /// −1 if it is not here.

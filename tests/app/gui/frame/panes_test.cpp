@@ -198,6 +198,8 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
   f.key(Qt::Key_F6, Qt::ShiftModifier);
   QVERIFY(stack->isVisible() && compare->isVisible());
   QVERIFY(stack->currentWidget()->isAncestorOf(compare));
+  const int both = splitter(f.window, "split.side")->height();
+  QVERIFY2(stack->height() > both / 3, qPrintable(QString::number(stack->height())));
   frame.showTab("estimate");
   QVERIFY(compare->isVisible());  // both are seen
 
