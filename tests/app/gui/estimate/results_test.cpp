@@ -2,25 +2,53 @@
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/result_export.h"
 #include "app/gui/opening/result_opener.h"
+#include "engine/io/archive/write_scene.h"
 #include "engine/io/maps/pfm.h"
 #include "engine/io/maps/result_file.h"
 #include "engine/io/maps/submission_folder.h"
 #include "tests/app/gui/window_fixture.h"
 #include "tests/window_test_main.h"
+#include "widgets/browse/value_bar.h"
 #include "widgets/controls/message_bar.h"
 
 #include <QAction>
 #include <QClipboard>
+#include <QDir>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QGuiApplication>
 #include <QRegularExpression>
 #include <QTreeWidget>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace episcope::in_results_test {
+
+namespace {
+
+constexpr ViewIndex kOuterView{0, 0};
+constexpr int kCorner = 32;
+
+/// A light field whose outermost view shows nothing in a corner, as behind a microlens array.
+QString write_vignetted(const WindowFixture& f) {
+  Scene scene = scenes::render_builtin("edge", WindowFixture::smallOptions(), Progress());
+  auto samples = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples()).clone();
+  const auto view = samples.view(kOuterView);
+  for (int y = 0; y < kCorner; ++y) {
+    std::fill_n(&view.at(y, 0), kCorner * samples.channels(), std::uint8_t{0});
+  }
+  LightFieldInfo info;
+  info.name = "vignetted";
+  scene.light_field = std::make_shared<const LightField>(std::move(samples), info);
+  const QString file = f.path("vignetted/lf.h5");
+  QDir().mkpath(QFileInfo(file).path());
+  io::write_archive(file.toStdString(), scene, Progress());
+  return file;
+}
+
+}  // namespace
 
 class ResultsTest : public QObject {
   Q_OBJECT
@@ -38,6 +66,7 @@ class ResultsTest : public QObject {
   void lightField_isNoResult();
   void copiedCommand_opensTheSameFile();
   void foundRangeThatEndsAtItsLimit_isTold();
+  void cornerThatAViewDoesNotShow_hasNoDisparity();
 };
 
 void ResultsTest::run_listsItsResultWithItsError() {
@@ -230,6 +259,25 @@ void ResultsTest::foundRangeThatEndsAtItsLimit_isTold() {
   const auto told = [&f] { return f.window.findChild<MessageBar*>("messageBar")->text(); };
   QTRY_VERIFY2_WITH_TIMEOUT(told().contains("may reach farther"), qPrintable(told()),
                             kScenePatience);
+}
+
+void ResultsTest::cornerThatAViewDoesNotShow_hasNoDisparity() {
+  WindowFixture f;
+  f.window.bench().opener.open(write_vignetted(f));
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().document.document(), kScenePatience);
+  f.runAndWait();
+  Session& session = f.window.bench().session;
+  const DisparityField& map = session.shown()->estimate->field;
+  constexpr int near = kCorner / 4, far = 2 * kCorner;
+  QVERIFY(!map.view(kOuterView).is_valid(near, near));
+  QVERIFY(map.view(kOuterView).is_valid(far, far));
+  QVERIFY(map.view(session.light_field()->center()).is_valid(near, near));
+
+  session.set_view(kOuterView);
+  session.set_cross_hair({near, near});
+
+  const auto text = [&f] { return find<ValueBar>(f.window).text(); };
+  QTRY_VERIFY2(text().contains("EPI_L invalid"), qPrintable(text()));
 }
 
 }  // namespace episcope::in_results_test
