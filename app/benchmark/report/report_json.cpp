@@ -63,8 +63,9 @@ Json choice_json(const MethodSearch& search, const std::optional<std::size_t>& p
 
 Json search_json(const MethodSearch& search) {
   Json json{{"method", search.method}, {"points", Json::array()}, {"scenes", Json::array()}};
-  for (const ParameterSet& point : search.points)
+  for (const ParameterSet& point : search.points) {
     json["points"].push_back(io::parameters_json(point));
+  }
   for (std::size_t scene = 0; scene < search.scenes.size(); ++scene) {
     Json scores = Json::array();
     for (const auto& point : search.scores) {

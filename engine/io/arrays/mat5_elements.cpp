@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/arrays/mat5_elements.h"
 
-#include "engine/core/error.h"
-
 #include <zlib.h>
 
 #include <algorithm>
@@ -46,9 +44,7 @@ class Elements {
   Elements(const fs::path& path, bool is_little, Read read)
       : path_(path), is_little_(is_little), read_(std::move(read)) {}
 
-  [[nodiscard]] IoError damaged() const {
-    return {path_, "the MATLAB file is truncated or damaged; copy or save it again"};
-  }
+  [[nodiscard]] IoError damaged() const { return damaged_mat5(path_); }
 
   /// That at `at`, which must end before `end`.
   [[nodiscard]] Element at(std::uint64_t at, std::uint64_t end) const {
@@ -111,6 +107,10 @@ void check_compressed(const fs::path& path, bool is_little, const std::string& p
 }
 
 }  // namespace
+
+IoError damaged_mat5(const fs::path& path) {
+  return {path, "the MATLAB file is truncated or damaged; copy or save it again"};
+}
 
 void require_sound_elements(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "engine/core/error.h"
+
 #include <filesystem>
 
 namespace episcope::io {
+
+/// What is said of a MATLAB 5 file that is not whole.
+[[nodiscard]] IoError damaged_mat5(const std::filesystem::path& path);
 
 /// Follows the lengths of all elements of a MATLAB 5 file: each must end within what holds it. The
 /// library believes them: it reads what is missing in a truncated file as if it were there, and

@@ -78,10 +78,6 @@ const char* kind_name(const matvar_t& variable) {
   }
 }
 
-IoError damaged(const fs::path& path) {
-  return {path, "the MATLAB file is truncated or damaged; copy or save it again"};
-}
-
 /// MATLAB's shape with its contiguous first axis last.
 ArrayShape stored_shape(const matvar_t& variable) {
   ArrayShape shape(variable.dims, variable.dims + variable.rank);
@@ -96,7 +92,7 @@ class Mat5File::Content {
  public:
   explicit Content(const fs::path& path)
       : path_(path), file_(Mat_Open(path.c_str(), MAT_ACC_RDONLY)) {
-    if (!file_) throw damaged(path);
+    if (!file_) throw damaged_mat5(path);
   }
   ~Content() {
     variables_.clear();
@@ -107,7 +103,7 @@ class Mat5File::Content {
 
   /// Null at the end.
   matvar_t* next() {
-    if (variables_.size() == kMostVariables) throw damaged(path_);
+    if (variables_.size() == kMostVariables) throw damaged_mat5(path_);
     Variable variable(Mat_VarReadNextInfo(file_));
     if (!variable) return nullptr;
     return variables_.emplace_back(std::move(variable)).get();
@@ -133,11 +129,11 @@ class Mat5File::Content {
                                 static_cast<int>(count)) == 0) {
         return;
       }
-      throw damaged(path_);
+      throw damaged_mat5(path_);
     }
-    if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) throw damaged(path_);
+    if (!variable.data && Mat_VarReadDataAll(file_, &variable) != 0) throw damaged_mat5(path_);
     const auto width = static_cast<std::size_t>(variable.data_size);  // known by now only
-    if (!variable.data || (first + count) * width > variable.nbytes) throw damaged(path_);
+    if (!variable.data || (first + count) * width > variable.nbytes) throw damaged_mat5(path_);
     const auto* bytes = static_cast<const std::uint8_t*>(variable.data);
     std::copy_n(bytes + first * width, count * width, out);
   }
@@ -179,7 +175,7 @@ ArrayEntry describe(const fs::path& path, const std::string& name, const matvar_
     return entry;
   }
   if (variable.rank < 0 || static_cast<std::size_t>(variable.rank) > kMostAxes || !variable.dims) {
-    throw damaged(path);
+    throw damaged_mat5(path);
   }
   entry.type = *type;
   entry.shape = stored_shape(variable);
