@@ -2,13 +2,13 @@
 #include "engine/core/parallel/parallel.h"
 
 #include "engine/core/error.h"
+#include "engine/core/parallel/kept_threads.h"
 
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <functional>
 #include <mutex>
-#include <thread>
-#include <vector>
 
 namespace episcope {
 namespace {
@@ -53,10 +53,9 @@ void run_loop(int count, const Progress& progress,
               void (*work)(const void* context, LoopItems& items), const void* context) {
   progress.check();
   Loop loop(count, progress);
-  const auto run_thread = [&] { loop.run([&] { work(context, loop); }); };
+  const std::function<void()> run_thread = [&] { loop.run([&] { work(context, loop); }); };
   {
-    std::vector<std::jthread> threads;
-    for (int i = 1; i < std::min(progress.threads(), count); ++i) threads.emplace_back(run_thread);
+    const KeptThreads others(std::max(std::min(progress.threads(), count) - 1, 0), run_thread);
     run_thread();
   }
   loop.rethrow_failure();

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/parallel/kept_threads.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include <pthread.h>
+
+namespace episcope {
+
+class KeptThreads::Thread {
+ public:
+  Thread() : thread_([this](const std::stop_token& end) { serve(end); }) {}
+
+  void begin(const std::function<void()>& work) {
+    const std::scoped_lock lock(mutex_);
+    work_ = &work;
+    is_asked_ = true;
+    asked_.notify_one();
+  }
+
+  // What has not begun does not begin.
+  void finish() {
+    std::unique_lock lock(mutex_);
+    if (is_asked_) {
+      is_asked_ = false;
+      work_ = nullptr;
+    }
+    done_.wait(lock, [this] { return work_ == nullptr; });
+  }
+
+ private:
+  void serve(const std::stop_token& end) {
+    std::unique_lock lock(mutex_);
+    while (asked_.wait(lock, end, [this] { return is_asked_; })) {
+      is_asked_ = false;
+      lock.unlock();
+      (*work_)();
+      lock.lock();
+      work_ = nullptr;
+      done_.notify_one();
+    }
+  }
+
+  std::mutex mutex_{};
+  std::condition_variable_any asked_{};
+  std::condition_variable done_{};
+  const std::function<void()>* work_ = nullptr;  // that is asked for or runs
+  bool is_asked_ = false;
+  std::jthread thread_;  // the last member: it uses the others
+};
+
+namespace {
+
+// Those that nobody uses. Never destroyed: a loop may end later than static objects. A child of
+// fork() has none of its parent's threads.
+class Idle {
+ public:
+  static Idle& threads() {
+    static auto* const idle = new Idle;
+    return *idle;
+  }
+
+  [[nodiscard]] std::unique_ptr<KeptThreads::Thread> take() {
+    {
+      const std::scoped_lock lock(mutex_);
+      if (!threads_.empty()) {
+        auto thread = std::move(threads_.back());
+        threads_.pop_back();
+        return thread;
+      }
+    }
+    return std::make_unique<KeptThreads::Thread>();
+  }
+
+  // One too many ends.
+  void keep(std::unique_ptr<KeptThreads::Thread> thread) {
+    const std::scoped_lock lock(mutex_);
+    if (threads_.size() < most_) threads_.push_back(std::move(thread));
+  }
+
+ private:
+  Idle() {
+    pthread_atfork([] { threads().mutex_.lock(); }, [] { threads().mutex_.unlock(); },
+                   [] { threads().forget(); });
+  }
+  void forget() {
+    for (auto& thread : threads_) static_cast<void>(thread.release());
+    threads_.clear();
+    mutex_.unlock();
+  }
+
+  std::mutex mutex_{};
+  std::vector<std::unique_ptr<KeptThreads::Thread>> threads_{};
+  std::size_t most_ = std::thread::hardware_concurrency();
+};
+
+}  // namespace
+
+KeptThreads::KeptThreads(int count, const std::function<void()>& work) {
+  threads_.reserve(count);
+  for (int i = 0; i < count; ++i) threads_.push_back(Idle::threads().take());
+  for (const auto& thread : threads_) thread->begin(work);
+}
+
+KeptThreads::~KeptThreads() {
+  for (auto& thread : threads_) thread->finish();
+  for (auto& thread : threads_) Idle::threads().keep(std::move(thread));
+}
+
+}  // namespace episcope
