@@ -26,11 +26,23 @@ struct Maps {
   std::uint8_t* confidence;
 };
 
+// The tiles of a line of which every `stride`th has results; `before` lie in lines before it.
+struct Tiles {
+  int height, width, stride, columns, before;
+  int image_width;
+
+  __device__ bool has(long i) const {
+    if (stride == 1) return true;
+    const int y = static_cast<int>(i / image_width), x = static_cast<int>(i % image_width);
+    return (before + y / height * columns + x / width) % stride == 0;
+  }
+};
+
 // Into what the other direction left there: confidence 0 if nothing. Block y is a view of the line,
 // whose maps begin at `first` and lie `step` apart.
-__global__ void merge(DoubleBest best, Maps maps, long pixels, long first, long step) {
+__global__ void merge(DoubleBest best, Maps maps, Tiles tiles, long pixels, long first, long step) {
   const long i = static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
-  if (i >= pixels) return;
+  if (i >= pixels || !tiles.has(i)) return;
   const long from = blockIdx.y * pixels + i, to = first + blockIdx.y * step + i;
   const float here = best.confidence[from], there = static_cast<float>(maps.confidence[to]) / 255;
   float& near = maps.near[to];
@@ -59,6 +71,7 @@ class Pass {
   }
   void run_line(int number, const Progress& progress);
   void merge_line(int number, const Maps& maps);
+  [[nodiscard]] Tiles tiles_of(int line) const;
 
   const DeviceSamples& samples_;
   const DoublePass& pass_;
@@ -124,18 +137,26 @@ void Pass::run_line(int number, const Progress& progress) {
   }
 }
 
+Tiles Pass::tiles_of(int line) const {
+  const int columns = (samples_.width + pass_.tile_width - 1) / pass_.tile_width;
+  const int rows = (samples_.height + pass_.tile_height - 1) / pass_.tile_height;
+  return {pass_.tile_height, pass_.tile_width,      pass_.tile_stride,
+          columns,           line * columns * rows, samples_.width};
+}
+
 void Pass::merge_line(int number, const Maps& maps) {
   const long pixels = static_cast<long>(samples_.height) * samples_.width;
   const int views = pass_.is_horizontal ? wanted_.u : wanted_.v;
   const long first =
       pass_.is_horizontal ? (number - first_.v) * wanted_.u * pixels : (number - first_.u) * pixels;
   const long step = pass_.is_horizontal ? pixels : wanted_.u * pixels;
+  const Tiles tiles = tiles_of(number - (pass_.is_horizontal ? first_.v : first_.u));
   const std::size_t third = best_.size() / 3;
   const DoubleBest best{0, views, best_.data(), best_.data() + third, best_.data() + 2 * third};
   const dim3 grid(blocks_for(pixels, 256), static_cast<unsigned>(views));
   const double count = static_cast<double>(pixels) * views;
   launch(stream_, {"double: merge", count * 30, count * 20},
-         [&] { merge<<<grid, 256, 0, stream_.get()>>>(best, maps, pixels, first, step); });
+         [&] { merge<<<grid, 256, 0, stream_.get()>>>(best, maps, tiles, pixels, first, step); });
 }
 
 void Pass::run(const Maps& maps, const Progress& progress) {

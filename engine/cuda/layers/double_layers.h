@@ -28,6 +28,8 @@ struct DoublePass {
   float contrast_energy = 0, noise_energy = 0;
   int first_product = 0, last_product = 0;  ///< Views [first, last) where derivatives exist.
   std::vector<float> row_weights;           ///< `[row][product row]`
+  int tile_height = 1, tile_width = 1;      ///< Of the tiles that are counted,
+  int tile_stride = 1;                      ///< of which one of so many has results.
 };
 
 /// Where two disparities are looked for; see DoubleShear.

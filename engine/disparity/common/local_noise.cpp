@@ -53,11 +53,17 @@ void second_differences(const Planes& planes, int y, PixelIndex way, float* out)
   for (int x = 0; x < width; ++x) out[x] *= scale;
 }
 
-// Lowers a row of `least` to the means of one direction's windows.
-void lower_row(const Image<float>& squares, int y, std::vector<float>& columns,
-               std::vector<float>& means, float* least) {
-  window_mean_row(squares, y, kRadius, columns.data(), means.data());
-  for (int x = 0; x < squares.width(); ++x) least[x] = std::min(least[x], means[x]);
+// Lowers `least` to the means of one direction's windows.
+void lower(const Image<float>& squares, Image<float>& least, const Progress& progress) {
+  const int width = squares.width();
+  parallel_for_workers(squares.height(), progress, [&] {
+    return [&, columns = std::vector<float>(width),
+            means = std::vector<float>(width)](int y) mutable {
+      window_mean_row(squares, y, kRadius, columns.data(), means.data());
+      float* const row = least.row(y);
+      for (int x = 0; x < width; ++x) row[x] = std::min(row[x], means[x]);
+    };
+  });
 }
 
 Image<float> variance_of(const Planes& planes, const Progress& progress) {
@@ -65,11 +71,10 @@ Image<float> variance_of(const Planes& planes, const Progress& progress) {
   if (height < 3 || width < 3) return Image<float>(height, width);
   Image<float> least(height, width, 1, std::numeric_limits<float>::max());
   Image<float> squares(height, width);
-  std::vector<float> columns(width), means(width);
   for (const PixelIndex way : kWays) {
     parallel_for(height, progress,
                  [&](int y) { second_differences(planes, y, way, squares.row(y)); });
-    for (int y = 0; y < height; ++y) lower_row(squares, y, columns, means, least.row(y));
+    lower(squares, least, progress);
   }
   return least;
 }

@@ -84,6 +84,20 @@ class DirectionalData {
   Direction directions_[2];
 };
 
+void check_directions(const LightField& lf, const LineCheck& check,
+                      DirectionalOrientations& directions, const Progress& progress,
+                      Device device) {
+  if (!check.does_anything()) return;
+  if (device == Device::Cuda) {
+    check_lines(lf, check, directions.horizontal, progress.part(0, 0.5), device);
+    check_lines(lf, check, directions.vertical, progress.part(0.5, 1), device);
+    return;
+  }
+  const PackedViews views = pack_views(lf, progress.part(0, 0.2));
+  check_lines(views, check, directions.horizontal, progress.part(0.2, 0.6));
+  check_lines(views, check, directions.vertical, progress.part(0.6, 1));
+}
+
 }  // namespace
 
 Names<DirectionCosts> names_of(DirectionCosts) {
@@ -126,12 +140,8 @@ Schema<EpiGParameters> epi_g_schema() {
 Estimate estimate_epi_g(const LightField& lf, const EpiGParameters& parameters,
                         const Progress& progress, Device device) {
   DirectionalOrientations directions =
-      estimate_directions(lf, parameters.tensor, progress.part(0, 0.06));
-  if (parameters.line_check.does_anything()) {
-    const PackedViews views = pack_views(lf, progress.part(0.06, 0.07));
-    check_lines(views, parameters.line_check, directions.horizontal, progress.part(0.07, 0.085));
-    check_lines(views, parameters.line_check, directions.vertical, progress.part(0.085, 0.1));
-  }
+      estimate_directions(lf, parameters.tensor, progress.part(0, 0.06), device);
+  check_directions(lf, parameters.line_check, directions, progress.part(0.06, 0.1), device);
   const ViewIndex view = lf.center();
   Estimate estimate;
   estimate.range = directions.horizontal.range;

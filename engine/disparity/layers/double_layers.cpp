@@ -99,9 +99,12 @@ cuda::DoubleTaps device_taps(const Taps& taps) {
   return copy;
 }
 
-cuda::DoublePass device_pass(const LightField& lf, bool is_horizontal, const TensorScales& scales) {
-  const DoubleFilterSet set =
-      make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v, lf.channels(), scales);
+cuda::DoublePass device_pass(const Measurement& measurement, bool is_horizontal) {
+  const LightField& lf = measurement.light_field;
+  const DoubleFilterSet set = make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v,
+                                                  lf.channels(), measurement.scales);
+  const PixelIndex tile =
+      DoubleOrientation::tile(is_horizontal ? Direction::Horizontal : Direction::Vertical);
   const SecondOrderFilters& filters = set.filters;
   cuda::DoublePass pass;
   pass.is_horizontal = is_horizontal;
@@ -118,10 +121,12 @@ cuda::DoublePass device_pass(const LightField& lf, bool is_horizontal, const Ten
   pass.first_product = set.first_product;
   pass.last_product = set.last_product;
   pass.row_weights = set.row_weights;
+  pass.tile_height = tile.y;
+  pass.tile_width = tile.x;
+  pass.tile_stride = measurement.search.tile_stride;
   return pass;
 }
 
-// Of every tile.
 void measure_on_device(const Measurement& measurement, const Progress& progress) {
   const LightField& lf = measurement.light_field;
   const DoubleSearch& search = measurement.search;
@@ -129,7 +134,7 @@ void measure_on_device(const Measurement& measurement, const Progress& progress)
   for (const bool is_horizontal : {true, false}) {
     const int views = is_horizontal ? lf.grid().u : lf.grid().v;
     if (views < DoubleOrientation::kMinViews) continue;
-    passes.push_back(device_pass(lf, is_horizontal, measurement.scales));
+    passes.push_back(device_pass(measurement, is_horizontal));
   }
   progress.step("two orientations");
   cuda::measure_double_layers(

@@ -326,7 +326,7 @@ Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameter
   const TensorScales scales{
       parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
       kCrossScaleOfLayers,           parameters.double_contrast,    tensor.noise};
-  tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1));
+  tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1), device);
   Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15), device);
   tensor.cross_scale = kCrossScaleOfLayers;
   const ViewStack<float> fit =

@@ -30,7 +30,7 @@ constexpr double kMinDistance = 0.3;
 
 Interval search_layer_range(const LightField& lf, const EpiLParameters& parameters,
                             const TensorScales& double_scales, const Progress& progress,
-                            double limit) {
+                            Device device, double limit) {
   require_double_grid(lf);
   const Interval single = search_range(lf, parameters.range, progress.part(0, 0.3));
   if (range_source(lf, parameters.range) != RangeSource::Found) return single;
@@ -38,10 +38,10 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
   coarse.range = Interval{-limit, limit};
   coarse.shear_step = 1;
   const Estimate estimate =
-      estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6));
+      estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6), device);
   const DoubleLayers layers =
       measure_double_layers(lf, double_scales, {{-limit, limit}, kMinDistance, kTileStride}, {1, 1},
-                            lf.center(), progress.part(0.6, 1));
+                            lf.center(), progress.part(0.6, 1), device);
   Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
   spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
   const Image<float> steadiness =

@@ -17,9 +17,12 @@ constexpr double kWorthwhileFallOff = 0.1;
 constexpr double kUnlikelyMeans = 0.005;
 // Samples that count: beyond, noise and saturation decide.
 constexpr float kDarkest = 0.04F, kBrightest = 0.97F;
-// Pixels between those that are looked at.
-constexpr int kStride = 3;
+// Pixels between those that are looked at, and of a view about so many at most.
+constexpr int kLeastStride = 3;
+constexpr double kMostPoints = 30000;
 constexpr int kRounds = 6;
+// Steps of the fall-off that no sample would show.
+constexpr double kSmallStep = 1e-4;
 // Of log ratios, in medians of their size.
 constexpr float kTolerance = 3, kLeastTolerance = 0.05F;
 constexpr double kMostFallOff = 0.9;
@@ -67,9 +70,13 @@ struct Ratio {
   float log = 0, here = 0, there = 0;
 };
 
-float without_fall_off(const Ratio& ratio, double k) {
-  const double change = std::log(1 - k * ratio.there) - std::log(1 - k * ratio.here);
-  return ratio.log - static_cast<float>(change);
+float without_fall_off(const Ratio& ratio, float k) {
+  return ratio.log - std::log((1 - k * ratio.there) / (1 - k * ratio.here));
+}
+
+int stride_for(const LightField& lf) {
+  const double pixels = static_cast<double>(lf.height()) * lf.width();
+  return std::max(kLeastStride, static_cast<int>(std::ceil(std::sqrt(pixels / kMostPoints))));
 }
 
 bool counts(float sample) {
@@ -79,15 +86,19 @@ bool counts(float sample) {
 class Points {
  public:
   Points(const LightField& lf, ViewIndex reference, ImageView<const float> disparity)
-      : lf_(lf), reference_(reference), disparity_(disparity), here_(lf.view_as_float(reference)) {}
+      : lf_(lf),
+        reference_(reference),
+        disparity_(disparity),
+        here_(lf.view_as_float(reference)),
+        stride_(stride_for(lf)) {}
 
   // By channel.
   [[nodiscard]] std::array<std::vector<Ratio>, 3> ratios(ViewIndex view) const {
     std::array<std::vector<Ratio>, 3> all;
     const Image<float> there = lf_.view_as_float(view);
     const Radius radius(lf_.height(), lf_.width());
-    for (int y = 1; y < lf_.height(); y += kStride) {
-      for (int x = 1; x < lf_.width(); x += kStride) {
+    for (int y = 1; y < lf_.height(); y += stride_) {
+      for (int x = 1; x < lf_.width(); x += stride_) {
         if (!lf_.is_valid(reference_, y, x)) continue;
         const float d = disparity_.at(y, x);
         if (d <= kNothingNear) continue;
@@ -124,13 +135,15 @@ class Points {
   ViewIndex reference_;
   ImageView<const float> disparity_;
   Image<float> here_;
+  int stride_;
 };
 
 using Ratios = std::vector<std::vector<Ratio>>;  // By view and channel.
 using Logs = std::vector<std::vector<float>>;    // Of the ratios, without a fall-off.
 
-Logs without_fall_off(const Ratios& ratios, double k, const Progress& progress) {
+Logs without_fall_off(const Ratios& ratios, double fall_off, const Progress& progress) {
   Logs logs(ratios.size());
+  const auto k = static_cast<float>(fall_off);
   parallel_for(static_cast<int>(ratios.size()), progress, [&](int i) {
     logs[i].resize(ratios[i].size());
     std::ranges::transform(ratios[i], logs[i].begin(),
@@ -251,8 +264,10 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
   Brightness brightness;
   Logs corrected = without_fall_off(ratios, 0, progress);
   for (int i = 0; i < kRounds; ++i) {
-    brightness.fall_off = better_fall_off(ratios, corrected, brightness.fall_off, progress);
+    const double before = brightness.fall_off;
+    brightness.fall_off = better_fall_off(ratios, corrected, before, progress);
     corrected = without_fall_off(ratios, brightness.fall_off, progress);
+    if (std::abs(brightness.fall_off - before) < kSmallStep) break;
   }
   const std::vector<double> logs = medians(corrected, progress);
   brightness.gains.assign(grid.count(), {1, 1, 1});
