@@ -31,10 +31,17 @@ void DeviceMaps::clamp(float min, float max) {
   });
 }
 
-void DeviceMaps::download(ViewStack<float>& disparity, ViewStack<float>& confidence,
-                          const Progress& progress) const {
+std::future<void> DeviceMaps::begin_confidence(ViewStack<float>& confidence,
+                                               const Progress& progress) const {
+  auto copies = std::make_unique<DeviceStream>();
+  copies->wait_for(memory_->stream);
+  return std::async(std::launch::async, [this, &confidence, progress, copies = std::move(copies)] {
+    cuda::download(confidence, memory_->confidence, *copies, progress);
+  });
+}
+
+void DeviceMaps::download_disparity(ViewStack<float>& disparity, const Progress& progress) const {
   cuda::download(disparity, memory_->disparity, memory_->stream, progress);
-  cuda::download(confidence, memory_->confidence, memory_->stream, progress);
 }
 
 }  // namespace episcope::cuda

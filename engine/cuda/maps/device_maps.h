@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/parallel/progress.h"
 
+#include <future>
 #include <memory>
 
 namespace episcope::cuda {
@@ -21,9 +22,12 @@ class DeviceMaps {
 
   /// Clamps every disparity. Throws DeviceFailure.
   void clamp(float min, float max);
-  /// Fills both stacks, of the shape given above. Throws DeviceFailure, Cancelled.
-  void download(ViewStack<float>& disparity, ViewStack<float>& confidence,
-                const Progress& progress) const;
+  /// Begins to fill a stack of the shape given above with the confidence as stages so far leave it,
+  /// while later ones, which must not change it, compute. Waiting throws DeviceFailure, Cancelled.
+  [[nodiscard]] std::future<void> begin_confidence(ViewStack<float>& confidence,
+                                                   const Progress& progress) const;
+  /// Fills a stack of the shape given above. Throws DeviceFailure, Cancelled.
+  void download_disparity(ViewStack<float>& disparity, const Progress& progress) const;
 
   /// For stages.
   [[nodiscard]] MapMemory& memory() { return *memory_; }

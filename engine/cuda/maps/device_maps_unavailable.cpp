@@ -14,6 +14,10 @@ DeviceMaps::DeviceMaps(DeviceMaps&&) noexcept = default;
 
 void DeviceMaps::clamp(float, float) {}
 
-void DeviceMaps::download(ViewStack<float>&, ViewStack<float>&, const Progress&) const {}
+std::future<void> DeviceMaps::begin_confidence(ViewStack<float>&, const Progress&) const {
+  return {};
+}
+
+void DeviceMaps::download_disparity(ViewStack<float>&, const Progress&) const {}
 
 }  // namespace episcope::cuda

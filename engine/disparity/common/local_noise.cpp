@@ -57,12 +57,12 @@ void second_differences(const Planes& planes, int y, PixelIndex way, float* out)
 void lower(const Image<float>& squares, Image<float>& least, const Progress& progress) {
   const int width = squares.width();
   parallel_for_workers(squares.height(), progress, [&] {
-    return [&, columns = std::vector<float>(width),
-            means = std::vector<float>(width)](int y) mutable {
-      window_mean_row(squares, y, kRadius, columns.data(), means.data());
-      float* const row = least.row(y);
-      for (int x = 0; x < width; ++x) row[x] = std::min(row[x], means[x]);
-    };
+    return
+        [&, columns = std::vector<float>(width), means = std::vector<float>(width)](int y) mutable {
+          window_mean_row(squares, y, kRadius, columns.data(), means.data());
+          float* const row = least.row(y);
+          for (int x = 0; x < width; ++x) row[x] = std::min(row[x], means[x]);
+        };
   });
 }
 

@@ -7,6 +7,7 @@
 #include "engine/disparity/epi/side_choice.h"
 
 #include <algorithm>
+#include <future>
 #include <utility>
 
 namespace episcope {
@@ -102,12 +103,15 @@ Estimate estimate_on_gpu(const LightField& lf, const EpiSParameters& parameters,
   const LineCheck& lines = parameters.line_check;
   cuda::check_lines(lf, {lines.chooses_sides, lines.is_on}, maps, progress.part(0.15, 0.25));
   progress.step("denoising");
+  std::future<void> confidence =
+      maps.begin_confidence(estimate.confidence, progress.part(0.25, 0.25));
   const std::vector<double> gaps =
       cuda::denoise_maps(lf, map_denoising(parameters.denoising, least_weight(parameters)), maps,
                          progress.part(0.25, 0.9));
   estimate.notes.push_back(gap_note(*std::ranges::max_element(gaps)));
   maps.clamp(static_cast<float>(range.min), static_cast<float>(range.max));
-  maps.download(estimate.field.disparity, estimate.confidence, progress.part(0.9, 1));
+  maps.download_disparity(estimate.field.disparity, progress.part(0.9, 1));
+  confidence.get();
   return estimate;
 }
 

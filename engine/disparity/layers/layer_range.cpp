@@ -41,12 +41,12 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
       estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6), device);
   const DoubleLayers layers =
       measure_double_layers(lf, double_scales, {{-limit, limit}, kMinDistance, kTileStride}, {1, 1},
-                            lf.center(), progress.part(0.6, 1), device);
+                            lf.center(), progress.part(0.6, 0.97), device);
   Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
   spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
   const Image<float> steadiness =
       layer_steadiness(layers.near.view(lf.center()), layers.far.view(lf.center()),
-                       layers.confidence.view(lf.center()));
+                       layers.confidence.view(lf.center()), progress.part(0.97, 1));
   std::vector<float> near, far;
   for (std::size_t i = 0; i < layers.near.size(); ++i) {
     const float confidence =

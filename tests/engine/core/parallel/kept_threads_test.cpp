@@ -39,9 +39,7 @@ class KeptThreadsTest : public QObject {
   Q_OBJECT
 
  private slots:
-  void everyThread_isAnother() {
-    QCOMPARE(threads_of_a_round(5).size(), 6U);
-  }
+  void everyThread_isAnother() { QCOMPARE(threads_of_a_round(5).size(), 6U); }
 
   void nextRound_hasTheSameThreads() {
     const auto before = threads_of_a_round(1);
