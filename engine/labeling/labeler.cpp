@@ -190,7 +190,8 @@ struct Labeler::State {
   }
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
-                                           VolumeView<const float> features, PixelVotes votes,
+                                           VolumeView<const float> features,
+                                           const PixelVotes& votes,
                                            const Progress& progress) const {
     const int labels = learned.forest.label_count();
     const Image<std::int32_t> strokes = carried_strokes(
@@ -204,11 +205,11 @@ struct Labeler::State {
       guides.disparity = filled.view();
       if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
       guides.trust = trust.view();
-      LabelSurfaces& own = surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
+      LabelSurfaces& own =
+          surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust, progress);
       if (!trust.empty()) {
-        votes.count_all(progress);
-        own.set_gaps(labels_in_thin_gaps(votes, own, progress));
-        own.set_support(surface_support(votes, own, trust, progress));
+        own.set_gaps(labels_in_thin_gaps(votes, own, progress).view());
+        own.set_support(surface_support(votes, own, trust, progress), progress);
       }
       guides.surfaces = &own;
     }
@@ -228,7 +229,8 @@ struct Labeler::State {
       for (const ViewIndex view : missing) {
         const Features of_view = keep_features(view, progress.part(0, 0));
         into.view(view) = predict_one(learned, view, of_view->view(),
-                                      {learned.forest, of_view->view()}, progress.part(0, 0));
+                                      {learned.forest, of_view->view(), progress.part(0, 0)},
+                                      progress.part(0, 0));
       }
       return;
     }
@@ -240,9 +242,9 @@ struct Labeler::State {
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
       const VolumeView<const float> features = of_view->view();
-      PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
-                                : PixelVotes(learned.forest, features);
-      into.view(view) = predict_one(learned, view, features, std::move(votes), alone);
+      const PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
+                                      : PixelVotes(learned.forest, features, alone);
+      into.view(view) = predict_one(learned, view, features, votes, alone);
     });
   }
 

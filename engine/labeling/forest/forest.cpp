@@ -189,21 +189,30 @@ FlatForest Forest::flat() const {
   return flat;
 }
 
-void Forest::predict_row(VolumeView<const float> features, int y, float* out, Isa isa) const {
+void Forest::predict_rows(VolumeView<const float> features, Rows rows, float* out, Isa isa) const {
   const ForestKernel& kernel = EPISCOPE_CHOOSE_KERNEL(isa, kForestKernel);
   const FlatForest trees = flat();
   // A block's features together fit the first-level cache.
   std::vector<float> block(static_cast<std::size_t>(feature_count_) * kForestBlock);
+  std::vector<float> sums(static_cast<std::size_t>(pitch_) * kForestBlock);
   const float scale = 1.0F / static_cast<float>(tree_count());
-  for (int x = 0; x < features.width; x += kForestBlock) {
-    const int count = std::min(kForestBlock, features.width - x);
+  for (int x = 0; x < features.width;) {
+    const int columns = std::min(kForestBlock / rows.count, features.width - x);
     for (int f = 0; f < feature_count_; ++f) {
-      std::copy_n(features.row(y, f) + x, count, block.data() + f * kForestBlock);
+      for (int y = 0; y < rows.count; ++y) {
+        std::copy_n(features.row(rows.first + y, f) + x, columns,
+                    block.data() + f * kForestBlock + y * columns);
+      }
     }
-    float* sums = out + static_cast<std::ptrdiff_t>(x) * pitch_;
-    kernel.vote(trees, block.data(), kForestBlock, count, sums);
-    std::transform(sums, sums + static_cast<std::ptrdiff_t>(count) * pitch_, sums,
-                   [scale](float sum) { return sum * scale; });
+    kernel.vote(trees, block.data(), kForestBlock, columns * rows.count, sums.data());
+    const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(columns) * pitch_;
+    for (int y = 0; y < rows.count; ++y) {
+      const float* const sum = sums.data() + y * size;
+      std::transform(sum, sum + size,
+                     out + (static_cast<std::ptrdiff_t>(y) * features.width + x) * pitch_,
+                     [scale](float votes) { return votes * scale; });
+    }
+    x += columns;
   }
 }
 
