@@ -77,14 +77,25 @@ inline bool are_side_by_side(const RayCosts& rays, int x, int first, long offset
   return !any(counts & others) && begin >= 0 && last <= rays.size;
 }
 
+typedef std::uint8_t Codes __attribute__((vector_size(kLanes), aligned(1), may_alias));
+
+inline bool is_zero(Codes codes) {
+  unsigned long long words[2] = {};
+  __builtin_memcpy(words, &codes, sizeof codes);
+  return (words[0] | words[1]) == 0;
+}
+
 void add_costs_side_by_side(const RayCosts& rays, int x, long offset, float* costs) {
-  typedef std::uint8_t Codes __attribute__((vector_size(kLanes), aligned(1), may_alias));
   const std::uint8_t* code = rays.codes + offset;
   float* cost = costs + x;
   const Vec trust = load(rays.trusts + x);
   for (int l = 0; l < rays.labels; ++l, code += rays.width, cost += rays.width) {
-    const IntVec index = __builtin_convertvector(*reinterpret_cast<const Codes*>(code), IntVec);
-    store(cost, load(cost) + trust * gathered(rays.table, index));
+    const Codes codes = *reinterpret_cast<const Codes*>(code);
+    // Most labels are out of the question for all of them.
+    const Vec of_code = is_zero(codes)
+                            ? splat(rays.table[0])
+                            : gathered(rays.table, __builtin_convertvector(codes, IntVec));
+    store(cost, load(cost) + trust * of_code);
   }
 }
 

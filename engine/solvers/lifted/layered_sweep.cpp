@@ -70,11 +70,16 @@ float* LayeredSweep::ahead(int y, float* scratch) {
   return scratch + kLayerRowUnit + (y & 1) * row_size();
 }
 
+void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progress) {
+  if (progress.threads() == 1) return iterate_staggered(terms, count, progress);
+  for (int i = 0; i < count; ++i) iterate_bands(terms, progress);
+}
+
 // A row of φ needs the old duals of its own and of the row above, a row of duals the new φ of its
 // own and of the row below: in this order everything is updated in place, and memory is traversed
 // once.
-void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limits,
-                           const LayeredMoves& moves, const Progress& progress) {
+void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
+  const auto& [cost, limits, moves] = terms;
   parallel_for_workers(bands(), progress, [&] {
     const std::size_t size = 2 * row_size() + 2 * kLayerRowUnit;
     return [&, scratch = std::vector<float>(size)](int i) mutable {
@@ -95,6 +100,27 @@ void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limit
     moves.dual(shape_, ahead(y, nullptr), ahead(std::min(y + 1, height_ - 1), nullptr),
                duals(y, limits));
   });
+}
+
+// When an iteration comes to a row, the one before has left it and its duals, and those above.
+void LayeredSweep::iterate_staggered(const Terms& terms, int count, const Progress& progress) {
+  const auto& [cost, limits, moves] = terms;
+  const FlushDenormals flush;
+  std::vector<float> rows(2 * count * row_size() + 2 * kLayerRowUnit);
+  for (int step = 0; step < height_ + 2 * (count - 1); ++step) {
+    progress.check();
+    for (int i = 0; i < count; ++i) {
+      const int y = step - 2 * i;
+      if (y < 0 || y >= height_) continue;
+      const auto row = [&](int at) {
+        return rows.data() + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
+      };
+      moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
+                   row(y));
+      if (y > 0) moves.dual(shape_, row(y - 1), row(y), duals(y - 1, limits));
+      if (y == height_ - 1) moves.dual(shape_, row(y), row(y), duals(y, limits));
+    }
+  }
 }
 
 }  // namespace episcope
