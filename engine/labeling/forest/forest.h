@@ -53,6 +53,11 @@ class Forest {
   [[nodiscard]] static Forest train(const ForestSamples& samples, const ForestOptions& options,
                                     const Progress& progress);
 
+  /// Trains the trees that are missing to `options.trees`. With the samples and the other options
+  /// it was trained with, it becomes the forest that `train` would have made at once. Throws
+  /// Cancelled, and is as it was then.
+  void grow(const ForestSamples& samples, const ForestOptions& options, const Progress& progress);
+
   [[nodiscard]] int label_count() const { return label_count_; }
   [[nodiscard]] int feature_count() const { return feature_count_; }
   [[nodiscard]] int tree_count() const { return static_cast<int>(roots_.size()); }

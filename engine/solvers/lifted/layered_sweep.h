@@ -26,9 +26,9 @@ struct LayeredMoves {
 /// The unknowns of a primal-dual method on an image with layers, φ and the duals of its pairs, and
 /// the order in which they are updated: bands of rows in parallel, within a band φ of a row and the
 /// duals of the row above in turn, so that memory is traversed once per iteration and everything is
-/// updated in place. A single thread takes several iterations through the image at once, each two
-/// rows behind the one before, so that memory is traversed once for all of them. The result is the
-/// same. 5 floats per pixel and layer.
+/// updated in place. Few threads take several iterations through the image at once, each two rows
+/// behind the one before, so that memory is traversed once for all of them. The result is the same.
+/// 5 floats per pixel and layer.
 class LayeredSweep {
  public:
   /// Rows that one thread takes through an iteration on its own.
@@ -65,7 +65,8 @@ class LayeredSweep {
 
  private:
   void iterate_bands(const Terms& terms, const Progress& progress);
-  void iterate_staggered(const Terms& terms, int count, const Progress& progress);
+  struct Part;
+  void iterate_part(const Terms& terms, const Part& part, const Progress& progress);
   // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
   [[nodiscard]] float* ahead(int y, float* scratch);
   // Kernels read a lane beyond a row: it must not be where another thread writes.

@@ -26,7 +26,7 @@ constexpr float kRelaxation = 1.9F;
 // Levels are halved down to this side; iterations on each below the finest.
 constexpr int kMinSide = 16;
 constexpr int kCoarseIterations = 30;
-// Iterations that a single thread takes through the image at once: what they work on fits a cache.
+// Iterations taken through the image at once: what they work on fits a cache.
 constexpr int kTogether = 5;
 static_assert(kCoarseIterations % kTogether == 0);
 
@@ -266,7 +266,7 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   double done = 0;
   for (bool last = false; !last;) {
     const Progress quiet = progress.part(done, done);
-    const int count = std::min({progress.threads() == 1 ? kTogether : 1,
+    const int count = std::min({progress.finish_requested() ? 1 : kTogether,
                                 check_every - result.iterations % check_every,
                                 options.max_iterations - result.iterations});
     state.sweep.iterate({problem.cost, limits, state.moves}, count, quiet);

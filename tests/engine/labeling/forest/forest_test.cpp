@@ -75,6 +75,7 @@ class ForestTest : public QObject {
   void separableClouds_areToldApart();
   void probabilities_sumToOne();
   void result_dependsOnTheSeed_andNotOnThreads();
+  void grownInSteps_isTheSame();
   void occasionalFeature_isUsedByHalfOfTheTrees();
   void manySamplesOfALabel_weighNoMore();
   void flattenedTrees_voteAsOpenCv();
@@ -118,6 +119,19 @@ void ForestTest::result_dependsOnTheSeed_andNotOnThreads() {
 
   QVERIFY(one == four);
   QVERIFY(one != reseeded);
+}
+
+void ForestTest::grownInSteps_isTheSame() {
+  const ForestSamples samples = clouds(300, 1);
+  const ForestSamples unseen = clouds(300, 2);
+
+  Forest forest = Forest::train(samples, {.trees = 20}, Progress());
+  QCOMPARE(forest.tree_count(), 20);
+  forest.grow(samples, {}, Progress());
+
+  const Forest at_once = Forest::train(samples, {}, Progress());
+  QCOMPARE(forest.tree_count(), at_once.tree_count());
+  QVERIFY(predicted(forest, unseen, 100) == predicted(at_once, unseen, 100));
 }
 
 void ForestTest::occasionalFeature_isUsedByHalfOfTheTrees() {
