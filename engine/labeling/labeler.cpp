@@ -34,6 +34,9 @@ using Features = std::shared_ptr<const PixelFeatures>;
 // features are kept: the user is painting. More are processed in parallel.
 constexpr std::size_t kKeptViews = 9;
 
+// So many trees vote for a draft while painting; the others are grown after it.
+constexpr int kDraftTrees = 32;
+
 // For a single view: half the iterations give the same accuracy.
 constexpr double kLiveGap = 5e-3;
 
@@ -175,22 +178,35 @@ struct Labeler::State {
     return samples;
   }
 
-  /// The forest for these strokes, trained only if it would differ from the last one.
+  /// The forest for these strokes, trained only if it would differ from the last one: `enough`
+  /// trees of it at least.
   [[nodiscard]] const Forest& train(const Scribbles& scribbles,
                                     const std::vector<std::int32_t>& ids,
-                                    const LabelerParameters& parameters, const Progress& progress) {
+                                    const LabelerParameters& parameters, int enough,
+                                    const Progress& progress) {
     ForestSamples samples = samples_of(scribbles, ids, progress);
     const ForestOptions options = forest_options(parameters);
     if (samples != grown.samples || options != grown.options) {
       progress.step(kTrainingStep);
-      Forest forest = Forest::train(samples, options, progress);
+      ForestOptions first = options;
+      first.trees = std::min(enough, options.trees);
+      Forest forest = Forest::train(samples, first, progress);
       grown = {std::move(samples), options, std::move(forest)};
     }
     return grown.forest;
   }
 
+  /// All trees of the forest last trained. Whether any were missing.
+  bool complete_forest(const Progress& progress) {
+    if (grown.forest.tree_count() >= grown.options.trees) return false;
+    progress.step(kTrainingStep);
+    grown.forest.grow(grown.samples, grown.options, progress);
+    return true;
+  }
+
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
-                                           VolumeView<const float> features, PixelVotes votes,
+                                           VolumeView<const float> features,
+                                           const PixelVotes& votes,
                                            const Progress& progress) const {
     const int labels = learned.forest.label_count();
     const Image<std::int32_t> strokes = carried_strokes(
@@ -204,11 +220,11 @@ struct Labeler::State {
       guides.disparity = filled.view();
       if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
       guides.trust = trust.view();
-      LabelSurfaces& own = surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust);
+      LabelSurfaces& own =
+          surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust, progress);
       if (!trust.empty()) {
-        votes.count_all(progress);
-        own.set_gaps(labels_in_thin_gaps(votes, own, progress));
-        own.set_support(surface_support(votes, own, trust, progress));
+        own.set_gaps(labels_in_thin_gaps(votes, own, progress).view());
+        own.set_support(surface_support(votes, own, trust, progress), progress);
       }
       guides.surfaces = &own;
     }
@@ -228,7 +244,8 @@ struct Labeler::State {
       for (const ViewIndex view : missing) {
         const Features of_view = keep_features(view, progress.part(0, 0));
         into.view(view) = predict_one(learned, view, of_view->view(),
-                                      {learned.forest, of_view->view()}, progress.part(0, 0));
+                                      {learned.forest, of_view->view(), progress.part(0, 0)},
+                                      progress.part(0, 0));
       }
       return;
     }
@@ -240,9 +257,9 @@ struct Labeler::State {
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
       const VolumeView<const float> features = of_view->view();
-      PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
-                                : PixelVotes(learned.forest, features);
-      into.view(view) = predict_one(learned, view, features, std::move(votes), alone);
+      const PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
+                                      : PixelVotes(learned.forest, features, alone);
+      into.view(view) = predict_one(learned, view, features, votes, alone);
     });
   }
 
@@ -348,8 +365,13 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
   state_->use({uses_disparity(parameters)});
   state_->choose_device(views.grid.count());
 
-  const Learned learned{scribbles, ids, parameters,
-                        state_->train(scribbles, ids, parameters, progress.part(0, 0.1))};
+  const bool is_painting = on_draft && regularizer != Regularizer::None &&
+                           views.grid.count() <= static_cast<int>(kKeptViews);
+  const Learned learned{
+      scribbles, ids, parameters,
+      state_->train(scribbles, ids, parameters, is_painting ? kDraftTrees : parameters.trees,
+                    progress.part(0, 0.1))};
+  if (!is_painting) state_->complete_forest(progress.part(0.1, 0.1));
   progress.step(kLabelingStep);
   Labeling labeling;
   labeling.probabilities = empty_probabilities(ids, views);
@@ -367,6 +389,10 @@ Labeling Labeler::label(const Scribbles& scribbles, const LabelerParameters& par
       labeling.seconds = watch.seconds();
       on_draft(labeling);
       labeling.is_draft = false;
+    }
+    if (state_->complete_forest(progress.part(0.5, 0.5))) {
+      labeling.probabilities = empty_probabilities(ids, views);
+      state_->predict(learned, labeling.probabilities, progress.part(0.5, 0.5));
     }
     state_->regularise(learned, labeling, progress.part(0.5, 1));
   }

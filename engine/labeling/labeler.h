@@ -74,11 +74,11 @@ class Labeler {
 
   /// Segments `views`. Labels are those painted anywhere; names and colours in `scribbles` are not
   /// needed. `on_draft`, if given, is called on the calling thread with the labels before
-  /// regularisation, if there is any to come. The result depends neither on the number of threads
-  /// nor on earlier calls.
-  /// Throws InvalidInput if fewer than two labels are painted, if scribbles or `views` do not fit
-  /// the light field, or if disparity is needed and a view lacks it; Unavailable if a GPU was
-  /// demanded and fails; Cancelled, within 200 ms.
+  /// regularisation, if there is any to come; of a few views, a third of the trees voted for them.
+  /// The result depends neither on the number of threads nor on earlier calls. Throws InvalidInput
+  /// if fewer than two labels are painted, if scribbles or `views` do not fit the light field, or
+  /// if disparity is needed and a view lacks it; Unavailable if a GPU was demanded and fails;
+  /// Cancelled, within 200 ms.
   [[nodiscard]] Labeling label(const Scribbles& scribbles, const LabelerParameters& parameters,
                                ViewRectangle views, const Progress& progress,
                                const std::function<void(const Labeling&)>& on_draft = {});

@@ -38,11 +38,11 @@ ProbabilityMap predict_view(const PixelVotes& votes, const StrokeEvidence& evide
   const int pitch = votes.pitch();
   constexpr int kRows = 8;
   parallel_for_workers((votes.height() + kRows - 1) / kRows, progress, [&] {
-    const std::size_t size = static_cast<std::size_t>(votes.width()) * pitch;
-    return [&, row = std::vector<float>(size)](int item) mutable {
+    return [&, row = std::vector<float>(static_cast<std::size_t>(votes.row_size()))](
+               int item) mutable {
       const int end = std::min(votes.height(), (item + 1) * kRows);
       for (int y = item * kRows; y < end; ++y) {
-        votes.row(y, row.data());
+        std::copy_n(votes.row(y), row.size(), row.data());
         if (evidence.surfaces != nullptr) evidence.surfaces->weigh_row(y, pitch, row.data());
         evidence.distances.weigh_row(y, evidence.nearness, pitch, row.data());
         if (!evidence.painted.empty()) {

@@ -28,23 +28,17 @@ struct Opinions {
 
 Opinions opinions_of(const PixelVotes& votes, const LabelSurfaces& surfaces,
                      const Progress& progress) {
-  const int labels = votes.label_count(), pitch = votes.pitch(), width = votes.width();
-  const std::size_t size = static_cast<std::size_t>(width) * pitch;
-  Opinions opinions(votes.height(), width);
-  parallel_for_workers(votes.height(), progress, [&] {
-    return [&, vote = std::vector<float>(size), misfit = std::vector<float>(size)](int y) mutable {
-      votes.row(y, vote.data());
-      surfaces.misfits(y, pitch, misfit.data());
-      for (int x = 0; x < width; ++x) {
-        const float* const p = vote.data() + static_cast<std::ptrdiff_t>(x) * pitch;
-        const float* const m = misfit.data() + static_cast<std::ptrdiff_t>(x) * pitch;
-        const auto voted = std::max_element(p, p + labels) - p;
-        const auto fitting = std::min_element(m, m + labels) - m;
-        opinions.voted.at<std::int32_t>(y, x) = static_cast<std::int32_t>(voted);
-        opinions.fitting.at<std::int32_t>(y, x) = static_cast<std::int32_t>(fitting);
-        opinions.agree.at<std::uint8_t>(y, x) = m[voted] - m[fitting] < kAgreement ? 255 : 0;
-      }
-    };
+  const int labels = votes.label_count();
+  Opinions opinions(votes.height(), votes.width());
+  parallel_for(votes.height(), progress, [&](int y) {
+    const float *p = votes.row(y), *m = surfaces.misfits(y);
+    for (int x = 0; x < votes.width(); ++x, p += votes.pitch(), m += surfaces.pitch()) {
+      const auto voted = std::max_element(p, p + labels) - p;
+      const auto fitting = std::min_element(m, m + labels) - m;
+      opinions.voted.at<std::int32_t>(y, x) = static_cast<std::int32_t>(voted);
+      opinions.fitting.at<std::int32_t>(y, x) = static_cast<std::int32_t>(fitting);
+      opinions.agree.at<std::uint8_t>(y, x) = m[voted] - m[fitting] < kAgreement ? 255 : 0;
+    }
   });
   return opinions;
 }

@@ -68,7 +68,7 @@ double best_seconds(const Work& work) {
   return best;
 }
 
-// Of one thread, as predict_row.
+// Of one thread, as predict_rows.
 double opencv_seconds(const ForestSamples& samples, const Volume<float>& image, int trees) {
   cv::Mat features(samples.count(), kFeatures, CV_32F, const_cast<float*>(samples.features.data()));
   cv::Mat labels(samples.count(), 1, CV_32S, const_cast<std::int32_t*>(samples.labels.data()));
@@ -93,10 +93,12 @@ void vote_view(benchmark::State& state) {
   const ForestSamples samples = make_samples();
   const Volume<float> image = make_image(samples);
   const Forest forest = Forest::train(samples, {}, Progress());
-  std::vector<float> row(static_cast<std::size_t>(kWidth) * forest.pitch());
+  std::vector<float> rows(static_cast<std::size_t>(kForestRows) * kWidth * forest.pitch());
   const auto predict = [&] {
-    for (int y = 0; y < kRows; ++y) forest.predict_row(image.view(), y, row.data());
-    benchmark::DoNotOptimize(row.data());
+    for (int y = 0; y < kRows; y += kForestRows) {
+      forest.predict_rows(image.view(), {y, kForestRows}, rows.data());
+    }
+    benchmark::DoNotOptimize(rows.data());
   };
   for (auto _ : state) predict();
   const double own = best_seconds(predict);

@@ -110,6 +110,37 @@ inline Register<To> convert(V value) {
 #endif
 }
 
+/// A bit for each lane, the first the lowest, set where a comparison holds.
+[[maybe_unused]] inline unsigned lanes_of(IntVec mask) {
+#if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  const auto lanes = reinterpret_cast<__m512i>(mask);
+  return _mm512_test_epi32_mask(lanes, lanes);
+#elif defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  return static_cast<unsigned>(_mm256_movemask_ps(reinterpret_cast<__m256>(mask)));
+#elif defined(__SSE2__) && EPISCOPE_VECTOR_BYTES == 16
+  return static_cast<unsigned>(_mm_movemask_ps(reinterpret_cast<__m128>(mask)));
+#else
+  unsigned lanes = 0;
+  for (int i = 0; i < kLanes; ++i) lanes |= (mask[i] != 0 ? 1U : 0U) << i;
+  return lanes;
+#endif
+}
+
+/// The numbers at these places.
+[[maybe_unused]] inline Vec gathered(const float* from, IntVec places) {
+#if defined(__AVX2__) && EPISCOPE_VECTOR_BYTES == 32
+  return reinterpret_cast<Vec>(
+      _mm256_i32gather_ps(from, reinterpret_cast<__m256i>(places), sizeof(float)));
+#elif defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64
+  return reinterpret_cast<Vec>(_mm512_mask_i32gather_ps(
+      _mm512_setzero_ps(), 0xFFFF, reinterpret_cast<__m512i>(places), from, sizeof(float)));
+#else
+  Vec found;
+  for (int i = 0; i < kLanes; ++i) found[i] = from[places[i]];
+  return found;
+#endif
+}
+
 /// 1/value to about 22 bits, value > 0; faster than a division.
 [[maybe_unused]] inline Vec reciprocal(Vec value) {
 #if defined(__AVX512F__) && EPISCOPE_VECTOR_BYTES == 64

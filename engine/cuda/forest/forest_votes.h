@@ -35,7 +35,7 @@ class DeviceForest {
   DeviceForest& operator=(const DeviceForest&) = delete;
 
   /// The mean vote of all trees for every pixel of a view, `[y][x][label]`, `pitch` apart, into
-  /// `votes`; `features` `[y][feature][x]`. The same bits as Forest::predict_row. Throws
+  /// `votes`; `features` `[y][feature][x]`. The same bits as Forest::predict_rows. Throws
   /// DeviceFailure, Cancelled.
   void vote(VolumeView<const float> features, const Progress& progress, float* votes) const;
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/labeling/features/label_surfaces.h"
 
+#include "engine/core/array/round_up.h"
+#include "engine/core/parallel/parallel.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
@@ -9,6 +12,7 @@
 namespace episcope {
 namespace {
 
+constexpr int kVectorLanes = 16;
 constexpr std::size_t kFewestSamples = 8;
 constexpr int kRounds = 12;
 constexpr double kShortStroke = 1.0 / 80;  // Of the larger side: half of its slope is believed.
@@ -45,8 +49,13 @@ Image<float> doubt_of(ImageView<const float> disparity) {
 }  // namespace
 
 LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
-                             ImageView<const float> disparity, ImageView<const float> trust)
-    : disparity_(disparity), trust_(trust), doubt_(doubt_of(disparity)) {
+                             ImageView<const float> disparity, ImageView<const float> trust,
+                             const Progress& progress)
+    : disparity_(disparity),
+      trust_(trust),
+      doubt_(doubt_of(disparity)),
+      pitch_(round_up(label_count, kVectorLanes)),
+      misfits_(make_large<float>(static_cast<std::size_t>(disparity.height * row_size()))) {
   std::vector<std::vector<Sample>> samples(static_cast<std::size_t>(label_count));
   for (int y = 0; y < strokes.height; ++y) {
     for (int x = 0; x < strokes.width; ++x) {
@@ -59,6 +68,7 @@ LabelSurfaces::LabelSurfaces(ImageView<const std::int32_t> strokes, int label_co
   }
   const double ridge = kShortStroke * std::max(strokes.height, strokes.width);
   for (const auto& of_label : samples) surfaces_.push_back(fit(of_label, ridge * ridge));
+  parallel_for(disparity.height, progress, [this](int y) { find_misfits(y); });
 }
 
 LabelSurfaces::Surface LabelSurfaces::fit(const std::vector<Sample>& samples, double ridge_px2) {
@@ -123,15 +133,15 @@ void LabelSurfaces::solve(const std::vector<Sample>& samples, const std::vector<
                    m[2] * d + m[4] * dx + m[5] * dy};
 }
 
-void LabelSurfaces::misfits(int y, int pitch, float* out) const {
+void LabelSurfaces::find_misfits(int y) {
   constexpr float kBase = kNoise_px * kNoise_px;
   const float* const disparity = disparity_.row(y);
   const float* const doubt = doubt_.row(y);
-  float* first = out;
+  float* first = misfits_.get() + y * row_size();
   for (const Surface& surface : surfaces_) {
     float* misfit = first++;
     if (!surface.is_known) {
-      for (int x = 0; x < disparity_.width; ++x, misfit += pitch) *misfit = kMostMisfit / 2;
+      for (int x = 0; x < disparity_.width; ++x, misfit += pitch_) *misfit = kMostMisfit / 2;
       continue;
     }
     const auto& m = surface.inverse;
@@ -143,7 +153,7 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
     const auto slope = static_cast<float>(2 * (m[1] + m[4] * dy));
     const auto bend = static_cast<float>(m[3]);
     const float noise = kBase + static_cast<float>(surface.variance);
-    for (int x = 0; x < disparity_.width; ++x, misfit += pitch) {
+    for (int x = 0; x < disparity_.width; ++x, misfit += pitch_) {
       const float dx = static_cast<float>(x) - static_cast<float>(surface.x);
       const float variance = noise * (1 + kLeverage * (flat + (slope + bend * dx) * dx)) + doubt[x];
       const float miss = disparity[x] - at - across * dx;
@@ -151,8 +161,6 @@ void LabelSurfaces::misfits(int y, int pitch, float* out) const {
       *misfit = std::min(0.5F * std::log(spread * spread / (variance * kBase)), kMostMisfit);
     }
   }
-  if (!gaps_.empty()) open_gaps(y, pitch, out);
-  if (!support_.empty()) relieve(pitch, out);
 }
 
 bool LabelSurfaces::lies_behind(int label, int y, int x) const {
@@ -162,28 +170,32 @@ bool LabelSurfaces::lies_behind(int label, int y, int x) const {
   return surface.is_known && expected < static_cast<double>(disparity_.at(y, x));
 }
 
-void LabelSurfaces::open_gaps(int y, int pitch, float* misfits) const {
-  const std::int32_t* const label = gaps_.row(y);
-  for (int x = 0; x < disparity_.width; ++x, misfits += pitch) {
-    if (label[x] > 0) misfits[label[x] - 1] = 0;
-  }
-}
-
-void LabelSurfaces::relieve(int pitch, float* misfits) const {
-  for (int x = 0; x < disparity_.width; ++x, misfits += pitch) {
-    const float least = *std::min_element(misfits, misfits + support_.size());
-    for (std::size_t l = 0; l < support_.size(); ++l) {
-      misfits[l] = std::lerp(least, misfits[l], support_[l]);
+void LabelSurfaces::set_gaps(ImageView<const std::int32_t> labels) {
+  for (int y = 0; y < labels.height; ++y) {
+    const std::int32_t* const label = labels.row(y);
+    float* misfit = misfits_.get() + y * row_size();
+    for (int x = 0; x < labels.width; ++x, misfit += pitch_) {
+      if (label[x] > 0) misfit[label[x] - 1] = 0;
     }
   }
 }
 
+void LabelSurfaces::set_support(const std::vector<float>& support, const Progress& progress) {
+  parallel_for(disparity_.height, progress, [&](int y) {
+    float* misfit = misfits_.get() + y * row_size();
+    for (int x = 0; x < disparity_.width; ++x, misfit += pitch_) {
+      const float least = *std::min_element(misfit, misfit + support.size());
+      for (std::size_t l = 0; l < support.size(); ++l) {
+        misfit[l] = std::lerp(least, misfit[l], support[l]);
+      }
+    }
+  });
+}
+
 void LabelSurfaces::weigh_row(int y, int pitch, float* probabilities) const {
   const std::size_t count = surfaces_.size();
-  std::vector<float> all(static_cast<std::size_t>(disparity_.width) * pitch);
-  misfits(y, pitch, all.data());
   for (int x = 0; x < disparity_.width; ++x) {
-    const float* misfit = all.data() + static_cast<std::ptrdiff_t>(x) * pitch;
+    const float* misfit = misfits(y) + static_cast<std::ptrdiff_t>(x) * pitch_;
     float* p = probabilities + static_cast<std::ptrdiff_t>(x) * pitch;
     const float least = *std::min_element(misfit, misfit + count);
     const float weight = trust_.empty() ? kWeight : kWeight * trust_.at(y, x);

@@ -2,10 +2,11 @@
 #pragma once
 
 #include "engine/core/array/image.h"
+#include "engine/core/array/large_memory.h"
+#include "engine/core/parallel/progress.h"
 
 #include <array>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -25,9 +26,11 @@ namespace episcope {
 class LabelSurfaces {
  public:
   /// `strokes` as from `carried_strokes` (stroke_distance.h), `disparity` of the view, without
-  /// holes, and how far it is trusted (disparity_trust.h; empty = everywhere), borrowed.
+  /// holes, and how far it is trusted (disparity_trust.h; empty = everywhere), borrowed. 4·pitch
+  /// bytes per pixel. Throws Cancelled.
   LabelSurfaces(ImageView<const std::int32_t> strokes, int label_count,
-                ImageView<const float> disparity, ImageView<const float> trust = {});
+                ImageView<const float> disparity, ImageView<const float> trust,
+                const Progress& progress);
 
   /// Standard deviation below which disparities say nothing, px per view step.
   static constexpr double kNoise_px = 0.04;
@@ -36,20 +39,21 @@ class LabelSurfaces {
 
   /// How far the surface of each label holds away from its strokes, `[label]` in [0, 1]
   /// (engine/labeling/surface_support.h): from now on misfits exceed the least one of their pixel
-  /// by this share only. Before, all hold.
-  void set_support(std::vector<float> support) { support_ = std::move(support); }
+  /// by this share only. Before, all hold. Throws Cancelled.
+  void set_support(const std::vector<float>& support, const Progress& progress);
 
   /// Labels that show in gaps of what lies before them (engine/labeling/thin_gaps.h), `[y][x]`, an
   /// index plus one, 0 = none: from now on disparity does not speak against them there.
-  void set_gaps(Image<std::int32_t> labels) { gaps_ = std::move(labels); }
+  void set_gaps(ImageView<const std::int32_t> labels);
 
   /// Whether the surface of a label is known and lies behind the disparity of a pixel.
   [[nodiscard]] bool lies_behind(int label, int y, int x) const;
 
   /// −log of how probable the disparity of each pixel of row `y` is on the surface of each label,
   /// at most kMostMisfit: log(1 + r²/σ²) + log(σ/kNoise_px), r the distance from its plane.
-  /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch` apart.
-  void misfits(int y, int pitch, float* out) const;
+  /// kMostMisfit/2 for labels of too few stroke pixels. `[x][label]`, `pitch()` apart.
+  [[nodiscard]] const float* misfits(int y) const { return misfits_.get() + y * row_size(); }
+  [[nodiscard]] int pitch() const { return pitch_; }
 
   /// Multiplies the probabilities of row `y`, `[x][label]`, `pitch` apart, by
   /// exp(−1.5·trust·misfit), and makes them sum to 1 again. Before, 0.02 is added to each: a forest
@@ -70,15 +74,17 @@ class LabelSurfaces {
   static Surface fit(const std::vector<Sample>& samples, double ridge_px2);
   static void solve(const std::vector<Sample>& samples, const std::vector<double>& weights,
                     double ridge_px2, Surface& surface);
-  void open_gaps(int y, int pitch, float* misfits) const;
-  void relieve(int pitch, float* misfits) const;
+  void find_misfits(int y);
+  [[nodiscard]] std::ptrdiff_t row_size() const {
+    return static_cast<std::ptrdiff_t>(disparity_.width) * pitch_;
+  }
 
   ImageView<const float> disparity_;
   ImageView<const float> trust_;
   Image<float> doubt_;  // Variance of disparities beside jumps, px².
   std::vector<Surface> surfaces_;
-  Image<std::int32_t> gaps_;    // Empty = none.
-  std::vector<float> support_;  // Empty = 1.
+  int pitch_;
+  LargeArray<float> misfits_;  // [y][x][label], pitch_ apart.
 };
 
 }  // namespace episcope

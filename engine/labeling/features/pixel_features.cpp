@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/features/surface_filter.h"
 
 #include <opencv2/imgproc.hpp>
 
@@ -19,7 +20,7 @@ constexpr double kFineScale = 1;
 constexpr double kSurfaceContrast = 0.06;
 constexpr double kWiderSurfaceContrast = 0.15;
 constexpr double kSurfaceScale = 6;
-constexpr int kSurfaceWindow = 13;
+constexpr int kSurfaceRadius_px = 6;
 constexpr int kSurfacePasses = 2;
 constexpr double kDisparityScale = 2;
 constexpr double kLabUnit = 0.01;
@@ -106,18 +107,19 @@ void add_color(LayerWriter& layers, const cv::Mat& rgb, const std::vector<cv::Ma
 }
 
 /// Colours averaged within a surface and not across its outline.
-void add_surface(LayerWriter& layers, const cv::Mat& lab, double contrast,
+void add_surface(LayerWriter layers, const std::vector<cv::Mat>& lab, double contrast,
                  const Progress& progress) {
-  cv::Mat flat = lab;
-  for (int pass = 0; pass < kSurfacePasses; ++pass) {
-    progress.check();
-    cv::Mat next;
-    cv::bilateralFilter(flat, next, kSurfaceWindow, contrast, kSurfaceScale, cv::BORDER_REPLICATE);
-    flat = next;
+  ColorPlanes flat;
+  for (std::size_t c = 0; c < flat.size(); ++c) {
+    flat[c] = Image<float>(lab[c].rows, lab[c].cols);
+    std::copy_n(lab[c].ptr<float>(), flat[c].size(), flat[c].data());
   }
-  std::vector<cv::Mat> channels;
-  cv::split(flat, channels);
-  layers.add(channels);
+  for (int pass = 0; pass < kSurfacePasses; ++pass) {
+    flat = filter_surfaces(flat, {contrast, kSurfaceScale, kSurfaceRadius_px}, progress);
+  }
+  for (Image<float>& plane : flat) {
+    layers.add(cv::Mat(plane.height(), plane.width(), CV_32F, plane.data()));
+  }
 }
 
 void add_shape(LayerWriter& layers, const cv::Mat& lightness) {
@@ -193,15 +195,9 @@ PixelFeatures compute_pixel_features(const LightField& lf, ViewIndex view,
   const cv::Mat map(lf.height(), lf.width(), CV_32F, filled.data());
 
   const auto writer = [&](int first) { return LayerWriter(features.view(), first); };
+  add_surface(writer(kWiderSurfaceLayer), lab, kWiderSurfaceContrast, progress);
+  add_surface(writer(kSurfaceLayer), lab, kSurfaceContrast, progress);
   const std::function<void()> groups[] = {
-      [&] {
-        auto layers = writer(kWiderSurfaceLayer);
-        add_surface(layers, lab_image, kWiderSurfaceContrast, progress);
-      },
-      [&] {
-        auto layers = writer(kSurfaceLayer);
-        add_surface(layers, lab_image, kSurfaceContrast, progress);
-      },
       [&] {
         auto layers = writer(0);
         add_color(layers, rgb, lab);

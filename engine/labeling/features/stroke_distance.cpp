@@ -137,17 +137,12 @@ void StrokeDistances::add_jumps(const StrokeGuides& guides) {
 }
 
 void StrokeDistances::begin_on(const LabelSurfaces& surfaces, const Progress& progress) {
-  parallel_for_workers(height_, progress, [&] {
-    return [&, row = std::vector<float>(static_cast<std::size_t>(width_) * pitch_)](int y) mutable {
-      surfaces.misfits(y, pitch_, row.data());
-      float* distances = distances_.get() + static_cast<std::size_t>(y) * row.size();
-      for (int x = 0; x < width_; ++x) {
-        for (const int l : stroked_) {
-          float& distance = distances[static_cast<std::size_t>(x) * pitch_ + l];
-          distance = std::min(distance, kBehind + row[static_cast<std::size_t>(x) * pitch_ + l]);
-        }
-      }
-    };
+  parallel_for(height_, progress, [&](int y) {
+    const float* misfit = surfaces.misfits(y);
+    float* distance = distances_.get() + static_cast<std::ptrdiff_t>(y) * width_ * pitch_;
+    for (int x = 0; x < width_; ++x, misfit += surfaces.pitch(), distance += pitch_) {
+      for (const int l : stroked_) distance[l] = std::min(distance[l], kBehind + misfit[l]);
+    }
   });
 }
 

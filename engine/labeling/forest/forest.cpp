@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -50,8 +51,8 @@ cv::Ptr<cv::ml::TrainData> draw(const ForestSamples& samples,
   return cv::ml::TrainData::create(features, cv::ml::ROW_SAMPLE, labels);
 }
 
-cv::Ptr<cv::ml::RTrees> grow(const cv::Ptr<cv::ml::TrainData>& data, const ForestOptions& options,
-                             std::uint64_t seed) {
+cv::Ptr<cv::ml::RTrees> grow_trees(const cv::Ptr<cv::ml::TrainData>& data,
+                                   const ForestOptions& options, std::uint64_t seed) {
   const auto trees = cv::ml::RTrees::create();
   trees->setMaxDepth(options.depth);
   trees->setMinSampleCount(options.min_samples);
@@ -79,20 +80,23 @@ void check(const ForestSamples& samples) {
 
 class Forest::Trainer {
  public:
-  Trainer(const ForestSamples& samples, const ForestOptions& options)
-      : samples_(samples), options_(options), of_label_(samples_by_label(samples)) {
+  /// Of the blocks from `first` on.
+  Trainer(const ForestSamples& samples, const ForestOptions& options, int first)
+      : samples_(samples), options_(options), first_(first), of_label_(samples_by_label(samples)) {
     const int blocks = (options.trees + kForestTreesPerBlock - 1) / kForestTreesPerBlock;
-    trees_.resize(static_cast<std::size_t>(blocks) * kForestTreesPerBlock);
+    trees_.resize(static_cast<std::size_t>(std::max(blocks - first, 0)) * kForestTreesPerBlock);
   }
 
-  void grow_block(int block) {
+  void grow_block(int item) {
+    const int block = first_ + item;
     std::mt19937 random(static_cast<unsigned>(options_.seed) * 7919U +
                         static_cast<unsigned>(block));
     const auto data = draw(samples_, of_label_, options_.samples_per_label, block % 2 == 0, random);
-    const auto trees = grow(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
+    const auto trees =
+        grow_trees(data, options_, (static_cast<std::uint64_t>(random()) << 32) | 1U);
     const std::vector<int>& roots = trees->getRoots();
     for (int i = 0; i < kForestTreesPerBlock; ++i) {
-      trees_[static_cast<std::size_t>(block) * kForestTreesPerBlock + i] =
+      trees_[static_cast<std::size_t>(item) * kForestTreesPerBlock + i] =
           flatten_tree(*trees, roots[static_cast<std::size_t>(i)]);
     }
   }
@@ -102,7 +106,7 @@ class Forest::Trainer {
   }
 
   void join(Forest& forest) const {
-    int leaf_count = 0;
+    int leaf_count = static_cast<int>(forest.votes_.size()) / forest.pitch_;
     for (const FlatTree& tree : trees_) {
       forest.roots_.push_back(static_cast<int>(forest.nodes_.size()));
       forest.nodes_.insert(forest.nodes_.end(), tree.nodes.begin(), tree.nodes.end());
@@ -110,7 +114,7 @@ class Forest::Trainer {
         forest.leaves_.push_back(leaf < 0 ? -1 : leaf + leaf_count);
       leaf_count += tree.leaf_count;
     }
-    forest.votes_.assign(static_cast<std::size_t>(leaf_count) * forest.pitch_, 0.F);
+    forest.votes_.resize(static_cast<std::size_t>(leaf_count) * forest.pitch_, 0.F);
   }
 
   /// Passes all samples down a tree.
@@ -135,6 +139,7 @@ class Forest::Trainer {
  private:
   const ForestSamples& samples_;
   const ForestOptions& options_;
+  int first_;
   std::vector<std::vector<int>> of_label_;
   std::vector<FlatTree> trees_;
 };
@@ -146,13 +151,21 @@ Forest Forest::train(const ForestSamples& samples, const ForestOptions& options,
   forest.feature_count_ = samples.feature_count;
   forest.label_count_ = samples.label_count;
   forest.pitch_ = round_up(samples.label_count, kVectorLanes);
-  Trainer trainer(samples, options);
+  forest.grow(samples, options, progress);
+  return forest;
+}
+
+void Forest::grow(const ForestSamples& samples, const ForestOptions& options,
+                  const Progress& progress) {
+  const int before = tree_count();
+  Trainer trainer(samples, options, before / kForestTreesPerBlock);
   parallel_for(trainer.blocks(), progress.part(0, 0.9),
                [&](int block) { trainer.grow_block(block); });
-  trainer.join(forest);
-  parallel_for(forest.tree_count(), progress.part(0.9, 1),
-               [&](int tree) { trainer.count_votes(forest, tree); });
-  return forest;
+  Forest grown = *this;
+  trainer.join(grown);
+  parallel_for(grown.tree_count() - before, progress.part(0.9, 1),
+               [&](int tree) { trainer.count_votes(grown, before + tree); });
+  *this = std::move(grown);
 }
 
 void Forest::normalise(int leaf) {
@@ -189,21 +202,30 @@ FlatForest Forest::flat() const {
   return flat;
 }
 
-void Forest::predict_row(VolumeView<const float> features, int y, float* out, Isa isa) const {
+void Forest::predict_rows(VolumeView<const float> features, Rows rows, float* out, Isa isa) const {
   const ForestKernel& kernel = EPISCOPE_CHOOSE_KERNEL(isa, kForestKernel);
   const FlatForest trees = flat();
   // A block's features together fit the first-level cache.
   std::vector<float> block(static_cast<std::size_t>(feature_count_) * kForestBlock);
+  std::vector<float> sums(static_cast<std::size_t>(pitch_) * kForestBlock);
   const float scale = 1.0F / static_cast<float>(tree_count());
-  for (int x = 0; x < features.width; x += kForestBlock) {
-    const int count = std::min(kForestBlock, features.width - x);
+  for (int x = 0; x < features.width;) {
+    const int columns = std::min(kForestBlock / rows.count, features.width - x);
     for (int f = 0; f < feature_count_; ++f) {
-      std::copy_n(features.row(y, f) + x, count, block.data() + f * kForestBlock);
+      for (int y = 0; y < rows.count; ++y) {
+        std::copy_n(features.row(rows.first + y, f) + x, columns,
+                    block.data() + f * kForestBlock + y * columns);
+      }
     }
-    float* sums = out + static_cast<std::ptrdiff_t>(x) * pitch_;
-    kernel.vote(trees, block.data(), kForestBlock, count, sums);
-    std::transform(sums, sums + static_cast<std::ptrdiff_t>(count) * pitch_, sums,
-                   [scale](float sum) { return sum * scale; });
+    kernel.vote(trees, block.data(), kForestBlock, columns * rows.count, sums.data());
+    const std::ptrdiff_t size = static_cast<std::ptrdiff_t>(columns) * pitch_;
+    for (int y = 0; y < rows.count; ++y) {
+      const float* const sum = sums.data() + y * size;
+      std::transform(sum, sum + size,
+                     out + (static_cast<std::ptrdiff_t>(y) * features.width + x) * pitch_,
+                     [scale](float votes) { return votes * scale; });
+    }
+    x += columns;
   }
 }
 

@@ -35,6 +35,8 @@ struct ForestOptions {
   friend bool operator==(const ForestOptions&, const ForestOptions&) = default;
 };
 
+inline constexpr int kForestRows = 8;
+
 /// Trees that are trained one after the other on the same draw of samples.
 inline constexpr int kForestTreesPerBlock = 4;
 
@@ -51,15 +53,26 @@ class Forest {
   [[nodiscard]] static Forest train(const ForestSamples& samples, const ForestOptions& options,
                                     const Progress& progress);
 
+  /// Trains the trees that are missing to `options.trees`. With the samples and the other options
+  /// it was trained with, it becomes the forest that `train` would have made at once. Throws
+  /// Cancelled, and is as it was then.
+  void grow(const ForestSamples& samples, const ForestOptions& options, const Progress& progress);
+
   [[nodiscard]] int label_count() const { return label_count_; }
   [[nodiscard]] int feature_count() const { return feature_count_; }
   [[nodiscard]] int tree_count() const { return static_cast<int>(roots_.size()); }
 
-  /// Probabilities of the pixels of row `y` of `features`, `[x][label]`, `pitch()` apart, into
-  /// `out` of width·pitch() floats. The lanes beyond the labels become 0. Needs
-  /// features.layers == feature_count().
-  void predict_row(VolumeView<const float> features, int y, float* out, Isa isa = best_isa()) const;
-  /// Floats of a pixel in `predict_row`: labels rounded up to whole vectors.
+  /// Rows of an image that are predicted together, kForestRows at most: blocks of several are
+  /// faster, because their pixels are more alike.
+  struct Rows {
+    int first = 0, count = 1;
+  };
+  /// Probabilities of the pixels of these rows of `features`, `[y][x][label]`, `pitch()` apart,
+  /// into `out` of count·width·pitch() floats. The lanes beyond the labels become 0. Needs
+  /// features.layers == feature_count(). The result does not depend on how rows are put together.
+  void predict_rows(VolumeView<const float> features, Rows rows, float* out,
+                    Isa isa = best_isa()) const;
+  /// Floats of a pixel in `predict_rows`: labels rounded up to whole vectors.
   [[nodiscard]] int pitch() const { return pitch_; }
 
   /// All trees as kernels walk them; borrowed.

@@ -2,6 +2,7 @@
 #include "engine/labeling/rays/label_costs.h"
 
 #include "engine/core/parallel/parallel.h"
+#include "engine/labeling/rays/ray_kernel.h"
 #include "engine/labeling/rays/ray_targets.h"
 
 #include <algorithm>
@@ -13,44 +14,38 @@ namespace {
 
 // What one thread sums up of one row.
 struct Row {
-  explicit Row(int width) : targets(width), weight(width) {}
+  explicit Row(int width) : targets(width), trusts(width), weight(width) {}
   std::vector<std::int32_t> targets;
-  std::vector<std::ptrdiff_t> offsets;  // of the first layer of the rays that arrive,
-  std::vector<int> columns;             // where they came from,
-  std::vector<float> trusts;            // and how much each is trusted
-  std::vector<float> weight;            // of all, by column
+  std::vector<float> trusts;  // How much each ray is trusted, 0 where it arrives nowhere,
+  std::vector<float> weight;  // and of all views, by column.
 };
-
-void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, Row& row, float* costs) {
-  for (int layer = 0; layer < p.layers; ++layer) {
-    const std::uint8_t* const from = p.data + static_cast<std::ptrdiff_t>(layer) * p.width;
-    float* const to = costs + static_cast<std::ptrdiff_t>(layer) * p.width;
-    for (std::size_t i = 0; i < row.columns.size(); ++i) {
-      to[row.columns[i]] += row.trusts[i] * table[from[row.offsets[i]]];
-    }
-  }
-}
 
 void find_rays(const TrackSources& sources, ViewIndex other, int y, Row& row) {
   const auto& [probabilities, disparity, view, others, colors] = sources;
   find_ray_targets(disparity.view(view), disparity.view(other),
                    {other.v - view.v, other.u - view.u}, y, row.targets.data());
   const auto pair = colors != nullptr ? colors->pair(view, y, other) : RayColors::Pair{};
-  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(row.targets.size());
-  const std::ptrdiff_t layers = probabilities.view(other).layers();
-  row.offsets.clear();
-  row.columns.clear();
-  row.trusts.clear();
-  for (int x = 0; x < width; ++x) {
+  for (std::size_t x = 0; x < row.targets.size(); ++x) {
     const std::int32_t target = row.targets[x];
-    if (target < 0) continue;
-    const float trust = colors != nullptr ? colors->trust(pair, x, target) : 1;
-    if (trust == 0) continue;
-    row.offsets.push_back(target / width * layers * width + target % width);
-    row.columns.push_back(x);
-    row.trusts.push_back(trust);
-    row.weight[x] += trust;
+    row.trusts[x] = target < 0          ? 0
+                    : colors == nullptr ? 1
+                                        : colors->trust(pair, static_cast<int>(x), target);
+    row.weight[x] += row.trusts[x];
   }
+}
+
+void add_view(VolumeView<const std::uint8_t> p, const CostTable& table, const Row& row,
+              float* costs) {
+  static const RayKernel& kernel = EPISCOPE_CHOOSE_KERNEL(best_isa(), kRayKernel);
+  RayCosts rays;
+  rays.codes = p.data;
+  rays.size = static_cast<long>(p.size());
+  rays.table = table.data();
+  rays.labels = p.layers;
+  rays.width = p.width;
+  rays.targets = row.targets.data();
+  rays.trusts = row.trusts.data();
+  kernel.add_costs(rays, costs);
 }
 
 // Whether `at` of `count` places is among those nearest to `here`, as many at the border.

@@ -22,9 +22,11 @@ void add(const SimplexResult& part, RayLabeling& result) {
 }  // namespace
 
 std::vector<ViewChain> view_chains(GridShape grid) {
-  const int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
   std::vector<ViewChain> chains;
   for (int v = 0; v < grid.v; ++v) {
+    int length = std::clamp(grid.count() / kMinChains, 1, kLongestChain);
+    // An odd number of long chains would leave one of two threads without work.
+    if (v == grid.v - 1) length = (length + 1) / 2;
     for (int u = 0; u < grid.u; u += length) {
       chains.push_back({v * grid.u + u, v * grid.u + std::min(u + length, grid.u)});
     }

@@ -5,8 +5,16 @@
 #include "engine/core/parallel/parallel.h"
 
 #include <algorithm>
+#include <atomic>
+#include <thread>
 
 namespace episcope {
+namespace {
+
+// More threads than this are better employed on bands of rows.
+constexpr int kMostStaggered = 3;
+
+}  // namespace
 
 LayeredSweep::LayeredSweep(int height, int layers, int width) : height_(height) {
   shape_.steps = layers;
@@ -70,11 +78,42 @@ float* LayeredSweep::ahead(int y, float* scratch) {
   return scratch + kLayerRowUnit + (y & 1) * row_size();
 }
 
+// Iterations that one thread takes through the image, two rows behind those of the part before.
+struct LayeredSweep::Part {
+  int iterations = 0;
+  const std::atomic<int>* before = nullptr;  // Rows that the part before has left behind.
+  std::atomic<int>& done;
+
+  void wait_for(int rows, const Progress& progress) const {
+    while (before != nullptr && before->load(std::memory_order_acquire) < rows) {
+      progress.check();
+      std::this_thread::yield();
+    }
+  }
+};
+
+void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progress) {
+  if (progress.threads() > kMostStaggered) {
+    for (int i = 0; i < count; ++i) iterate_bands(terms, progress);
+    return;
+  }
+  const int parts = std::min(progress.threads(), count);
+  std::vector<std::atomic<int>> rows_left_behind(static_cast<std::size_t>(parts));
+  // A part waits for the one before only, which has been taken by a thread when its turn comes.
+  parallel_for(parts, progress, [&](int i) {
+    const int iterations = count * (i + 1) / parts - count * i / parts;
+    iterate_part(terms,
+                 {iterations, i > 0 ? &rows_left_behind[static_cast<std::size_t>(i - 1)] : nullptr,
+                  rows_left_behind[static_cast<std::size_t>(i)]},
+                 progress);
+  });
+}
+
 // A row of φ needs the old duals of its own and of the row above, a row of duals the new φ of its
 // own and of the row below: in this order everything is updated in place, and memory is traversed
 // once.
-void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limits,
-                           const LayeredMoves& moves, const Progress& progress) {
+void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
+  const auto& [cost, limits, moves] = terms;
   parallel_for_workers(bands(), progress, [&] {
     const std::size_t size = 2 * row_size() + 2 * kLayerRowUnit;
     return [&, scratch = std::vector<float>(size)](int i) mutable {
@@ -95,6 +134,29 @@ void LayeredSweep::iterate(VolumeView<const float> cost, const PairLimits& limit
     moves.dual(shape_, ahead(y, nullptr), ahead(std::min(y + 1, height_ - 1), nullptr),
                duals(y, limits));
   });
+}
+
+// When an iteration comes to a row, the one before has left it and its duals, and those above.
+void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Progress& progress) {
+  const auto& [cost, limits, moves] = terms;
+  const FlushDenormals flush;
+  std::vector<float> rows(2 * part.iterations * row_size() + 2 * kLayerRowUnit);
+  for (int step = 0; step < height_ + 2 * (part.iterations - 1); ++step) {
+    progress.check();
+    part.wait_for(std::min(step + 2, height_), progress);
+    for (int i = 0; i < part.iterations; ++i) {
+      const int y = step - 2 * i;
+      if (y < 0 || y >= height_) continue;
+      const auto row = [&](int at) {
+        return rows.data() + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
+      };
+      moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
+                   row(y));
+      if (y > 0) moves.dual(shape_, row(y - 1), row(y), duals(y - 1, limits));
+      if (y == height_ - 1) moves.dual(shape_, row(y), row(y), duals(y, limits));
+    }
+    part.done.store(step - 2 * (part.iterations - 1) + 1, std::memory_order_release);
+  }
 }
 
 }  // namespace episcope

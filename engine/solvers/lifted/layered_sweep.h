@@ -26,8 +26,9 @@ struct LayeredMoves {
 /// The unknowns of a primal-dual method on an image with layers, φ and the duals of its pairs, and
 /// the order in which they are updated: bands of rows in parallel, within a band φ of a row and the
 /// duals of the row above in turn, so that memory is traversed once per iteration and everything is
-/// updated in place. The result does not depend on the number of threads. 5 floats per pixel and
-/// layer.
+/// updated in place. Few threads take several iterations through the image at once, each two rows
+/// behind the one before, so that memory is traversed once for all of them. The result is the same.
+/// 5 floats per pixel and layer.
 class LayeredSweep {
  public:
   /// Rows that one thread takes through an iteration on its own.
@@ -41,9 +42,14 @@ class LayeredSweep {
 
   /// φ and duals of a band become 0.
   void clear(const Band& band);
-  /// One iteration. Costs, limits and steps may change from one to the next.
-  void iterate(VolumeView<const float> cost, const PairLimits& limits, const LayeredMoves& moves,
-               const Progress& progress);
+  /// What an iteration needs; borrowed. May change from one call to the next, as the steps may.
+  struct Terms {
+    VolumeView<const float> cost;
+    const PairLimits& limits;
+    const LayeredMoves& moves;
+  };
+  /// Several iterations. Throws Cancelled.
+  void iterate(const Terms& terms, int count, const Progress& progress);
 
   [[nodiscard]] LayeredShape& shape() { return shape_; }
   [[nodiscard]] int height() const { return height_; }
@@ -58,6 +64,9 @@ class LayeredSweep {
   [[nodiscard]] long row_size() const { return shape_.steps * shape_.pitch; }
 
  private:
+  void iterate_bands(const Terms& terms, const Progress& progress);
+  struct Part;
+  void iterate_part(const Terms& terms, const Part& part, const Progress& progress);
   // Row y of 2φ' − φ of a band: its first and last row are kept for the neighbouring bands.
   [[nodiscard]] float* ahead(int y, float* scratch);
   // Kernels read a lane beyond a row: it must not be where another thread writes.

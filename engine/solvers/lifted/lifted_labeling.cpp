@@ -46,7 +46,8 @@ class Lifting {
   Lifting(const LiftedProblem& problem, const Progress& progress, Isa isa);
 
   void iterate(const Progress& progress) {
-    sweep_.iterate(problem_.cost, limits_, {kernel_.move_primal, kernel_.move_dual}, progress);
+    const LayeredMoves moves{kernel_.move_primal, kernel_.move_dual};
+    sweep_.iterate({problem_.cost, limits_, moves}, 1, progress);
   }
   // Renews energy, bound and labels of `result` if better ones are found.
   void measure(LiftedResult& result, const Progress& progress);

@@ -26,6 +26,9 @@ constexpr float kRelaxation = 1.9F;
 // Levels are halved down to this side; iterations on each below the finest.
 constexpr int kMinSide = 16;
 constexpr int kCoarseIterations = 30;
+// Iterations taken through the image at once: what they work on fits a cache.
+constexpr int kTogether = 5;
+static_assert(kCoarseIterations % kTogether == 0);
 
 void check_problem(const SimplexProblem& problem, int height, int layers, int width) {
   const auto& cost = problem.cost;
@@ -151,8 +154,8 @@ void SimplexSolver::State::climb(const SimplexProblem& problem, const Progress& 
     const PairLimits limits(level.cost.height(), level.cost.width(), smoothness / 2,
                             problem.g.empty() ? ImageView<const float>{} : level.g);
     set_steps(smoothness, level.sweep.shape());
-    for (int i = 0; i < kCoarseIterations; ++i) {
-      level.sweep.iterate(level.cost.view(), limits, moves, progress);
+    for (int i = 0; i < kCoarseIterations; i += kTogether) {
+      level.sweep.iterate({level.cost.view(), limits, moves}, kTogether, progress);
     }
     begin_from(level.sweep, progress, k > 0 ? coarse[k - 1].sweep : sweep);
     smoothness *= 2;
@@ -263,8 +266,11 @@ SimplexResult SimplexSolver::solve(const SimplexProblem& problem, const SimplexO
   double done = 0;
   for (bool last = false; !last;) {
     const Progress quiet = progress.part(done, done);
-    state.sweep.iterate(problem.cost, limits, state.moves, quiet);
-    ++result.iterations;
+    const int count = std::min({progress.finish_requested() ? 1 : kTogether,
+                                check_every - result.iterations % check_every,
+                                options.max_iterations - result.iterations});
+    state.sweep.iterate({problem.cost, limits, state.moves}, count, quiet);
+    result.iterations += count;
     done = std::max(done, 1 - std::exp2(-result.iterations / 20.0));
     progress.report(done);
     last = result.iterations >= options.max_iterations || progress.finish_requested();

@@ -72,9 +72,9 @@ class SimplexSolver {
   ~SimplexSolver();
   SimplexSolver(SimplexSolver&&) noexcept;
 
-  /// Writes the labeling `[y][x]`, 0 … L − 1. Ends after the next iteration at
-  /// `progress.finish_requested()`. Throws InvalidInput on a wrong shape or a negative λ, Cancelled
-  /// on a stop request (checked at least once per iteration).
+  /// Writes the labeling `[y][x]`, 0 … L − 1. Ends after the next five iterations at
+  /// most at `progress.finish_requested()`. Throws InvalidInput on a wrong shape or a negative λ,
+  /// Cancelled on a stop request (checked at least once per iteration).
   SimplexResult solve(const SimplexProblem& problem, const SimplexOptions& options,
                       const Progress& progress, ImageView<int> labels);
 

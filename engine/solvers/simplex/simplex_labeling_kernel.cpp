@@ -9,18 +9,28 @@ namespace {
 
 // θ such that Σ_l max(v_l − θ, 0) = 1, of the columns at `v`. Newton's method from below: the sum
 // falls and is convex in θ, so every step stays below the solution and the last is exact (the steps
-// of Michelot 1986). max v − 1 ≤ θ is the solution already where one label has it all.
+// of Michelot 1986). max v − 1 ≤ θ is the solution already where one label has it all. Layers that
+// are not above θ in any column never will be: from the second pass on they are out of the race.
 inline Vec threshold(const LayeredShape& shape, const float* v, Vec top) {
+  const float* racing[kMaxSimplexLayers];
+  int count = 0;
+  for (int l = 0; l < shape.steps; ++l) racing[l] = v + l * shape.pitch;
   Vec theta = top - 1.0F;
+  int left = shape.steps;
   for (int pass = 0; pass < shape.steps; ++pass) {
-    Vec sum = splat(-1), count = splat(0);
-    for (int l = 0; l < shape.steps; ++l) {
-      const Vec over = load(v + l * shape.pitch) - theta;
+    Vec sum = splat(-1), above = splat(0);
+    count = 0;
+    for (int i = 0; i < left; ++i) {
+      const Vec over = load(racing[i]) - theta;
+      const IntVec is_above = over > 0.0F;
       sum += greatest(over, splat(0));
-      count += choose(over > 0.0F, splat(1), splat(0));
+      above += choose(is_above, splat(1), splat(0));
+      racing[count] = racing[i];
+      count += any(is_above) ? 1 : 0;
     }
+    left = count;
     // Rounding may leave nothing above θ where the largest is.
-    const Vec step = sum / greatest(count, splat(1));
+    const Vec step = sum / greatest(above, splat(1));
     theta += greatest(step, splat(0));
     if (!any(sum > 1e-6F)) break;
   }

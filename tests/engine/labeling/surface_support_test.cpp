@@ -47,8 +47,9 @@ struct Halves {
   }
   [[nodiscard]] std::vector<float> support(int threads = 2) const {
     const Forest forest = Forest::train(samples, {.trees = 8}, Progress());
-    const LabelSurfaces surfaces(strokes.view(), 2, disparity.view(), trust.view());
-    return surface_support({forest, features.view()}, surfaces, trust.view(), Progress(threads));
+    const LabelSurfaces surfaces(strokes.view(), 2, disparity.view(), trust.view(), Progress());
+    return surface_support({forest, features.view(), Progress()}, surfaces, trust.view(),
+                           Progress(threads));
   }
 };
 

@@ -40,8 +40,8 @@ struct Fence {
   }
   [[nodiscard]] Image<std::int32_t> gaps(int threads = 2) const {
     const Forest forest = Forest::train(samples, {.trees = 8}, Progress());
-    const LabelSurfaces surfaces(strokes.view(), 2, disparity.view());
-    return labels_in_thin_gaps({forest, features.view()}, surfaces, Progress(threads));
+    const LabelSurfaces surfaces(strokes.view(), 2, disparity.view(), {}, Progress());
+    return labels_in_thin_gaps({forest, features.view(), Progress()}, surfaces, Progress(threads));
   }
 };
 
@@ -81,16 +81,14 @@ class ThinGapsTest : public QObject {
 
   void gaps_keepTheirLabel() {
     const Fence fence(3, 10);
-    LabelSurfaces surfaces(fence.strokes.view(), 2, fence.disparity.view());
-    std::vector<float> row(static_cast<std::size_t>(kWidth) * 2);
-    surfaces.misfits(30, 2, row.data());
-    QVERIFY(row[2 * 5 + kWall] > 2);
+    LabelSurfaces surfaces(fence.strokes.view(), 2, fence.disparity.view(), {}, Progress());
+    const auto of_wall = [&](int x) { return surfaces.misfits(30)[x * surfaces.pitch() + kWall]; };
+    QVERIFY(of_wall(5) > 2);
 
-    surfaces.set_gaps(fence.gaps());
-    surfaces.misfits(30, 2, row.data());
+    surfaces.set_gaps(fence.gaps().view());
 
-    QCOMPARE(row[2 * 5 + kWall], 0.0F);
-    QVERIFY(row[2 * 1 + kWall] > 2);
+    QCOMPARE(of_wall(5), 0.0F);
+    QVERIFY(of_wall(1) > 2);
   }
 
   void threads_doNotMatter() {

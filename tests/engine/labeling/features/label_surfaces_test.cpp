@@ -35,11 +35,8 @@ struct Room {
     }
   }
   [[nodiscard]] float misfit(int y, int x, int label, int labels = 2) const {
-    const LabelSurfaces surfaces(strokes.view(), labels, disparity.view());
-    constexpr int kPitch = 16;
-    std::vector<float> row(static_cast<std::size_t>(kWidth) * kPitch);
-    surfaces.misfits(y, kPitch, row.data());
-    return row[static_cast<std::size_t>(x) * kPitch + label];
+    const LabelSurfaces surfaces(strokes.view(), labels, disparity.view(), {}, Progress());
+    return surfaces.misfits(y)[static_cast<std::ptrdiff_t>(x) * surfaces.pitch() + label];
   }
 };
 
@@ -80,24 +77,22 @@ class LabelSurfacesTest : public QObject {
 
   void support_scalesWhatSpeaksAgainstALabel() {
     const Room room;
-    LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view());
-    surfaces.set_support({0.25F, 1});
-    std::vector<float> row(static_cast<std::size_t>(kWidth) * 16);
+    LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view(), {}, Progress());
 
-    surfaces.misfits(20, 16, row.data());
+    surfaces.set_support({0.25F, 1}, Progress());
 
     // On the card, and on the ground.
-    const float* at = row.data() + static_cast<std::ptrdiff_t>(80) * 16;
+    const float* at = surfaces.misfits(20) + static_cast<std::ptrdiff_t>(80) * surfaces.pitch();
     const float all = room.misfit(20, 80, 0) - room.misfit(20, 80, 1);
     QVERIFY(std::abs(at[0] - at[1] - 0.25F * all) < 1e-5F);
-    at = row.data() + static_cast<std::ptrdiff_t>(30) * 16;
+    at = surfaces.misfits(20) + static_cast<std::ptrdiff_t>(30) * surfaces.pitch();
     QCOMPARE(at[0], room.misfit(20, 30, 0));
     QCOMPARE(at[1], room.misfit(20, 30, 1));
   }
 
   void weighing_keepsTheSum() {
     const Room room;
-    const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view());
+    const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view(), {}, Progress());
     std::vector<float> p(static_cast<std::size_t>(kWidth) * 16);
     for (int x = 0; x < kWidth; ++x) p[static_cast<std::size_t>(x) * 16] = 1;
 
@@ -115,7 +110,8 @@ class LabelSurfacesTest : public QObject {
   void untrustedDisparity_saysNothing() {
     const Room room;
     const Image<float> trust(kHeight, kWidth);
-    const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view(), trust.view());
+    const LabelSurfaces surfaces(room.strokes.view(), 2, room.disparity.view(), trust.view(),
+                                 Progress());
     std::vector<float> p(static_cast<std::size_t>(kWidth) * 16);
     for (int x = 0; x < kWidth; ++x) p[static_cast<std::size_t>(x) * 16] = 1;
 

@@ -158,7 +158,7 @@ void StrokeDistanceTest::surface_goesOnBehindAFence() {
     }
   }
   const Image<float> guide(kHeight, kLong);
-  const LabelSurfaces surfaces(strokes.view(), 2, disparity.view());
+  const LabelSurfaces surfaces(strokes.view(), 2, disparity.view(), {}, Progress());
 
   const StrokeDistances along(strokes, 2, {{guide.view()}, disparity.view()}, Progress());
   const StrokeDistances behind(strokes, 2, {{guide.view()}, disparity.view(), &surfaces},

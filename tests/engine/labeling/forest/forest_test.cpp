@@ -57,7 +57,7 @@ std::vector<float> predicted(const Forest& forest, const ForestSamples& samples,
   std::vector<float> row(static_cast<std::size_t>(width) * forest.pitch());
   std::vector<float> all;
   for (int y = 0; y < image.height(); ++y) {
-    forest.predict_row(image.view(), y, row.data(), isa);
+    forest.predict_rows(image.view(), {y, 1}, row.data(), isa);
     for (int x = 0; x < width; ++x) {
       const float* pixel = row.data() + static_cast<std::ptrdiff_t>(x) * forest.pitch();
       all.insert(all.end(), pixel, pixel + kLabels);
@@ -75,10 +75,12 @@ class ForestTest : public QObject {
   void separableClouds_areToldApart();
   void probabilities_sumToOne();
   void result_dependsOnTheSeed_andNotOnThreads();
+  void grownInSteps_isTheSame();
   void occasionalFeature_isUsedByHalfOfTheTrees();
   void manySamplesOfALabel_weighNoMore();
   void flattenedTrees_voteAsOpenCv();
   void instructionSets_agree();
+  void rowsPutTogether_voteAsAlone();
   void samplesOfOneLabel_areRefused();
 };
 
@@ -119,6 +121,19 @@ void ForestTest::result_dependsOnTheSeed_andNotOnThreads() {
   QVERIFY(one != reseeded);
 }
 
+void ForestTest::grownInSteps_isTheSame() {
+  const ForestSamples samples = clouds(300, 1);
+  const ForestSamples unseen = clouds(300, 2);
+
+  Forest forest = Forest::train(samples, {.trees = 20}, Progress());
+  QCOMPARE(forest.tree_count(), 20);
+  forest.grow(samples, {}, Progress());
+
+  const Forest at_once = Forest::train(samples, {}, Progress());
+  QCOMPARE(forest.tree_count(), at_once.tree_count());
+  QVERIFY(predicted(forest, unseen, 100) == predicted(at_once, unseen, 100));
+}
+
 void ForestTest::occasionalFeature_isUsedByHalfOfTheTrees() {
   // What tells label 0 from the others is its first feature.
   ForestSamples samples = clouds(300, 1);
@@ -144,7 +159,7 @@ void ForestTest::manySamplesOfALabel_weighNoMore() {
   const Forest forest = Forest::train(samples, {}, Progress());
   const Volume<float> image = as_image(samples, 10);
   std::vector<float> row(static_cast<std::size_t>(10) * forest.pitch());
-  forest.predict_row(image.view(), 0, row.data());
+  forest.predict_rows(image.view(), {0, 1}, row.data());
 
   QVERIFY(std::abs(row[0] - 0.5F) < 0.01F);
 }
@@ -191,6 +206,24 @@ void ForestTest::instructionSets_agree() {
   const auto best = predicted(forest, unseen, 100);
 
   QVERIFY(plain == best);  // Votes are added in the same order.
+}
+
+void ForestTest::rowsPutTogether_voteAsAlone() {
+  const Forest forest = Forest::train(clouds(300, 1), {}, Progress());
+  constexpr int kWidth = 37;  // No multiple of a block's columns.
+  const ForestSamples unseen = clouds(kWidth * kForestRows, 2);
+  const Volume<float> image = as_image(unseen, kWidth);
+  const std::size_t row = static_cast<std::size_t>(kWidth) * forest.pitch();
+  std::vector<float> alone(row * kForestRows);
+  for (int y = 0; y < kForestRows; ++y) {
+    forest.predict_rows(image.view(), {y, 1}, alone.data() + y * row);
+  }
+
+  for (int count = 2; count <= kForestRows; ++count) {
+    std::vector<float> together(row * count);
+    forest.predict_rows(image.view(), {kForestRows - count, count}, together.data());
+    QVERIFY(std::equal(together.begin(), together.end(), alone.end() - row * count));
+  }
 }
 
 void ForestTest::samplesOfOneLabel_areRefused() {

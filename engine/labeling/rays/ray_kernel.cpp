@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Compiled once for each instruction set: see engine/core/parallel/isa.h for what may stand here.
+#include "engine/labeling/rays/ray_kernel.h"
+
+#include "engine/core/parallel/simd.h"
+
+namespace episcope::EPISCOPE_KERNEL_NAMESPACE {
+namespace {
+
+inline IntVec splat_int(int value) {
+  return value - IntVec{};
+}
+
+inline IntVec load_int(const std::int32_t* from) {
+  return reinterpret_cast<IntVec>(load(reinterpret_cast<const float*>(from)));
+}
+
+inline void store_int(std::int32_t* to, IntVec value) {
+  store(reinterpret_cast<float*>(to), reinterpret_cast<Vec>(value));
+}
+
+// At the end of a row that is no multiple of the lanes they overlap those before.
+inline int begin_of(int x, int count) {
+  return x + kLanes <= count ? x : count - kLanes;
+}
+
+inline IntVec are_valid(const std::uint8_t* valid, IntVec index) {
+  IntVec found;
+  for (int i = 0; i < kLanes; ++i) found[i] = valid[index[i]] != 0 ? -1 : 0;
+  return found;
+}
+
+void find_targets(const RayRow& rays, std::int32_t* targets) {
+  const Vec end_x = splat(static_cast<float>(rays.width));
+  const Vec end_y = splat(static_cast<float>(rays.height));
+  IntVec lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = i;
+  for (int next = 0; next < rays.count; next += kLanes) {
+    const int x = begin_of(next, rays.count);
+    const Vec d = load(rays.disparity + x);
+    const Vec at_x = convert<float>(lanes + x) - d * rays.step_x + 0.5F;
+    const Vec at_y = rays.row - d * rays.step_y + 0.5F;
+    // Of what is too far off to be an int, or no number, the comparisons do not hold.
+    IntVec arrives = (at_x >= 0.0F) & (at_x < end_x) & (at_y >= 0.0F) & (at_y < end_y);
+    const IntVec to_x = convert<int>(choose(arrives, at_x, splat(0)));
+    const IntVec to_y = convert<int>(choose(arrives, at_y, splat(0)));
+    const IntVec target = to_y * rays.width + to_x;
+    // Values that are not numbers are not within any tolerance.
+    arrives &= absolute(gathered(rays.there, target) - d) <= rays.tolerance;
+    if (rays.valid != nullptr) arrives &= are_valid(rays.valid, lanes + x);
+    if (rays.valid_there != nullptr) arrives &= are_valid(rays.valid_there, target);
+    store_int(targets + x, arrives ? target : splat_int(-1));
+  }
+}
+
+inline long offset_of(const RayCosts& rays, std::int32_t target) {
+  return static_cast<long>(target / rays.width) * rays.labels * rays.width + target % rays.width;
+}
+
+void add_costs_of_ray(const RayCosts& rays, int x, float* costs) {
+  const std::uint8_t* code = rays.codes + offset_of(rays, rays.targets[x]);
+  float* cost = costs + x;
+  for (int l = 0; l < rays.labels; ++l, code += rays.width, cost += rays.width) {
+    *cost += rays.trusts[x] * rays.table[*code];
+  }
+}
+
+// Neighbours that arrive side by side, as nearly all do. What does not count may be anything that
+// can be read.
+inline bool are_side_by_side(const RayCosts& rays, int x, int first, long offset) {
+  const IntVec counts = load(rays.trusts + x) > 0.0F;
+  IntVec lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = i - first;
+  const IntVec others = load_int(rays.targets + x) != lanes + rays.targets[x + first];
+  const long begin = offset - first;
+  const long last = begin + static_cast<long>(rays.labels - 1) * rays.width + kLanes;
+  return !any(counts & others) && begin >= 0 && last <= rays.size;
+}
+
+typedef std::uint8_t Codes __attribute__((vector_size(kLanes), aligned(1), may_alias));
+
+inline bool is_zero(Codes codes) {
+  unsigned long long words[2] = {};
+  __builtin_memcpy(words, &codes, sizeof codes);
+  return (words[0] | words[1]) == 0;
+}
+
+void add_costs_side_by_side(const RayCosts& rays, int x, long offset, float* costs) {
+  const std::uint8_t* code = rays.codes + offset;
+  float* cost = costs + x;
+  const Vec trust = load(rays.trusts + x);
+  for (int l = 0; l < rays.labels; ++l, code += rays.width, cost += rays.width) {
+    const Codes codes = *reinterpret_cast<const Codes*>(code);
+    // Most labels are out of the question for all of them.
+    const Vec of_code = is_zero(codes)
+                            ? splat(rays.table[0])
+                            : gathered(rays.table, __builtin_convertvector(codes, IntVec));
+    store(cost, load(cost) + trust * of_code);
+  }
+}
+
+void add_costs(const RayCosts& rays, float* costs) {
+  const int whole = rays.width / kLanes * kLanes;
+  for (int x = 0; x < whole; x += kLanes) {
+    unsigned counting = lanes_of(load(rays.trusts + x) > 0.0F);
+    if (counting == 0) continue;
+    const int first = __builtin_ctz(counting);
+    const long offset = offset_of(rays, rays.targets[x + first]);
+    if (are_side_by_side(rays, x, first, offset)) {
+      add_costs_side_by_side(rays, x, offset - first, costs);
+      continue;
+    }
+    for (; counting != 0; counting &= counting - 1) {
+      add_costs_of_ray(rays, x + __builtin_ctz(counting), costs);
+    }
+  }
+  for (int x = whole; x < rays.width; ++x) {
+    if (rays.trusts[x] > 0) add_costs_of_ray(rays, x, costs);
+  }
+}
+
+}  // namespace
+
+const RayKernel kRayKernel = {find_targets, add_costs};
+
+}  // namespace episcope::EPISCOPE_KERNEL_NAMESPACE
