@@ -31,7 +31,6 @@ class TaskRunner {
       : plan_(plan),
         options_(options),
         load_(load),
-        progress_(progress),
         runs_(planned_runs(options)),
         workload_(progress) {}
 
@@ -84,7 +83,6 @@ class TaskRunner {
   const BenchmarkPlan& plan_;
   const BenchmarkOptions& options_;
   const SceneLoader& load_;
-  const Progress& progress_;
   std::vector<PlannedRun> runs_;
   Workload workload_;
   std::size_t scene_ = 0;  ///< That is open.

@@ -51,7 +51,8 @@ class Json {
 [[nodiscard]] Json value_json(const ParameterValue& value);
 [[nodiscard]] Json interval_json(const Interval& interval);
 [[nodiscard]] Json view_json(ViewIndex view);
-/// Values by key.
+/// Values by key, for people: what is not set is a word, where files have null
+/// (io::parameters_json).
 [[nodiscard]] Json parameters_json(const ParameterSet& parameters);
 /// The one JSON object of an answer, on standard output.
 void print_json(const Json& json);

@@ -2,32 +2,19 @@
 #include "app/session/project/own_folders.h"
 
 #include "app/session/project/stored_project.h"
-
-#include <algorithm>
+#include "engine/io/durable/leads_into.h"
 
 namespace episcope {
-namespace {
 
 namespace fs = std::filesystem;
 
-bool is_below(const fs::path& file, const fs::path& folder) {
-  return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first ==
-         folder.end();
-}
-
-}  // namespace
-
-OwnFolders::OwnFolders(const fs::path& project) {
-  std::error_code error;
-  folder_ = fs::weakly_canonical(fs::absolute(project).lexically_normal().parent_path(), error);
-  files_ = fs::weakly_canonical(files_of_project(project), error);
-}
+OwnFolders::OwnFolders(const fs::path& project)
+    : folder_(fs::absolute(project).lexically_normal().parent_path()),
+      files_(files_of_project(project)) {}
 
 bool OwnFolders::contain(const fs::path& file) const {
-  std::error_code error;
-  const fs::path followed = fs::weakly_canonical(file.lexically_normal(), error);
-  if (error) return false;
-  return is_below(followed, folder_) || (!files_.empty() && is_below(followed, files_));
+  const fs::path normal = file.lexically_normal();
+  return io::leads_into(normal, folder_) || io::leads_into(normal, files_);
 }
 
 void forget_file_elsewhere(JournalOwner& owner, const OwnFolders& own) {

@@ -18,7 +18,7 @@ class OwnFolders {
   [[nodiscard]] bool contain(const std::filesystem::path& file) const;
 
  private:
-  std::filesystem::path folder_;  ///< Both as they are when links are followed.
+  std::filesystem::path folder_;
   std::filesystem::path files_;
 };
 

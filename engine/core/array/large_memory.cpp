@@ -3,6 +3,7 @@
 
 #include "engine/core/array/mapped_memory.h"
 #include "engine/core/array/memory_budget.h"
+#include "engine/core/array/memory_set_aside.h"
 #include "engine/core/array/round_up.h"
 
 #include <atomic>
@@ -23,7 +24,7 @@ constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kLeastOnDisk = std::size_t{1} << 20;
 constexpr std::size_t kLeastUnasked = std::size_t{256} << 20;
 
-// Of arrays that could have gone to disk.
+// Of arrays that could have gone to disk, and what is set aside.
 std::atomic<std::size_t> in_memory{0};
 
 bool is_counted(std::size_t bytes) {
@@ -76,6 +77,14 @@ void release_large(const LargeMemory& memory) noexcept {
   }
   std::free(memory.data);
   if (memory.data != nullptr && is_counted(memory.bytes)) in_memory -= memory.bytes;
+}
+
+MemorySetAside::MemorySetAside(std::size_t bytes) noexcept : bytes_(bytes) {
+  in_memory += bytes_;
+}
+
+MemorySetAside::~MemorySetAside() {
+  in_memory -= bytes_;
 }
 
 }  // namespace episcope

@@ -51,9 +51,9 @@ struct Pages {
 };
 
 Pages pages_of(const void* memory, std::size_t bytes) {
-  const auto address = reinterpret_cast<std::uintptr_t>(memory);
-  const std::size_t before = address % page_size();
-  return {reinterpret_cast<char*>(address - before), round_up(before + bytes, page_size())};
+  const std::size_t before = reinterpret_cast<std::uintptr_t>(memory) % page_size();
+  return {static_cast<char*>(const_cast<void*>(memory)) - before,
+          round_up(before + bytes, page_size())};
 }
 
 // What a file has lost cannot be read: instead of ending the program, zeros are put in its place.
@@ -77,7 +77,7 @@ void replace_lost_page(int signal, siginfo_t* info, void* context) {
   const auto address = reinterpret_cast<std::uintptr_t>(info->si_addr);
   const auto page = static_cast<std::uintptr_t>(getpagesize());
   if (is_of_mapped_file(address)) {
-    void* const place = reinterpret_cast<void*>(address / page * page);
+    void* const place = static_cast<char*>(info->si_addr) - address % page;
     has_lost = true;
     if (mmap(place, page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_FIXED, -1, 0) !=
         MAP_FAILED) {

@@ -51,7 +51,8 @@ template <class T>
 T stored(float value) {
   if constexpr (std::is_integral_v<T>) {
     constexpr auto largest = static_cast<float>(std::numeric_limits<T>::max());
-    return static_cast<T>(std::clamp(value, 0.0F, largest) + 0.5F);
+    const float above = std::clamp(value, 0.0F, largest) + 0.5F;
+    return static_cast<T>(above);
   } else {
     return value;
   }
@@ -85,7 +86,7 @@ void gather_line(ImageView<const T> in, int y, const ViewOffset& offset, std::ve
 
 template <class T>
 void shear_view(ImageView<const T> in, const ViewOffset& offset, ImageView<T> out) {
-  const int channels = in.channels;
+  const std::ptrdiff_t channels = in.channels;
   std::vector<float> line(static_cast<std::size_t>(in.width + kTaps - 1) * channels);
   const auto& w = Weights(offset.x.fraction).w;
   for (int y = 0; y < in.height; ++y) {

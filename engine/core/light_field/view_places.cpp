@@ -28,6 +28,7 @@ class Coordinate {
     along_u = median(differences({0, 1}));
     along_v = median(differences({1, 0}));
     std::vector<float> bases;
+    bases.reserve(grid_.count());
     for (int i = 0; i < grid_.count(); ++i) {
       bases.push_back(static_cast<float>(values_[i] - slope(grid_.view_at(i))));
     }
@@ -126,6 +127,7 @@ ViewPlaces view_places(const LightFieldInfo& info, GridShape grid) {
     return std::copysign(grid.u > 1 ? x.along_u : y.along_v, along);
   };
   std::vector<bool> is_believed;
+  is_believed.reserve(grid.count());
   for (int i = 0; i < grid.count(); ++i) {
     is_believed.push_back(x.is_near(i, kOutlier * unit(1)) && y.is_near(i, kOutlier * unit(1)));
   }

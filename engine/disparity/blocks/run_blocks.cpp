@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace episcope {
@@ -27,7 +28,9 @@ class Blocks {
         state_(store.progress()),
         seconds_before_(state_.seconds) {}
 
+  // Too little memory is told before anything is made.
   void make(const Progress& progress) {
+    for (const BlockPass& pass : run_.passes) require_memory(pass);
     const auto passes = static_cast<double>(run_.passes.size());
     while (state_.pass < static_cast<int>(run_.passes.size())) {
       make_pass(progress.part(state_.pass / passes, (state_.pass + 1) / passes));
@@ -54,19 +57,27 @@ class Blocks {
     return pass.only.empty() ? run_.maps.grid.count() : static_cast<int>(pass.only.size());
   }
 
+  [[nodiscard]] int most_at_once(const BlockPass& pass) const {
+    const int views = pass.only.empty() ? run_.maps.grid.u : 1;
+    return pass.unit == BlockUnit::Rows ? run_.maps.height : views;
+  }
+  [[nodiscard]] int fewest_at_once(const BlockPass& pass) const {
+    return std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, most_at_once(pass));
+  }
+
+  void require_memory(const BlockPass& pass) const {
+    const double bytes = pass.bytes(fewest_at_once(pass));
+    if (bytes <= memory_) return;
+    constexpr double kMegabyte = 1e6;
+    throw InvalidInput(
+        fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
+                    "MB may be used; allow more",
+                    run_.provenance.method, std::ceil(bytes / kMegabyte), memory_ / kMegabyte));
+  }
+
   // How many rows or views at once.
   [[nodiscard]] int block_size(const BlockPass& pass) const {
-    const int views = pass.only.empty() ? run_.maps.grid.u : 1;
-    const int all = pass.unit == BlockUnit::Rows ? run_.maps.height : views;
-    const int fewest = std::min(pass.unit == BlockUnit::Rows ? kFewestRows : 1, all);
-    if (pass.bytes(fewest) > memory_) {
-      constexpr double kMegabyte = 1e6;
-      throw InvalidInput(
-          fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
-                      "MB may be used; allow more",
-                      run_.provenance.method, pass.bytes(fewest) / kMegabyte, memory_ / kMegabyte));
-    }
-    int few = fewest, many = all + 1;  // that fit, and that do not
+    int few = fewest_at_once(pass), many = most_at_once(pass) + 1;  // that fit, and that do not
     while (many - few > 1) {
       const int middle = few + (many - few) / 2;
       (pass.bytes(middle) <= memory_ ? few : many) = middle;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/even_views.h"
 
+#include "engine/core/array/large_memory.h"
 #include "engine/core/array/quantile.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/disparity/common/surfaces_in_views.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <span>
 
 namespace episcope {
 namespace {
@@ -67,7 +69,7 @@ class Radius {
 
 // What a point says of one view and channel: log of the ratio, and r² here and there.
 struct Ratio {
-  float log = 0, here = 0, there = 0;
+  float log, here, there;
 };
 
 float without_fall_off(const Ratio& ratio, float k) {
@@ -83,6 +85,32 @@ bool counts(float sample) {
   return sample > kDarkest && sample < kBrightest;
 }
 
+// What is known of every view and channel, of each at most so much: beyond the memory budget on
+// disk.
+template <class T>
+class OfChannels {
+ public:
+  OfChannels(std::size_t channels, std::size_t most)
+      : most_(most), values_(make_large<T>(channels * most)), sizes_(channels) {}
+
+  [[nodiscard]] std::size_t channels() const { return sizes_.size(); }
+  [[nodiscard]] std::size_t most() const { return most_; }
+  [[nodiscard]] std::span<const T> operator[](std::size_t channel) const {
+    return {values_.get() + channel * most_, sizes_[channel]};
+  }
+  /// Room for all that may be known of a channel, of which the first `size` then count.
+  [[nodiscard]] T* room(std::size_t channel) { return values_.get() + channel * most_; }
+  void set_size(std::size_t channel, std::size_t size) { sizes_[channel] = size; }
+
+ private:
+  std::size_t most_;
+  LargeArray<T> values_;
+  std::vector<std::size_t> sizes_;
+};
+
+using Ratios = OfChannels<Ratio>;
+using Logs = OfChannels<float>;  // Of the ratios, without a fall-off.
+
 class Points {
  public:
   Points(const LightField& lf, ViewIndex reference, ImageView<const float> disparity)
@@ -92,9 +120,19 @@ class Points {
         here_(lf.view_as_float(reference)),
         stride_(stride_for(lf)) {}
 
-  // By channel.
-  [[nodiscard]] std::array<std::vector<Ratio>, 3> ratios(ViewIndex view) const {
-    std::array<std::vector<Ratio>, 3> all;
+  // The most that there are.
+  [[nodiscard]] std::size_t count() const {
+    const auto along = [this](int length) {
+      return static_cast<std::size_t>(length / stride_ + 1);
+    };
+    return along(lf_.height()) * along(lf_.width());
+  }
+
+  // Those of a view, from the channel `first` on.
+  void add_ratios(ViewIndex view, std::size_t first, Ratios& ratios) const {
+    std::array<Ratio*, 3> room{};
+    for (int c = 0; c < lf_.channels(); ++c) room[c] = ratios.room(first + c);
+    std::array<std::size_t, 3> sizes{};
     const Image<float> there = lf_.view_as_float(view);
     const Radius radius(lf_.height(), lf_.width());
     for (int y = 1; y < lf_.height(); y += stride_) {
@@ -116,11 +154,11 @@ class Points {
               (1 - ty) * ((1 - tx) * there.at(row, column, c) + tx * there.at(row, column + 1, c)) +
               ty *
                   ((1 - tx) * there.at(row + 1, column, c) + tx * there.at(row + 1, column + 1, c));
-          if (counts(a) && counts(b)) all[c].push_back({std::log(b / a), here, far});
+          if (counts(a) && counts(b)) room[c][sizes[c]++] = {std::log(b / a), here, far};
         }
       }
     }
-    return all;
+    for (int c = 0; c < lf_.channels(); ++c) ratios.set_size(first + c, sizes[c]);
   }
 
  private:
@@ -138,32 +176,27 @@ class Points {
   int stride_;
 };
 
-using Ratios = std::vector<std::vector<Ratio>>;  // By view and channel.
-using Logs = std::vector<std::vector<float>>;    // Of the ratios, without a fall-off.
-
-Logs without_fall_off(const Ratios& ratios, double fall_off, const Progress& progress) {
-  Logs logs(ratios.size());
+void remove_fall_off(const Ratios& ratios, double fall_off, const Progress& progress, Logs& logs) {
   const auto k = static_cast<float>(fall_off);
-  parallel_for(static_cast<int>(ratios.size()), progress, [&](int i) {
-    logs[i].resize(ratios[i].size());
-    std::ranges::transform(ratios[i], logs[i].begin(),
+  parallel_for(static_cast<int>(ratios.channels()), progress, [&](int i) {
+    std::ranges::transform(ratios[i], logs.room(i),
                            [&](const Ratio& ratio) { return without_fall_off(ratio, k); });
+    logs.set_size(i, ratios[i].size());
   });
-  return logs;
 }
 
 std::vector<double> medians(const Logs& logs, const Progress& progress) {
-  std::vector<double> middle(logs.size());
-  parallel_for(static_cast<int>(logs.size()), progress, [&](int i) {
+  std::vector<double> middle(logs.channels());
+  parallel_for(static_cast<int>(logs.channels()), progress, [&](int i) {
     if (logs[i].size() < 50) return;
-    std::vector<float> values = logs[i];
+    std::vector<float> values(logs[i].begin(), logs[i].end());
     middle[i] = quantile(values, 0.5);
   });
   return middle;
 }
 
 // How far ratios that fit may be off: noise sets it.
-float tolerance(const std::vector<float>& logs, double log) {
+float tolerance(std::span<const float> logs, double log) {
   std::vector<float> off(logs.size());
   std::ranges::transform(logs, off.begin(),
                          [&](float each) { return std::abs(each - static_cast<float>(log)); });
@@ -175,8 +208,7 @@ struct Step {
   double product = 0, square = 1e-9;
 };
 
-Step step_of(const std::vector<Ratio>& ratios, const std::vector<float>& logs, double log,
-             double k) {
+Step step_of(std::span<const Ratio> ratios, std::span<const float> logs, double log, double k) {
   Step step;
   if (ratios.empty()) return step;
   const double most = tolerance(logs, log);
@@ -196,8 +228,8 @@ Step step_of(const std::vector<Ratio>& ratios, const std::vector<float>& logs, d
 // being occluded or wrong.
 double better_fall_off(const Ratios& ratios, const Logs& logs, double k, const Progress& progress) {
   const std::vector<double> middle = medians(logs, progress);
-  std::vector<Step> steps(ratios.size());
-  parallel_for(static_cast<int>(ratios.size()), progress,
+  std::vector<Step> steps(ratios.channels());
+  parallel_for(static_cast<int>(ratios.channels()), progress,
                [&](int i) { steps[i] = step_of(ratios[i], logs[i], middle[i], k); });
   Step sum;
   for (const Step& step : steps) {
@@ -254,19 +286,19 @@ Brightness brightness_of_points(const LightField& lf, ViewIndex reference,
   const GridShape grid = lf.grid();
   const int channels = lf.channels();
   const Points points(lf, reference, disparity);
-  Ratios ratios(static_cast<std::size_t>(grid.count()) * channels);
+  Ratios ratios(static_cast<std::size_t>(grid.count()) * channels, points.count());
   parallel_for(grid.count(), progress.part(0, 0.6), [&](int i) {
     if (grid.view_at(i) == reference) return;
-    std::array<std::vector<Ratio>, 3> all = points.ratios(grid.view_at(i));
+    points.add_ratios(grid.view_at(i), static_cast<std::size_t>(i) * channels, ratios);
     lf.forget_samples();
-    for (int c = 0; c < channels; ++c) ratios[i * channels + c] = std::move(all[c]);
   });
   Brightness brightness;
-  Logs corrected = without_fall_off(ratios, 0, progress);
+  Logs corrected(ratios.channels(), ratios.most());
+  remove_fall_off(ratios, 0, progress, corrected);
   for (int i = 0; i < kRounds; ++i) {
     const double before = brightness.fall_off;
     brightness.fall_off = better_fall_off(ratios, corrected, before, progress);
-    corrected = without_fall_off(ratios, brightness.fall_off, progress);
+    remove_fall_off(ratios, brightness.fall_off, progress, corrected);
     if (std::abs(brightness.fall_off - before) < kSmallStep) break;
   }
   const std::vector<double> logs = medians(corrected, progress);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/plane/plane_blocks.h"
 
+#include "engine/core/array/memory_set_aside.h"
 #include "engine/disparity/plane/carried_sides.h"
 #include "engine/disparity/plane/carry.h"
 #include "engine/disparity/plane/view_planes.h"
@@ -46,6 +47,7 @@ class PlaneBlocks {
 
   [[nodiscard]] FinishedBlock estimate(ViewIndex view, const ReadBlock& read,
                                        const std::vector<double>& facts, const Progress& progress) {
+    const MemorySetAside aside(static_cast<std::size_t>(bytes_of_view()));
     FinishedBlock made;
     if (view == from_) {
       known_.push_back(estimate_view(data_, parameters_, {}, progress));

@@ -156,8 +156,7 @@ bool is_hdf5_name(const fs::path& path) {
   return suffix == ".h5" || suffix == ".hdf5";
 }
 
-bool holds_archive(const fs::path& path) {
-  const Hdf5Input file(path);
+bool holds_archive(const Hdf5Input& file) {
   return file.has(kArchiveLightField) || !archive_group(file).empty();
 }
 
@@ -173,8 +172,9 @@ fs::path file_in(const fs::path& folder) {
     }
   }
   std::sort(files.begin(), files.end());
-  const auto found = std::find_if(files.begin(), files.end(),
-                                  [](const fs::path& path) { return holds_archive(path); });
+  const auto found = std::find_if(files.begin(), files.end(), [](const fs::path& path) {
+    return holds_archive(Hdf5Input(path));
+  });
   return found == files.end() ? fs::path() : *found;
 }
 
@@ -184,8 +184,9 @@ fs::path find_archive(const fs::path& path, const OpenOptions&) {
     return fs::is_directory(path) || is_there(folder / "lf.h5") ? file_in(folder) : fs::path();
   }
   if (!has_hdf5_signature(path) && !is_hdf5_name(path)) return {};
-  if (holds_archive(path)) return path;
-  if (Hdf5Input(path).has("estimate")) {
+  const Hdf5Input file(path);
+  if (holds_archive(file)) return path;
+  if (file.has("estimate")) {
     throw IoError(path,
                   "this file holds a disparity result, not a light field; open the light field "
                   "that it belongs to");

@@ -2,6 +2,7 @@
 #include "engine/io/blender/render_manifest.h"
 
 #include "engine/core/error.h"
+#include "engine/io/durable/leads_into.h"
 #include "engine/io/json/bounded_json.h"
 
 #include <fmt/format.h>
@@ -35,10 +36,7 @@ void replace(std::string& pattern, const std::string& field, int number) {
 /// Whether a path from the folder stays in it, also where its folders are links.
 bool is_inside(const fs::path& folder, const fs::path& path) {
   if (path.is_absolute() || path.string().find("..") != std::string::npos) return false;
-  std::error_code error;
-  const fs::path root = fs::weakly_canonical(folder, error);
-  const fs::path place = fs::weakly_canonical(folder / path.parent_path(), error);
-  return !error && std::ranges::mismatch(root, place).in1 == root.end();
+  return leads_into(folder / path.parent_path(), folder);
 }
 
 void require_fields(const fs::path& file, const std::map<std::string, std::string>& patterns) {

@@ -9,8 +9,8 @@
 
 namespace episcope::io {
 
-/// Object of parameter values by key, in their order, as in result files and `--json` answers:
-/// booleans, whole and real numbers, strings, intervals and views `[a, b]`, null for "auto".
+/// Object of parameter values by key, in their order, as in result files and projects: booleans,
+/// whole and real numbers, strings, intervals and views `[a, b]`, null for "auto".
 [[nodiscard]] nlohmann::ordered_json parameters_json(const ParameterSet& parameters);
 /// Its text on one line; bytes that are not UTF-8 become the replacement character.
 [[nodiscard]] std::string parameters_to_json(const ParameterSet& parameters);

@@ -58,7 +58,7 @@ void find_places(const LayeredSweep& from, ImageView<const std::int32_t> places,
     const std::int32_t named = places.at(y, x);
     const std::int32_t at = named < 0 ? y * width + x : named;
     found.phi[x] = at / width * from.row_size() + at % width;
-    found.duals[x] = at / width * kPairKinds * from.row_size() + at % width;
+    found.duals[x] = long{at / width} * kPairKinds * from.row_size() + at % width;
   }
 }
 

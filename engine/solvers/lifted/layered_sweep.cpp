@@ -34,10 +34,10 @@ LayeredSweep::Band LayeredSweep::band(int i) const {
 }
 
 void LayeredSweep::clear(const Band& band) {
-  const int margin = band.end == height_ ? kLayerRowUnit : 0;
-  const long size = (band.end - band.begin) * row_size();
+  const long margin = band.end == height_ ? kLayerRowUnit : 0;
+  const long size = long{band.end - band.begin} * row_size();
   std::fill_n(phi(band.begin), size + margin, 0.0F);
-  std::fill_n(duals_.get() + kLayerRowUnit + band.begin * kPairKinds * row_size(),
+  std::fill_n(duals_.get() + kLayerRowUnit + long{band.begin} * kPairKinds * row_size(),
               kPairKinds * size + margin, 0.0F);
 }
 

@@ -4,7 +4,7 @@
 namespace episcope {
 
 /// Floats that a row is padded to, the widest vector.
-inline constexpr int kLayerRowUnit = 16;
+inline constexpr long kLayerRowUnit = 16;
 /// Pairs of neighbours of a pixel's cell: right, down, down-right, and its right with its lower
 /// neighbour.
 inline constexpr int kPairKinds = 4;

@@ -13,7 +13,7 @@ const float kDiagonal = 1 - std::sqrt(0.5F);
 
 PairLimits::PairLimits(int height, int width, double weight, ImageView<const float> g)
     : pitch_(layer_pitch(width)),
-      memory_(static_cast<std::size_t>(height * kPairKinds * pitch_) + 2 * kLayerRowUnit) {
+      memory_(static_cast<std::size_t>(height) * kPairKinds * pitch_ + 2 * kLayerRowUnit) {
   for (int y = 0; y < height; ++y) {
     const bool down = y + 1 < height;
     // The share of diagonals missing above the first row and below the last one.

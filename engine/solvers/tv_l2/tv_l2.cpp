@@ -229,7 +229,7 @@ void TvL2Solver::State::copy_to(ImageView<float> u) const {
   const TvL2Level& level = grids[0].level;
   for (int y = 0; y < level.height; ++y) {
     for (int odd = 0; odd < 2; ++odd) {
-      const float* const from = level.u + y * level.pitch + odd * level.odd;
+      const float* const from = level.u + level.at(y, odd);
       float* const to = u.row(y) + odd;
       for (int i = 0; i < (level.width + 1 - odd) / 2; ++i) to[2 * i] = from[i] + offset;
     }

@@ -31,8 +31,8 @@ void open_edges(const TvL2Level& level) {
 void blend_rows(const TvL2Level& level, const float* here, const float* beside, float share,
                 float* out) {
   const auto blend = [=](long i) { return (1 - share) * here[i] + share * beside[i]; };
-  const int odds = level.width / 2;
-  for (int i = 0; i < odds; ++i) {
+  const long odds = level.width / 2;
+  for (long i = 0; i < odds; ++i) {
     out[2 * i] = blend(i);
     out[2 * i + 1] = blend(level.odd + i);
   }

@@ -23,6 +23,7 @@ inline ColourRow colour_row(const TvL2Level& level, int y, int colour) {
 // Rows ahead that memory is asked for, in every stage what it reads first: so memory works all the
 // time, and not only while one stage waits for it.
 constexpr int kAhead = 2;
+constexpr long kTwoRowsAhead = 2 * kAhead;
 
 inline void prefetch(const float* from) {
   __builtin_prefetch(from, 0, 2);
@@ -94,8 +95,8 @@ void restrict_row(const TvL2Level& fine, const TvL2Level& coarse, int y) {
   float* const b = coarse.b + y * coarse.pitch;
   for (int x = 0; x < end; x += 2 * kLanes) {
     for (int i = 0; i < 2 * kLanes; i += kLanes) {
-      prefetch(fine.c + upper.own + x + i + 2 * kAhead * fine.pitch);
-      prefetch(fine.c + lower.own + x + i + 2 * kAhead * fine.pitch);
+      prefetch(fine.c + upper.own + x + i + kTwoRowsAhead * fine.pitch);
+      prefetch(fine.c + lower.own + x + i + kTwoRowsAhead * fine.pitch);
     }
     Vec low = residual_at(fine, upper, x);
     Vec high = residual_at(fine, upper, x + kLanes);

@@ -7,7 +7,7 @@ namespace episcope {
 
 /// Floats before and after each half row that a kernel may touch; a half row is padded to whole
 /// pairs of the widest vector.
-inline constexpr int kTvL2Margin = 16;
+inline constexpr long kTvL2Margin = 16;
 inline constexpr int kTvL2RowUnit = 32;
 
 /// One level of the grid hierarchy of the TV-L2 solver. Rows of a plane lie `pitch` apart and are

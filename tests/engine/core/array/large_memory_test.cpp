@@ -3,6 +3,7 @@
 
 #include "engine/core/array/mapped_memory.h"
 #include "engine/core/array/memory_budget.h"
+#include "engine/core/array/memory_set_aside.h"
 #include "engine/core/error.h"
 #include "tests/test_main.h"
 
@@ -43,6 +44,7 @@ class LargeMemoryTest : public QObject {
   void withinTheBudget_isOnTheHeap();
   void beyondTheBudget_isInAFileThatIsNotSeen();
   void releasedMemory_countsNoMore();
+  void memorySetAside_isNotTaken();
   void scratchWithoutAFolder_isRefusedWithASentence();
   void zeros_areZero();
   void partOfAFile_isReadFromAnyOffset();
@@ -86,6 +88,17 @@ void LargeMemoryTest::releasedMemory_countsNoMore() {
   const Budget budget(4 * kMebibyte);
   {
     const LargeArray<char> first = make_large<char>(3 * kMebibyte);
+    QVERIFY(make_large<char>(3 * kMebibyte).get_deleter().kind == LargeKind::Scratch);
+  }
+
+  QVERIFY(make_large<char>(3 * kMebibyte).get_deleter().kind == LargeKind::Heap);
+}
+
+void LargeMemoryTest::memorySetAside_isNotTaken() {
+  const Budget budget(4 * kMebibyte);
+  {
+    const MemorySetAside aside(2 * kMebibyte);
+    QVERIFY(make_large<char>(2 * kMebibyte).get_deleter().kind == LargeKind::Heap);
     QVERIFY(make_large<char>(3 * kMebibyte).get_deleter().kind == LargeKind::Scratch);
   }
 

@@ -168,6 +168,7 @@ class RunBlocksTest : public QObject {
   void unevenViews_equalTheRunAtOnce();
   void lessThanTheSmallestBlock_isRefused_data() { add_methods(); }
   void lessThanTheSmallestBlock_isRefused();
+  void lessThanALaterPassNeeds_isRefusedAtOnce();
 };
 
 void RunBlocksTest::localMethodsAndEpiS_runInBlocks() {
@@ -258,6 +259,24 @@ void RunBlocksTest::lessThanTheSmallestBlock_isRefused() {
 
   QVERIFY_THROWS_EXCEPTION(InvalidInput, static_cast<void>(run_blocks(*scene.light_field, run,
                                                                       store, 1000, Progress(2))));
+}
+
+void RunBlocksTest::lessThanALaterPassNeeds_isRefusedAtOnce() {
+  const Scene scene = scene_of({3, 3});
+  BlockwiseRun run = find_estimator("epi_s").in_blocks(*scene.light_field, {}, {}, Progress(2));
+  const std::size_t enough = scarce(run, 83);
+  run.passes.back().bytes = [enough](int) { return 2.0 * static_cast<double>(enough); };
+  MemoryStore store(run.maps);
+
+  std::string sentence;
+  try {
+    static_cast<void>(run_blocks(*scene.light_field, run, store, enough, Progress(2)));
+  } catch (const InvalidInput& error) {
+    sentence = error.what();
+  }
+
+  QVERIFY2(sentence.starts_with("epi_s of this light field needs"), sentence.c_str());
+  QCOMPARE(store.blocks, 0);
 }
 
 }  // namespace episcope::in_run_blocks_test

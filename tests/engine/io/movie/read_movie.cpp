@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "tests/engine/io/movie/read_movie.h"
 
+#include <algorithm>
 #include <memory>
 
 extern "C" {
