@@ -5,24 +5,18 @@
 #include "engine/core/parallel/parallel.h"
 #include "engine/core/parallel/stopwatch.h"
 #include "engine/cuda/device/cuda_device.h"
-#include "engine/labeling/features/label_surfaces.h"
 #include "engine/labeling/features/pixel_features.h"
-#include "engine/labeling/features/stroke_distance.h"
 #include "engine/labeling/features/training_samples.h"
 #include "engine/labeling/forest/device_forest.h"
 #include "engine/labeling/forest/pixel_votes.h"
-#include "engine/labeling/predict_view.h"
-#include "engine/labeling/rays/disparity_trust.h"
+#include "engine/labeling/predict_from_strokes.h"
 #include "engine/labeling/rays/edge_probability.h"
-#include "engine/labeling/surface_support.h"
-#include "engine/labeling/thin_gaps.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <optional>
 #include <utility>
 
 namespace episcope {
@@ -58,18 +52,6 @@ void require_views(ViewRectangle views, GridShape grid) {
                   view_text(views.first), view_text(last), grid.v, grid.u));
 }
 
-/// Edges of colour that a path along a surface should not cross.
-std::vector<Image<float>> color_guides(VolumeView<const float> features) {
-  std::vector<Image<float>> planes;
-  for (int c = 0; c < 3; ++c) {
-    Image<float>& plane = planes.emplace_back(features.height, features.width);
-    for (int y = 0; y < features.height; ++y) {
-      std::copy_n(features.row(y, kWiderSurfaceLayer + c), features.width, plane.row(y));
-    }
-  }
-  return planes;
-}
-
 void require_disparity(Regularizer regularizer, bool has_disparity) {
   if (has_disparity || !info_of(regularizer).joins_views) return;
   throw InvalidInput(
@@ -80,10 +62,6 @@ void require_disparity(Regularizer regularizer, bool has_disparity) {
 bool covers(const ViewStack<float>& maps, ViewRectangle views) {
   const int last = views.grid.count() - 1;
   return maps.contains(views.first) && maps.contains(views.grid.view_at(last, views.first));
-}
-
-bool is_painted(const Scribbles& scribbles, ViewIndex view) {
-  return std::ranges::find(scribbles.views, view, &ViewScribbles::view) != scribbles.views.end();
 }
 
 /// A forest and what it was trained on.
@@ -205,33 +183,11 @@ struct Labeler::State {
   }
 
   [[nodiscard]] ProbabilityMap predict_one(const Learned& learned, ViewIndex view,
-                                           VolumeView<const float> features,
-                                           const PixelVotes& votes,
+                                           const PixelFeatures& features, const PixelVotes& votes,
                                            const Progress& progress) const {
-    const int labels = learned.forest.label_count();
-    const Image<std::int32_t> strokes = carried_strokes(
-        learned.scribbles, learned.ids, disparity.get(), view, features.height, features.width);
-    const std::vector<Image<float>> colors = color_guides(features);
-    StrokeGuides guides{{colors.begin(), colors.end()}};
-    Image<float> filled, trust;
-    std::optional<LabelSurfaces> surfaces;
-    if (set.with_disparity) {
-      filled = filled_disparity(disparity->view(view));
-      guides.disparity = filled.view();
-      if (confidence && confidence->contains(view)) trust = disparity_trust(confidence->view(view));
-      guides.trust = trust.view();
-      LabelSurfaces& own =
-          surfaces.emplace(strokes.view(), labels, filled.view(), guides.trust, progress);
-      if (!trust.empty()) {
-        own.set_gaps(labels_in_thin_gaps(votes, own, progress).view());
-        own.set_support(surface_support(votes, own, trust, progress), progress);
-      }
-      guides.surfaces = &own;
-    }
-    const StrokeDistances distances(strokes, labels, guides, progress);
-    StrokeEvidence evidence{distances, learned.parameters.nearness, guides.surfaces};
-    if (is_painted(learned.scribbles, view)) evidence.painted = strokes.view();
-    return predict_view(votes, evidence, progress);
+    const StrokeKnowledge known{learned.scribbles, learned.ids,      learned.parameters.nearness,
+                                disparity.get(),   confidence.get(), set.with_disparity};
+    return predict_from_strokes(known, view, features.view(), votes, progress);
   }
 
   /// Probabilities of the views of `into` that have none yet.
@@ -241,25 +197,44 @@ struct Labeler::State {
       if (into.views[static_cast<std::size_t>(i)].empty()) missing.push_back(into.view_at(i));
     }
     if (missing.size() <= kKeptViews) {
-      for (const ViewIndex view : missing) {
-        const Features of_view = keep_features(view, progress.part(0, 0));
-        into.view(view) = predict_one(learned, view, of_view->view(),
-                                      {learned.forest, of_view->view(), progress.part(0, 0)},
-                                      progress.part(0, 0));
-      }
-      return;
+      predict_few(learned, missing, into, progress);
+    } else {
+      predict_many(learned, missing, into, progress);
     }
+  }
+
+  void predict_few(const Learned& learned, const std::vector<ViewIndex>& views,
+                   LabelProbabilities& into, const Progress& progress) {
+    std::vector<Features> features;
+    for (const ViewIndex view : views) features.push_back(keep_features(view, progress.part(0, 0)));
+    const auto predict_with = [&](int i, const Progress& part) {
+      const PixelFeatures& of_view = *features[static_cast<std::size_t>(i)];
+      const ViewIndex view = views[static_cast<std::size_t>(i)];
+      into.view(view) =
+          predict_one(learned, view, of_view, {learned.forest, of_view.view(), part}, part);
+    };
+    const int count = static_cast<int>(views.size());
+    // A part of the work on a view is done by one thread.
+    if (progress.threads() <= count) {
+      const Progress alone = progress.part(0, 0).on_one_thread();
+      parallel_for(count, progress, [&](int i) { predict_with(i, alone); });
+    } else {
+      for (int i = 0; i < count; ++i) predict_with(i, progress.part(0, 0));
+    }
+  }
+
+  void predict_many(const Learned& learned, const std::vector<ViewIndex>& views,
+                    LabelProbabilities& into, const Progress& progress) {
     const std::shared_ptr<const cuda::DeviceForest> device =
         used == Device::Cuda ? copy_to_device(learned.forest.flat(), progress.part(0, 0)) : nullptr;
-    parallel_for(static_cast<int>(missing.size()), progress, [&](int i) {
-      const ViewIndex view = missing[static_cast<std::size_t>(i)];
-      const Progress alone = progress.part(0, 0).on_one_thread();
+    const Progress alone = progress.part(0, 0).on_one_thread();
+    parallel_for(static_cast<int>(views.size()), progress, [&](int i) {
+      const ViewIndex view = views[static_cast<std::size_t>(i)];
       Features of_view = find_features(view);
       if (!of_view) of_view = compute_features(view, alone);
-      const VolumeView<const float> features = of_view->view();
-      const PixelVotes votes = device ? PixelVotes(learned.forest, features, *device, alone)
-                                      : PixelVotes(learned.forest, features, alone);
-      into.view(view) = predict_one(learned, view, features, votes, alone);
+      const PixelVotes votes = device ? PixelVotes(learned.forest, of_view->view(), *device, alone)
+                                      : PixelVotes(learned.forest, of_view->view(), alone);
+      into.view(view) = predict_one(learned, view, *of_view, votes, alone);
     });
   }
 
