@@ -6,18 +6,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope {
 namespace {
 
-bool is_blank(const Image<std::uint8_t>& view) {
-  return std::all_of(view.begin(), view.end(), [](std::uint8_t label) { return label == 0; });
+using ViewPointer = std::shared_ptr<Image<std::uint8_t>>;
+
+bool is_blank(const ViewPointer& view) {
+  return !view ||
+         std::all_of(view->begin(), view->end(), [](std::uint8_t label) { return label == 0; });
 }
 
-bool same_labels(const Image<std::uint8_t>& a, const Image<std::uint8_t>& b) {
-  if (a.empty()) return is_blank(b);
-  if (b.empty()) return is_blank(a);
-  return std::equal(a.begin(), a.end(), b.begin());
+bool same_labels(const ViewPointer& a, const ViewPointer& b) {
+  if (a == b) return true;
+  if (!a || !b) return is_blank(a) && is_blank(b);
+  return std::equal(a->begin(), a->end(), b->begin());
 }
 
 }  // namespace
@@ -43,20 +47,26 @@ std::size_t ScribbleLayer::place(ViewIndex view) const {
 }
 
 ImageView<const std::uint8_t> ScribbleLayer::view(ViewIndex view) const {
-  const Image<std::uint8_t>& image = views_[place(view)];
-  return image.empty() ? ImageView<const std::uint8_t>{} : image.view();
+  const ViewPointer& image = views_[place(view)];
+  return image ? std::as_const(*image).view() : ImageView<const std::uint8_t>{};
 }
 
 ImageView<std::uint8_t> ScribbleLayer::writable_view(ViewIndex view) {
-  Image<std::uint8_t>& image = views_[place(view)];
-  if (image.empty()) image = Image<std::uint8_t>(height_, width_);
-  return image.view();
+  ViewPointer& image = views_[place(view)];
+  // Held for a moment: giving it back waits for what others read of it before they did.
+  const ViewPointer held = image;
+  if (!held) {
+    image = std::make_shared<Image<std::uint8_t>>(height_, width_);
+  } else if (held.use_count() > 2) {
+    image = std::make_shared<Image<std::uint8_t>>(*held);
+  }
+  return image->view();
 }
 
 int ScribbleLayer::label_at(ViewIndex view, PixelIndex pixel) const {
-  const Image<std::uint8_t>& image = views_[place(view)];
+  const ViewPointer& image = views_[place(view)];
   const bool is_inside = pixel.y >= 0 && pixel.y < height_ && pixel.x >= 0 && pixel.x < width_;
-  return image.empty() || !is_inside ? 0 : image.at(pixel.y, pixel.x);
+  return image && is_inside ? image->at(pixel.y, pixel.x) : 0;
 }
 
 std::vector<ViewIndex> ScribbleLayer::painted_views() const {
@@ -69,7 +79,7 @@ std::vector<ViewIndex> ScribbleLayer::painted_views() const {
 
 std::size_t ScribbleLayer::byte_size() const {
   std::size_t bytes = 0;
-  for (const Image<std::uint8_t>& view : views_) bytes += view.size();
+  for (const ViewPointer& view : views_) bytes += view ? view->size() : 0;
   return bytes;
 }
 

@@ -5,12 +5,14 @@
 #include "engine/core/array/indices.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace episcope {
 
 /// An image of label ids for every view, `[v][u][y][x]`, 0 = none. Memory for a view is allocated
-/// once it is painted.
+/// once it is painted. Copies share the memory of a view until one of them writes to it, so that a
+/// copy costs nothing, and may be read in another thread while this one is painted on.
 class ScribbleLayer {
  public:
   /// Maximum height and width of views, so that coordinates fit 16 bits.
@@ -27,7 +29,7 @@ class ScribbleLayer {
   /// Label ids of a view; empty if it was never painted. Throws InvalidInput outside the grid, as
   /// the next two.
   [[nodiscard]] ImageView<const std::uint8_t> view(ViewIndex view) const;
-  /// For writing; allocates the view.
+  /// For writing, until the layer is copied; allocates the view, or copies it if it is shared.
   [[nodiscard]] ImageView<std::uint8_t> writable_view(ViewIndex view);
   /// The label at a pixel; 0 also outside the view.
   [[nodiscard]] int label_at(ViewIndex view, PixelIndex pixel) const;
@@ -36,7 +38,7 @@ class ScribbleLayer {
   /// Memory used by the views, in bytes.
   [[nodiscard]] std::size_t byte_size() const;
 
-  /// Whether the same pixels have the same labels.
+  /// Whether the same pixels have the same labels. Views that are shared are not read.
   friend bool operator==(const ScribbleLayer& a, const ScribbleLayer& b);
 
  private:
@@ -45,7 +47,7 @@ class ScribbleLayer {
   GridShape grid_;
   int height_ = 0;
   int width_ = 0;
-  std::vector<Image<std::uint8_t>> views_;
+  std::vector<std::shared_ptr<Image<std::uint8_t>>> views_;  // null = never painted
 };
 
 }  // namespace episcope

@@ -4,7 +4,10 @@
 #include "tests/annotation/random_edits.h"
 #include "tests/test_main.h"
 
+#include <algorithm>
+#include <memory>
 #include <set>
+#include <thread>
 
 namespace episcope::in_document_test {
 
@@ -52,6 +55,44 @@ class DocumentTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void copiedLayer_sharesViewsUntilOneIsPainted() {
+    AnnotationDocument document = document_with_labels(1);
+    paint(document, kView, {}, {10, 10}, {20, 20});
+    paint(document, {0, 0}, {}, {10, 10}, {20, 20});
+
+    const ScribbleLayer before = document.scribbles();
+    QCOMPARE(before.view(kView).data, document.scribbles().view(kView).data);
+    paint(document, kView, {}, {30, 10}, {30, 20});
+
+    QCOMPARE(before.label_at(kView, {30, 15}), 0);
+    QCOMPARE(document.scribbles().label_at(kView, {30, 15}), 1);
+    QCOMPARE(before.view({0, 0}).data, document.scribbles().view({0, 0}).data);
+    const std::uint8_t* own = document.scribbles().view(kView).data;
+    paint(document, kView, {}, {35, 10}, {35, 20});
+    QCOMPARE(document.scribbles().view(kView).data, own);  // nobody else has it
+  }
+
+  void copiedLayer_isReadWhileTheOtherIsPainted() {
+    AnnotationDocument document = document_with_labels(2);
+    const auto count_of = [](const ScribbleLayer& layer) {
+      const auto image = layer.view(kView);
+      return std::count(image.data, image.data + image.size(), 1);
+    };
+    for (int round = 0; round < 200; ++round) {
+      paint(document, kView, {}, {10, 10}, {20, 20});
+      const auto expected = count_of(document.scribbles());
+      auto copy = std::make_unique<ScribbleLayer>(document.scribbles());
+      std::ptrdiff_t found = 0;
+      std::jthread reader([&] {
+        found = count_of(*copy);
+        copy.reset();
+      });
+      paint(document, kView, {.label = 2}, {10, 10}, {20, 20});
+      reader.join();
+      QCOMPARE(found, expected);
+    }
+  }
+
   void labels_keepTheirIds() {
     LabelSet labels;
     QCOMPARE(labels.add("sky"), 1);
