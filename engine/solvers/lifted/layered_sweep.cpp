@@ -11,7 +11,7 @@
 namespace episcope {
 namespace {
 
-// More threads than this are better employed on bands of rows.
+// More threads than this, or than iterations, are better employed on bands of rows.
 constexpr int kMostStaggered = 3;
 
 }  // namespace
@@ -81,11 +81,12 @@ float* LayeredSweep::ahead(int y, float* scratch) {
 // Iterations that one thread takes through the image, two rows behind those of the part before.
 struct LayeredSweep::Part {
   int iterations = 0;
+  float* rows = nullptr;                     // Room for two rows of each iteration.
   const std::atomic<int>* before = nullptr;  // Rows that the part before has left behind.
   std::atomic<int>& done;
 
-  void wait_for(int rows, const Progress& progress) const {
-    while (before != nullptr && before->load(std::memory_order_acquire) < rows) {
+  void wait_for(int wanted, const Progress& progress) const {
+    while (before != nullptr && before->load(std::memory_order_acquire) < wanted) {
       progress.check();
       std::this_thread::yield();
     }
@@ -93,19 +94,23 @@ struct LayeredSweep::Part {
 };
 
 void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progress) {
-  if (progress.threads() > kMostStaggered) {
+  if (progress.threads() > std::min(kMostStaggered, count)) {
     for (int i = 0; i < count; ++i) iterate_bands(terms, progress);
     return;
   }
-  const int parts = std::min(progress.threads(), count);
+  const int parts = progress.threads();
   std::vector<std::atomic<int>> rows_left_behind(static_cast<std::size_t>(parts));
+  // All room is taken beforehand: a part that failed would be waited for in vain.
+  std::vector<float> rows(2 * count * row_size() + parts * 2 * kLayerRowUnit);
   // A part waits for the one before only, which has been taken by a thread when its turn comes.
   parallel_for(parts, progress, [&](int i) {
-    const int iterations = count * (i + 1) / parts - count * i / parts;
-    iterate_part(terms,
-                 {iterations, i > 0 ? &rows_left_behind[static_cast<std::size_t>(i - 1)] : nullptr,
-                  rows_left_behind[static_cast<std::size_t>(i)]},
-                 progress);
+    const int first = count * i / parts, end = count * (i + 1) / parts;
+    float* const room = rows.data() + 2 * first * row_size() + i * 2 * kLayerRowUnit;
+    iterate_part(
+        terms,
+        {end - first, room, i > 0 ? &rows_left_behind[static_cast<std::size_t>(i - 1)] : nullptr,
+         rows_left_behind[static_cast<std::size_t>(i)]},
+        progress);
   });
 }
 
@@ -140,7 +145,6 @@ void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
 void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Progress& progress) {
   const auto& [cost, limits, moves] = terms;
   const FlushDenormals flush;
-  std::vector<float> rows(2 * part.iterations * row_size() + 2 * kLayerRowUnit);
   for (int step = 0; step < height_ + 2 * (part.iterations - 1); ++step) {
     progress.check();
     part.wait_for(std::min(step + 2, height_), progress);
@@ -148,7 +152,7 @@ void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Prog
       const int y = step - 2 * i;
       if (y < 0 || y >= height_) continue;
       const auto row = [&](int at) {
-        return rows.data() + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
+        return part.rows + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
       };
       moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
                    row(y));
