@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
+#include <limits>
 
 namespace episcope {
 namespace {
@@ -85,10 +85,17 @@ struct LayeredSweep::Part {
   const std::atomic<int>* before = nullptr;  // Rows that the part before has left behind.
   std::atomic<int>& done;
 
-  void wait_for(int wanted, const Progress& progress) const {
-    while (before != nullptr && before->load(std::memory_order_acquire) < wanted) {
-      progress.check();
-      std::this_thread::yield();
+  // Nobody waits for a part that has ended, however it did.
+  ~Part() { leave(std::numeric_limits<int>::max()); }
+  void leave(int count) const {
+    done.store(count, std::memory_order_release);
+    done.notify_one();
+  }
+  void wait_for(int wanted) const {
+    if (before == nullptr) return;
+    for (int left = before->load(std::memory_order_acquire); left < wanted;
+         left = before->load(std::memory_order_acquire)) {
+      before->wait(left, std::memory_order_acquire);
     }
   }
 };
@@ -100,7 +107,6 @@ void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progre
   }
   const int parts = progress.threads();
   std::vector<std::atomic<int>> rows_left_behind(static_cast<std::size_t>(parts));
-  // All room is taken beforehand: a part that failed would be waited for in vain.
   std::vector<float> rows(2 * count * row_size() + parts * 2 * kLayerRowUnit);
   // A part waits for the one before only, which has been taken by a thread when its turn comes.
   parallel_for(parts, progress, [&](int i) {
@@ -147,7 +153,7 @@ void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Prog
   const FlushDenormals flush;
   for (int step = 0; step < height_ + 2 * (part.iterations - 1); ++step) {
     progress.check();
-    part.wait_for(std::min(step + 2, height_), progress);
+    part.wait_for(std::min(step + 2, height_));
     for (int i = 0; i < part.iterations; ++i) {
       const int y = step - 2 * i;
       if (y < 0 || y >= height_) continue;
@@ -159,7 +165,7 @@ void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Prog
       if (y > 0) moves.dual(shape_, row(y - 1), row(y), duals(y - 1, limits));
       if (y == height_ - 1) moves.dual(shape_, row(y), row(y), duals(y, limits));
     }
-    part.done.store(step - 2 * (part.iterations - 1) + 1, std::memory_order_release);
+    part.leave(step - 2 * (part.iterations - 1) + 1);
   }
 }
 
