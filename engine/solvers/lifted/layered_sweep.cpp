@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <thread>
+#include <limits>
 
 namespace episcope {
 namespace {
 
-// More threads than this are better employed on bands of rows.
+// More threads than this, or than iterations, are better employed on bands of rows.
 constexpr int kMostStaggered = 3;
 
 }  // namespace
@@ -81,31 +81,42 @@ float* LayeredSweep::ahead(int y, float* scratch) {
 // Iterations that one thread takes through the image, two rows behind those of the part before.
 struct LayeredSweep::Part {
   int iterations = 0;
+  float* rows = nullptr;                     // Room for two rows of each iteration.
   const std::atomic<int>* before = nullptr;  // Rows that the part before has left behind.
   std::atomic<int>& done;
 
-  void wait_for(int rows, const Progress& progress) const {
-    while (before != nullptr && before->load(std::memory_order_acquire) < rows) {
-      progress.check();
-      std::this_thread::yield();
+  // Nobody waits for a part that has ended, however it did.
+  ~Part() { leave(std::numeric_limits<int>::max()); }
+  void leave(int count) const {
+    done.store(count, std::memory_order_release);
+    done.notify_one();
+  }
+  void wait_for(int wanted) const {
+    if (before == nullptr) return;
+    for (int left = before->load(std::memory_order_acquire); left < wanted;
+         left = before->load(std::memory_order_acquire)) {
+      before->wait(left, std::memory_order_acquire);
     }
   }
 };
 
 void LayeredSweep::iterate(const Terms& terms, int count, const Progress& progress) {
-  if (progress.threads() > kMostStaggered) {
+  if (progress.threads() > std::min(kMostStaggered, count)) {
     for (int i = 0; i < count; ++i) iterate_bands(terms, progress);
     return;
   }
-  const int parts = std::min(progress.threads(), count);
+  const int parts = progress.threads();
   std::vector<std::atomic<int>> rows_left_behind(static_cast<std::size_t>(parts));
+  std::vector<float> rows(2 * count * row_size() + parts * 2 * kLayerRowUnit);
   // A part waits for the one before only, which has been taken by a thread when its turn comes.
   parallel_for(parts, progress, [&](int i) {
-    const int iterations = count * (i + 1) / parts - count * i / parts;
-    iterate_part(terms,
-                 {iterations, i > 0 ? &rows_left_behind[static_cast<std::size_t>(i - 1)] : nullptr,
-                  rows_left_behind[static_cast<std::size_t>(i)]},
-                 progress);
+    const int first = count * i / parts, end = count * (i + 1) / parts;
+    float* const room = rows.data() + 2 * first * row_size() + i * 2 * kLayerRowUnit;
+    iterate_part(
+        terms,
+        {end - first, room, i > 0 ? &rows_left_behind[static_cast<std::size_t>(i - 1)] : nullptr,
+         rows_left_behind[static_cast<std::size_t>(i)]},
+        progress);
   });
 }
 
@@ -140,22 +151,21 @@ void LayeredSweep::iterate_bands(const Terms& terms, const Progress& progress) {
 void LayeredSweep::iterate_part(const Terms& terms, const Part& part, const Progress& progress) {
   const auto& [cost, limits, moves] = terms;
   const FlushDenormals flush;
-  std::vector<float> rows(2 * part.iterations * row_size() + 2 * kLayerRowUnit);
   for (int step = 0; step < height_ + 2 * (part.iterations - 1); ++step) {
     progress.check();
-    part.wait_for(std::min(step + 2, height_), progress);
+    part.wait_for(std::min(step + 2, height_));
     for (int i = 0; i < part.iterations; ++i) {
       const int y = step - 2 * i;
       if (y < 0 || y >= height_) continue;
       const auto row = [&](int at) {
-        return rows.data() + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
+        return part.rows + kLayerRowUnit + (2 * i + (at & 1)) * row_size();
       };
       moves.primal(shape_, cost.row(y, 0), duals(y, limits), duals_above(y, limits), phi(y),
                    row(y));
       if (y > 0) moves.dual(shape_, row(y - 1), row(y), duals(y - 1, limits));
       if (y == height_ - 1) moves.dual(shape_, row(y), row(y), duals(y, limits));
     }
-    part.done.store(step - 2 * (part.iterations - 1) + 1, std::memory_order_release);
+    part.leave(step - 2 * (part.iterations - 1) + 1);
   }
 }
 
