@@ -1566,6 +1566,10 @@ Ohne Kameraportal erzeugt „Objektiv“ eine Demo zum Ausprobieren.</translatio
         <translation>u ↓  x →</translation>
     </message>
     <message>
+        <source>v ↓  y →</source>
+        <translation>v ↓  y →</translation>
+    </message>
+    <message>
         <source>v →  y ↓</source>
         <translation>v →  y ↓</translation>
     </message>

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace episcope {
 namespace {
@@ -92,34 +93,46 @@ std::optional<int> EpiPane::measuredPixel() const {
   return is_inside ? std::optional(static_cast<int>(place)) : std::nullopt;
 }
 
+void EpiPane::setMayLie(bool may_lie) {
+  if (std::exchange(may_lie_, may_lie) == may_lie) return;
+  updateGeometry();
+  update();
+}
+
+bool EpiPane::lies() const {
+  return orientation_ == Qt::Horizontal || (may_lie_ && width() > height());
+}
+
+CanvasTransform EpiPane::turned(const CanvasTransform& transform) const {
+  const bool is_turned = orientation_ == Qt::Vertical && lies();
+  return is_turned ? CanvasTransform{transform.scale, transform.center.transposed()} : transform;
+}
+
 double EpiPane::rowExtent() const {
   if (epi_.isNull()) return kRowHint;
-  const int across = orientation_ == Qt::Horizontal ? height() : width();
-  return 1.0 * across / epi_.height();
+  return 1.0 * (lies() ? height() : width()) / epi_.height();
 }
 
 QPointF EpiPane::positionOf(double along, double row) const {
   const double across = row * rowExtent();
-  if (orientation_ == Qt::Horizontal) {
-    return {transform_.to_widget({along, 0}, size()).x(), across};
-  }
-  return {across, transform_.to_widget({0, along}, size()).y()};
+  const QPointF at = turned(transform_).to_widget({along, along}, size());
+  return lies() ? QPointF(at.x(), across) : QPointF(across, at.y());
 }
 
 QPointF EpiPane::epiAt(QPointF position) const {
-  const QPointF image = transform_.to_image(position, size());
-  if (orientation_ == Qt::Horizontal) return {image.x(), position.y() / rowExtent()};
-  return {image.y(), position.x() / rowExtent()};
+  const QPointF image = turned(transform_).to_image(position, size());
+  return lies() ? QPointF(image.x(), position.y() / rowExtent())
+                : QPointF(image.y(), position.x() / rowExtent());
 }
 
 QSize EpiPane::sizeHint() const {
   const QSize hint(480, kRowHint * kRowsHint);
-  return orientation_ == Qt::Horizontal ? hint : hint.transposed();
+  return orientation_ == Qt::Horizontal || may_lie_ ? hint : hint.transposed();
 }
 
 QSize EpiPane::minimumSizeHint() const {
   const QSize least(80, 5 * kRowsHint);
-  return orientation_ == Qt::Horizontal ? least : least.transposed();
+  return orientation_ == Qt::Horizontal || may_lie_ ? least : least.transposed();
 }
 
 void EpiPane::setCanvasTransform(const CanvasTransform& transform) {
@@ -135,13 +148,13 @@ void EpiPane::wheelEvent(QWheelEvent* event) {
   }
   // Only the shared axis has an anchor here: the other one keeps its middle.
   QPointF anchor = event->position();
-  if (orientation_ == Qt::Horizontal) {
+  if (lies()) {
     anchor.setY(height() / 2.0);
   } else {
     anchor.setX(width() / 2.0);
   }
   const double factor = wheel_zoom(event->angleDelta().y());
-  emit transformChanged(transform_.zoomed(factor, anchor, size()));
+  emit transformChanged(turned(turned(transform_).zoomed(factor, anchor, size())));
   event->accept();
 }
 
@@ -157,9 +170,9 @@ void EpiPane::mouseMoveEvent(QMouseEvent* event) {
   const QPointF position = event->position();
   if (panning_) {
     QPointF delta = position - last_position_;
-    (orientation_ == Qt::Horizontal ? delta.ry() : delta.rx()) = 0;
+    (lies() ? delta.ry() : delta.rx()) = 0;
     last_position_ = position;
-    emit transformChanged(transform_.panned(delta));
+    emit transformChanged(turned(turned(transform_).panned(delta)));
     return;
   }
   const int start = QGuiApplication::styleHints()->startDragDistance();

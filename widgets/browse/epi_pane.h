@@ -14,7 +14,8 @@ namespace episcope {
 /// Shows an EPI with rows several pixels tall, sharing zoom and pan along the image axis with the
 /// canvas beside it, aligned with it if both have the same extent along that axis. A horizontal
 /// pane lies under the canvas (x to the right, u downwards); a vertical one stands beside it (y
-/// downwards, v to the right).
+/// downwards, v to the right), or lies on its side (v downwards, y to the right) where it may and
+/// is wider than high.
 ///
 /// A line of disparity d has the slope −(d − focus) on a picture sheared by `focus`. Dragging draws
 /// a line and measures its disparity; a click asks for the cross-hair; the wheel zooms.
@@ -36,6 +37,8 @@ class EpiPane : public QWidget {
   /// Shear that the host applied to the picture, px per view step.
   void setFocus(double focus_px);
   void clearMeasurement();
+  /// Whether a vertical pane may lie on its side: not beside a canvas, with which it is aligned.
+  void setMayLie(bool may_lie);
   /// Draws a line of this disparity through the cross-hair, as if it had been drawn by hand.
   void showMeasurement(double disparity_px);
 
@@ -72,6 +75,10 @@ class EpiPane : public QWidget {
   void mouseReleaseEvent(QMouseEvent* event) override;
 
  private:
+  /// Whether the image axis runs to the right.
+  [[nodiscard]] bool lies() const;
+  /// The canvas as if it lay likewise, and back.
+  [[nodiscard]] CanvasTransform turned(const CanvasTransform& transform) const;
   [[nodiscard]] QPointF epiAt(QPointF position) const;
   /// Through the cross-hair, over all rows, in EPI coordinates.
   [[nodiscard]] QLineF epiLine(double disparity_px) const;
@@ -82,6 +89,7 @@ class EpiPane : public QWidget {
   void measure();
 
   Qt::Orientation orientation_;
+  bool may_lie_ = false;
   QImage epi_;
   CanvasTransform transform_;
   std::optional<int> cross_pixel_;

@@ -56,8 +56,7 @@ void EpiPane::paintEvent(QPaintEvent* event) {
 
 void EpiPane::paintPicture(QPainter& painter) const {
   const double scale = transform_.scale;
-  const bool is_horizontal = orientation_ == Qt::Horizontal;
-  const int extent = is_horizontal ? width() : height();
+  const int extent = lies() ? width() : height();
   const double start = epiAt({0, 0}).x();
   const int first = std::clamp(static_cast<int>(std::floor(start)), 0, epi_.width());
   const int last = std::clamp(static_cast<int>(std::ceil(start + extent / scale)), 0, epi_.width());
@@ -70,7 +69,7 @@ void EpiPane::paintPicture(QPainter& painter) const {
                        Qt::SmoothTransformation);
   }
   const QRectF target(positionOf(first, 0), positionOf(last, epi_.height()));
-  if (!is_horizontal) {  // Rows become columns.
+  if (!lies()) {  // Rows become columns.
     seen = seen.transformed(QTransform(0, 1, 1, 0, 0, 0));
   }
   painter.drawImage(target, seen, QRectF(seen.rect()));
@@ -87,11 +86,8 @@ void EpiPane::paintLines(QPainter& painter) const {
     const double x = std::floor(at.x()) + 0.5;
     const double y = std::floor(at.y()) + 0.5;
     QColor faint = theme::kCrossHair;
-    const bool is_horizontal = orientation_ == Qt::Horizontal;
-    const QLineF through_pixel =
-        is_horizontal ? QLineF(x, 0, x, height()) : QLineF(0, y, width(), y);
-    const QLineF through_view =
-        is_horizontal ? QLineF(0, y, width(), y) : QLineF(x, 0, x, height());
+    const QLineF through_pixel = lies() ? QLineF(x, 0, x, height()) : QLineF(0, y, width(), y);
+    const QLineF through_view = lies() ? QLineF(0, y, width(), y) : QLineF(x, 0, x, height());
     painter.setPen(QPen(faint, 1));
     painter.drawLine(through_pixel);
     faint.setAlpha(110);
@@ -123,7 +119,10 @@ void EpiPane::paintLabels(QPainter& painter) const {
   small.setPointSizeF(small.pointSizeF() * 0.9);
   painter.setFont(small);
   draw_plate(painter, rect(), Qt::AlignLeft | Qt::AlignTop,
-             is_horizontal ? tr("u ↓  x →") : tr("v →  y ↓"), theme::kCanvasText);
+             is_horizontal ? tr("u ↓  x →")
+             : lies()      ? tr("v ↓  y →")
+                           : tr("v →  y ↓"),
+             theme::kCanvasText);
   if (epi_.height() == 1) {
     draw_plate(painter, rect(), Qt::AlignRight | Qt::AlignBottom,
                is_horizontal ? tr("one column of views") : tr("one row of views"),
@@ -145,10 +144,9 @@ void EpiPane::paintLabels(QPainter& painter) const {
   for (const auto& legend : legends) {
     if (!legend.value) continue;
     const QString value = disparity_text(*legend.value);
-    const QRectF plate =
-        draw_plate(painter, free, Qt::AlignRight | Qt::AlignBottom,
-                   is_horizontal ? legend.name + ' ' + value : value, legend.color);
-    if (is_horizontal) {
+    const QRectF plate = draw_plate(painter, free, Qt::AlignRight | Qt::AlignBottom,
+                                    lies() ? legend.name + ' ' + value : value, legend.color);
+    if (lies()) {
       free.setRight(plate.left());
     } else {
       free.setBottom(plate.top());

@@ -129,6 +129,7 @@ void Stage::addPanesTo(Panes& panes) {
 // The horizontal EPI is as wide as the view: the legend moves below where nothing is above it.
 void Stage::fitPlaces() {
   const bool has_vertical = vertical_place_->isAncestorOf(vertical_epi_);
+  vertical_epi_->setMayLie(!has_vertical);
   vertical_place_->setVisible(has_vertical && center_->currentWidget() == canvas_);
   horizontal_place_->setVisible(horizontal_place_->isAncestorOf(horizontal_epi_));
   QSplitter* legend_place = has_vertical ? lower_ : rows_;

@@ -18,12 +18,6 @@ constexpr std::size_t kPrinted = 20;
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-double thread_cpu_ms() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
-
 std::string name_of(const QObject& receiver, QEvent::Type type) {
   const char* kind = QMetaEnum::fromType<QEvent::Type>().valueToKey(type);
   return std::string(receiver.metaObject()->className()) + ' ' +
@@ -31,6 +25,12 @@ std::string name_of(const QObject& receiver, QEvent::Type type) {
 }
 
 }  // namespace
+
+double thread_cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 bool TimedApplication::notify(QObject* receiver, QEvent* event) {
   if (!is_timing_ || depth_ > 0) return QApplication::notify(receiver, event);

@@ -8,6 +8,9 @@
 
 namespace episcope::bench {
 
+/// What this thread computed so far, in ms.
+[[nodiscard]] double thread_cpu_ms();
+
 /// Times every event that the thread of windows handles, by its kind and receiver: how long it
 /// took, and how much of that the thread computed itself. What an event waits for (other threads,
 /// other programs, the display) is the difference.

@@ -2,6 +2,7 @@
 #include "tests/bench/window/use.h"
 
 #include "app/gui/compare/compare_controller.h"
+#include "app/gui/document/label_choice.h"
 #include "app/gui/estimate/estimate_controller.h"
 #include "app/gui/estimate/method_runs.h"
 #include "app/gui/opening/scene_switcher.h"
@@ -16,6 +17,7 @@
 #include "widgets/canvas/view_canvas.h"
 
 #include <QAction>
+#include <QMouseEvent>
 #include <QTest>
 
 #include <algorithm>
@@ -31,8 +33,15 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kMostResults = 6;
+constexpr std::size_t kLabels = 3;
 constexpr std::array kMethods = {"epi_l", "st_ch_l", "epi_s", "st_ch_s", "st_ch_g", "epi_g"};
 constexpr double kLate_ms = 50;
+
+/// Not QTest::mouseMove, which handles all events that wait: they would be part of the input.
+void move_mouse(QWidget& widget, QPoint to, Qt::MouseButtons buttons = {}) {
+  QMouseEvent move(QEvent::MouseMove, to, widget.mapToGlobal(to), Qt::NoButton, buttons, {});
+  QCoreApplication::sendEvent(&widget, &move);
+}
 
 /// A user that does one thing every 20 ms, while methods run one after the other if they shall.
 class User {
@@ -45,6 +54,26 @@ class User {
       keepRunning(1);
       (void)QTest::qWaitFor([this] { return f_.window.bench().jobs.count() == 0; }, kScenePatience);
       f_.window.bench().scenes.step(1);
+    }
+  }
+
+  /// So many strokes on each light field, of three labels, on all views in turn.
+  void paintBefore(int strokes) {
+    for (int scene = 0; scene < 2; ++scene) {
+      DocumentController& painted = f_.window.bench().document;
+      painted.edit([](AnnotationDocument& document) {
+        while (document.labels().labels().size() < kLabels) document.add_label();
+      });
+      for (int i = 0; i < strokes; ++i) {
+        const PaintStyle style{.label = 1 + i % static_cast<int>(kLabels)};
+        const double y = 20 + i * 37 % 460;
+        const double x = 20 + i * 53 % 440;
+        painted.beginStroke({i / 9 % 9, i % 9}, style, {y, x});
+        painted.extendStroke({y + 10, x + 25});
+        painted.endStroke();
+      }
+      f_.window.bench().scenes.step(1);
+      QCoreApplication::processEvents();
     }
   }
 
@@ -65,8 +94,13 @@ class User {
                                ? Action{"light field", &User::scene}
                                : actions[static_cast<std::size_t>(number) % actions.size()];
     done_.emplace_back(action.name);
+    const double begin_ms = thread_cpu_ms();
     (this->*action.run)(number);
+    double& most_ms = most_ms_[action.name];
+    most_ms = std::max(most_ms, thread_cpu_ms() - begin_ms);
   }
+  /// The longest that the thread of windows computed within one input of each kind, in ms.
+  [[nodiscard]] const std::map<std::string, double>& mostComputed() const { return most_ms_; }
   /// What was done, in order.
   [[nodiscard]] const std::vector<std::string>& done() const { return done_; }
 
@@ -89,9 +123,7 @@ class User {
     find<EstimateController>(f_.window).run(
         {method, {}, {.views = is_all ? ViewSelection::All : ViewSelection::Center}});
   }
-  void hover(int number) {
-    QTest::mouseMove(canvas(), {40 + number * 7 % 400, 40 + number * 11 % 380});
-  }
+  void hover(int number) { move_mouse(*canvas(), {40 + number * 7 % 400, 40 + number * 11 % 380}); }
   void aim(int number) { session().set_cross_hair({number * 13 % 500, number * 7 % 500}); }
   void step(int number) { session().set_view({number / 16 % 9, number / 5 % 9}); }
   void zoom(int number) { test::turn_wheel(*canvas(), {200, 180}, number % 64 < 32 ? 1 : -1); }
@@ -101,7 +133,7 @@ class User {
     if (!epi->isVisible()) return;
     const QPoint from(epi->width() / 2, 4);
     QTest::mousePress(epi, Qt::LeftButton, {}, from);
-    QTest::mouseMove(epi, {from.x() + number % 30, epi->height() - 4});
+    move_mouse(*epi, {from.x() + number % 30, epi->height() - 4}, Qt::LeftButton);
     QTest::mouseRelease(epi, Qt::LeftButton, {}, {from.x() + number % 30, epi->height() - 4});
   }
   void overlay(int number) {
@@ -113,11 +145,12 @@ class User {
   }
   void stroke(int number) {
     f_.window.bench().frame.showTab("annotate");
+    f_.window.bench().labels.choose(1 + number % static_cast<int>(kLabels));
     for (const bool is_press : {true, false}) {
       const QPoint at(60 + number * 17 % 300, 60 + number * 23 % 300);
       is_press ? QTest::mousePress(canvas(), Qt::LeftButton, {}, at)
                : QTest::mouseRelease(canvas(), Qt::LeftButton, {}, at + QPoint(25, 10));
-      if (is_press) QTest::mouseMove(canvas(), at + QPoint(12, 5));
+      if (is_press) move_mouse(*canvas(), at + QPoint(12, 5), Qt::LeftButton);
     }
   }
   void tab(int number) {
@@ -136,6 +169,7 @@ class User {
   bool runs_methods_;
   int runs_ = 0;
   std::vector<std::string> done_;
+  std::map<std::string, double> most_ms_;
 };
 
 void report(const std::vector<double>& ages, const User& user) {
@@ -157,17 +191,21 @@ void report(const std::vector<double>& ages, const User& user) {
     std::printf("  late near '%s': %d, longest %.1f ms\n", action.c_str(), found.first,
                 found.second);
   }
+  for (const auto& [action, most_ms] : user.mostComputed()) {
+    std::printf("  '%s' computed at most %.1f ms at once\n", action.c_str(), most_ms);
+  }
 }
 
 }  // namespace
 
-void measure_use(TimedApplication& application, double seconds, bool runs_methods) {
+void measure_use(TimedApplication& application, double seconds, int strokes, bool runs_methods) {
   WindowFixture f;
   f.openScene("edge", {});  // 9×9 views of 512×512
   f.openScene("slant", {});
   f.trigger("segment.live");
   User user(f, runs_methods);
   user.estimateOnce();
+  user.paintBefore(strokes);
   application.begin();
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   const auto ages = event_ages(

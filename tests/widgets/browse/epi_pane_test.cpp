@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 namespace episcope::in_epi_pane_test {
 
@@ -25,13 +26,17 @@ class EpiPaneTest : public QObject {
 
   void addOrientations() {
     QTest::addColumn<Qt::Orientation>("orientation");
-    QTest::newRow("horizontal") << Qt::Horizontal;
-    QTest::newRow("vertical") << Qt::Vertical;
+    QTest::addColumn<bool>("may_lie");
+    QTest::newRow("horizontal") << Qt::Horizontal << false;
+    QTest::newRow("vertical") << Qt::Vertical << false;
+    QTest::newRow("vertical, on its side") << Qt::Vertical << true;
   }
 
-  std::unique_ptr<EpiPane> makePane(Qt::Orientation orientation) {
+  std::unique_ptr<EpiPane> makePane(Qt::Orientation orientation, bool may_lie = false) {
     auto pane = std::make_unique<EpiPane>(orientation);
-    pane->resize(orientation == Qt::Horizontal ? QSize(400, 90) : QSize(90, 400));
+    pane->setMayLie(may_lie);
+    const bool is_wide = orientation == Qt::Horizontal || may_lie;
+    pane->resize(is_wide ? QSize(400, 90) : QSize(90, 400));
     pane->setEpi(coordinate_picture(kLength, kRows));
     pane->setCanvasTransform({4, {50, 50}});
     pane->show();
@@ -42,8 +47,9 @@ class EpiPaneTest : public QObject {
   void rows_areSeveralPixelsTall_data() { addOrientations(); }
   void rows_areSeveralPixelsTall() {
     QFETCH(Qt::Orientation, orientation);
+    QFETCH(bool, may_lie);
 
-    const auto pane = makePane(orientation);
+    const auto pane = makePane(orientation, may_lie);
 
     QCOMPARE(pane->rowExtent(), 10.0);
   }
@@ -51,7 +57,8 @@ class EpiPaneTest : public QObject {
   void picture_isDrawnWherePositionOfSays_data() { addOrientations(); }
   void picture_isDrawnWherePositionOfSays() {
     QFETCH(Qt::Orientation, orientation);
-    const auto pane = makePane(orientation);
+    QFETCH(bool, may_lie);
+    const auto pane = makePane(orientation, may_lie);
 
     const QImage shown = pane->grab().toImage();
 
@@ -64,13 +71,18 @@ class EpiPaneTest : public QObject {
 
   void drag_measuresTheDisparityOfTheLine_data() {
     QTest::addColumn<Qt::Orientation>("orientation");
+    QTest::addColumn<bool>("may_lie");
     QTest::addColumn<double>("disparity");
     QTest::addColumn<double>("focus");
-    for (const auto orientation : {Qt::Horizontal, Qt::Vertical}) {
-      const char* name = orientation == Qt::Horizontal ? "horizontal" : "vertical";
+    const std::tuple<const char*, Qt::Orientation, bool> panes[] = {
+        {"horizontal", Qt::Horizontal, false},
+        {"vertical", Qt::Vertical, false},
+        {"vertical, on its side", Qt::Vertical, true}};
+    for (const auto& [name, orientation, may_lie] : panes) {
       for (const double disparity : {-2.0, 0.0, 0.5, 3.0}) {
-        QTest::addRow("%s %g", name, disparity) << orientation << disparity << 0.0;
-        QTest::addRow("%s %g sheared", name, disparity) << orientation << disparity << 0.75;
+        QTest::addRow("%s %g", name, disparity) << orientation << may_lie << disparity << 0.0;
+        QTest::addRow("%s %g sheared", name, disparity)
+            << orientation << may_lie << disparity << 0.75;
       }
     }
   }
@@ -79,7 +91,8 @@ class EpiPaneTest : public QObject {
     QFETCH(Qt::Orientation, orientation);
     QFETCH(double, disparity);
     QFETCH(double, focus);
-    const auto pane = makePane(orientation);
+    QFETCH(bool, may_lie);
+    const auto pane = makePane(orientation, may_lie);
     pane->setFocus(focus);
     QSignalSpy measured(pane.get(), &EpiPane::disparityMeasured);
     QSignalSpy clicked(pane.get(), &EpiPane::positionClicked);
@@ -125,7 +138,8 @@ class EpiPaneTest : public QObject {
   void click_asksForPixelAndRow_data() { addOrientations(); }
   void click_asksForPixelAndRow() {
     QFETCH(Qt::Orientation, orientation);
-    const auto pane = makePane(orientation);
+    QFETCH(bool, may_lie);
+    const auto pane = makePane(orientation, may_lie);
     QSignalSpy clicked(pane.get(), &EpiPane::positionClicked);
 
     QTest::mouseClick(pane.get(), Qt::LeftButton, {}, pane->positionOf(72.5, 6.5).toPoint());
@@ -138,7 +152,8 @@ class EpiPaneTest : public QObject {
   void slopeLines_passWhereThePointIsSeen_data() { addOrientations(); }
   void slopeLines_passWhereThePointIsSeen() {
     QFETCH(Qt::Orientation, orientation);
-    const auto pane = makePane(orientation);
+    QFETCH(bool, may_lie);
+    const auto pane = makePane(orientation, may_lie);
     QImage black(kLength, kRows, QImage::Format_RGB32);
     black.fill(Qt::black);
     pane->setEpi(black);
@@ -169,6 +184,27 @@ class EpiPaneTest : public QObject {
     const auto transform = changed[0][0].value<CanvasTransform>();
     QCOMPARE(transform.center.y(), 50.0);
     QCOMPARE(transform.to_image(at, pane->size()).x(), 50 + 110 / 4.0);
+  }
+
+  void wheel_onAPaneThatLies_zoomsTheRowsOfTheView() {
+    const auto pane = makePane(Qt::Vertical, true);
+    pane->setCanvasTransform({4, {30, 50}});
+    QSignalSpy changed(pane.get(), &EpiPane::transformChanged);
+
+    test::turn_wheel(*pane, {310, 80}, 2);
+
+    const auto transform = changed.at(0).at(0).value<CanvasTransform>();
+    QCOMPARE(transform.center.x(), 30.0);
+    // What was at the hand stays there: 110 px from the middle.
+    QCOMPARE(transform.center.y() + 110 / transform.scale, 50 + 110 / 4.0);
+  }
+
+  void paneBesideACanvas_neverLies() {
+    const auto pane = makePane(Qt::Vertical);
+    pane->resize(400, 90);
+    QCOMPARE(pane->rowExtent(), 400.0 / kRows);
+    pane->setMayLie(true);
+    QCOMPARE(pane->rowExtent(), 10.0);
   }
 
   void zoomedOut_mixesPixelsButNotRows() {

@@ -209,6 +209,10 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
   QVERIFY(stage.verticalEpi()->isVisible() && !stage.horizontalEpi()->isVisible());
   QVERIFY(!compare->isVisible());
   QVERIFY(f.window.height() <= 800);  // what finds no room is scrolled
+  // A vertical EPI lies on its side there, where there is more room to the right.
+  auto& vertical = *stage.verticalEpi();
+  QVERIFY(vertical.width() > vertical.height());
+  QCOMPARE(vertical.rowExtent(), vertical.height() / 9.0);
   frame.showTab("compare");
   QVERIFY(compare->isVisible() && !stage.verticalEpi()->isVisible());
 
@@ -221,6 +225,7 @@ void PanesTest::panes_areStackedBelowTheTabs_andComeBack() {
   f.trigger("panes.stack.epi.vertical");
   QVERIFY(!stack->isVisible());
   QTRY_VERIFY(stage.verticalEpi()->isVisible());
+  QTRY_COMPARE(vertical.rowExtent(), vertical.width() / 9.0);
 }
 
 void PanesTest::stack_takesHalfOfTheColumn_whereThereIsRoom() {
