@@ -2,6 +2,7 @@
 #include "engine/disparity/registry.h"
 
 #include "engine/core/error.h"
+#include "engine/disparity/common/even_brightness.h"
 #include "engine/disparity/cuts/kz02.h"
 #include "engine/disparity/epi/epi_c.h"
 #include "engine/disparity/epi/epi_g.h"
@@ -11,11 +12,23 @@
 #include "engine/disparity/plane/plane_pm.h"
 #include "engine/disparity/stereo/stereo_methods.h"
 
+#include <utility>
+
 namespace episcope {
+namespace {
+
+std::vector<Estimator> seeing_even_brightness_all(std::vector<Estimator> estimators) {
+  for (Estimator& estimator : estimators) {
+    estimator = seeing_even_brightness(std::move(estimator));
+  }
+  return estimators;
+}
+
+}  // namespace
 
 const std::vector<Estimator>& registered_estimators() {
   // clang-format off
-  static const std::vector<Estimator> estimators = {
+  static const std::vector<Estimator> estimators = seeing_even_brightness_all({
       epi_l_estimator(),
       epi_s_estimator(),
       epi_c_estimator(),
@@ -29,7 +42,7 @@ const std::vector<Estimator>& registered_estimators() {
       epi_two_layer_estimator(),
       kz02_estimator(),
       plane_pm_estimator(),
-  };
+  });
   // clang-format on
   return estimators;
 }

@@ -5097,6 +5097,10 @@ s</translation>
         <translation>Horizontale und vertikale Schätzungen werden mit Gewichten Kohärenz^p gemittelt</translation>
     </message>
     <message>
+        <source>Have methods take differences of brightness between views as they are, which they otherwise even out where these are measured</source>
+        <translation>Lässt den Verfahren Unterschiede der Helligkeit zwischen Ansichten, die sie sonst ausgleichen, wo sie gemessen sind</translation>
+    </message>
+    <message>
         <source>How far the views on the left, on the right, above and below are from the estimated one. Farther views tell disparities apart better but see less of what is partly occluded</source>
         <translation>Wie weit die Ansichten links, rechts, darüber und darunter von der geschätzten entfernt sind. Fernere Ansichten unterscheiden Disparitäten besser, sehen aber weniger von teilweise Verdecktem</translation>
     </message>
@@ -5167,6 +5171,10 @@ s</translation>
     <message>
         <source>Jumps by more labels cost no more</source>
         <translation>Sprünge um mehr Labels kosten nicht mehr</translation>
+    </message>
+    <message>
+        <source>Keep differences of brightness</source>
+        <translation>Unterschiede der Helligkeit behalten</translation>
     </message>
     <message>
         <source>Labels</source>

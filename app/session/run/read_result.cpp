@@ -4,7 +4,10 @@
 #include "app/session/scene/load_scene.h"
 #include "engine/core/error.h"
 #include "engine/core/text/suffix.h"
+#include "engine/io/arrays/hdf5_array_reader.h"
 #include "engine/io/arrays/npy_file.h"
+#include "engine/io/frames/tiff_pages.h"
+#include "engine/io/grid/image_header.h"
 #include "engine/io/hdf5/hdf5_file.h"
 #include "engine/io/maps/padding.h"
 #include "engine/io/maps/result_file.h"
@@ -30,7 +33,8 @@ bool holds_light_field(const io::Hdf5Input& file) {
          std::ranges::any_of(
              file.datasets(),
              [](const io::Hdf5Dataset& dataset) { return dataset.shape.size() == 5; }) ||
-         io::find_mosaic_dataset(file.path(), {}).has_value();
+         io::find_mosaic_dataset(file.path(), {}).has_value() ||
+         !io::hdf5_array_reader().find(file.path(), {}).empty();
 }
 
 /// An HDF5 file of another program with at least one map. Which one is meant is told on reading.
@@ -68,6 +72,14 @@ bool is_npy_result(const fs::path& path) {
   }
 }
 
+/// One page of floats in one channel; a picture of all views, or a page for each, is none.
+bool is_tiff_map(const fs::path& path) {
+  const auto header = io::stated_image_header(path);
+  if (!header) return true;  // told on reading
+  return header->sample_type == SampleType::Float32 && header->channels == 1 &&
+         io::count_tiff_pages(path, 2) <= 1;
+}
+
 std::string size_text(int first, int second) {
   return std::to_string(first) + "×" + std::to_string(second);
 }
@@ -79,8 +91,8 @@ bool names_result(const std::string& path) {
   if (!builtin_scene_id(path).empty() || !fs::is_regular_file(path, ignored)) return false;
   const std::string suffix = suffix_of(path);
   if (suffix == ".npy") return is_npy_result(path);
-  return suffix == ".pfm" || suffix == ".tif" || suffix == ".tiff" || io::is_result_file(path) ||
-         is_foreign_hdf5_result(path);
+  if (suffix == ".tif" || suffix == ".tiff") return is_tiff_map(path);
+  return suffix == ".pfm" || io::is_result_file(path) || is_foreign_hdf5_result(path);
 }
 
 Estimate read_result_of(const LightField& light_field, const fs::path& path) {

@@ -107,7 +107,7 @@ Scene load_builtin(const std::string& id, const LoadOptions& options, const Prog
   return std::move(*scene);
 }
 
-// A folder that cannot be opened may hold light fields below.
+// A folder that cannot be opened may hold light fields below; a single one is what is meant.
 Scene open_light_field(const std::string& input, const io::OpenOptions& options,
                        const std::filesystem::path& cache_folder, const Progress& progress) {
   try {
@@ -115,8 +115,9 @@ Scene open_light_field(const std::string& input, const io::OpenOptions& options,
   } catch (const io::Undecided&) {
     throw;
   } catch (const IoError&) {
-    const std::size_t count = collection_at(input, options, cache_folder, progress).size();
-    if (count > 0) throw IsCollection(input, count);
+    const auto below = collection_at(input, options, cache_folder, progress);
+    if (below.size() == 1) return io::open_scene(below.front().path, options, progress);
+    if (!below.empty()) throw IsCollection(input, below.size());
     throw;
   }
 }

@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <memory>
+#include <optional>
 
 namespace episcope::io {
 namespace {
@@ -103,6 +105,26 @@ Parallax measure_parallax(const ArrayInput& array, const ArrayLayout& layout) {
   return parallax;
 }
 
+/// Of several meanings of a shape the only one in which both axes of the grid show motion: channels
+/// differ in colour, not in place. Nothing if there is none or several.
+std::optional<ArrayLayout> layout_with_motion(const ArrayFile& file, const ArrayEntry& entry,
+                                              const std::vector<ArrayLayout>& layouts) {
+  const bool are_grids = std::ranges::all_of(layouts, [](const ArrayLayout& layout) {
+    return layout.grid().v > 1 && layout.grid().u > 1;
+  });
+  if (!are_grids) return std::nullopt;
+  const std::unique_ptr<ArrayInput> array = file.open(entry);
+  std::optional<ArrayLayout> found;
+  for (const ArrayLayout& layout : layouts) {
+    const auto [along_u, along_v] = measure_parallax(*array, layout);
+    const bool moves = (along_u.is_x() && along_v.is_y()) || (along_u.is_y() && along_v.is_x());
+    if (!moves) continue;
+    if (found) return std::nullopt;
+    found = layout;
+  }
+  return found;
+}
+
 }  // namespace
 
 bool can_be_light_field(const ArrayEntry& entry) {
@@ -159,6 +181,9 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
                               "if it is one, state its axes, as in --axes vuyxc",
                               entry.name, shape));
   }
+  if (auto layout = layout_with_motion(file, entry, layouts)) {
+    return {std::move(*layout), "by shape and motion between views", {}};
+  }
   std::vector<ReadingChoice> choices;
   for (const ArrayLayout& layout : layouts) {
     const std::string letters = in_index_order(layout.axes, entry.order);
@@ -172,7 +197,7 @@ ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
 
 void check_layout(const ArrayInput& array, IndexOrder order, ChosenLayout& chosen,
                   const Progress& progress) {
-  if (chosen.reason != "by shape" || chosen.layout.has('n')) return;
+  if (!chosen.reason.starts_with("by shape") || chosen.layout.has('n')) return;
   progress.step("telling rows from columns of views");
   const auto [along_u, along_v] = measure_parallax(array, chosen.layout);
   const double score = along_u.score() - along_v.score();

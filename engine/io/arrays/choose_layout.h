@@ -28,7 +28,8 @@ struct ChosenLayout {
 [[nodiscard]] const ArrayEntry* find_light_field(const ArrayFile& file, const std::string& dataset,
                                                  const std::string& axes);
 
-/// As `axes` states, else as the file states, else by shape. Throws IoError if that leaves no
+/// As `axes` states, else as the file states, else by shape; where that leaves several meanings,
+/// the only one in which views move along both axes of the grid. Throws IoError if that leaves no
 /// meaning, Undecided if several.
 [[nodiscard]] ChosenLayout choose_layout(const ArrayFile& file, const ArrayEntry& entry,
                                          const std::string& axes);

@@ -54,7 +54,7 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
   if (const auto given = given_grid(options)) {
     if (given->count() != count) {
       throw InvalidInput(
-          fmt::format("{}: the array has {} views, but a grid of {} has {}; state "
+          fmt::format("{}: there are {} views, but a grid of {} has {}; state "
                       "another grid",
                       path.string(), count, grid_text(*given), given->count()));
     }
@@ -65,7 +65,7 @@ void arrange_list(const std::filesystem::path& path, const OpenOptions& options,
     layout = find_list_layout(parts.samples, progress);
     if (!layout.is_decided) {
       throw Undecided(path,
-                      fmt::format("the array is a list of {} views, and how they lie on a grid is "
+                      fmt::format("this is a list of {} views, and how they lie on a grid is "
                                   "not certain ({})",
                                   count, layout.evidence),
                       "grid", grid_choices(count));

@@ -6,6 +6,9 @@
 #include "engine/io/benchmark/benchmark_views.h"
 #include "engine/io/benchmark/config_file.h"
 #include "engine/io/benchmark/high_res_files.h"
+#include "engine/io/beside/beside.h"
+#include "engine/io/beside/map_scale.h"
+#include "engine/io/beside/near_side.h"
 #include "engine/io/grid/decode_image.h"
 #include "engine/io/grid/load_views.h"
 #include "engine/io/maps/pfm.h"
@@ -20,6 +23,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <utility>
@@ -189,6 +193,25 @@ DisparityField read_truth(SceneFolder& scene, GridShape grid, Size size, const C
   return field;
 }
 
+/// Disparity whose sign is not that of the benchmark: views show what hides what.
+void correct_sign(const LightField::Samples& samples, DisparityField& field,
+                  ConventionReport& report) {
+  if (field.empty()) return;
+  const GridShape grid = grid_of(samples);
+  const ViewIndex at = field.contains(grid.center()) ? grid.center() : field.disparity.first();
+  const Explanation explanation = explain_views(samples, at, field.view(at), 1);
+  if (!explanation.is_good()) return;
+  const NearSide side = find_near_side(samples, at, field.view(at), 1, explanation);
+  if (!side.is_decided() || side.larger_is_nearer()) return;
+  std::transform(field.disparity.data(), field.disparity.data() + field.disparity.size(),
+                 field.disparity.data(), std::negate<>());
+  report.units += ", negative = nearer";
+  report.units_check = fmt::format(
+      "smaller values hide others in other views (grey error {:.2f}, the hidden ones {:.2f}, {} "
+      "pairs)",
+      side.smaller, side.larger, side.points);
+}
+
 void read_regions(SceneFolder& scene, Size size, GroundTruth& truth) {
   std::set<fs::path> files;
   for (const auto& entry : fs::directory_iterator(scene.path)) files.insert(entry.path());
@@ -225,12 +248,15 @@ void read_object_ids(SceneFolder& scene, GridShape grid, Size size, GroundTruth&
   std::copy_n(ids.data(), ids.size(), truth.labels.data());
 }
 
-bool is_benchmark_folder(const fs::path& folder) {
+bool is_benchmark_folder(const fs::path& folder, const OpenOptions& options) {
   if (is_there(folder / kBenchmarkConfig)) return true;
-  // Without it only truth tells a scene of the benchmark from any list of views.
+  // Without it only truth tells a scene of the benchmark from any list of views, whose rows and
+  // columns its images tell if they are not a square.
   const bool has_truth = is_there(folder / disparity_file_name(0)) ||
                          is_there(folder / kCenterDisparity) || is_there(folder / kCenterDepth);
-  return has_truth && count_benchmark_views(folder) > 0;
+  const int count = has_truth ? count_benchmark_views(folder) : 0;
+  const auto side = static_cast<int>(std::lround(std::sqrt(count)));
+  return count > 0 && (side * side == count || !options.grid.empty());
 }
 
 Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const Progress& progress) {
@@ -239,6 +265,7 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   if (is_there(folder / kBenchmarkConfig)) config.emplace(folder / kBenchmarkConfig);
   const std::optional<GridShape> given = given_grid(options);
   const ViewFiles views = benchmark_views(folder, config, given);
+  files.account.add_folder(views.files.front().parent_path());
   files.account.use(views.files, "views");
   if (config) files.account.use(folder / kBenchmarkConfig, "parameter files");
   Scene scene;
@@ -272,7 +299,17 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
   }
   GroundTruth truth;
   truth.field = read_truth(files, views.grid, size, info.camera, options.map_views(), report,
-                           progress.part(0.85, 0.95));
+                           progress.part(0.85, 0.9));
+  correct_sign(samples, truth.field, report);
+  if (truth.field.empty()) {
+    // What other programs call it.
+    FoundBeside beside = read_beside({views, views.files.front().parent_path(), samples,
+                                      info.camera, options.map_views(), options.needs_truth},
+                                     {files.account, report}, progress.part(0.9, 0.95));
+    truth = std::move(beside.truth);
+    info.camera = beside.camera;
+    scene.scribbles.labels = std::move(beside.label_infos);
+  }
   if (options.needs_truth) {
     read_object_ids(files, views.grid, size, truth);
     read_regions(files, size, truth);
@@ -293,7 +330,8 @@ Scene read_benchmark(const fs::path& folder, const OpenOptions& options, const P
 
 fs::path find_benchmark(const fs::path& path, const OpenOptions& options) {
   const fs::path folder = scene_folder(path);
-  const bool is_one = !folder.empty() && !wants_image_grid(options) && is_benchmark_folder(folder);
+  const bool is_one =
+      !folder.empty() && !wants_image_grid(options) && is_benchmark_folder(folder, options);
   return is_one ? folder : fs::path();
 }
 

@@ -45,7 +45,7 @@ std::optional<int> view_number(const fs::path& path) {
 }
 
 /// Of several files of one number the one that the benchmark would name so, or the first.
-std::map<int, fs::path> numbered_views(const fs::path& folder) {
+std::map<int, fs::path> views_in(const fs::path& folder) {
   std::map<int, fs::path> views;
   for (const auto& entry : fs::directory_iterator(folder)) {
     const fs::path& path = entry.path();
@@ -55,6 +55,21 @@ std::map<int, fs::path> numbered_views(const fs::path& folder) {
     const auto [place, is_new] = views.try_emplace(*number, path);
     const bool has_exact = place->second.filename() == view_file_name(*number);
     if (!is_new && (is_exact || (!has_exact && path < place->second))) place->second = path;
+  }
+  return views;
+}
+
+/// Of the folder, else of the only one inside it that has any ("input", "views").
+std::map<int, fs::path> numbered_views(const fs::path& folder) {
+  std::map<int, fs::path> views = views_in(folder);
+  if (!views.empty()) return views;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (!entry.is_directory(error)) continue;
+    std::map<int, fs::path> inside = views_in(entry.path());
+    if (inside.empty()) continue;
+    if (!views.empty()) return {};
+    views = std::move(inside);
   }
   return views;
 }

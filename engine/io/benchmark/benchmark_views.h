@@ -14,7 +14,8 @@ namespace episcope::io {
 [[nodiscard]] int count_benchmark_views(const std::filesystem::path& folder);
 
 /// Views by their index from 0, or from 1, row by row from the top left: of the grid that was
-/// given, else that of `config`, else a square. Throws IoError, also if one is missing.
+/// given, else that of `config`, else a square; in the folder, or in the only one inside it that
+/// has some. Throws IoError, also if one is missing.
 [[nodiscard]] ViewFiles benchmark_views(const std::filesystem::path& folder,
                                         const std::optional<ConfigFile>& config,
                                         const std::optional<GridShape>& given);

@@ -58,19 +58,41 @@ cv::Mat read_mat(const std::filesystem::path& path) {
   return decoded;
 }
 
-}  // namespace
-
-AnyImage decode_image(const std::filesystem::path& path) {
-  require_readable_file(path);
-  if (has_png_signature(path)) return decode_png(path);
-  require_plausible_picture(path);
-  const cv::Mat decoded = read_mat(path);
+AnyImage image_of(const std::filesystem::path& path, const cv::Mat& decoded) {
   if (decoded.depth() == CV_8U) return copy_rgb<std::uint8_t>(decoded);
   if (decoded.depth() == CV_16U) return copy_rgb<std::uint16_t>(decoded);
   if (decoded.depth() == CV_32F) return copy_rgb<float>(decoded);
   throw IoError(path,
                 "the image has neither 8-bit, 16-bit nor 32-bit float samples; export it again in "
                 "one of these formats");
+}
+
+}  // namespace
+
+AnyImage decode_image(const std::filesystem::path& path) {
+  require_readable_file(path);
+  if (has_png_signature(path)) return decode_png(path);
+  require_plausible_picture(path);
+  return image_of(path, read_mat(path));
+}
+
+std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count) {
+  require_readable_file(path);
+  require_plausible_picture(path);
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  std::vector<cv::Mat> decoded;
+  try {
+    if (!cv::imreadmulti(path.string(), decoded, 0, count, cv::IMREAD_UNCHANGED)) decoded.clear();
+  } catch (const cv::Exception&) {
+    decoded.clear();
+  }
+  if (static_cast<int>(decoded.size()) != count) refuse(path);
+  std::vector<AnyImage> pages;
+  for (cv::Mat& page : decoded) {
+    pages.push_back(image_of(path, page));
+    page.release();
+  }
+  return pages;
 }
 
 bool is_image_name(const std::filesystem::path& path) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <variant>
+#include <vector>
 
 namespace episcope::io {
 
@@ -18,6 +19,9 @@ using AnyImage = std::variant<Image<std::uint8_t>, Image<std::uint16_t>, Image<f
 /// resolved. The samples of the last two are linear. Orientation tags are ignored: views are taken
 /// as stored. Throws IoError.
 [[nodiscard]] AnyImage decode_image(const std::filesystem::path& path);
+
+/// The first `count` pages of a TIFF file, likewise. Throws IoError, also if there are less.
+[[nodiscard]] std::vector<AnyImage> decode_pages(const std::filesystem::path& path, int count);
 
 /// Whether the suffix is one that `decode_image` reads.
 [[nodiscard]] bool is_image_name(const std::filesystem::path& path);

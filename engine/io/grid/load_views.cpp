@@ -12,16 +12,27 @@
 namespace episcope::io {
 namespace {
 
+/// Programs that save pictures as small as they can store those without colour as grey.
+template <class T>
+void copy_grey(const Image<T>& image, ImageView<T> view) {
+  for (std::size_t i = 0; i < image.size(); ++i) {
+    std::fill_n(view.data + i * static_cast<std::size_t>(view.channels), view.channels,
+                image.data()[i]);
+  }
+}
+
 template <class T>
 void store(const std::filesystem::path& path, const AnyImage& decoded, const AnyImage& center,
            ImageView<T> view) {
   const auto* image = std::get_if<Image<T>>(&decoded);
   const bool fits = image != nullptr && image->height() == view.height &&
-                    image->width() == view.width && image->channels() == view.channels;
+                    image->width() == view.width &&
+                    (image->channels() == view.channels || image->channels() == 1);
   if (!fits) {
     throw IoError(path, "this view has " + describe_image(decoded) + ", but the centre view has " +
                             describe_image(center) + "; all views must match");
   }
+  if (image->channels() < view.channels) return copy_grey(*image, view);
   std::copy_n(image->data(), image->size(), view.data);
 }
 

@@ -20,7 +20,7 @@ namespace episcope::io {
 /// Whether the suffix of a path is one of the forms that MovieEncoder writes.
 [[nodiscard]] bool is_encoded_form(const std::filesystem::path& path);
 
-/// FFmpeg's filters, encoder and container for one file; the only code that uses FFmpeg.
+/// FFmpeg's filters, encoder and container for one file.
 class MovieEncoder {
  public:
   /// `file` is written, messages name `named`, whose suffix tells the form. Throws IoError,

@@ -112,7 +112,7 @@ void assemble(SceneParts parts, const OpenOptions& options, Scene& scene,
   scene.convention.files = std::move(parts.files);
   zero_nonfinite_samples(parts.samples, scene.convention);
   keep_what_was_seen(parts, options, scene.convention, progress);
-  equalise_views(parts, options.equalise, scene.convention, progress);
+  equalise_views(parts, options, scene.convention, progress);
   std::string& samples_text = scene.convention.samples;
   if (samples_text.empty()) samples_text = stored_samples_text(parts.samples);
   samples_text += place_text(parts.samples);

@@ -41,8 +41,9 @@ int count_unknown(const ViewGains& gains) {
 
 }  // namespace
 
-void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
+void equalise_views(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress) {
+  const bool is_wanted = options.equalise;
   if (!is_wanted && is_mapped(parts.samples)) {
     report.gain = "not measured, since that would read the whole file";
     return;
@@ -71,8 +72,11 @@ void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
   }
   if (unknown > 0) report.gain += fmt::format("; of {} views not known", unknown);
   if (is_wanted || !is_notable) return;
-  report.warnings.push_back("The brightness of the views differs by " + difference_text(gains) +
-                            "; --equalise evens it out.");
+  report.warnings.push_back(
+      "The brightness of the views differs by " + difference_text(gains) +
+      (options.keep_brightness
+           ? "; without --no-equalise, methods even it out."
+           : "; methods even it out, --equalise for pictures as well, --no-equalise for none."));
 }
 
 }  // namespace episcope::io

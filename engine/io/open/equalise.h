@@ -11,10 +11,10 @@ inline constexpr double kMeasurableGain = 0.01;
 inline constexpr double kNotableGain = 0.02;
 
 /// Tells `report` how much the brightness of the views differs from that of the centre view
-/// (measure_view_gains), and with `is_wanted` takes it out, unless all gains are within
-/// kMeasurableGain. Of a single view there is nothing to
-/// tell. Throws Cancelled.
-void equalise_views(SceneParts& parts, bool is_wanted, ConventionReport& report,
+/// (measure_view_gains). With `options.equalise` takes it out, unless all gains are within
+/// kMeasurableGain; else says that methods even out what is notable, unless
+/// `options.keep_brightness`. Of a single view there is nothing to tell. Throws Cancelled.
+void equalise_views(SceneParts& parts, const OpenOptions& options, ConventionReport& report,
                     const Progress& progress);
 
 }  // namespace episcope::io

@@ -3,6 +3,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/light_field/shear.h"
+#include "engine/io/open/foreign_form.h"
 #include "engine/io/open/reader.h"
 
 #include <new>
@@ -16,9 +17,10 @@ Scene read_scene(const fs::path& path, const OpenOptions& options, const Progres
   const FoundReader found = find_reader(path, options);
   if (found.reader) return found.reader->read(found.path, options, progress);
   if (!fs::is_directory(path)) {
-    throw IoError(path,
-                  "this is not a light field: an lf.h5, a scene folder or a folder of images is "
-                  "expected; choose another file");
+    const std::string advice = advice_on(path);
+    throw IoError(path, advice.empty() ? "this is not a light field: an lf.h5, a scene folder or a "
+                                         "folder of images is expected; choose another file"
+                                       : advice);
   }
   throw IoError(
       path,

@@ -82,7 +82,11 @@ Schema<OpenOptions> open_schema() {
              "Values of black and white samples as stored: 0,1023 for 10 bits in 16, -1,1 for "
              "normalised floats; empty = detected"})
       .toggle("equalise", &O::equalise,
-              {"Equalise", "Bring all views to the brightness of the centre view"});
+              {"Equalise", "Bring all views to the brightness of the centre view"})
+      .toggle("no-equalise", &O::keep_brightness,
+              {"Keep differences of brightness",
+               "Have methods take differences of brightness between views as they are, which they "
+               "otherwise even out where these are measured"});
   return schema;
 }
 

@@ -45,8 +45,10 @@ struct OpenOptions {
   int frame = 0;          ///< Sequences of light fields: which one, from 0.
   std::string levels{};   ///< Samples that are black and white, as stored: "0,1023"; empty = found.
   bool equalise = false;  ///< Bring all views to the brightness of the centre view.
-  bool snake = false;     ///< Image grids: every second row was captured right to left.
-  double focus_px = 0;    ///< Focus plane to bake in after reading (shear.h), px per view step.
+  /// Have methods take differences of brightness between views as they are (even_brightness.h).
+  bool keep_brightness = false;
+  bool snake = false;   ///< Image grids: every second row was captured right to left.
+  double focus_px = 0;  ///< Focus plane to bake in after reading (shear.h), px per view step.
 
   /// Without, no truth nor labels are given: only the map of the centre view is then read, by which
   /// units and the order of views are settled.

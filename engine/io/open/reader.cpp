@@ -9,6 +9,7 @@
 #include "engine/io/benchmark/benchmark_reader.h"
 #include "engine/io/blender/blender_reader.h"
 #include "engine/io/durable/system_error.h"
+#include "engine/io/frames/frames_reader.h"
 #include "engine/io/grid/image_grid_reader.h"
 #include "engine/io/mosaic/mosaic_reader.h"
 #include "engine/io/sequence/sequence_reader.h"
@@ -20,16 +21,16 @@ namespace episcope::io {
 namespace fs = std::filesystem;
 
 std::span<const Reader> readers() {
-  static const Reader kReaders[] = {blender_reader(),   sequence_reader(),   mosaic_reader(),
-                                    matlab_reader(),    hdf5_array_reader(), numpy_reader(),
-                                    archive_reader(),   benchmark_reader(),  excerpt_reader(),
-                                    image_grid_reader()};
+  static const Reader kReaders[] = {blender_reader(), sequence_reader(),  frames_reader(),
+                                    mosaic_reader(),  matlab_reader(),    hdf5_array_reader(),
+                                    numpy_reader(),   archive_reader(),   benchmark_reader(),
+                                    excerpt_reader(), image_grid_reader()};
   return kReaders;
 }
 
 bool Reader::has_option(std::string_view key) const {
-  constexpr std::string_view kOfAll = "equalise";  // assemble_scene.h
-  return key == kOfAll || std::ranges::find(options, key) != options.end();
+  const bool is_of_all = key == "equalise" || key == "no-equalise";  // assemble_scene.h
+  return is_of_all || std::ranges::find(options, key) != options.end();
 }
 
 FoundReader find_reader(const fs::path& path, const OpenOptions& options) {

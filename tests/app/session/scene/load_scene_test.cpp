@@ -2,6 +2,7 @@
 #include "app/session/scene/load_scene.h"
 #include "app/session/scene/gantry_scene.h"
 
+#include "app/session/scene/collections.h"
 #include "app/session/scene/scene_cache.h"
 #include "app/session/scene/scribble_place.h"
 #include "engine/core/error.h"
@@ -47,6 +48,7 @@ class LoadSceneTest : public QObject {
   void sceneWithOptions_isRenderedAndNotKept();
   void unknownBuiltinScene_isRefused();
   void scribblesBesideAnImageGrid_areRead();
+  void onlyLightFieldBelow_isOpened();
   void missingFile_isRefusedWithItsPath();
 };
 
@@ -256,6 +258,26 @@ void LoadSceneTest::scribblesBesideAnImageGrid_areRead() {
   QCOMPARE(again.scribbles.views[0].view, (ViewIndex{0, 2}));
   QCOMPARE(again.scribbles.views[0].labels.at(5, 6), 4);
   QVERIFY(again.scribbles.labels == painted.labels);
+}
+
+void LoadSceneTest::onlyLightFieldBelow_isOpened() {
+  const QTemporaryDir folder;
+  const auto scene = tiny_scene();
+  const auto write = [&](const char* inside) {
+    const std::filesystem::path views = path_of(folder) / inside / "images" / "views";
+    std::filesystem::create_directories(views);
+    for (int i = 0; i < 9; ++i) {
+      io::write_png(
+          views / ("view_0" + std::to_string(i / 3) + "_0" + std::to_string(i % 3) + ".png"),
+          scene->light_field->view<std::uint8_t>({i / 3, i % 3}));
+    }
+  };
+  write("one");
+  QCOMPARE(load_scene(folder.path().toStdString(), {}, Progress()).light_field->sample_hash(),
+           scene->light_field->sample_hash());
+  write("two");
+  QVERIFY_EXCEPTION_THROWN((void)load_scene(folder.path().toStdString(), {}, Progress()),
+                           IsCollection);
 }
 
 void LoadSceneTest::missingFile_isRefusedWithItsPath() {

@@ -147,6 +147,24 @@ class ArraySceneTest : public QObject {
     }
   }
 
+  void channelsBesideThreeRows_areToldByMotion_data() {
+    QTest::addColumn<QString>("axes");
+    for (const char* axes : {"vucyx", "cvuyx", "uvcyx"}) QTest::newRow(axes) << axes;
+  }
+  void channelsBesideThreeRows_areToldByMotion() {
+    QFETCH(QString, axes);
+    const std::string letters = axes.toStdString();
+    const Scene three = plane_scene({.grid = {3, 3}, .height = 96, .width = 128, .d0 = 1.4});
+    io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(bytes_of(three), letters),
+                                in_axes(bytes_of(three), letters));
+
+    const Scene scene = open(path("lf.npy"));
+
+    QVERIFY2(says(scene.convention.format, ("(" + letters + ")").c_str()),
+             scene.convention.format.c_str());
+    QVERIFY(has_same_samples(scene, three));
+  }
+
   void fourthChannel_isAMask() {
     std::vector<std::uint8_t> samples;
     for (std::size_t i = 0; i < views().size(); i += 3) {

@@ -75,10 +75,10 @@ std::vector<Broken> broken_folders() {
          return f;
        },
        "8×8 px, RGB, 8 bit, but the centre view has 9×8 px"},
-      {"grid with a grey view",
+      {"grid of other samples in a view",
        [](const fs::path& f) {
          image_grid(f);
-         io::write_png(f / "2_1.png", Image<std::uint8_t>(8, 9).view());
+         io::write_png(f / "2_1.png", Image<std::uint16_t>(8, 9, 3).view());
          return f;
        },
        "all views must match"},
@@ -175,7 +175,7 @@ std::vector<Broken> broken_folders() {
          fs::remove(scene / "input_Cam004.png");
          return scene;
        },
-       "do not form a square grid"},
+       "view 4 is missing"},
       {"benchmark with a broken cfg",
        [](const fs::path& f) {
          const fs::path scene = benchmark(f);

@@ -62,6 +62,23 @@ class ImageFolderTest : public QObject {
  private slots:
   void init() { folder_ = std::make_unique<QTemporaryDir>(); }
 
+  void greyView_amongColouredOnesIsTakenForColourless() {
+    const Scene scene = plane_scene(grid(3, 3));
+    write_views(scene, [](int row, int column, int) {
+      return "v_" + std::to_string(row) + "_" + std::to_string(column) + ".png";
+    });
+    const auto view = scene.light_field->view<std::uint8_t>({0, 2});
+    Image<std::uint8_t> grey(view.height, view.width);
+    for (std::size_t i = 0; i < grey.size(); ++i) grey.data()[i] = view.data[3 * i + 1];
+    io::write_png(path("v_0_2.png"), grey.view());
+
+    const Scene read = open();
+
+    const auto found = read.light_field->view<std::uint8_t>({0, 2});
+    QCOMPARE(found.channels, 3);
+    for (int c = 0; c < 3; ++c) QCOMPARE(found.at(7, 9, c), view.at(7, 9, 1));
+  }
+
   void names_tellRowAndColumn_data() {
     QTest::addColumn<QString>("form");
     QTest::addColumn<int>("rows");

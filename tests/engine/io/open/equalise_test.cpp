@@ -70,6 +70,15 @@ class EqualiseTest : public QObject {
     QVERIFY(std::equal(before.data(), before.data() + before.size(), samples.data()));
   }
 
+  void unevenViews_canBeKeptFromMethods() {
+    const Scene plane = plane_scene({.height = 96, .width = 96});
+
+    const Scene read = opened(uneven_views(plane), {.keep_brightness = true});
+
+    QVERIFY(read.light_field->info().reading.find("no-equalise") != nullptr);
+    QVERIFY2(read.convention.gain.starts_with("differs"), read.convention.gain.c_str());
+  }
+
   void unevenViews_areEvenedOutOnRequest() {
     const Scene plane = plane_scene({.height = 96, .width = 96});
 

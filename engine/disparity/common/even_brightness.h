@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "engine/disparity/common/estimator.h"
+
+#include <optional>
+#include <string>
+
+namespace episcope {
+
+/// A reading option: differences of brightness between views are left to the method.
+inline constexpr const char* kKeepBrightness = "no-equalise";
+
+/// A light field whose views are of one brightness, and how much they differed.
+struct EvenLightField {
+  LightField light_field;
+  std::string note;  ///< For an estimate.
+};
+
+/// A copy without the gains of the views (measure_view_gains), if one of them differs by more than
+/// 2 % from that of the centre view; nothing else. Nothing of light fields on disk, which would
+/// have to be read as a whole, nor of those that were read with kKeepBrightness. Throws Cancelled.
+[[nodiscard]] std::optional<EvenLightField> even_brightness(const LightField& light_field,
+                                                            const Progress& progress);
+
+/// The same method, which sees the views in one brightness: orientations of lines and differences
+/// between views, of which all methods are made, take a gain for structure. Its estimates say so
+/// in their notes.
+[[nodiscard]] Estimator seeing_even_brightness(Estimator estimator);
+
+}  // namespace episcope

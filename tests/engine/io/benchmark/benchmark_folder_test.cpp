@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/core/error.h"
+#include "engine/io/grid/image_file.h"
+#include "engine/io/maps/pfm.h"
+#include "engine/io/open/open.h"
+#include "tests/engine/io/beside/layered_folder.h"
+#include "tests/test_main.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+namespace episcope::in_benchmark_folder_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+/// Folders of the 2016 benchmark as others make them: a square before a wall in 3×3 views.
+class BenchmarkFolderTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<LayeredFolder> folder_;
+
+  void write_config() const {
+    std::ofstream(folder_->path("parameters.cfg"))
+        << "[extrinsics]\nnum_cams_x = 3\nnum_cams_y = 3\n";
+  }
+  void write_views(const std::string& inside, int count = 9) const {
+    int number = 0;
+    folder_->for_views(
+        LayeredFolder::named(inside + "v{}_{}"), [&](const fs::path& path, ViewIndex view) {
+          if (number == count) return;
+          const fs::path file = path.parent_path() / fmt::format("input_Cam{:03}.png", number++);
+          io::write_png(file, folder_->scene.views.view(view));
+        });
+  }
+  void write_truth(const char* name, float sign) const {
+    const auto center = folder_->scene.disparity.view({1, 1});
+    Image<float> map(center.height, center.width);
+    std::transform(center.data, center.data + center.size(), map.data(),
+                   [sign](float d) { return sign * d; });
+    io::write_pfm(folder_->path(name), map.view());
+  }
+  /// Of the truth of the centre view.
+  double error(const Scene& scene) const {
+    const auto wanted = folder_->scene.disparity.view({1, 1});
+    const DisparityView found = scene.truth->field.view({1, 1});
+    double largest = 0;
+    for (int y = 0; y < wanted.height; ++y) {
+      for (int x = 0; x < wanted.width; ++x) {
+        largest = std::max<double>(largest, std::abs(wanted.at(y, x) - found.disparity.at(y, x)));
+      }
+    }
+    return largest;
+  }
+  bool has_views_in_order(const Scene& scene) const {
+    const auto& views = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
+    return std::equal(views.data(), views.data() + views.size(), folder_->scene.views.data());
+  }
+
+ private slots:
+  void init() {
+    folder_ = std::make_unique<LayeredFolder>();
+    write_config();
+  }
+
+  void truthOfTheOtherSign_turnsNoViewsRound() {
+    write_views("");
+    write_truth("gt_disp_lowres.pfm", -1);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY2(has_views_in_order(scene), scene.convention.order.c_str());
+    QCOMPARE(error(scene), 0.0);
+    QVERIFY2(scene.convention.units.find("negative = nearer") != std::string::npos,
+             scene.convention.units.c_str());
+  }
+
+  void viewsInAFolderInside_areFound() {
+    write_views("input/");
+    write_truth("gt_disp_lowres.pfm", 1);
+
+    const Scene scene = folder_->open();
+
+    QVERIFY(has_views_in_order(scene));
+    QCOMPARE(error(scene), 0.0);
+    QCOMPARE(count_used(scene, "views"), 9);
+  }
+
+  void truthOfAnotherName_isRead() {
+    write_views("");
+    write_truth("gt_disp.pfm", 1);
+
+    QCOMPARE(error(folder_->open()), 0.0);
+  }
+
+  void withoutConfig_gridsThatAreNotSquareAreLists() {
+    fs::remove(folder_->path("parameters.cfg"));
+    write_views("", 6);
+    write_truth("gt_disp_lowres.pfm", 1);
+
+    const Scene scene = folder_->open("", {.grid = "2x3"});
+
+    QCOMPARE(scene.light_field->grid(), (GridShape{2, 3}));
+    try {
+      QCOMPARE(folder_->open().light_field->grid(), (GridShape{2, 3}));
+    } catch (const IoError& question) {  // six views may be too few to tell
+      QVERIFY2(std::string(question.what()).find("--grid") != std::string::npos, question.what());
+    }
+  }
+};
+
+}  // namespace episcope::in_benchmark_folder_test
+
+EPISCOPE_TEST(benchmark_folder_test, BenchmarkFolderTest)
+#include "benchmark_folder_test.moc"

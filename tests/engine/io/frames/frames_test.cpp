@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "engine/io/frames/frames_reader.h"
+
+#include "engine/core/error.h"
+#include "engine/io/frames/film.h"
+#include "engine/io/frames/tiff_pages.h"
+#include "engine/io/movie/movie_file.h"
+#include "engine/io/open/open.h"
+#include "tests/engine/io/order/layered_scene.h"
+#include "tests/test_main.h"
+
+#include <QTemporaryDir>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+
+namespace episcope::in_frames_test {
+
+using namespace episcope::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// 4×5 views of 128×96 px.
+ViewStack<std::uint8_t> some_views() {
+  return layered_views({.grid = {4, 5}});
+}
+
+void write_pages(const fs::path& path, const ViewStack<std::uint8_t>& views) {
+  std::vector<cv::Mat> pages;
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const auto view = views.view(views.view_at(i));
+    cv::Mat page(view.height, view.width, CV_8UC(view.channels));
+    for (std::size_t n = 0; n < view.size(); ++n) {  // pages are written from BGR
+      const auto channels = static_cast<std::size_t>(view.channels);
+      page.data[n] = view.data[n / channels * channels + (channels - 1 - n % channels)];
+    }
+    pages.push_back(page);
+  }
+  QVERIFY(cv::imwrite(path.string(), pages));
+}
+
+void write_film(const fs::path& path, const ViewStack<std::uint8_t>& views) {
+  io::MovieFile film(path, {views.height(), views.width(), 25, 0});
+  for (int i = 0; i < views.grid().count(); ++i) {
+    const auto view = views.view(views.view_at(i));
+    Image<std::uint8_t> picture(view.height, view.width, 4, 255);
+    for (int y = 0; y < view.height; ++y) {
+      for (int x = 0; x < view.width; ++x) {
+        for (int c = 0; c < 3; ++c) picture.at(y, x, c) = view.at(y, x, c % view.channels);
+      }
+    }
+    film.add(picture.view());
+  }
+  film.commit();
+}
+
+double mean_error(const ViewStack<std::uint8_t>& wanted, const LightField& found) {
+  const auto& views = std::get<ViewStack<std::uint8_t>>(found.samples());
+  double sum = 0;
+  for (int i = 0; i < wanted.grid().count(); ++i) {
+    const auto a = wanted.view(wanted.view_at(i));
+    const auto b = views.view(views.view_at(i));
+    for (int y = 0; y < a.height; ++y) {
+      for (int x = 0; x < a.width; ++x) {
+        sum += std::abs(int{a.at(y, x, 0)} - int{b.at(y, x, 0)});
+      }
+    }
+  }
+  return sum / static_cast<double>(wanted.grid().count() * wanted.height() * wanted.width());
+}
+
+}  // namespace
+
+class FramesTest : public QObject {
+  Q_OBJECT
+
+ private:
+  std::unique_ptr<QTemporaryDir> folder_;
+  fs::path path(const char* name) const { return fs::path(folder_->path().toStdString()) / name; }
+  Scene open(const fs::path& file, const io::OpenOptions& options = {}) const {
+    return io::open_scene(file, options, Progress(2));
+  }
+
+ private slots:
+  void init() { folder_ = std::make_unique<QTemporaryDir>(); }
+
+  void pagesOfATiffFile_areViews() {
+    const ViewStack<std::uint8_t> views = some_views();
+    write_pages(path("stack.tif"), views);
+
+    const Scene scene = open(path("stack.tif"));
+
+    QCOMPARE(io::count_tiff_pages(path("stack.tif"), 1000), 20);
+    QCOMPARE(io::count_tiff_pages(path("stack.tif"), 7), 8);
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    QCOMPARE(mean_error(views, *scene.light_field), 0.0);
+    QCOMPARE(open(path("")).light_field->grid(), (GridShape{4, 5}));
+  }
+
+  void picturesOfAFilm_areViews_data() {
+    QTest::addColumn<QString>("name");
+    QTest::newRow("MP4") << "views.mp4";
+    QTest::newRow("WebM") << "views.webm";
+    QTest::newRow("GIF") << "views.gif";
+  }
+  void picturesOfAFilm_areViews() {
+    QFETCH(QString, name);
+    const ViewStack<std::uint8_t> views = some_views();
+    const fs::path file = path(name.toUtf8());
+    write_film(file, views);
+
+    const Scene scene = open(file);
+
+    QVERIFY(io::is_film_name(file));
+    QCOMPARE(scene.light_field->grid(), (GridShape{4, 5}));
+    // Compression and, of GIF, a palette of 256 colours; another view is off by more than 15.
+    const double error = mean_error(views, *scene.light_field);
+    QVERIFY2(error < 6, qPrintable(QString::number(error)));
+  }
+
+  void statedGrid_isTaken() {
+    write_pages(path("stack.tif"), some_views());
+
+    QCOMPARE(open(path("stack.tif"), {.grid = "2x10"}).light_field->grid(), (GridShape{2, 10}));
+    QVERIFY_EXCEPTION_THROWN((void)open(path("stack.tif"), {.grid = "3x7"}), InvalidInput);
+  }
+
+  void damagedFiles_areRefused() {
+    write_film(path("views.mp4"), some_views());
+    fs::resize_file(path("views.mp4"), 2000);
+    std::ofstream(path("text.avi")) << "no film";
+    std::ofstream(path("list.mkv")) << "#EXTM3U\nfile:///etc/hostname\n";
+    write_pages(path("stack.tif"), some_views());
+    fs::resize_file(path("stack.tif"), fs::file_size(path("stack.tif")) / 2);
+
+    for (const char* name : {"views.mp4", "text.avi", "list.mkv", "stack.tif"}) {
+      QVERIFY_EXCEPTION_THROWN((void)open(path(name)), IoError);
+    }
+  }
+
+  void tiffOfLoops_endsCounting() {
+    // A directory without entries that count, and one that leads to itself.
+    const std::string loop("II*\0\x08\0\0\0\x01\0\0\x01\x04\0\x01\0\0\0\x01\0\0\0\x08\0\0\0", 26);
+    std::ofstream(path("loop.tif"), std::ios::binary) << loop;
+
+    QCOMPARE(io::count_tiff_pages(path("loop.tif"), 50), 51);
+    QVERIFY_EXCEPTION_THROWN((void)open(path("loop.tif")), IoError);
+  }
+};
+
+}  // namespace episcope::in_frames_test
+
+EPISCOPE_TEST(frames_test, FramesTest)
+#include "frames_test.moc"
