@@ -18,8 +18,10 @@ class Loop final : public LoopItems {
   Loop(int count, const Progress& progress) : count_(count), progress_(progress) {}
 
   [[nodiscard]] int take() override {
+    // Before one is taken, so that whoever waits for an earlier item never waits in vain.
+    if (failed_ || progress_.stop_requested()) return -1;
     const int item = next_++;
-    return item < count_ && !failed_ && !progress_.stop_requested() ? item : -1;
+    return item < count_ ? item : -1;
   }
   void finish() override { progress_.report(static_cast<double>(++finished_) / count_); }
 
