@@ -17,10 +17,11 @@
 namespace episcope {
 namespace {
 
-std::vector<Estimator> seeing_even_brightness_all(std::vector<Estimator> estimators) {
+std::vector<Estimator> with_even_brightness(std::vector<Estimator> estimators) {
   for (Estimator& estimator : estimators) {
     estimator = seeing_even_brightness(std::move(estimator));
   }
+  estimators.push_back(plane_pm_estimator());  // evens brightness itself, and again as it learns more
   return estimators;
 }
 
@@ -28,7 +29,7 @@ std::vector<Estimator> seeing_even_brightness_all(std::vector<Estimator> estimat
 
 const std::vector<Estimator>& registered_estimators() {
   // clang-format off
-  static const std::vector<Estimator> estimators = seeing_even_brightness_all({
+  static const std::vector<Estimator> estimators = with_even_brightness({
       epi_l_estimator(),
       epi_s_estimator(),
       epi_c_estimator(),
@@ -41,7 +42,6 @@ const std::vector<Estimator>& registered_estimators() {
       st_ch_g_estimator(),
       epi_two_layer_estimator(),
       kz02_estimator(),
-      plane_pm_estimator(),
   });
   // clang-format on
   return estimators;
