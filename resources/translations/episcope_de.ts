@@ -6120,6 +6120,10 @@ s</translation>
         <source>marking invalid pixels</source>
         <translation>ungültige Pixel werden markiert</translation>
     </message>
+    <message>
+        <source>reading the pictures</source>
+        <translation>Bilder werden gelesen</translation>
+    </message>
 </context>
 <context>
     <name>episcope::ScribbleController</name>
