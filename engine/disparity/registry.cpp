@@ -21,7 +21,8 @@ std::vector<Estimator> with_even_brightness(std::vector<Estimator> estimators) {
   for (Estimator& estimator : estimators) {
     estimator = seeing_even_brightness(std::move(estimator));
   }
-  estimators.push_back(plane_pm_estimator());  // evens brightness itself, and again as it learns more
+  estimators.push_back(
+      plane_pm_estimator());  // evens brightness itself, and again as it learns more
   return estimators;
 }
 

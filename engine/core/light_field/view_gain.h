@@ -9,6 +9,9 @@
 
 namespace episcope {
 
+/// Gains of views that differ by more than this from 1 are warned of, and evened out for methods.
+inline constexpr double kNotableGain = 0.02;
+
 /// How bright each view is, as a multiple of the centre view: of each channel, and of their sum.
 struct ViewGains {
   GridShape grid;

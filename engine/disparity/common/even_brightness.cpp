@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/even_brightness.h"
 
+#include "engine/core/light_field/many_views.h"
 #include "engine/core/light_field/view_gain.h"
 
 #include <fmt/format.h>
@@ -13,11 +14,9 @@
 namespace episcope {
 namespace {
 
-constexpr double kNotableGain = 0.02;
 // Means of views that differ by less speak for gains that do, too.
 constexpr double kNotableMeans = 0.01;
 constexpr int kPixelStep = 8;  // of the means
-constexpr int kLookedAtClosely = 81;
 
 bool is_kept(const LightField& lf) {
   const ParameterValue* const kept = lf.info().reading.find(kKeepBrightness);
@@ -55,8 +54,7 @@ bool have_notable_means(const LightField& lf) {
 
 std::optional<EvenLightField> even_brightness(const LightField& lf, const Progress& progress) {
   if (lf.grid().count() < 2 || lf.is_on_disk() || is_kept(lf) || !have_notable_means(lf)) return {};
-  const auto blocks =
-      lf.grid().count() > kLookedAtClosely ? GainBlocks::OneOfFour : GainBlocks::All;
+  const auto blocks = has_many_views(lf.grid()) ? GainBlocks::OneOfFour : GainBlocks::All;
   const ViewGains gains = measure_view_gains(lf.samples(), lf.valid(), progress, blocks);
   const double difference = std::abs(gains.of(gains.most_different()) - 1);
   if (!(difference > kNotableGain)) return {};

@@ -35,7 +35,8 @@ void LayerScore::judge(ViewIndex view, const Maps& maps, ImageView<float> score,
   spread_coherence(maps.fit, rows_, coherence_);
   residuals_.begin(view);
   raise_by_line_fit(packed_.pixels.view(view), maps.single, strictness_, residuals_, coherence_);
-  const Image<float> steadiness = layer_steadiness(maps.near, maps.far, maps.confidence, Progress(1));
+  const Image<float> steadiness =
+      layer_steadiness(maps.near, maps.far, maps.confidence, Progress(1));
   for (std::size_t i = 0; i < coherence_.size(); ++i) {
     const float r = coherence_.data()[i];
     const float c = static_cast<float>(maps.confidence.data[i]) / 255;

@@ -2,12 +2,12 @@
 #include "engine/io/open/assemble_scene.h"
 
 #include "engine/core/array/mapped_memory.h"
+#include "engine/core/light_field/many_views.h"
 #include "engine/io/maps/float_samples.h"
 #include "engine/io/open/black_corners.h"
 #include "engine/io/open/empty_pixels.h"
 #include "engine/io/open/equalise.h"
 #include "engine/io/open/filled_views.h"
-#include "engine/io/open/many_views.h"
 #include "engine/io/open/order_parts.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/io/open/equalise.h"
 
+#include "engine/core/light_field/many_views.h"
 #include "engine/core/light_field/view_gain.h"
-#include "engine/io/open/many_views.h"
 
 #include <fmt/format.h>
 

@@ -7,8 +7,6 @@ namespace episcope::io {
 
 /// Gains that differ by less from 1 are within the accuracy of their measurement.
 inline constexpr double kMeasurableGain = 0.01;
-/// Gains of the views that differ by more than this from 1 are warned of.
-inline constexpr double kNotableGain = 0.02;
 
 /// Tells `report` how much the brightness of the views differs from that of the centre view
 /// (measure_view_gains). With `options.equalise` takes it out, unless all gains are within

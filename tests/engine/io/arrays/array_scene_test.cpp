@@ -6,7 +6,6 @@
 #include "engine/io/open/undecided.h"
 #include "tests/engine/io/archive_files.h"
 #include "tests/engine/io/arrays/array_files.h"
-#include "tests/engine/io/order/layered_scene.h"
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
@@ -146,31 +145,6 @@ class ArraySceneTest : public QObject {
       QCOMPARE(question.option(), std::string("axes"));
       QCOMPARE(question.choices().size(), std::size_t{2});
     }
-  }
-
-  void channelsBesideThreeRows_areToldByMotion_data() {
-    QTest::addColumn<QString>("axes");
-    for (const char* axes : {"vucyx", "cvuyx", "uvcyx"}) QTest::newRow(axes) << axes;
-  }
-  void channelsBesideThreeRows_areToldByMotion() {
-    QFETCH(QString, axes);
-    const std::string letters = axes.toStdString();
-    // Colours of one texture: the waves of plane_scene lie elsewhere in each channel, as if moved.
-    const ViewStack<std::uint8_t> grey = layered_views({.grid = {3, 3}});
-    ViewStack<std::uint8_t> three(grey.grid(), grey.height(), grey.width(), 3);
-    for (std::size_t n = 0; n < three.size(); ++n) {
-      three.data()[n] = static_cast<std::uint8_t>(grey.data()[n / 3] * (2 + n % 3) / 4);
-    }
-    io::write_npy<std::uint8_t>(path("lf.npy"), lengths_of(three, letters),
-                                in_axes(three, letters));
-
-    const Scene scene = open(path("lf.npy"));
-
-    QVERIFY2(says(scene.convention.format, ("(" + letters + ")").c_str()),
-             scene.convention.format.c_str());
-    const auto& read = std::get<ViewStack<std::uint8_t>>(scene.light_field->samples());
-    QVERIFY(std::equal(three.data(), three.data() + three.size(), read.data(),
-                       read.data() + read.size()));
   }
 
   void fourthChannel_isAMask() {
