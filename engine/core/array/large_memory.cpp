@@ -79,6 +79,16 @@ void release_large(const LargeMemory& memory) noexcept {
   if (memory.data != nullptr && is_counted(memory.bytes)) in_memory -= memory.bytes;
 }
 
+void take_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) noexcept {
+#if defined(MADV_POPULATE_WRITE)
+  // The system wants whole pages: those that begin in the piece.
+  constexpr std::size_t kPage = 4096;
+  const auto begin = reinterpret_cast<std::uintptr_t>(memory);
+  const std::uintptr_t first = round_up(begin, kPage), end = round_up(begin + bytes, kPage);
+  if (first < end) madvise(reinterpret_cast<void*>(first), end - first, MADV_POPULATE_WRITE);
+#endif
+}
+
 MemorySetAside::MemorySetAside(std::size_t bytes) noexcept : bytes_(bytes) {
   in_memory += bytes_;
 }

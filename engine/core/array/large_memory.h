@@ -36,6 +36,10 @@ struct LargeMemory {
                                              std::uintmax_t offset, std::size_t bytes);
 void release_large(const LargeMemory& memory) noexcept;
 
+/// Asks the system for the pages of such memory now instead of one by one when they are written first;
+/// what they hold stays. A hint, for one piece of a large array on each thread.
+void take_pages(void* memory, std::size_t bytes) noexcept;
+
 /// Deleter of `make_large`.
 struct LargeRelease {
   std::size_t bytes = 0;

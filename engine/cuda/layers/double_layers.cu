@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/layers/double_layers.h"
 
+#include "engine/core/array/view_rectangle.h"
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/device/transfer.cuh"
 #include "engine/cuda/layers/double_planes.cuh"
+#include "engine/cuda/layers/layer_memory.cuh"
+#include "engine/cuda/maps/map_memory.cuh"
 
 #include <algorithm>
 #include <cstdlib>
@@ -170,29 +173,45 @@ void Pass::run(const Maps& maps, const Progress& progress) {
   }
 }
 
+// All passes into arrays that hold nothing yet.
+void measure(const LightField& lf, const std::vector<DoublePass>& passes,
+             const DoubleShears& shears, const ViewRectangle& views, LayerMemory& to,
+             const DeviceStream& stream, const Progress& progress) {
+  const auto light_field = on_device(lf, progress.part(0, 0));
+  to.near.clear();
+  to.far.clear();
+  to.confidence.clear();
+  double done = 0;
+  for (const DoublePass& each : passes) {
+    const double share = 1.0 / static_cast<double>(passes.size());
+    Pass(light_field->samples(), each, shears, views.grid, views.first, stream)
+        .run({to.near.data(), to.far.data(), to.confidence.data()},
+             progress.part(done, done + share));
+    done += share;
+  }
+}
+
 }  // namespace
+
+DeviceLayers::DeviceLayers(const LightField& lf, const std::vector<DoublePass>& passes,
+                           const DoubleShears& shears, DeviceMaps& like, const Progress& progress) {
+  MapMemory& maps = like.memory();
+  memory_ = std::make_unique<LayerMemory>(maps.disparity.size(), maps.stream);
+  measure(lf, passes, shears, {maps.first, maps.grid}, *memory_, maps.stream, progress);
+}
+DeviceLayers::~DeviceLayers() = default;
+DeviceLayers::DeviceLayers(DeviceLayers&&) noexcept = default;
 
 void measure_double_layers(const LightField& lf, const std::vector<DoublePass>& passes,
                            const DoubleShears& shears, const DoubleResults& results,
                            const Progress& progress) {
-  const auto light_field = on_device(lf, progress);
   const DeviceStream stream;
-  const std::size_t size = results.near.size();
-  DeviceArray<float> near(size, stream), far(size, stream);
-  DeviceArray<std::uint8_t> confidence(size, stream);
-  near.clear();
-  far.clear();
-  confidence.clear();
-  double done = 0;
-  for (const DoublePass& each : passes) {
-    const double share = 0.9 / static_cast<double>(passes.size());
-    Pass(light_field->samples(), each, shears, results.near.grid(), results.near.first(), stream)
-        .run({near.data(), far.data(), confidence.data()}, progress.part(done, done + share));
-    done += share;
-  }
-  download(results.near, near, stream, progress);
-  download(results.far, far, stream, progress);
-  download(results.confidence, confidence, stream, progress);
+  LayerMemory layers(results.near.size(), stream);
+  measure(lf, passes, shears, {results.near.first(), results.near.grid()}, layers, stream,
+          progress.part(0, 0.9));
+  download(results.near, layers.near, stream, progress);
+  download(results.far, layers.far, stream, progress);
+  download(results.confidence, layers.confidence, stream, progress);
 }
 
 }  // namespace episcope::cuda

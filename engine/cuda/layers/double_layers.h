@@ -4,8 +4,10 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/maps/device_maps.h"
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace episcope::cuda {
@@ -45,6 +47,25 @@ struct DoubleResults {
   ViewStack<float>& near;
   ViewStack<float>& far;
   ViewStack<std::uint8_t>& confidence;
+};
+
+struct LayerMemory;
+
+/// Two disparities and their confidence on the device, of the views of `like`, computed on its
+/// stream; `like` must live as long. Move-only.
+class DeviceLayers {
+ public:
+  /// As below. Throws DeviceFailure, Cancelled.
+  DeviceLayers(const LightField& light_field, const std::vector<DoublePass>& passes,
+               const DoubleShears& shears, DeviceMaps& like, const Progress& progress);
+  ~DeviceLayers();
+  DeviceLayers(DeviceLayers&&) noexcept;
+
+  /// For the steps that follow.
+  [[nodiscard]] LayerMemory& memory() { return *memory_; }
+
+ private:
+  std::unique_ptr<LayerMemory> memory_;
 };
 
 /// `measure_double_layers` on the device: passes are merged one after the other. Throws

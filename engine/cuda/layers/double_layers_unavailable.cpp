@@ -4,6 +4,15 @@
 
 namespace episcope::cuda {
 
+struct LayerMemory {};
+
+DeviceLayers::DeviceLayers(const LightField&, const std::vector<DoublePass>&, const DoubleShears&,
+                           DeviceMaps&, const Progress&) {
+  throw DeviceFailure(known_cuda_device().why_not);
+}
+DeviceLayers::~DeviceLayers() = default;
+DeviceLayers::DeviceLayers(DeviceLayers&&) noexcept = default;
+
 void measure_double_layers(const LightField&, const std::vector<DoublePass>&, const DoubleShears&,
                            const DoubleResults&, const Progress&) {
   throw DeviceFailure(known_cuda_device().why_not);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/device/launch.cuh"
 #include "engine/cuda/device/transfer.cuh"
+#include "engine/cuda/layers/layer_memory.cuh"
 #include "engine/cuda/layers/layer_score.cuh"
 #include "engine/cuda/layers/layer_solver.h"
+#include "engine/cuda/maps/map_memory.cuh"
 #include "engine/cuda/tv_l2/denoise_maps.cuh"
 #include "engine/cuda/tv_l2/tv_l2_solver.cuh"
 
 #include <algorithm>
+#include <utility>
 
 namespace episcope::cuda {
 namespace {
@@ -35,6 +38,15 @@ __device__ float confidence_at(const Maps& maps, long i) {
 
 __device__ long place() {
   return static_cast<long>(blockIdx.x) * blockDim.x + threadIdx.x;
+}
+
+// Pixels that hold nothing have no second layer. Block y is a map.
+__global__ void clear_invalid(Maps maps, DeviceSamples samples, MapPointers views) {
+  const long pixels = static_cast<long>(maps.height) * maps.width, i = place();
+  if (i >= pixels) return;
+  const int map = static_cast<int>(blockIdx.y);
+  const int v = views.first.v + map / views.grid.u, u = views.first.u + map % views.grid.u;
+  if (samples.valid[samples.pixel(v, u, 0, 0) + i] == 0) maps.layers[map * pixels + i] = 0;
 }
 
 // The region from the solution in `data`, and what either layer is trusted.
@@ -70,27 +82,27 @@ __global__ void begin_background(Maps maps) {
 }
 
 // Orders the layers, and writes confidence and number of layers.
-__global__ void finish_layers(Maps maps) {
+__global__ void finish_layers(Maps maps, float min, float max) {
   const long i = place();
   if (i >= maps.count) return;
-  if (maps.region[i] == 0) {
-    maps.near[i] = maps.far[i];
-    maps.layers[i] = 1;
-    return;
-  }
-  if (maps.near[i] < maps.far[i]) maps.near[i] = maps.far[i] = 0.5F * (maps.near[i] + maps.far[i]);
-  maps.coherence[i] = confidence_at(maps, i);
-  maps.layers[i] = 2;
+  const bool is_double = maps.region[i] != 0;
+  float near = is_double ? maps.near[i] : maps.far[i], far = maps.far[i];
+  if (near < far) near = far = 0.5F * (near + far);
+  if (is_double) maps.coherence[i] = confidence_at(maps, i);
+  maps.near[i] = fminf(fmaxf(near, min), max);
+  maps.far[i] = fminf(fmaxf(far, min), max);
+  maps.layers[i] = is_double ? 2 : 1;
 }
 
 // All that the device holds for a run.
 class LayerSolver {
  public:
-  LayerSolver(const LightField& lf, const LayerSmoothing& smoothing, const LayerMaps& maps,
+  LayerSolver(const LightField& lf, const LayerSmoothing& smoothing, const RawLayers& raw,
               const Progress& progress);
 
+  void find_score(DeviceMaps fit);
   std::vector<double> solve(const Progress& progress);
-  void download_to(const LayerMaps& maps, const Progress& progress);
+  void download_to(const LayerResults& results, const Progress& progress) const;
 
  private:
   template <class Kernel>
@@ -99,56 +111,66 @@ class LayerSolver {
     launch(stream_, {name, bytes * count, 8 * count},
            [&] { kernel(blocks_for(maps_.count, kThreads)); });
   }
-  void find_score(const ViewStack<float>& fit, const Progress& progress);
   void find_weights(const Progress& progress);
   void solve_layer(double lambda, float* result, const Progress& progress);
-  [[nodiscard]] DeviceArray<float> stack(const ViewStack<float>& host, const Progress& progress) {
-    return upload(host.data(), host.size(), stream_, progress);
-  }
 
-  std::shared_ptr<const DeviceLightField> light_field_;
   LayerSmoothing smoothing_;
+  MapMemory& single_;
+  LayerMemory& layers_;
+  const DeviceSamples& samples_;
   MappedViews views_;
-  DeviceStream stream_;
-  DeviceArray<float> single_, coherence_, near_, far_, data_, weight_, image_edges_, edges_;
-  DeviceArray<std::uint8_t> layers_, region_;
+  const DeviceStream& stream_;
+  DeviceArray<float> data_, weight_, image_edges_, edges_;
+  DeviceArray<std::uint8_t> region_;
   TvL2DeviceSolver solver_;
   Maps maps_;
   std::vector<double> gaps_;
 };
 
 LayerSolver::LayerSolver(const LightField& lf, const LayerSmoothing& smoothing,
-                         const LayerMaps& maps, const Progress& progress)
-    : light_field_(on_device(lf, progress)),
-      smoothing_(smoothing),
-      views_{maps.single.grid(), maps.single.first()},
-      single_(stack(maps.single, progress)),
-      coherence_(stack(maps.coherence, progress)),
-      near_(stack(maps.near, progress)),
-      far_(stack(maps.far, progress)),
-      data_(single_.size(), stream_),
-      weight_(single_.size(), stream_),
-      image_edges_(single_.size(), stream_),
-      edges_(single_.size(), stream_),
-      layers_(upload(maps.layers.data(), maps.layers.size(), stream_, progress)),
-      region_(single_.size(), stream_),
-      solver_(lf.height(), lf.width(), maps.single.grid().count(), stream_),
-      maps_{lf.height(),    lf.width(),        static_cast<long>(single_.size()),
-            single_.data(), coherence_.data(), near_.data(),
-            far_.data(),    layers_.data(),    region_.data(),
-            data_.data(),   weight_.data(),    image_edges_.data(),
-            edges_.data()} {
-  find_score(maps.fit, progress);
-}
+                         const RawLayers& raw, const Progress& progress)
+    : smoothing_(smoothing),
+      single_(raw.single.memory()),
+      layers_(raw.layers.memory()),
+      samples_(single_.samples(lf, progress)),
+      views_{single_.grid, single_.first},
+      stream_(single_.stream),
+      data_(single_.disparity.size(), stream_),
+      weight_(data_.size(), stream_),
+      image_edges_(data_.size(), stream_),
+      edges_(data_.size(), stream_),
+      region_(data_.size(), stream_),
+      solver_(lf.height(), lf.width(), single_.grid.count(), stream_),
+      maps_{lf.height(),
+            lf.width(),
+            static_cast<long>(data_.size()),
+            single_.disparity.data(),
+            single_.confidence.data(),
+            layers_.near.data(),
+            layers_.far.data(),
+            layers_.confidence.data(),
+            region_.data(),
+            data_.data(),
+            weight_.data(),
+            image_edges_.data(),
+            edges_.data()} {}
 
-void LayerSolver::find_score(const ViewStack<float>& fit, const Progress& progress) {
-  const DeviceArray<float> coherence = stack(fit, progress);
-  const PackedFieldMemory packed(light_field_->samples(), stream_);
+void LayerSolver::find_score(DeviceMaps fit) {
+  const long pixels = static_cast<long>(maps_.height) * maps_.width;
+  if (samples_.valid != nullptr) {
+    const dim3 grid(blocks_for(pixels, kThreads), static_cast<unsigned>(views_.grid.count()));
+    launch(stream_, {"layers: invalid pixels", 1.0 * maps_.count}, [&] {
+      clear_invalid<<<grid, kThreads, 0, stream_.get()>>>(maps_, samples_, single_.pointers());
+    });
+  }
+  stream_.wait_for(fit.memory().stream);
+  const PackedFieldMemory packed(samples_, stream_);
   score_layers(packed.field(), views_, static_cast<float>(smoothing_.decision),
                smoothing_.strictness,
-               {coherence.data(), single_.data(), near_.data(), far_.data(), layers_.data(),
+               {fit.memory().confidence.data(), maps_.single, maps_.near, maps_.far, maps_.layers,
                 data_.data(), weight_.data()},
                stream_);
+  fit.memory().stream.wait_for(stream_);
 }
 
 // Of either layer's data, and of the variation.
@@ -162,8 +184,8 @@ void LayerSolver::find_weights(const Progress& progress) {
   weights.weight_power = smoothing_.weight_power;
   weights.min_weight = smoothing_.min_weight;
   weights.edge_strength = smoothing_.edge_strength;
-  fill_weights(light_field_->samples(), views_, 0, views_.grid.count(), weights, edges_.data(),
-               nullptr, {weight_.data(), image_edges_.data()}, stream_);
+  fill_weights(samples_, views_, 0, views_.grid.count(), weights, edges_.data(), nullptr,
+               {weight_.data(), image_edges_.data()}, stream_);
 }
 
 void LayerSolver::solve_layer(double lambda, float* result, const Progress& progress) {
@@ -183,29 +205,33 @@ std::vector<double> LayerSolver::solve(const Progress& progress) {
     begin_foreground<<<blocks, kThreads, 0, stream_.get()>>>(maps_, factor,
                                                              smoothing_.border_weight);
   });
-  solve_layer(smoothing_.lambda * factor, near_.data(), progress.part(0.3, 0.65));
+  solve_layer(smoothing_.lambda * factor, maps_.near, progress.part(0.3, 0.65));
   run("layers: background", 18,
       [&](unsigned blocks) { begin_background<<<blocks, kThreads, 0, stream_.get()>>>(maps_); });
-  solve_layer(smoothing_.lambda, far_.data(), progress.part(0.65, 1));
-  run("layers: order", 12,
-      [&](unsigned blocks) { finish_layers<<<blocks, kThreads, 0, stream_.get()>>>(maps_); });
+  solve_layer(smoothing_.lambda, maps_.far, progress.part(0.65, 1));
+  run("layers: order", 22, [&](unsigned blocks) {
+    finish_layers<<<blocks, kThreads, 0, stream_.get()>>>(maps_, smoothing_.min, smoothing_.max);
+  });
   return gaps_;
 }
 
-void LayerSolver::download_to(const LayerMaps& maps, const Progress& progress) {
-  download(maps.coherence, coherence_, stream_, progress);
-  download(maps.near, near_, stream_, progress);
-  download(maps.far, far_, stream_, progress);
-  download(maps.layers, layers_, stream_, progress);
+void LayerSolver::download_to(const LayerResults& results, const Progress& progress) const {
+  download(results.near, layers_.near, stream_, progress);
+  download(results.near_again, layers_.near, stream_, progress);
+  download(results.far, layers_.far, stream_, progress);
+  download(results.confidence, single_.confidence, stream_, progress);
+  download(results.layers, layers_.confidence, stream_, progress);
 }
 
 }  // namespace
 
 std::vector<double> solve_layers(const LightField& lf, const LayerSmoothing& smoothing,
-                                 const LayerMaps& maps, const Progress& progress) {
-  LayerSolver solver(lf, smoothing, maps, progress.part(0, 0.1));
-  std::vector<double> gaps = solver.solve(progress.part(0.1, 0.9));
-  solver.download_to(maps, progress.part(0.9, 1));
+                                 const RawLayers& raw, DeviceMaps fit, const LayerResults& results,
+                                 const Progress& progress) {
+  LayerSolver solver(lf, smoothing, raw, progress.part(0, 0));
+  solver.find_score(std::move(fit));
+  std::vector<double> gaps = solver.solve(progress.part(0, 0.9));
+  solver.download_to(results, progress.part(0.9, 1));
   return gaps;
 }
 

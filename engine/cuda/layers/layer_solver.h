@@ -4,6 +4,7 @@
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/light_field.h"
 #include "engine/core/parallel/progress.h"
+#include "engine/cuda/layers/double_layers.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,24 +26,30 @@ struct LayerSmoothing {
   float border_weight = 0.02F;
   int max_iterations = 30;
   double gap = 1e-4;
+  float min = 0, max = 0;  ///< Of the results.
 };
 
-/// Stacks of the same views. `fit` is the coherence of one orientation before lines were checked.
-/// The others are raw and become results: the coherence of one orientation that of what is there,
-/// `layers` the confidence of two orientations in 1/255 their number.
-struct LayerMaps {
-  const ViewStack<float>& fit;
-  const ViewStack<float>& single;
-  ViewStack<float>& coherence;
+/// What a run starts from, of the same views, all of the stream of `single`.
+struct RawLayers {
+  DeviceMaps& single;    ///< One orientation, its lines checked.
+  DeviceLayers& layers;  ///< Two orientations.
+};
+
+/// Where results go, stacks of the same views: both layers, clamped, and the nearer one once more.
+struct LayerResults {
   ViewStack<float>& near;
+  ViewStack<float>& near_again;
   ViewStack<float>& far;
+  ViewStack<float>& confidence;  ///< Of what is there.
   ViewStack<std::uint8_t>& layers;
 };
 
-/// Steps 2 to 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. Throws
-/// DeviceFailure, Cancelled.
+/// Steps 2 to 4 of EPI_TWO_LAYER on the device; returns the relative gap of every view. `fit` holds
+/// the coherence of one orientation before its lines were checked. Throws DeviceFailure, Cancelled.
 [[nodiscard]] std::vector<double> solve_layers(const LightField& light_field,
                                                const LayerSmoothing& smoothing,
-                                               const LayerMaps& maps, const Progress& progress);
+                                               const RawLayers& raw, DeviceMaps fit,
+                                               const LayerResults& results,
+                                               const Progress& progress);
 
 }  // namespace episcope::cuda

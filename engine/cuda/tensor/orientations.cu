@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/cuda/tensor/orientations.h"
 
+#include "engine/cuda/device/host_pages.h"
 #include "engine/cuda/device/transfer.cuh"
 #include "engine/cuda/maps/map_memory.cuh"
 #include "engine/cuda/tensor/tensor_run.cuh"
@@ -17,6 +18,8 @@ void find_orientations(const LightField& lf, const TensorSettings& settings, Dev
 void find_orientations(const LightField& lf, const TensorSettings& settings,
                        ViewStack<float>& disparity, ViewStack<float>& confidence,
                        const Progress& progress) {
+  const auto of_disparity = begin_pages(disparity, progress);
+  const auto of_confidence = begin_pages(confidence, progress);
   const auto light_field = on_device(lf, progress.part(0, 0));
   const DeviceStream stream;
   DeviceArray<float> d(disparity.size(), stream), r(confidence.size(), stream);

@@ -9,8 +9,7 @@
 namespace episcope::cuda {
 namespace {
 
-// Places (pairs of pixels) and rows of a tile, and what it reads around them: the last step reaches
-// five pixels through those before it.
+// Places (pairs of pixels) and rows of a tile, and what it reads around them.
 constexpr int kTilePlaces = 32, kTileRows = 32;
 constexpr int kHaloPlaces = 3, kHaloRows = 5;
 constexpr int kPlaces = kTilePlaces + 2 * kHaloPlaces;
@@ -19,6 +18,12 @@ constexpr int kThreads = 544;
 constexpr int kEach = (kPlaces * kRows + kThreads - 1) / kThreads;  // places of a thread
 constexpr int kPlane = kRows * 2 * kPlaces;
 constexpr int kSharedPlanes = 5;
+
+// How many pixels around the tile a step computes, for those after it to have their neighbours.
+constexpr int kReadReach = 5;
+constexpr int kReachOfRelaxed1 = 4, kReachOfRelaxed0 = 3;  // before the dual
+constexpr int kReachOfDual = 3, kReachOfB = 2;
+constexpr int kReachOfLast0 = 2, kReachOfLast1 = 1;
 
 // A place of a tile: two pixels, the even one first.
 struct Pair {
@@ -30,13 +35,20 @@ struct Place {
   int at = 0;              // of its even pixel in a plane of the tile
   int from = 0;            // in a plane of a view
   int cell = 0;            // of its pixels in a plane of the coarse level
-  bool exists = false;     // in the tile, halo included
-  bool is_inner = false;   // has neighbours in the tile
+  int reach = 0;           // pixels beside the tile; kReadReach + 1 where there is no place
   bool is_inside = false;  // in the level
-  bool is_core = false;    // not of the halo
   bool is_odd = false;     // its row
   bool has_below = false;  // in the level
+
+  [[nodiscard]] __device__ bool exists() const { return reach <= kReadReach; }
+  // Of the tile itself.
+  [[nodiscard]] __device__ bool is_core() const { return reach == 0 && is_inside; }
 };
+
+// Of a row, or of a place times two.
+__device__ int outside(int at, int halo, int size) {
+  return max(0, max(halo - at, at - (halo + size - 1)));
+}
 
 __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int number) {
   const int index = static_cast<int>(threadIdx.x) + number * kThreads;
@@ -47,12 +59,11 @@ __device__ Place place_of(const TvL2Level& level, const TvL2Level& coarse, int n
   result.at = y * 2 * kPlaces + i;
   result.from = row * static_cast<int>(level.pitch) + place;
   result.cell = static_cast<int>(coarse.at(row >> 1, place));
-  result.exists = index < kPlaces * kRows;
-  result.is_inner = result.exists && y > 0 && y + 1 < kRows && i > 0 && i + 1 < kPlaces;
+  result.reach = index < kPlaces * kRows ? max(outside(y, kHaloRows, kTileRows),
+                                               2 * outside(i, kHaloPlaces, kTilePlaces) - 1)
+                                         : kReadReach + 1;
   result.is_inside =
-      result.exists && row >= 0 && row < level.height && place >= 0 && place < level.half();
-  result.is_core = result.is_inside && y >= kHaloRows && y < kHaloRows + kTileRows &&
-                   i >= kHaloPlaces && i < kHaloPlaces + kTilePlaces;
+      result.exists() && row >= 0 && row < level.height && place >= 0 && place < level.half();
   result.is_odd = (row & 1) != 0;
   result.has_below = row + 1 < level.height;
   return result;
@@ -75,7 +86,7 @@ class Tile {
   // Reads the tile; colour 0 with the correction of its cell.
   __device__ void load(const TvL2Level& coarse, bool is_first);
   // Relaxes one colour from b as it is.
-  __device__ void relax(int colour);
+  __device__ void relax(int colour, int reach);
   __device__ void move_dual(float relaxation);
   __device__ void renew();
   __device__ void store(const TvL2Level& coarse);
@@ -112,12 +123,12 @@ __device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.exists) continue;
+    if (!place.exists()) continue;
     Pair u = read(TvL2Plane::U, place);
     const Pair rx = read(TvL2Plane::Rx, place), ry = read(TvL2Plane::Ry, place);
-    inverse_[k] = read(TvL2Plane::Inverse, place);
+    if (place.reach <= kReachOfRelaxed1) inverse_[k] = read(TvL2Plane::Inverse, place);
     if (!is_first) {
-      b_[k] = read(TvL2Plane::B, place);
+      if (place.reach <= kReachOfRelaxed1) b_[k] = read(TvL2Plane::B, place);
       if (place.is_inside) {
         const float cell = coarse.of(TvL2Plane::U, view_)[place.cell];
         place.is_odd ? u.of[1] += cell : u.of[0] += cell;
@@ -134,11 +145,11 @@ __device__ void Tile::load(const TvL2Level& coarse, bool is_first) {
   __syncthreads();
 }
 
-__device__ void Tile::relax(int colour) {
+__device__ void Tile::relax(int colour, int reach) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.is_inner) continue;
+    if (place.reach > reach) continue;
     const int half = place.is_odd ? 1 - colour : colour;
     const int at = place.at + half * kPlaces;
     const float b = half == 0 ? b_[k].of[0] : b_[k].of[1];
@@ -153,15 +164,15 @@ __device__ void Tile::move_dual(float relaxation) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.exists) continue;
+    if (place.reach > kReachOfDual) continue;
     Pair zx = read(TvL2Plane::Zx, place), zy = read(TvL2Plane::Zy, place);
     const Pair g = read(TvL2Plane::G, place);
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
       const int at = place.at + half * kPlaces;
       const int right = half == 0 ? place.at + kPlaces : place.at + 1;
-      const float along = place.is_inner ? u_[right] - u_[at] : 0.0F;
-      const float down = place.is_inner ? u_[at + 2 * kPlaces] - u_[at] : 0.0F;
+      const float along = u_[right] - u_[at];
+      const float down = u_[at + 2 * kPlaces] - u_[at];
       const float stay = 1 - relaxation * (1 - shrinkage(zx.of[half], zy.of[half], g.of[half]));
       zx.of[half] = zx.of[half] * stay + relaxation * rx_[at] * along;
       zy.of[half] = zy.of[half] * stay + relaxation * ry_[at] * down;
@@ -169,7 +180,7 @@ __device__ void Tile::move_dual(float relaxation) {
       qx_[at] = zx.of[half] * mirror;
       qy_[at] = zy.of[half] * mirror;
     }
-    if (!place.is_core) continue;
+    if (!place.is_core()) continue;
     write(1, place, zx);
     write(2, place, zy);
   }
@@ -181,14 +192,14 @@ __device__ void Tile::renew() {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.is_inner) continue;
+    if (place.reach > kReachOfB) continue;
     b_[k] = read(TvL2Plane::Cf, place);
 #pragma unroll
     for (int half = 0; half < 2; ++half) {
       const int at = place.at + half * kPlaces;
       b_[k].of[half] += (qx_[at] - qx_[left_of(place, half)]) + (qy_[at] - qy_[at - 2 * kPlaces]);
     }
-    if (place.is_core) write(3, place, b_[k]);
+    if (place.is_core()) write(3, place, b_[k]);
   }
 }
 
@@ -197,20 +208,20 @@ __device__ void Tile::store(const TvL2Level& coarse) {
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.is_inner) continue;
+    if (place.reach > 0) continue;
     const int half = place.is_odd ? 1 : 0;
     const int at = place.at + half * kPlaces;
     const float here = u_[at];
     const Pair c = read(TvL2Plane::C, place);
     const float own = level_.data_scale * (half == 0 ? c.of[0] : c.of[1]) * here;
     qx_[at] = (half == 0 ? b_[k].of[0] : b_[k].of[1]) - own + pull(at, left_of(place, half), here);
-    if (place.is_core) write(0, place, {{u_[place.at], u_[place.at + kPlaces]}});
+    if (place.is_inside) write(0, place, {{u_[place.at], u_[place.at + kPlaces]}});
   }
   __syncthreads();
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place& place = places_[k];
-    if (!place.is_core || place.is_odd) continue;
+    if (!place.is_core() || place.is_odd) continue;
     float sum = qx_[place.at];
     if (place.has_below) sum += qx_[place.at + 3 * kPlaces];
     coarse.of(TvL2Plane::B, view_)[place.cell] = sum;
@@ -222,7 +233,7 @@ __device__ void keep(const TvL2Level& level, const TvL2Level& coarse, int view) 
 #pragma unroll
   for (int k = 0; k < kEach; ++k) {
     const Place place = place_of(level, coarse, k);
-    if (!place.is_core) continue;
+    if (!place.is_core()) continue;
     const float* const from = level.of(TvL2Plane::U, view) + place.from;
     float* const to = level.second(0, view) + place.from;
     to[0] = from[0];
@@ -238,13 +249,13 @@ __global__ void __launch_bounds__(kThreads, 2)
   Tile tile(level, coarse, view, shared);
   tile.load(coarse, is_first);
   if (!is_first) {
-    tile.relax(1);
-    tile.relax(0);
+    tile.relax(1, kReachOfRelaxed1);
+    tile.relax(0, kReachOfRelaxed0);
   }
   tile.move_dual(views[view].relaxation);
   tile.renew();
-  tile.relax(0);
-  tile.relax(1);
+  tile.relax(0, kReachOfLast0);
+  tile.relax(1, kReachOfLast1);
   tile.store(coarse);
 }
 

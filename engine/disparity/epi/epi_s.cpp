@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/epi/epi_s.h"
 
+#include "engine/cuda/device/host_pages.h"
 #include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/epi/line_residuals.h"
@@ -97,6 +98,8 @@ Estimate estimate_on_gpu(const LightField& lf, const EpiSParameters& parameters,
                          ViewSelection views, const Progress& progress) {
   Estimate estimate = begin_orientations(lf, parameters.tensor, views, progress.part(0, 0.05));
   const Interval range = estimate.range;
+  const auto of_disparity = cuda::begin_pages(estimate.field.disparity, progress);
+  const auto of_confidence = cuda::begin_pages(estimate.confidence, progress);
   cuda::DeviceMaps maps(estimate.field.disparity);
   cuda::find_orientations(lf, orientation_settings(lf, parameters.tensor, range), maps,
                           progress.part(0.05, 0.15));

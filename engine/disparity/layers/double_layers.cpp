@@ -4,7 +4,7 @@
 #include "engine/core/error.h"
 #include "engine/core/parallel/parallel.h"
 #include "engine/cuda/layers/double_layers.h"
-#include "engine/disparity/layers/double_filters.h"
+#include "engine/disparity/layers/double_passes.h"
 
 #include <fmt/format.h>
 
@@ -92,55 +92,12 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   });
 }
 
-cuda::DoubleTaps device_taps(const Taps& taps) {
-  cuda::DoubleTaps copy;
-  copy.radius = taps.radius;
-  std::copy_n(taps.values, 2 * taps.radius + 1, copy.values);
-  return copy;
-}
-
-cuda::DoublePass device_pass(const Measurement& measurement, bool is_horizontal) {
-  const LightField& lf = measurement.light_field;
-  const DoubleFilterSet set = make_double_filters(is_horizontal ? lf.grid().u : lf.grid().v,
-                                                  lf.channels(), measurement.scales);
-  const PixelIndex tile =
-      DoubleOrientation::tile(is_horizontal ? Direction::Horizontal : Direction::Vertical);
-  const SecondOrderFilters& filters = set.filters;
-  cuda::DoublePass pass;
-  pass.is_horizontal = is_horizontal;
-  for (int order = 0; order < 3; ++order) {
-    pass.along[order] = device_taps(filters.along[order]);
-    pass.views[order] = device_taps(filters.views[order]);
-    pass.scale[order] = filters.scale[order];
-  }
-  pass.integrate = device_taps(filters.integrate);
-  pass.across = device_taps(filters.across);
-  pass.mix = filters.mix;
-  pass.contrast_energy = filters.contrast_energy;
-  pass.noise_energy = filters.noise_energy;
-  pass.first_product = set.first_product;
-  pass.last_product = set.last_product;
-  pass.row_weights = set.row_weights;
-  pass.tile_height = tile.y;
-  pass.tile_width = tile.x;
-  pass.tile_stride = measurement.search.tile_stride;
-  return pass;
-}
-
 void measure_on_device(const Measurement& measurement, const Progress& progress) {
-  const LightField& lf = measurement.light_field;
-  const DoubleSearch& search = measurement.search;
-  std::vector<cuda::DoublePass> passes;
-  for (const bool is_horizontal : {true, false}) {
-    const int views = is_horizontal ? lf.grid().u : lf.grid().v;
-    if (views < DoubleOrientation::kMinViews) continue;
-    passes.push_back(device_pass(measurement, is_horizontal));
-  }
   progress.step("two orientations");
+  const DevicePasses of =
+      device_passes(measurement.light_field, measurement.scales, measurement.search);
   cuda::measure_double_layers(
-      lf, passes,
-      {double_steps(search), kDoubleShearReach, static_cast<float>(search.accepted.min),
-       static_cast<float>(search.accepted.max), static_cast<float>(search.min_distance)},
+      measurement.light_field, of.passes, of.shears,
       {measurement.layers.near, measurement.layers.far, measurement.layers.confidence}, progress);
 }
 

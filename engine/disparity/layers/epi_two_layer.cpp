@@ -2,31 +2,20 @@
 #include "engine/disparity/layers/epi_two_layer.h"
 
 #include "engine/core/parallel/parallel.h"
-#include "engine/cuda/layers/layer_solver.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
 #include "engine/disparity/layers/double_layers.h"
 #include "engine/disparity/layers/layer_range.h"
 #include "engine/disparity/layers/layer_score.h"
+#include "engine/disparity/layers/layer_settings.h"
+#include "engine/disparity/layers/two_layers_on_device.h"
 #include "engine/solvers/simplex/binary_segmentation.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <vector>
 
 namespace episcope {
 namespace {
-
-// Variation of the surface across the border of its region, and of either layer at least.
-constexpr float kBorderWeight = 0.02F;
-// Of data, as in EPI_S.
-constexpr float kMinWeight = 0.003F;
-// Of two orientations, which are harder to tell from noise than one.
-constexpr double kCrossScaleOfLayers = 1;
-// The region must be right to a pixel, not to a thousandth.
-constexpr int kRegionIterations = 10;
-constexpr double kRegionGap = 1e-3;
 
 // What one thread needs to solve a view.
 struct Workspace {
@@ -94,7 +83,7 @@ void ViewSolver::find_weights(const LayeredView& view) {
   for (std::size_t i = 0; i < region_.size(); ++i) {
     trust.data()[i] = region_.data()[i] != 0 ? confidence(view, i) : view.coherence.data[i];
   }
-  fill_data_weights(trust, {parameters_.weight_power, kMinWeight}, space_.weight);
+  fill_data_weights(trust, {parameters_.weight_power, kLeastLayerWeight}, space_.weight);
 }
 
 double ViewSolver::solve_layer(double lambda, ImageView<float> result) {
@@ -125,7 +114,9 @@ double ViewSolver::solve_foreground(const Image<float>& edges, const LayeredView
       const int right = std::min(x + 1, region_.width() - 1);
       const bool is_border = here[right] != here[x] || below[x] != here[x];
       space_.data.data()[i] = is_double ? view.near.data[i] : view.single.data[i];
-      space_.edge.data()[i] = is_border ? kBorderWeight : is_double ? 1 : edges.data()[i] / factor;
+      space_.edge.data()[i] = is_border   ? kLayerBorderWeight
+                              : is_double ? 1
+                                          : edges.data()[i] / factor;
     }
   }
   return solve_layer(parameters_.lambda * factor, view.near);
@@ -162,40 +153,6 @@ double ViewSolver::solve(ViewIndex index, const LayeredView& view) {
   return gap;
 }
 
-std::vector<std::string> notes_of(const std::vector<double>& gaps,
-                                  const ViewStack<std::uint8_t>& layers) {
-  const auto doubles = std::count(layers.data(), layers.data() + layers.size(), 2);
-  const double share = 100.0 * static_cast<double>(doubles) / static_cast<double>(layers.size());
-  return {fmt::format("two layers in {:.1f} % of the pixels", share),
-          gap_note(*std::max_element(gaps.begin(), gaps.end()))};
-}
-
-// The same on the device.
-std::vector<double> solve_on_device(const LightField& lf, const EpiTwoLayerParameters& parameters,
-                                    const ViewStack<float>& fit, Estimate& estimate,
-                                    const Progress& progress) {
-  LayeredDisparity& layered = estimate.layered;
-  cuda::LayerSmoothing smoothing;
-  smoothing.decision = parameters.decision;
-  smoothing.strictness = line_strictness(lf.grid());
-  smoothing.region_smoothness = parameters.region_smoothness;
-  smoothing.region_iterations = kRegionIterations;
-  smoothing.region_gap = kRegionGap;
-  smoothing.lambda = parameters.lambda;
-  smoothing.layer_smoothness = parameters.layer_smoothness;
-  smoothing.weight_power = parameters.weight_power;
-  smoothing.min_weight = kMinWeight;
-  smoothing.edge_strength = parameters.edge_strength;
-  smoothing.border_weight = kBorderWeight;
-  smoothing.max_iterations = parameters.stop.max_iterations;
-  smoothing.gap = parameters.stop.gap;
-  return cuda::solve_layers(
-      lf, smoothing,
-      {fit, estimate.field.disparity, estimate.confidence, layered.foreground.disparity,
-       layered.background.disparity, layered.layers},
-      progress);
-}
-
 // Replaces the raw maps in `estimate` by the results.
 std::vector<double> solve_on_cpu(const LightField& lf, const PackedViews& packed,
                                  const EpiTwoLayerParameters& parameters,
@@ -219,21 +176,13 @@ std::vector<double> solve_on_cpu(const LightField& lf, const PackedViews& packed
 
 // Checks the lines of the single layer, and decides and smooths.
 void solve_views(const LightField& lf, const EpiTwoLayerParameters& parameters,
-                 const ViewStack<float>& fit, Estimate& estimate, const Progress& progress,
-                 Device device) {
-  const auto solve = [&] {
-    const Progress checking = progress.part(0, 0.15), solving = progress.part(0.15, 1);
-    if (device == Device::Cuda) {
-      check_lines(lf, parameters.line_check, estimate, checking, device);
-      progress.step("layers");
-      return solve_on_device(lf, parameters, fit, estimate, solving);
-    }
-    const PackedViews packed = pack_views(lf, progress.part(0, 0));
-    check_lines(packed, parameters.line_check, estimate, checking);
-    progress.step("layers");
-    return solve_on_cpu(lf, packed, parameters, fit, estimate, solving);
-  };
-  estimate.notes = notes_of(solve(), estimate.layered.layers);
+                 const ViewStack<float>& fit, Estimate& estimate, const Progress& progress) {
+  const PackedViews packed = pack_views(lf, progress.part(0, 0));
+  check_lines(packed, parameters.line_check, estimate, progress.part(0, 0.15));
+  progress.step("layers");
+  const std::vector<double> gaps =
+      solve_on_cpu(lf, packed, parameters, fit, estimate, progress.part(0.15, 1));
+  estimate.notes = layer_notes(gaps, estimate.layered.layers);
 }
 
 // Overshoot that the tensors left in, and the foreground as the single map for methods with one
@@ -323,26 +272,24 @@ Schema<EpiTwoLayerParameters> epi_two_layer_schema() {
 Estimate estimate_epi_two_layer(const LightField& lf, const EpiTwoLayerParameters& parameters,
                                 ViewSelection views, const Progress& progress, Device device) {
   EpiLParameters tensor = parameters.tensor;
-  const TensorScales scales{
-      parameters.double_inner_scale, parameters.double_outer_scale, tensor.view_scale,
-      kCrossScaleOfLayers,           parameters.double_contrast,    tensor.noise};
+  const TensorScales scales = scales_of_layers(parameters);
   tensor.range = search_layer_range(lf, tensor, scales, progress.part(0, 0.1), device);
-  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15), device);
+  if (device == Device::Cuda) {
+    return two_layers_on_device(lf, parameters, tensor, views, progress.part(0.1, 1));
+  }
+  Estimate estimate = estimate_orientations(lf, tensor, views, progress.part(0.1, 0.15));
   tensor.cross_scale = kCrossScaleOfLayers;
   const ViewStack<float> fit =
-      estimate_orientations(lf, tensor, views, progress.part(0.15, 0.2), device).confidence;
+      estimate_orientations(lf, tensor, views, progress.part(0.15, 0.2)).confidence;
   const ViewStack<float>& single = estimate.field.disparity;
-  // Cut off at the range itself, noise about its ends would no longer average out.
-  constexpr double kOvershoot = 0.3;
-  const DoubleSearch search{{estimate.range.min - kOvershoot, estimate.range.max + kOvershoot},
-                            parameters.least_distance};
-  DoubleLayers layers = measure_double_layers(lf, scales, search, single.grid(), single.first(),
-                                              progress.part(0.2, 0.4), device);
+  DoubleLayers layers =
+      measure_double_layers(lf, scales, layer_search(parameters, estimate.range), single.grid(),
+                            single.first(), progress.part(0.2, 0.4));
   estimate.layered.foreground.disparity = std::move(layers.near);
   estimate.layered.background.disparity = std::move(layers.far);
   estimate.layered.layers = std::move(layers.confidence);
   clear_invalid(lf, estimate.layered.layers);
-  solve_views(lf, parameters, fit, estimate, progress.part(0.4, 0.98), device);
+  solve_views(lf, parameters, fit, estimate, progress.part(0.4, 0.98));
   clamp_layers(estimate, progress.part(0.98, 1));
   return estimate;
 }

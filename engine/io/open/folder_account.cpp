@@ -16,17 +16,20 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostKinds = 20;  ///< Of files not used; more are told apart less finely.
 
-/// A name with # for each of its numbers.
+/// A name with # for each of its numbers; those of a suffix such as .h5 are none.
 std::string kind_by_numbers(const std::string& name) {
+  const std::size_t dot = name.rfind('.');
+  const bool has_suffix = dot != name.npos && dot + 1 < name.size() && !is_digit(name[dot + 1]);
+  const std::size_t end = has_suffix ? dot : name.size();
   std::string kind;
-  for (const char c : name) {
+  for (const char c : name.substr(0, end)) {
     if (!is_digit(c)) {
       kind += c;
     } else if (kind.empty() || kind.back() != '#') {
       kind += '#';
     }
   }
-  return kind;
+  return kind + name.substr(end);
 }
 
 /// "*.txt".

@@ -9,6 +9,8 @@
 
 #include <QTemporaryDir>
 
+#include <sys/mman.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -47,6 +49,7 @@ class LargeMemoryTest : public QObject {
   void memorySetAside_isNotTaken();
   void scratchWithoutAFolder_isRefusedWithASentence();
   void zeros_areZero();
+  void pagesTakenAhead_areThere_andKeepWhatTheyHold();
   void partOfAFile_isReadFromAnyOffset();
   void partOfAFile_isNeverWritten();
   void forgottenPages_areReadAgain();
@@ -126,6 +129,24 @@ void LargeMemoryTest::zeros_areZero() {
 
     QCOMPARE(static_cast<std::size_t>(std::count(zeros.get(), zeros.get() + bytes, 0)), bytes);
   }
+}
+
+void LargeMemoryTest::pagesTakenAhead_areThere_andKeepWhatTheyHold() {
+  constexpr std::size_t kPages = 8 * kMebibyte / 4096;
+  const LargeMemory memory = allocate_large_zeros(8 * kMebibyte);
+  auto* const bytes = static_cast<unsigned char*>(memory.data);
+  bytes[5 * kMebibyte] = 7;
+
+  take_pages(bytes + 100, memory.bytes - 200);
+
+  QCOMPARE(bytes[5 * kMebibyte], static_cast<unsigned char>(7));
+  QCOMPARE(bytes[0], static_cast<unsigned char>(0));
+  std::vector<unsigned char> is_there(kPages);
+  QCOMPARE(mincore(memory.data, memory.bytes, is_there.data()), 0);
+  const auto count = std::ranges::count_if(is_there, [](unsigned char page) { return page & 1; });
+  release_large(memory);
+  if (count < 10) QSKIP("This system gives no pages ahead.");
+  QVERIFY2(count >= static_cast<std::ptrdiff_t>(kPages) - 1, qPrintable(QString::number(count)));
 }
 
 void LargeMemoryTest::partOfAFile_isReadFromAnyOffset() {
