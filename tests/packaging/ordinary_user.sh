@@ -29,7 +29,7 @@ as_user "$cli" evaluate r.h5 --truth lf.h5 >/dev/null
 as_user "$cli" show r.h5 --what disparity -o r.png
 as_user "$cli" list . >/dev/null
 # What does not fit into memory cannot go to the cache.
-as_user "$cli" estimate epi_c lf.h5 -o c.h5 --memory 3M -q
+as_user "$cli" estimate epi_g lf.h5 -o c.h5 --memory 3M -q
 [ -s c.h5 ]
 
 if [ $# -gt 1 ]; then

@@ -91,10 +91,11 @@ bool parse_as(const Estimator* estimator, const VerbArguments& arguments, Reques
   request.job.run.declare(parser, {run.description("views"), run.description("device")});
   parser.option(
       "--memory", request.memory, bytes_value("SIZE"),
-      "Memory that the light field and the method may take, such as 4G; by default two "
-      "thirds of what is free. Within it, epi_l, epi_s, the local and denoised stereo methods "
-      "and plane_pm write their maps block by block to OUT.h5.partial, and the same command "
-      "continues what was interrupted; other methods put on disk what does not fit");
+      "Memory that program, light field and method may take, such as 4G; by default two "
+      "thirds of what is free. Within it, epi_l, epi_s, epi_c, epi_two_layer, the local and "
+      "denoised stereo methods and plane_pm write their maps block by block to OUT.h5.partial, and "
+      "the same command continues what was interrupted; other methods run at once and put on disk "
+      "what does not fit");
   parser.flag("--json", request.is_json, "Print one JSON object instead of a line");
   declare_job_options(parser, request.job);
   declare_read_options(parser, request.read);
@@ -191,6 +192,12 @@ Json answer_json(const Answer& answer) {
   return json;
 }
 
+/// What the program itself leaves of a budget for light field and method, but half of it at least:
+/// a small budget should not end where the program begins.
+std::size_t beside_program(std::size_t budget) {
+  return std::max(budget - std::min(used_memory(), budget), budget / 2);
+}
+
 /// Does what the command line asks for, light field by light field.
 class Runner {
  public:
@@ -200,7 +207,7 @@ class Runner {
     options_.threads = job_.progress().threads();
     // The method asks as well, but not before the light field is loaded.
     require_device(options_.device, request.estimator->info);
-    if (request.memory > 0) set_memory_budget(request.memory);
+    if (request.memory > 0) set_memory_budget(beside_program(request.memory));
   }
 
   [[nodiscard]] Job& job() { return job_; }
@@ -221,6 +228,11 @@ class Runner {
     const EstimateRequest run{request_.estimator->info.id, request_.parameters.values(), options_};
     const bool in_blocks = !request_.is_submission &&
                            should_run_in_blocks(*light_field, *request_.estimator, options_);
+    if (request_.memory > 0 && !request_.is_submission && !in_blocks) {
+      note(task, run.method +
+                     " runs at once: what does not fit is put on disk, and an interrupted "
+                     "run begins again");
+    }
     const Answer answer = in_blocks ? run_blocks(task, run, *light_field, progress.part(0.3, 1))
                                     : run_at_once(task, run, *light_field, progress.part(0.3, 1));
     for (const auto& sentence : answer.provenance.notes) note(task, sentence);
@@ -243,8 +255,12 @@ class Runner {
   [[nodiscard]] Answer run_blocks(const Task& task, const EstimateRequest& run,
                                   const LightField& light_field, const Progress& progress) {
     const std::size_t held = light_field.is_on_disk() ? 0 : light_field.byte_size();
-    const std::size_t budget = memory_budget();
-    const BlockRequest request{run, task.output, task.input, budget - std::min(held, budget)};
+    const auto left_of = [&](std::size_t budget) { return budget - std::min(held, budget); };
+    const std::size_t wanted = memory_budget();
+    const BlockRequest request{run,
+                               task.output,
+                               task.input,
+                               {left_of(wanted), left_of(std::max(wanted, request_.memory))}};
     FinishedBlocks made = run_in_blocks(light_field, *request_.estimator, request, progress);
     if (!made.remark.empty()) note(task, made.remark);
     return {task.output, std::move(made.provenance), made.maps, light_field.center()};

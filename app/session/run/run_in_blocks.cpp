@@ -8,8 +8,8 @@
 #include "engine/core/hash/fnv1a.h"
 #include "engine/core/version.h"
 #include "engine/disparity/blocks/run_blocks.h"
-#include "engine/io/maps/result_draft.h"
 #include "engine/io/maps/parameter_json.h"
+#include "engine/io/maps/result_draft.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ std::string identity_of(const Estimator& estimator, const BlockwiseRun& run,
                         std::uint64_t source_hash) {
   const MapGeometry& maps = run.maps;
   const nlohmann::json identity{
-      {"draft", 2},
+      {"draft", 3},
       {"version", kVersion},
       {"method", estimator.info.id},
       {"revision", estimator.info.revision},
@@ -41,6 +41,9 @@ class DraftStore : public BlockStore {
       : draft_(draft), source_(std::move(source)) {}
   [[nodiscard]] BlockProgress progress() const override { return draft_.progress(); }
   [[nodiscard]] BlockMaps read(const MapBlock& block) const override { return draft_.read(block); }
+  [[nodiscard]] ViewStack<float> read_kept(const MapBlock& block, int number) const override {
+    return draft_.read_kept(block, number);
+  }
   void note(const BlockProgress& after) override { draft_.note(after); }
   void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
              bool replaces) override {
@@ -95,7 +98,7 @@ FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
                                          limited.part(0.02, 0.06));
   lf.forget_samples();
   run.provenance.source_hash = hash;
-  io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty()},
+  io::ResultDraft draft(request.output, {run.maps, !lf.valid().empty(), run.has_layers, run.kept},
                         identity_of(estimator, run, hash));
   DraftStore store(draft, lf.info().source);
   FinishedBlocks finished{{}, run.maps, remark_on(draft, request.output)};

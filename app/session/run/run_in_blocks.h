@@ -3,8 +3,8 @@
 
 #include "app/session/run/run_estimator.h"
 #include "engine/core/light_field/map_block.h"
+#include "engine/disparity/blocks/run_blocks.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -15,7 +15,7 @@ struct BlockRequest {
   EstimateRequest run;
   std::filesystem::path output;  ///< The result file; until it is complete, OUTPUT.partial.
   std::string input;             ///< As the user named the light field.
-  std::size_t memory = 0;        ///< Bytes that may be taken; see run_blocks.
+  BlockMemory memory;            ///< See run_blocks.
 };
 
 struct FinishedBlocks {

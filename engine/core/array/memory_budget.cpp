@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/array/memory_budget.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <fstream>
 #include <limits>
@@ -49,6 +51,13 @@ std::size_t available_to_all() {
 std::size_t free_memory() {
   const std::size_t available = available_to_all();
   return std::min(available, left_by_control_group().value_or(available));
+}
+
+std::size_t used_memory() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all_pages = 0, pages = 0;
+  file >> all_pages >> pages;
+  return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 std::size_t memory_budget() {

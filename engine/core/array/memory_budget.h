@@ -15,6 +15,9 @@ namespace episcope {
 /// available, or what the control group of the process leaves if that is less.
 [[nodiscard]] std::size_t free_memory();
 
+/// Bytes of memory that this process has in use, with what it shares with others.
+[[nodiscard]] std::size_t used_memory();
+
 /// The budget in bytes: as set, else two thirds of what is free now.
 [[nodiscard]] std::size_t memory_budget();
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/layered_disparity.h"
 #include "engine/core/light_field/reading.h"
 #include "engine/core/parameter/parameter.h"
 
@@ -12,13 +13,6 @@
 #include <vector>
 
 namespace episcope {
-
-/// Further results of a method that estimates two layers (transparent scenes).
-struct LayeredDisparity {
-  DisparityField foreground;
-  DisparityField background;
-  ViewStack<std::uint8_t> layers;  ///< 1 or 2 surfaces per pixel; 0 = unknown.
-};
 
 /// Where an estimate comes from: everything needed to reproduce it.
 struct Provenance {

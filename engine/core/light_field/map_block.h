@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/core/array/view_rectangle.h"
-#include "engine/core/light_field/disparity_field.h"
+#include "engine/core/light_field/layered_disparity.h"
 
 #include <string>
 #include <vector>
@@ -35,12 +35,15 @@ struct MapBlock {
 struct BlockMaps {
   DisparityField field;
   ViewStack<float> confidence;
+  LayeredDisparity layered{};            ///< Empty unless the method estimates two layers.
+  std::vector<ViewStack<float>> kept{};  ///< For later passes, no part of the result.
 };
 
 /// How far an estimate in blocks has come.
 struct BlockProgress {
   int pass = 0;                      ///< That is being made, from 0.
   int done = 0;                      ///< Of its rows or views, in their order.
+  bool is_prepared = false;          ///< Whether the pass has found what all its blocks need.
   std::vector<double> facts{};       ///< What has been found that all further blocks have to know.
   double finding = 0;                ///< The largest that a block of the pass reported.
   double seconds = 0;                ///< Of all programs that worked on it.

@@ -20,11 +20,12 @@ constexpr int kFewestRows = 8;
 class Blocks {
  public:
   Blocks(const LightField& light_field, const BlockwiseRun& run, BlockStore& store,
-         std::size_t memory)
+         BlockMemory memory)
       : light_field_(light_field),
         run_(run),
         store_(store),
-        memory_(static_cast<double>(memory)),
+        wanted_(static_cast<double>(memory.wanted)),
+        most_(static_cast<double>(memory.most)),
         state_(store.progress()),
         seconds_before_(state_.seconds) {}
 
@@ -42,7 +43,7 @@ class Blocks {
     made.seconds = state_.seconds;
     std::vector<std::string> notes = state_.notes;
     if (run_.notes) {
-      for (std::string& note : run_.notes(state_.finding)) notes.push_back(std::move(note));
+      for (std::string& note : run_.notes(state_)) notes.push_back(std::move(note));
     }
     made.notes.insert(made.notes.begin(), notes.begin(), notes.end());
     return made;
@@ -67,12 +68,12 @@ class Blocks {
 
   void require_memory(const BlockPass& pass) const {
     const double bytes = pass.bytes(fewest_at_once(pass));
-    if (bytes <= memory_) return;
+    if (bytes <= most_) return;
     constexpr double kMegabyte = 1e6;
     throw InvalidInput(
         fmt::format("{} of this light field needs {:.0f} MB of memory at least, but only {:.0f} "
                     "MB may be used; allow more",
-                    run_.provenance.method, std::ceil(bytes / kMegabyte), memory_ / kMegabyte));
+                    run_.provenance.method, std::ceil(bytes / kMegabyte), most_ / kMegabyte));
   }
 
   // How many rows or views at once.
@@ -80,7 +81,7 @@ class Blocks {
     int few = fewest_at_once(pass), many = most_at_once(pass) + 1;  // that fit, and that do not
     while (many - few > 1) {
       const int middle = few + (many - few) / 2;
-      (pass.bytes(middle) <= memory_ ? few : many) = middle;
+      (pass.bytes(middle) <= wanted_ ? few : many) = middle;
     }
     return few;
   }
@@ -98,8 +99,9 @@ class Blocks {
   }
 
   void begin_pass(const BlockPass& pass, const Progress& progress) {
-    if (!pass.prepare || state_.done > 0 || !state_.facts.empty()) return;
-    state_.facts = pass.prepare(read_, progress);
+    if (!pass.prepare || state_.is_prepared) return;
+    state_.facts = pass.prepare(read_, state_.facts, progress);
+    state_.is_prepared = true;
     light_field_.forget_samples();
     state_.seconds = seconds();
     store_.note(state_);
@@ -128,7 +130,7 @@ class Blocks {
     ++state_.pass;
     state_.done = 0;
     state_.finding = 0;
-    if (run_.passes[static_cast<std::size_t>(state_.pass)].prepare) state_.facts.clear();
+    state_.is_prepared = false;
     state_.seconds = seconds();
     store_.note(state_);
   }
@@ -153,17 +155,19 @@ class Blocks {
   const LightField& light_field_;
   const BlockwiseRun& run_;
   BlockStore& store_;
-  double memory_;
+  double wanted_, most_;
   BlockProgress state_;
   double seconds_before_;
   Stopwatch watch_;
-  ReadBlock read_ = [this](const MapBlock& block) { return store_.read(block); };
+  ReadBlock read_{
+      [this](const MapBlock& block) { return store_.read(block); },
+      [this](const MapBlock& block, int number) { return store_.read_kept(block, number); }};
 };
 
 }  // namespace
 
 Provenance run_blocks(const LightField& lf, const BlockwiseRun& run, BlockStore& store,
-                      std::size_t memory, const Progress& progress) {
+                      BlockMemory memory, const Progress& progress) {
   Blocks blocks(lf, run, store, memory);
   blocks.make(progress);
   return blocks.provenance();

@@ -15,22 +15,30 @@ class BlockStore {
   virtual ~BlockStore() = default;
   /// How far a former program has come.
   [[nodiscard]] virtual BlockProgress progress() const = 0;
+  /// Without `kept`, of which this reads one.
   [[nodiscard]] virtual BlockMaps read(const MapBlock& block) const = 0;
+  [[nodiscard]] virtual ViewStack<float> read_kept(const MapBlock& block, int number) const = 0;
   /// Nothing changes but what is known of the progress.
   virtual void note(const BlockProgress& after) = 0;
   /// Keeps a block, then notes the progress; `replaces` if the pass needs what was there to make
-  /// the block again. If the program ends in between, either both or neither is found again.
+  /// the block again. If the program ends in between, either both or neither is found again, but
+  /// for `maps.kept`, which may be there already.
   virtual void write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
                      bool replaces) = 0;
 };
 
-/// Makes what is missing of an estimate, with blocks as large as `memory` bytes allow (for maps,
-/// samples on disk and intermediate results; the program itself and a light field in memory come
-/// on top), and returns its notes and seconds. Pixels that are not valid are marked so in the last
-/// pass. Throws InvalidInput if the smallest block exceeds the memory, with the number; Cancelled;
-/// what the method and the store throw.
+/// Bytes of memory for blocks: maps, samples on disk and intermediate results. The program itself
+/// and a light field in memory come on top.
+struct BlockMemory {
+  std::size_t wanted = 0;  ///< Blocks are as large as this allows,
+  std::size_t most = 0;    ///< but the smallest may take this.
+};
+
+/// Makes what is missing of an estimate and returns its notes and seconds. Pixels that are not
+/// valid are marked so in the last pass. Throws InvalidInput if the smallest block exceeds the
+/// memory, with the number; Cancelled; what the method and the store throw.
 [[nodiscard]] Provenance run_blocks(const LightField& light_field, const BlockwiseRun& run,
-                                    BlockStore& store, std::size_t memory,
+                                    BlockStore& store, BlockMemory memory,
                                     const Progress& progress);
 
 }  // namespace episcope

@@ -12,8 +12,12 @@
 namespace episcope {
 
 /// Reads what has been made of a block so far: the maps of the pass before, as long as the pass has
-/// not replaced them.
-using ReadBlock = std::function<BlockMaps(const MapBlock&)>;
+/// not replaced them, and one of those that were kept.
+struct ReadBlock {
+  std::function<BlockMaps(const MapBlock&)> maps;
+  std::function<ViewStack<float>(const MapBlock&, int number)> kept;
+  [[nodiscard]] BlockMaps operator()(const MapBlock& block) const { return maps(block); }
+};
 
 /// How the maps are cut: into bands of rows of all views, or into views.
 enum class BlockUnit { Rows, Views };
@@ -36,9 +40,11 @@ struct BlockPass {
   /// Bytes of memory that a block of so many rows or views takes, samples that have to be looked at
   /// included if they are on disk.
   std::function<double(int count)> bytes;
-  /// What all blocks have to know, found before the first. If empty, they know what blocks and
-  /// passes before have found.
-  std::function<std::vector<double>(const ReadBlock&, const Progress&)> prepare;
+  /// What all blocks have to know, found before the first from what passes before have found. If
+  /// empty, they know just that.
+  std::function<std::vector<double>(const ReadBlock&, const std::vector<double>& facts,
+                                    const Progress&)>
+      prepare;
   /// Throws Cancelled.
   std::function<FinishedBlock(const MapBlock&, const ReadBlock&, const std::vector<double>& facts,
                               const Progress&)>
@@ -49,10 +55,14 @@ struct BlockPass {
 /// Refers to its light field.
 struct BlockwiseRun {
   MapGeometry maps;
+  bool has_layers = false;  ///< Whether blocks have BlockMaps::layered.
+  /// How many maps are kept for later passes. A pass that keeps a block must not read what was kept
+  /// of it before: where the program ended, the block is made and kept once more.
+  int kept = 0;
   Provenance provenance;  ///< With the range; the notes are completed by `notes`.
   std::vector<BlockPass> passes;
-  /// Of the largest finding of the last pass; may be empty.
-  std::function<std::vector<std::string>(double finding)> notes;
+  /// Of the largest finding of the last pass and the facts at the end; may be empty.
+  std::function<std::vector<std::string>(const BlockProgress& end)> notes;
 };
 
 }  // namespace episcope

@@ -87,8 +87,8 @@ Estimator seeing_even_brightness(Estimator estimator) {
     BlockwiseRun run = blocks((*even)->light_field, values, options, progress);
     run.provenance.notes.push_back((*even)->note);
     // The run refers to its light field, which lives as long as this.
-    run.notes = [even, notes = std::move(run.notes)](double finding) {
-      return notes ? notes(finding) : std::vector<std::string>();
+    run.notes = [even, notes = std::move(run.notes)](const BlockProgress& end) {
+      return notes ? notes(end) : std::vector<std::string>();
     };
     return run;
   };

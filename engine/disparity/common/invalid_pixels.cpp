@@ -37,8 +37,8 @@ void clear_invalid(const LightField& light_field, ViewStack<float>& maps, int fi
   clear(light_field, maps, first_row);
 }
 
-void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps) {
-  clear(light_field, maps);
+void clear_invalid(const LightField& light_field, ViewStack<std::uint8_t>& maps, int first_row) {
+  clear(light_field, maps, first_row);
 }
 
 void mark_invalid(const LightField& light_field, Estimate& estimate) {
@@ -51,6 +51,9 @@ void mark_invalid(const LightField& light_field, Estimate& estimate) {
 
 void mark_invalid(const LightField& light_field, int first_row, BlockMaps& block) {
   mark(light_field, block.field, first_row);
+  mark(light_field, block.layered.foreground, first_row);
+  mark(light_field, block.layered.background, first_row);
+  clear(light_field, block.layered.layers, first_row);
   clear(light_field, block.confidence, first_row);
 }
 

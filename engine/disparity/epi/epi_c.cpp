@@ -5,14 +5,13 @@
 #include "engine/cuda/ordering/ordering.h"
 #include "engine/disparity/common/invalid_pixels.h"
 #include "engine/disparity/common/smoothness_weights.h"
+#include "engine/disparity/epi/epi_c_blocks.h"
+#include "engine/disparity/epi/ordering_sweeps.h"
 #include "engine/disparity/epi/replace_occluded.h"
-#include "engine/solvers/ordering/ordering_terms.h"
-#include "engine/solvers/tv_l2/tv_l2.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -22,48 +21,13 @@
 namespace episcope {
 namespace {
 
-constexpr float kViolation = -0.05F;
-// Less than in EPI_S: pixels that the views contradict should follow their neighbours entirely.
-constexpr float kMinWeight = 0.001F;
-constexpr std::array<ViewIndex, 4> kWays = {{{0, 1}, {0, -1}, {1, 0}, {-1, 0}}};
-
-ViewIndex neighbour(ViewIndex view, ViewIndex way) {
-  return {view.v + way.v, view.u + way.u};
-}
-
-// From a view to its neighbour: a point moves by −d per step of u or v.
-LineStep step_along(ViewIndex way) {
-  return {way.v != 0, static_cast<float>(-(way.u + way.v))};
-}
-
-// A whole light field being denoised: `u` is improved, `f` what was observed.
-struct Work {
-  const LightField& light_field;
-  const EpiCParameters& parameters;
-  const ViewStack<float>& f;
-  const ViewStack<float>& confidence;
-  ViewStack<float>& u;
-  [[nodiscard]] OrderingPenalty penalty() const {
-    return {static_cast<float>(std::min(parameters.rise, parameters.fall)),
-            static_cast<float>(parameters.fall), static_cast<float>(parameters.softness)};
-  }
-};
-
-// Calls visit(neighbour, way) for the neighbours of a view whose lines count.
-template <class Visit>
-void for_each_neighbour(const Work& work, ViewIndex view, const Visit& visit) {
-  for (const ViewIndex way : kWays) {
-    const ViewIndex other = neighbour(view, way);
-    if (work.u.contains(other) && count_valid(work.light_field, other) > 0) visit(other, way);
-  }
-}
-
 // λ Σ g |∇u| + ½ Σ w (u − f)² of one view.
-double own_energy(const Work& work, ViewIndex view, ImageView<const float> u,
+double own_energy(const OrderedViews& work, ViewIndex view, ImageView<const float> u,
                   const Image<float>& edges) {
   const DenoiseParameters& parameters = work.parameters.denoising;
   Image<float> weights(u.height, u.width);
-  fill_data_weights(work.confidence.view(view), {parameters.weight_power, kMinWeight}, weights);
+  fill_data_weights(work.confidence.view(view), {parameters.weight_power, kOrderingLeastWeight},
+                    weights);
   double sum = 0;
   for (int y = 0; y < u.height; ++y) {
     const float* const row = u.row(y);
@@ -84,7 +48,7 @@ double own_energy(const Work& work, ViewIndex view, ImageView<const float> u,
 }
 
 // The same and its lines.
-double energy_of(const Work& work, ViewIndex view, const Image<float>& edges) {
+double energy_of(const OrderedViews& work, ViewIndex view, const Image<float>& edges) {
   const ImageView<const float> u = std::as_const(work.u).view(view);
   double sum = own_energy(work, view, u, edges);
   for_each_neighbour(work, view, [&](ViewIndex other, ViewIndex way) {
@@ -94,115 +58,11 @@ double energy_of(const Work& work, ViewIndex view, const Image<float>& edges) {
   return sum;
 }
 
-// Improves one view after the other; one per thread.
-class ViewStep {
- public:
-  explicit ViewStep(const Work& work)
-      : work_(work),
-        solver_(work.u.height(), work.u.width()),
-        weights_(work.u.height(), work.u.width()),
-        observed_(weights_.height(), weights_.width()),
-        curvature_(weights_.height(), weights_.width()),
-        force_(weights_.height(), weights_.width()) {}
-
-  // Returns the relative gap.
-  double improve(ViewIndex view, const Progress& progress) {
-    pull_from_neighbours(view, progress);
-    majorise(view);
-    const DenoiseParameters& parameters = work_.parameters.denoising;
-    const Image<float> edges =
-        smoothness_weights(work_.light_field, view, parameters.edge_strength);
-    return solver_
-        .solve({observed_, weights_, edges, parameters.lambda},
-               {parameters.stop.max_iterations, parameters.stop.gap}, progress, work_.u.view(view))
-        .relative_gap();
-  }
-
- private:
-  void pull_from_neighbours(ViewIndex view, const Progress& progress) {
-    std::fill(curvature_.begin(), curvature_.end(), 0.0F);
-    std::fill(force_.begin(), force_.end(), 0.0F);
-    const ImageView<const float> here = std::as_const(work_.u).view(view);
-    const OrderingPull pull{curvature_.view(), force_.view()};
-    for_each_neighbour(work_, view, [&](ViewIndex other, ViewIndex way) {
-      const ImageView<const float> there = std::as_const(work_.u).view(other);
-      progress.check();
-      add_pull_on_from(here, here, there, step_along(way), work_.penalty(), pull);
-      const ViewIndex back{-way.v, -way.u};
-      add_pull_on_to(there, there, here, step_along(back), work_.penalty(), pull);
-    });
-  }
-
-  // ½ w (u − f)² and the majoriser as one weighted observation.
-  void majorise(ViewIndex view) {
-    fill_data_weights(work_.confidence.view(view),
-                      {work_.parameters.denoising.weight_power, kMinWeight}, weights_);
-    const float* const f = work_.f.view(view).data;
-    const float* const u = work_.u.view(view).data;
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
-      const float w = weights_.data()[i], c = curvature_.data()[i];
-      observed_.data()[i] = (w * f[i] + c * u[i] + force_.data()[i]) / (w + c);
-      weights_.data()[i] = w + c;
-    }
-  }
-
-  const Work& work_;
-  TvL2Solver solver_;
-  Image<float> weights_, observed_, curvature_, force_;
-};
-
-// Views of one colour of the chequerboard.
-std::vector<ViewIndex> views_of_colour(GridShape grid, int colour) {
-  std::vector<ViewIndex> views;
-  for (int v = 0; v < grid.v; ++v) {
-    for (int u = 0; u < grid.u; ++u) {
-      if ((u + v) % 2 == colour) views.push_back({v, u});
-    }
-  }
-  return views;
-}
-
 // Before each half of a sweep.
 void name_sweep(int sweeps, int half, double gap, const Progress& progress) {
   if (half % 2 != 0) return;
   progress.step(fmt::format("ordering, sweep {} of {}{}", half / 2 + 1, sweeps,
                             half > 0 ? fmt::format(", gap {:.1e}", gap) : ""));
-}
-
-// Improves all views of one colour; returns the largest relative gap.
-double improve(const Work& work, const std::vector<ViewIndex>& views, const Progress& progress) {
-  std::vector<double> gaps(views.size());
-  parallel_for_workers(static_cast<int>(views.size()), progress, [&] {
-    return [&, step = ViewStep(work)](int i) mutable {
-      if (!progress.finish_requested()) gaps[i] = step.improve(views[i], progress);
-    };
-  });
-  return views.empty() ? 0 : *std::max_element(gaps.begin(), gaps.end());
-}
-
-// Lines from one view that stay within the image, and those that violate the ordering.
-struct LineCount {
-  long violations = 0, lines = 0;
-};
-
-double share_of(const LineCount& count) {
-  return count.lines > 0 ? static_cast<double>(count.violations) / static_cast<double>(count.lines)
-                         : 0;
-}
-
-LineCount count_lines(const ViewStack<float>& disparity, ViewIndex view, Image<float>& scratch) {
-  LineCount count;
-  const ImageView<const float> here = disparity.view(view);
-  for (const ViewIndex way : kWays) {
-    if (!disparity.contains(neighbour(view, way))) continue;
-    line_differences(here, here, disparity.view(neighbour(view, way)), step_along(way),
-                     scratch.view());
-    for (const float a : scratch) {
-      count.lines += a == a ? 1 : 0;
-      count.violations += a < kViolation ? 1 : 0;
-    }
-  }
-  return count;
 }
 
 // Keeps the view in the middle.
@@ -217,7 +77,7 @@ void keep_center(Estimate& estimate, ViewIndex center) {
 }
 
 // The same for all views of a colour at once, on the device.
-double improve_on_device(const Work& work, const Progress& progress) {
+double improve_on_device(const OrderedViews& work, const Progress& progress) {
   const EpiCParameters& parameters = work.parameters;
   const OrderingPenalty penalty = work.penalty();
   const GridShape grid = work.u.grid();
@@ -228,7 +88,7 @@ double improve_on_device(const Work& work, const Progress& progress) {
   sweeps.sweeps = parameters.sweeps;
   sweeps.lambda = parameters.denoising.lambda;
   sweeps.weight_power = parameters.denoising.weight_power;
-  sweeps.min_weight = kMinWeight;
+  sweeps.min_weight = kOrderingLeastWeight;
   sweeps.edge_strength = parameters.denoising.edge_strength;
   sweeps.max_iterations = parameters.denoising.stop.max_iterations;
   sweeps.gap = parameters.denoising.stop.gap;
@@ -246,7 +106,7 @@ double improve_on_device(const Work& work, const Progress& progress) {
 double denoise_with_ordering(const LightField& lf, const EpiCParameters& parameters,
                              const ViewStack<float>& observed, Estimate& estimate,
                              const Progress& progress, Device device) {
-  const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
+  const OrderedViews work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
   double gap = 0;
   const GridShape grid = work.u.grid();
   const int sweeps = parameters.sweeps;
@@ -259,7 +119,7 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
   for (int i = 0; i < 2 * sweeps && !progress.finish_requested(); ++i) {
     name_sweep(sweeps, i, gap, progress);
     const double other =
-        improve(work, views_of_colour(grid, i % 2), fitting.part(i / steps, (i + 1) / steps));
+        improve(work, views_of_colour({{}, grid}, i % 2), fitting.part(i / steps, (i + 1) / steps));
     gap = i % 2 == 0 ? other : std::max(gap, other);
   }
   return gap;
@@ -268,7 +128,7 @@ double denoise_with_ordering(const LightField& lf, const EpiCParameters& paramet
 double epi_c_energy(const LightField& lf, const EpiCParameters& parameters,
                     const ViewStack<float>& observed, Estimate& estimate,
                     const Progress& progress) {
-  const Work work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
+  const OrderedViews work{lf, parameters, observed, estimate.confidence, estimate.field.disparity};
   const GridShape grid = work.u.grid();
   std::vector<double> energies(grid.count());
   parallel_for(grid.count(), progress, [&](int i) {
@@ -282,8 +142,9 @@ double epi_c_energy(const LightField& lf, const EpiCParameters& parameters,
 double ordering_violations(const ViewStack<float>& disparity, const Progress& progress,
                            Device device) {
   if (device == Device::Cuda) {
-    const cuda::OrderedLines all = cuda::count_ordered_lines(disparity, kViolation, progress);
-    return share_of({all.violations, all.lines});
+    const cuda::OrderedLines all =
+        cuda::count_ordered_lines(disparity, kOrderingViolation, progress);
+    return LineCount{all.violations, all.lines}.share();
   }
   const GridShape grid = disparity.grid();
   std::vector<LineCount> counts(grid.count());
@@ -292,11 +153,13 @@ double ordering_violations(const ViewStack<float>& disparity, const Progress& pr
     counts[i] = count_lines(disparity, grid.view_at(i), scratch);
   });
   LineCount sum;
-  for (const LineCount& count : counts) {
-    sum.violations += count.violations;
-    sum.lines += count.lines;
-  }
-  return share_of(sum);
+  for (const LineCount& count : counts) sum += count;
+  return sum.share();
+}
+
+std::string ordering_note(double before, double after) {
+  return fmt::format("ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after,
+                     100 * before);
 }
 
 Schema<EpiCParameters> epi_c_schema() {
@@ -344,7 +207,8 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
     check_lines(lf, parameters.line_check, estimate, progress.part(0.08, 0.13), device);
   }
   const ViewStack<float> observed = estimate.field.disparity.clone();
-  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kMinWeight, 0, device);
+  denoise(lf, parameters.denoising, estimate, progress.part(0.13, 0.25), kOrderingLeastWeight, 0,
+          device);
   ViewStack<float>& u = estimate.field.disparity;
   const double before = ordering_violations(u, progress.part(0.25, 0.26), device);
   if (parameters.sweeps > 0) {
@@ -353,8 +217,7 @@ Estimate estimate_epi_c(const LightField& lf, const EpiCParameters& parameters, 
     if (gap > 0) estimate.notes = {gap_note(gap)};  // else no view was reached
   }
   const double after = ordering_violations(u, progress.part(0.97, 0.98), device);
-  estimate.notes.push_back(fmt::format(
-      "ordering violated by {:.3f} % of the lines, {:.3f} % before", 100 * after, 100 * before));
+  estimate.notes.push_back(ordering_note(before, after));
   if (views == ViewSelection::Center) keep_center(estimate, lf.center());
   clamp_to_range(estimate.field.disparity, estimate.range, progress.part(0.98, 1));
   return estimate;
@@ -370,7 +233,7 @@ Estimator epi_c_estimator() {
        .iterative = true,
        .revision = 5,
        .devices = {Device::Cpu, Device::Cuda}},
-      epi_c_schema(), estimate_epi_c);
+      epi_c_schema(), estimate_epi_c, epi_c_in_blocks);
 }
 
 }  // namespace episcope

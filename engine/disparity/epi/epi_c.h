@@ -5,6 +5,8 @@
 #include "engine/disparity/epi/epi_l.h"
 #include "engine/disparity/epi/line_check.h"
 
+#include <string>
+
 namespace episcope {
 
 /// Parameters of EPI_C: of the ordering along lines, and those of EPI_S.
@@ -74,6 +76,9 @@ double denoise_with_ordering(const LightField& light_field, const EpiCParameters
 /// D u < −0.05 px at u itself. `disparity` covers all views. Throws Cancelled.
 [[nodiscard]] double ordering_violations(const ViewStack<float>& disparity,
                                          const Progress& progress, Device device = Device::Cpu);
+
+/// What a result notes of both shares.
+[[nodiscard]] std::string ordering_note(double before, double after);
 
 [[nodiscard]] Estimator epi_c_estimator();
 

@@ -5,7 +5,6 @@
 #include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/epi/line_residuals.h"
-#include "engine/disparity/epi/side_choice.h"
 
 #include <algorithm>
 #include <future>
@@ -27,30 +26,16 @@ class DenoisedViews {
   DenoisedViews(const LightField& light_field, const EpiSParameters& parameters, Interval range)
       : light_field_(light_field), parameters_(parameters), range_(range) {}
 
-  // The noise that sides are chosen by, then the noise that confidence is reduced by.
-  [[nodiscard]] std::vector<double> find_noise(const ReadBlock& read,
-                                               const Progress& progress) const {
-    const LineCheck& check = parameters_.line_check;
-    std::vector<double> noise(2);
-    if (!check.does_anything()) return noise;
-    const ViewIndex center = light_field_.center();
-    const MapBlock block{{center, {1, 1}}, 0, light_field_.height()};
-    const PackedViews packed = pack_around(light_field_, block.views, kMaxArmViews, progress);
-    BlockMaps maps = read(block);
-    ViewStack<float>& disparity = maps.field.disparity;
-    noise[0] = residual_noise(packed, center, disparity.view(center));
-    if (check.chooses_sides) {
-      choose_sides(packed, static_cast<float>(noise[0]), disparity, maps.confidence, progress);
-    }
-    noise[1] = residual_noise(packed, center, disparity.view(center));
-    return noise;
-  }
-
   [[nodiscard]] FinishedBlock compute(const MapBlock& block, const ReadBlock& read,
                                       const std::vector<double>& noise,
                                       const Progress& progress) const {
     FinishedBlock made{read(block)};
-    check(block.views, noise, made.maps, progress.part(0, 0.4));
+    const LineCheck& check = parameters_.line_check;
+    if (check.does_anything()) {
+      const PackedViews packed =
+          pack_around(light_field_, block.views, kMaxArmViews, progress.part(0, 0.1));
+      check_lines(packed, check, noise, made.maps, progress.part(0.1, 0.4));
+    }
     ViewStack<float>& disparity = made.maps.field.disparity;
     made.finding = denoise(light_field_, parameters_.denoising, {least_weight(parameters_)},
                            disparity, made.maps.confidence, progress.part(0.4, 0.98));
@@ -72,22 +57,6 @@ class DenoisedViews {
   }
 
  private:
-  void check(const ViewRectangle& views, const std::vector<double>& noise, BlockMaps& maps,
-             const Progress& progress) const {
-    const LineCheck& wanted = parameters_.line_check;
-    if (!wanted.does_anything()) return;
-    const PackedViews packed =
-        pack_around(light_field_, views, kMaxArmViews, progress.part(0, 0.2));
-    if (wanted.chooses_sides) {
-      choose_sides(packed, static_cast<float>(noise[0]), maps.field.disparity, maps.confidence,
-                   progress.part(0.2, 0.7));
-    }
-    if (wanted.is_on) {
-      reduce_confidence(packed, static_cast<float>(noise[1]), maps.field.disparity, maps.confidence,
-                        progress.part(0.7, 1));
-    }
-  }
-
   const LightField& light_field_;
   EpiSParameters parameters_;
   Interval range_;
@@ -155,15 +124,18 @@ BlockwiseRun epi_s_in_blocks(const LightField& lf, const EpiSParameters& paramet
   pass.bytes = [denoised, threads = progress.threads()](int count) {
     return denoised.bytes(count, threads);
   };
-  pass.prepare = [denoised](const ReadBlock& read, const Progress& part) {
-    return denoised.find_noise(read, part);
+  pass.prepare = [&lf, check = parameters.line_check](
+                     const ReadBlock& read, const std::vector<double>&, const Progress& part) {
+    return line_check_noise(lf, check, read({{lf.center(), {1, 1}}, 0, lf.height()}), part);
   };
   pass.compute = [denoised](const MapBlock& block, const ReadBlock& read,
                             const std::vector<double>& noise, const Progress& part) {
     return denoised.compute(block, read, noise, part);
   };
   run.passes.push_back(std::move(pass));
-  run.notes = [](double gap) { return std::vector<std::string>{gap_note(gap)}; };
+  run.notes = [](const BlockProgress& end) {
+    return std::vector<std::string>{gap_note(end.finding)};
+  };
   return run;
 }
 

@@ -157,6 +157,33 @@ void check_lines(const PackedViews& views, const LineCheck& check, Estimate& est
   if (check.is_on) reduce_confidence(views, estimate, progress.part(0.7, 1));
 }
 
+std::vector<double> line_check_noise(const LightField& lf, const LineCheck& check, BlockMaps center,
+                                     const Progress& progress) {
+  std::vector<double> noise(2);
+  if (!check.does_anything()) return noise;
+  ViewStack<float>& disparity = center.field.disparity;
+  const ViewIndex view = disparity.first();
+  const PackedViews packed = pack_around(lf, {view, {1, 1}}, kMaxArmViews, progress);
+  noise[0] = residual_noise(packed, view, disparity.view(view));
+  if (check.chooses_sides) {
+    choose_sides(packed, static_cast<float>(noise[0]), disparity, center.confidence, progress);
+  }
+  noise[1] = residual_noise(packed, view, disparity.view(view));
+  return noise;
+}
+
+void check_lines(const PackedViews& packed, const LineCheck& check,
+                 const std::vector<double>& noise, BlockMaps& maps, const Progress& progress) {
+  if (check.chooses_sides) {
+    choose_sides(packed, static_cast<float>(noise[0]), maps.field.disparity, maps.confidence,
+                 progress.part(0, 0.7));
+  }
+  if (check.is_on) {
+    reduce_confidence(packed, static_cast<float>(noise[1]), maps.field.disparity, maps.confidence,
+                      progress.part(0.7, 1));
+  }
+}
+
 void reduce_confidence(const LightField& lf, Estimate& estimate, const Progress& progress) {
   reduce_confidence(pack_views(lf, progress.part(0, 0.2)), estimate, progress.part(0.2, 1));
 }

@@ -3,10 +3,13 @@
 
 #include "engine/core/light_field/estimate.h"
 #include "engine/core/light_field/light_field.h"
+#include "engine/core/light_field/map_block.h"
 #include "engine/core/parallel/progress.h"
 #include "engine/core/parameter/schema.h"
 #include "engine/disparity/common/packed_views.h"
 #include "engine/disparity/common/run_options.h"
+
+#include <vector>
 
 namespace episcope {
 
@@ -54,6 +57,16 @@ struct LineCheck {
 /// Does it: sides are chosen first. Throws Cancelled.
 void check_lines(const PackedViews& packed_views, const LineCheck& check, Estimate& estimate,
                  const Progress& progress);
+
+/// What a check of some views has to know of the centre view: the noise that sides are chosen by,
+/// then the noise that confidence is reduced by. `center` holds the maps of that view.
+[[nodiscard]] std::vector<double> line_check_noise(const LightField& light_field,
+                                                   const LineCheck& check, BlockMaps center,
+                                                   const Progress& progress);
+/// Checks whole maps of any views, given that noise; `packed_views` are packed around them as far
+/// as kMaxArmViews. Throws Cancelled.
+void check_lines(const PackedViews& packed_views, const LineCheck& check,
+                 const std::vector<double>& noise, BlockMaps& maps, const Progress& progress);
 
 /// The same, packing the views if need be, on a device. Throws DeviceFailure, Cancelled.
 void check_lines(const LightField& light_field, const LineCheck& check, Estimate& estimate,

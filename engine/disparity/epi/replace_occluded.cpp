@@ -130,15 +130,18 @@ class Replacer {
 
 }  // namespace
 
-long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
-                      const ViewStack<float>& confidence, const Progress& progress) {
-  const ViewStack<float> before = disparity.clone();
-  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
-  const GridShape grid = before.grid();
-  std::vector<long> changed(grid.count());
-  parallel_for_workers(grid.count(), progress, [&] {
+float replacement_noise(const PackedViews& views, ViewIndex center,
+                        ImageView<const float> disparity) {
+  return residual_noise(views, center, disparity) + kMinDifference * kMinDifference;
+}
+
+long replace_occluded(const PackedViews& views, float noise, const ViewStack<float>& before,
+                      const ViewStack<float>& confidence, ViewStack<float>& disparity,
+                      const Progress& progress) {
+  std::vector<long> changed(disparity.grid().count());
+  parallel_for_workers(disparity.grid().count(), progress, [&] {
     return [&, replacer = Replacer(views, before, confidence, noise)](int i) mutable {
-      const ViewIndex view = grid.view_at(i);
+      const ViewIndex view = disparity.view_at(i);
       replacer.begin(view);
       for (int y = 0; y < before.height(); ++y) {
         if (y % 16 == 0) progress.check();
@@ -147,6 +150,13 @@ long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
     };
   });
   return std::accumulate(changed.begin(), changed.end(), 0L);
+}
+
+long replace_occluded(const PackedViews& views, ViewStack<float>& disparity,
+                      const ViewStack<float>& confidence, const Progress& progress) {
+  const ViewStack<float> before = disparity.clone();
+  const float noise = residual_noise(views, before) + kMinDifference * kMinDifference;
+  return replace_occluded(views, noise, before, confidence, disparity, progress);
 }
 
 void replace_occluded(const LightField& lf, ViewStack<float>& disparity,

@@ -25,6 +25,16 @@ namespace episcope {
 long replace_occluded(const PackedViews& packed_views, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress);
 
+/// The noise that rays are judged by, of the centre view, whose packed views and disparity are
+/// given.
+[[nodiscard]] float replacement_noise(const PackedViews& packed_views, ViewIndex center,
+                                      ImageView<const float> disparity);
+/// The same for the views of `disparity`, given that noise, from maps and packed views that cover
+/// four views around each of them in its row and column.
+long replace_occluded(const PackedViews& packed_views, float noise, const ViewStack<float>& before,
+                      const ViewStack<float>& confidence, ViewStack<float>& disparity,
+                      const Progress& progress);
+
 /// The same, packing the views first, on a device. Throws DeviceFailure, Cancelled.
 void replace_occluded(const LightField& light_field, ViewStack<float>& disparity,
                       const ViewStack<float>& confidence, const Progress& progress, Device device);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstring>
 #include <vector>
@@ -55,6 +56,7 @@ struct Measurement {
   const TensorScales& scales;
   const DoubleSearch& search;
   DoubleLayers& layers;
+  int first_row = 0;  // of the layers
 };
 
 // Tiles of all camera rows (horizontal EPIs) or columns.
@@ -66,27 +68,29 @@ void run_direction(const Measurement& measurement, Direction direction, const Pr
   const ViewIndex first = layers.near.first();
   const PixelIndex tile = DoubleOrientation::tile(direction);
   const int columns = (lf.width() + tile.x - 1) / tile.x;
-  const int tiles = columns * ((lf.height() + tile.y - 1) / tile.y);
+  const int rows = layers.near.height(), first_row = measurement.first_row;
+  const int tiles = columns * ((rows + tile.y - 1) / tile.y);
   const int lines = horizontal ? grid.v : grid.u;
   parallel_for_workers(lines * tiles, progress, [&] {
     return [&, orientation = DoubleOrientation(lf, direction, measurement.scales,
                                                measurement.search)](int i) mutable {
       if (i % measurement.search.tile_stride != 0) return;
       const int line = (horizontal ? first.v : first.u) + i / tiles;
-      const PixelIndex begin{i % tiles / columns * tile.y, i % tiles % columns * tile.x};
+      const int row = i % tiles / columns * tile.y;
+      const PixelIndex begin{first_row + row, i % tiles % columns * tile.x};
       const int first_view = horizontal ? first.u : first.v;
       const DoubleOrientation::Task task{line,
                                          begin,
-                                         std::min(tile.y, lf.height() - begin.y),
+                                         std::min(tile.y, rows - row),
                                          std::min(tile.x, lf.width() - begin.x),
                                          first_view,
                                          first_view + (horizontal ? grid.u : grid.v)};
       orientation.estimate(task, [&](int view, PixelIndex at, int count, const float* near,
                                      const float* far, const float* confidence) {
         const ViewIndex index = horizontal ? ViewIndex{line, view} : ViewIndex{view, line};
-        merge({count, near, far, confidence}, layers.near.view(index).row(at.y) + at.x,
-              layers.far.view(index).row(at.y) + at.x,
-              layers.confidence.view(index).row(at.y) + at.x);
+        const int y = at.y - first_row;
+        merge({count, near, far, confidence}, layers.near.view(index).row(y) + at.x,
+              layers.far.view(index).row(y) + at.x, layers.confidence.view(index).row(y) + at.x);
       });
     };
   });
@@ -124,21 +128,23 @@ void require_double_grid(const LightField& lf) {
 }
 
 DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& scales,
-                                   const DoubleSearch& search, GridShape grid, ViewIndex first,
+                                   const DoubleSearch& search, const MapBlock& block,
                                    const Progress& progress, Device device) {
   const bool has_horizontal = lf.grid().u >= DoubleOrientation::kMinViews;
   const bool has_vertical = lf.grid().v >= DoubleOrientation::kMinViews;
   require_double_grid(lf);
   DoubleLayers layers;
-  layers.near = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
-  layers.far = ViewStack<float>(grid, lf.height(), lf.width(), 1, first);
-  layers.confidence = ViewStack<std::uint8_t>(grid, lf.height(), lf.width(), 1, first);
+  const auto [first, grid] = block.views;
+  layers.near = ViewStack<float>(grid, block.rows(), lf.width(), 1, first);
+  layers.far = ViewStack<float>(grid, block.rows(), lf.width(), 1, first);
+  layers.confidence = ViewStack<std::uint8_t>(grid, block.rows(), lf.width(), 1, first);
   if (device == Device::Cuda) {
+    assert(block.rows() == lf.height());
     measure_on_device({lf, scales, search, layers}, progress);
     return layers;
   }
   clear(layers, progress.part(0, 0.01));
-  const Measurement measurement{lf, scales, search, layers};
+  const Measurement measurement{lf, scales, search, layers, block.first_row};
   const double half = !has_vertical ? 1 : has_horizontal ? 0.5 : 0.01;
   if (has_horizontal) {
     progress.step("two orientations, horizontal EPIs");
@@ -149,6 +155,19 @@ DoubleLayers measure_double_layers(const LightField& lf, const TensorScales& sca
     run_direction(measurement, Direction::Vertical, progress.part(half, 1));
   }
   return layers;
+}
+
+DoubleNeeds double_layers_need(const LightField& lf, const TensorScales& scales,
+                               const DoubleSearch& search) {
+  DoubleNeeds most;
+  for (const Direction direction : {Direction::Horizontal, Direction::Vertical}) {
+    const bool is_horizontal = direction == Direction::Horizontal;
+    if ((is_horizontal ? lf.grid().u : lf.grid().v) < DoubleOrientation::kMinViews) continue;
+    const DoubleOrientation one(lf, direction, scales, search);
+    most.bytes = std::max(most.bytes, one.byte_size());
+    most.reach = std::max(most.reach, one.reach());
+  }
+  return most;
 }
 
 }  // namespace episcope

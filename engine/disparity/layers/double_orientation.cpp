@@ -187,4 +187,12 @@ void DoubleOrientation::estimate(const Task& task, const Sink& sink) {
   state_->estimate(task, sink);
 }
 
+std::size_t DoubleOrientation::byte_size() const {
+  return sizeof(float) * (state_->memory.size() + state_->best.size());
+}
+
+int DoubleOrientation::reach() const {
+  return state_->margin_y;
+}
+
 }  // namespace episcope

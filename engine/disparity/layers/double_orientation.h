@@ -4,6 +4,7 @@
 #include "engine/core/light_field/light_field.h"
 #include "engine/disparity/tensor/tensor_filters.h"
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -38,7 +39,7 @@ struct DoubleSearch {
 /// - The smallest eigenvalue is found by Newton's steps from 0 on the characteristic polynomial of
 ///   the tensor divided by its trace, which rise monotonically: stable in float32.
 ///
-/// Not thread-safe: use one object per thread. Takes about 2 MB.
+/// Not thread-safe: use one object per thread.
 class DoubleOrientation {
  public:
   enum class Direction { Horizontal, Vertical };
@@ -70,6 +71,11 @@ class DoubleOrientation {
   [[nodiscard]] static PixelIndex tile(Direction direction);
 
   void estimate(const Task& task, const Sink& sink);
+
+  /// Bytes of its memory.
+  [[nodiscard]] std::size_t byte_size() const;
+  /// Rows above and below a tile that it looks at.
+  [[nodiscard]] int reach() const;
 
  private:
   struct State;

@@ -5,6 +5,11 @@
 #include "engine/disparity/epi/epi_l.h"
 #include "engine/disparity/epi/line_check.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
 namespace episcope {
 
 /// Parameters of EPI_TWO_LAYER: of the two layers and their denoising, and those of EPI_L for
@@ -57,6 +62,12 @@ struct EpiTwoLayerParameters {
                                               const EpiTwoLayerParameters& parameters,
                                               ViewSelection views, const Progress& progress,
                                               Device device = Device::Cpu);
+
+/// What a result notes: in how many of its pixels there are two layers, and the largest relative
+/// duality gap.
+[[nodiscard]] std::vector<std::string> layer_notes(std::size_t doubles, std::size_t pixels,
+                                                   double gap);
+[[nodiscard]] std::size_t count_doubles(const ViewStack<std::uint8_t>& layers);
 
 [[nodiscard]] Estimator epi_two_layer_estimator();
 

@@ -39,9 +39,10 @@ Interval search_layer_range(const LightField& lf, const EpiLParameters& paramete
   coarse.shear_step = 1;
   const Estimate estimate =
       estimate_orientations(lf, coarse, ViewSelection::Center, progress.part(0.3, 0.6), device);
+  const MapBlock center_view{{lf.center(), {1, 1}}, 0, lf.height()};
   const DoubleLayers layers =
-      measure_double_layers(lf, double_scales, {{-limit, limit}, kMinDistance, kTileStride}, {1, 1},
-                            lf.center(), progress.part(0.6, 0.97), device);
+      measure_double_layers(lf, double_scales, {{-limit, limit}, kMinDistance, kTileStride},
+                            center_view, progress.part(0.6, 0.97), device);
   Image<float> rows(lf.height(), lf.width()), coherence(lf.height(), lf.width());
   spread_coherence(estimate.confidence.view(lf.center()), rows, coherence);
   const Image<float> steadiness =

@@ -14,7 +14,7 @@ namespace episcope {
 [[nodiscard]] Interval search_layer_range(const LightField& light_field,
                                           const EpiLParameters& parameters,
                                           const TensorScales& double_scales,
-                                          const Progress& progress,
-                                          Device device = Device::Cpu, double limit = 5);
+                                          const Progress& progress, Device device = Device::Cpu,
+                                          double limit = 5);
 
 }  // namespace episcope

@@ -22,10 +22,10 @@ float line_strictness(GridShape grid) {
   return 3.0F * kMaxArmViews * kMaxArmViews / static_cast<float>(reach * reach);
 }
 
-LayerScore::LayerScore(const PackedViews& packed, double decision)
+LayerScore::LayerScore(const PackedViews& packed, GridShape grid, double decision)
     : packed_(packed),
       decision_(static_cast<float>(decision)),
-      strictness_(line_strictness(packed.pixels.grid())),
+      strictness_(line_strictness(grid)),
       residuals_(packed),
       rows_(packed.pixels.height(), packed.pixels.width()),
       coherence_(packed.pixels.height(), packed.pixels.width()) {}

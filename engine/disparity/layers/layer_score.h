@@ -12,8 +12,8 @@ namespace episcope {
 /// Tells view by view whether rays see two layers or one; one object per thread.
 class LayerScore {
  public:
-  /// `decision` as in EpiTwoLayerParameters.
-  LayerScore(const PackedViews& packed, double decision);
+  /// `packed` are views of a light field of this grid; `decision` as in EpiTwoLayerParameters.
+  LayerScore(const PackedViews& packed, GridShape grid, double decision);
 
   /// Fills `score`, in [−1, 1] and positive for two layers, and `weight`, how much is seen there.
   /// `fit` is the coherence of one orientation `single` before lines were checked, `confidence`

@@ -5,9 +5,10 @@
 #include "engine/cuda/layers/layer_solver.h"
 #include "engine/cuda/line_check/line_check.h"
 #include "engine/disparity/layers/double_passes.h"
-#include "engine/disparity/layers/layer_settings.h"
 #include "engine/disparity/layers/layer_score.h"
+#include "engine/disparity/layers/layer_settings.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -49,9 +50,9 @@ void begin_layers(Estimate& estimate) {
 }  // namespace
 
 Estimate two_layers_on_device(const LightField& lf, const EpiTwoLayerParameters& parameters,
-                              const EpiLParameters& tensor, ViewSelection views,
+                              const LayerSearch& search, ViewSelection views,
                               const Progress& progress) {
-  Estimate estimate = begin_orientations(lf, tensor, views, progress.part(0, 0.02));
+  Estimate estimate = begin_orientations(lf, search.single, views, progress.part(0, 0.02));
   begin_layers(estimate);
   LayeredDisparity& layered = estimate.layered;
   const cuda::LayerResults results{layered.foreground.disparity, estimate.field.disparity,
@@ -63,15 +64,12 @@ Estimate two_layers_on_device(const LightField& lf, const EpiTwoLayerParameters&
     pages.push_back(cuda::begin_pages(*map, progress));
   }
   cuda::DeviceMaps single(estimate.field.disparity), fit(estimate.field.disparity);
-  cuda::find_orientations(lf, orientation_settings(lf, tensor, estimate.range), single,
+  cuda::find_orientations(lf, orientation_settings(lf, search.single, estimate.range), single,
                           progress.part(0.02, 0.08));
-  EpiLParameters narrow = tensor;
-  narrow.cross_scale = kCrossScaleOfLayers;
-  cuda::find_orientations(lf, orientation_settings(lf, narrow, estimate.range), fit,
+  cuda::find_orientations(lf, orientation_settings(lf, search.fit, estimate.range), fit,
                           progress.part(0.08, 0.14));
   progress.step("two orientations");
-  const DevicePasses of =
-      device_passes(lf, scales_of_layers(parameters), layer_search(parameters, estimate.range));
+  const DevicePasses of = device_passes(lf, search.double_scales, search.doubles);
   cuda::DeviceLayers layers(lf, of.passes, of.shears, single, progress.part(0.14, 0.35));
   const LineCheck& lines = parameters.line_check;
   cuda::check_lines(lf, {lines.chooses_sides, lines.is_on}, single, progress.part(0.35, 0.4));
@@ -79,7 +77,8 @@ Estimate two_layers_on_device(const LightField& lf, const EpiTwoLayerParameters&
   const std::vector<double> gaps =
       cuda::solve_layers(lf, smoothing_of(lf, parameters, estimate.range), {single, layers},
                          std::move(fit), results, progress.part(0.4, 1));
-  estimate.notes = layer_notes(gaps, layered.layers);
+  estimate.notes = layer_notes(count_doubles(layered.layers), layered.layers.size(),
+                               *std::ranges::max_element(gaps));
   return estimate;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "engine/disparity/layers/epi_two_layer.h"
+#include "engine/disparity/layers/layer_search.h"
 
 namespace episcope {
 
@@ -9,7 +9,7 @@ namespace episcope {
 /// is that of single orientations, with the range. Throws as estimate_epi_two_layer, DeviceFailure.
 [[nodiscard]] Estimate two_layers_on_device(const LightField& light_field,
                                             const EpiTwoLayerParameters& parameters,
-                                            const EpiLParameters& tensor, ViewSelection views,
+                                            const LayerSearch& search, ViewSelection views,
                                             const Progress& progress);
 
 }  // namespace episcope

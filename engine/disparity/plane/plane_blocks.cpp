@@ -287,7 +287,7 @@ BlockwiseRun planes_in_blocks(const LightField& lf, const PlaneParameters& param
   run.passes.push_back(carrying(planes));
   run.passes.push_back(choosing(planes));
   if (!lf.valid().empty()) run.passes.push_back(marking(run.maps));
-  run.notes = [estimated](double) { return std::vector{carried_note(estimated)}; };
+  run.notes = [estimated](const BlockProgress&) { return std::vector{carried_note(estimated)}; };
   return run;
 }
 

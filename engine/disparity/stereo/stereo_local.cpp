@@ -223,9 +223,9 @@ BlockwiseRun stereo_smooth_in_blocks(const LightField& lf, MatchedViews views,
     return made;
   };
   run.passes.push_back(std::move(pass));
-  run.notes = [costs = std::exchange(run.provenance.notes, {})](double gap) {
+  run.notes = [costs = std::exchange(run.provenance.notes, {})](const BlockProgress& end) {
     std::vector<std::string> notes = costs;
-    notes.push_back(gap_note(gap));
+    notes.push_back(gap_note(end.finding));
     return notes;
   };
   return run;

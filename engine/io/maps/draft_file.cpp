@@ -23,22 +23,92 @@ namespace {
 
 constexpr std::uintmax_t kStructure = 1 << 16;
 
+// A dataset of the result.
+struct Dataset {
+  DraftMap map;
+  const char* name;
+  const char* unit;
+  bool is_mask = false;
+  bool is_of_layers = false;
+};
+constexpr Dataset kDatasets[] = {
+    {DraftMap::Disparity, "disparity", kDisparityUnit},
+    {DraftMap::Confidence, "confidence", ""},
+    {DraftMap::Foreground, "disparity_foreground", kDisparityUnit, false, true},
+    {DraftMap::Background, "disparity_background", kDisparityUnit, false, true},
+    {DraftMap::Layers, "layers", "surfaces", false, true},
+    {DraftMap::Valid, "valid", "", true},
+    {DraftMap::ForegroundValid, "valid_foreground", "", true, true},
+    {DraftMap::BackgroundValid, "valid_background", "", true, true},
+};
+
+bool is_mask(DraftMap map) {
+  return map >= DraftMap::Valid;
+}
+std::size_t sample_bytes(DraftMap map) {
+  return is_mask(map) || map == DraftMap::Layers ? 1 : sizeof(float);
+}
+
+std::vector<Dataset> datasets_of(const DraftShape& shape) {
+  std::vector<Dataset> datasets;
+  for (const Dataset& dataset : kDatasets) {
+    if (dataset.is_mask && !shape.has_valid) continue;
+    if (dataset.is_of_layers && !shape.has_layers) continue;
+    datasets.push_back(dataset);
+  }
+  return datasets;
+}
+
 template <class T>
 std::span<const std::uint8_t> bytes_of(ImageView<const T> map) {
   return {reinterpret_cast<const std::uint8_t*>(map.data), map.size() * sizeof(T)};
 }
+template <class T>
+std::span<std::uint8_t> bytes_to(ImageView<T> map) {
+  return {reinterpret_cast<std::uint8_t*>(map.data), map.size() * sizeof(T)};
+}
+
+// Of a disparity or of its mask.
+template <class Maps>
+auto& field_in(Maps& maps, DraftMap map) {
+  switch (map) {
+    case DraftMap::Foreground:
+    case DraftMap::ForegroundValid:
+      return maps.layered.foreground;
+    case DraftMap::Background:
+    case DraftMap::BackgroundValid:
+      return maps.layered.background;
+    default:
+      return maps.field;
+  }
+}
 
 // Disparity as files have it.
-std::span<const std::uint8_t> marked_disparity(const BlockMaps& maps, ViewIndex view,
+std::span<const std::uint8_t> marked_disparity(const DisparityField& field, ViewIndex view,
                                                std::vector<float>& marked) {
-  const ImageView<const float> disparity = maps.field.disparity.view(view);
-  if (maps.field.valid.empty()) return bytes_of(disparity);
-  const std::uint8_t* const valid = maps.field.valid.view(view).data;
+  const ImageView<const float> disparity = field.disparity.view(view);
+  if (field.valid.empty()) return bytes_of(disparity);
+  const std::uint8_t* const valid = field.valid.view(view).data;
   marked.assign(disparity.data, disparity.data + disparity.size());
   for (std::size_t i = 0; i < marked.size(); ++i) {
     if (valid[i] == 0) marked[i] = std::numeric_limits<float>::quiet_NaN();
   }
   return {reinterpret_cast<const std::uint8_t*>(marked.data()), marked.size() * sizeof(float)};
+}
+
+std::span<const std::uint8_t> bytes_in(const BlockMaps& maps, DraftMap map, ViewIndex view,
+                                       std::vector<float>& marked) {
+  if (is_mask(map)) return bytes_of(field_in(maps, map).valid.view(view));
+  if (map == DraftMap::Confidence) return bytes_of(maps.confidence.view(view));
+  if (map == DraftMap::Layers) return bytes_of(maps.layered.layers.view(view));
+  return marked_disparity(field_in(maps, map), view, marked);
+}
+
+// Where the samples of a map that is no mask go.
+std::span<std::uint8_t> target_in(BlockMaps& maps, DraftMap map, ViewIndex view) {
+  if (map == DraftMap::Confidence) return bytes_to(maps.confidence.view(view));
+  if (map == DraftMap::Layers) return bytes_to(maps.layered.layers.view(view));
+  return bytes_to(field_in(maps, map).disparity.view(view));
 }
 
 }  // namespace
@@ -48,15 +118,21 @@ void DraftFile::create(const std::filesystem::path& path, const DraftShape& shap
   const MapGeometry& maps = shape.maps;
   const std::uintmax_t pixels =
       static_cast<std::uintmax_t>(maps.grid.count()) * maps.height * maps.width;
-  const std::uintmax_t bytes = pixels * (2 * sizeof(float) + (shape.has_valid ? 1 : 0));
-  AtomicFile file(path, bytes + kStructure);
+  std::uintmax_t bytes = kStructure;
+  for (const Dataset& dataset : datasets_of(shape)) bytes += pixels * sample_bytes(dataset.map);
+  AtomicFile file(path, bytes);
   Hdf5Output output(file);
   const Hdf5Shape extent = map_shape(maps.grid, maps.height, maps.width);
   const char* const axes = map_axes(maps.grid);
   output.add_group(kResultGroup);
-  output.reserve_dataset<float>(in_group("disparity"), extent, axes, kDisparityUnit);
-  output.reserve_dataset<float>(in_group("confidence"), extent, axes, "");
-  if (shape.has_valid) output.reserve_dataset<std::uint8_t>(in_group("valid"), extent, axes, "");
+  for (const Dataset& dataset : datasets_of(shape)) {
+    const std::string name = in_group(dataset.name);
+    if (sample_bytes(dataset.map) == 1) {
+      output.reserve_dataset<std::uint8_t>(name, extent, axes, dataset.unit);
+    } else {
+      output.reserve_dataset<float>(name, extent, axes, dataset.unit);
+    }
+  }
   output.close();
   {
     const FileDescriptor reserved(file.temporary(), O_RDWR);
@@ -74,25 +150,23 @@ DraftFile::DraftFile(const std::filesystem::path& path, const DraftShape& shape,
     : target_(target), shape_(shape), file_(path, O_RDWR) {
   require(file_.ok());
   const Hdf5Input input(path);
-  const auto add = [&](Map map, const char* name, std::optional<std::uintmax_t> offset,
-                       std::size_t sample_bytes) {
+  for (const Dataset& dataset : datasets_of(shape)) {
+    const std::string name = in_group(dataset.name);
+    const std::optional<std::uintmax_t> offset = sample_bytes(dataset.map) == 1
+                                                     ? input.place_in_file<std::uint8_t>(name)
+                                                     : input.place_in_file<float>(name);
     if (!offset) {
-      throw IoError(path, std::string(name) + " is not where it should be; remove this file");
+      throw IoError(path,
+                    std::string(dataset.name) + " is not where it should be; remove this file");
     }
-    places_.push_back({map, *offset, sample_bytes});
-  };
-  const auto disparity = in_group("disparity"), confidence = in_group("confidence");
-  add(Map::Disparity, "disparity", input.place_in_file<float>(disparity), sizeof(float));
-  add(Map::Confidence, "confidence", input.place_in_file<float>(confidence), sizeof(float));
-  if (shape.has_valid) {
-    add(Map::Valid, "valid", input.place_in_file<std::uint8_t>(in_group("valid")), 1);
+    places_.push_back({dataset.map, *offset});
   }
   std::ranges::sort(places_, {}, &Place::offset);
 }
 
 std::uintmax_t DraftFile::map_bytes(const Place& place) const {
   const MapGeometry& maps = shape_.maps;
-  return place.sample_bytes * static_cast<std::uintmax_t>(maps.grid.count()) * maps.height *
+  return sample_bytes(place.map) * static_cast<std::uintmax_t>(maps.grid.count()) * maps.height *
          maps.width;
 }
 
@@ -100,7 +174,7 @@ std::uintmax_t DraftFile::at(const Place& place, ViewIndex view, int row) const 
   const MapGeometry& maps = shape_.maps;
   const auto index =
       static_cast<std::uintmax_t>(view.v - maps.first.v) * maps.grid.u + (view.u - maps.first.u);
-  return place.offset + (index * maps.height + row) * maps.width * place.sample_bytes;
+  return place.offset + (index * maps.height + row) * maps.width * sample_bytes(place.map);
 }
 
 void DraftFile::require(bool is_done) const {
@@ -144,18 +218,19 @@ void DraftFile::restore(const std::filesystem::path& path, const std::vector<Fil
 
 BlockMaps DraftFile::read(const MapBlock& block) const {
   const ViewRectangle& views = block.views;
-  const auto empty = [&] {
-    return ViewStack<float>(views.grid, block.rows(), shape_.maps.width, 1, views.first);
+  const auto empty = [&]<class T>(T) {
+    return ViewStack<T>(views.grid, block.rows(), shape_.maps.width, 1, views.first);
   };
-  BlockMaps maps{{empty(), {}}, empty()};
+  BlockMaps maps{{empty(0.0F), {}}, empty(0.0F)};
+  if (shape_.has_layers) {
+    maps.layered = {{empty(0.0F), {}}, {empty(0.0F), {}}, empty(std::uint8_t{})};
+  }
   for (const Place& place : places_) {
-    if (place.map == Map::Valid) continue;
-    ViewStack<float>& stack = place.map == Map::Disparity ? maps.field.disparity : maps.confidence;
+    if (is_mask(place.map)) continue;
     for (int i = 0; i < views.grid.count(); ++i) {
-      const ImageView<float> map = stack.view(stack.view_at(i));
-      require(read_all_at(file_.id(),
-                          {reinterpret_cast<std::uint8_t*>(map.data), map.size() * sizeof(float)},
-                          at(place, stack.view_at(i), block.first_row)));
+      const ViewIndex view = views.grid.view_at(i, views.first);
+      require(read_all_at(file_.id(), target_in(maps, place.map, view),
+                          at(place, view, block.first_row)));
     }
   }
   return maps;
@@ -168,11 +243,8 @@ void DraftFile::write_strips(const FileDescriptor& to, bool is_aside, const MapB
   for (int i = 0; i < block.views.grid.count(); ++i) {
     const ViewIndex view = block.views.grid.view_at(i, block.views.first);
     for (const Place& place : places_) {
-      if (place.map == Map::Valid && maps.field.valid.empty()) continue;
-      const std::span<const std::uint8_t> bytes =
-          place.map == Map::Disparity    ? marked_disparity(maps, view, marked)
-          : place.map == Map::Confidence ? bytes_of(maps.confidence.view(view))
-                                         : bytes_of(maps.field.valid.view(view));
+      if (is_mask(place.map) && maps.field.valid.empty()) continue;
+      const std::span<const std::uint8_t> bytes = bytes_in(maps, place.map, view, marked);
       require(write_all_at(to.id(), bytes, is_aside ? end : at(place, view, block.first_row)));
       end += bytes.size();
     }
@@ -196,8 +268,8 @@ void DraftFile::take_from(const FileDescriptor& aside, const MapBlock& block,
   for (int i = 0; i < block.views.grid.count(); ++i) {
     const ViewIndex view = block.views.grid.view_at(i, block.views.first);
     for (const Place& place : places_) {
-      if (place.map == Map::Valid && !has_valid) continue;
-      bytes.resize(place.sample_bytes * block.rows() * shape_.maps.width);
+      if (is_mask(place.map) && !has_valid) continue;
+      bytes.resize(sample_bytes(place.map) * block.rows() * shape_.maps.width);
       require(read_all_at(aside.id(), bytes, end) &&
               write_all_at(file_.id(), bytes, at(place, view, block.first_row)));
       end += bytes.size();

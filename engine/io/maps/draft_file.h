@@ -15,13 +15,27 @@ namespace episcope::io {
 /// What a draft of a result holds.
 struct DraftShape {
   MapGeometry maps;
-  bool has_valid = false;  ///< Whether some pixels may be marked as not valid.
+  bool has_valid = false;   ///< Whether some pixels may be marked as not valid.
+  bool has_layers = false;  ///< Whether it holds two layers as well.
+  int kept = 0;             ///< Maps beside it that passes keep for later ones.
 };
 
 /// Bytes of a file and where they are.
 struct FileBytes {
   std::uintmax_t offset = 0;
   std::vector<std::uint8_t> bytes;
+};
+
+/// The maps of a draft, in the order in which they are made; masks of valid pixels last.
+enum class DraftMap {
+  Disparity,
+  Confidence,
+  Foreground,
+  Background,
+  Layers,
+  Valid,
+  ForegroundValid,
+  BackgroundValid
 };
 
 /// An HDF5 file with the maps of a result, of which blocks are written in any order, without the
@@ -55,12 +69,10 @@ class DraftFile {
   void take_from(const FileDescriptor& aside, const MapBlock& block, bool has_valid) const;
 
  private:
-  enum class Map { Disparity, Confidence, Valid };
   // A dataset.
   struct Place {
-    Map map;
+    DraftMap map;
     std::uintmax_t offset = 0;
-    std::size_t sample_bytes = 0;
   };
 
   [[nodiscard]] std::uintmax_t at(const Place& place, ViewIndex view, int row) const;

@@ -46,13 +46,16 @@ LogRecord record_of(const std::string& text) {
 }
 
 Json to_json(const BlockProgress& progress) {
-  return {{"pass", progress.pass},       {"done", progress.done},       {"facts", progress.facts},
-          {"finding", progress.finding}, {"seconds", progress.seconds}, {"notes", progress.notes}};
+  return {
+      {"pass", progress.pass},   {"done", progress.done},       {"prepared", progress.is_prepared},
+      {"facts", progress.facts}, {"finding", progress.finding}, {"seconds", progress.seconds},
+      {"notes", progress.notes}};
 }
 
 BlockProgress progress_in(const Json& json) {
   return {int_of(json.at("pass")),
           int_of(json.at("done")),
+          json.at("prepared").get<bool>(),
           json.at("facts").get<std::vector<double>>(),
           json.at("finding").get<double>(),
           json.at("seconds").get<double>(),
@@ -77,10 +80,11 @@ ResultDraft::ResultDraft(const std::filesystem::path& result, const DraftShape& 
       draft_(with(result_, ".partial")),
       log_path_(with(result_, ".partial.log")),
       aside_path_(with(result_, ".partial.block")),
+      kept_path_(with(result_, ".partial.kept")),
       shape_(shape) {
   log_.emplace(log_path_, LogFraming::Lines, LogFlush::AtOnce);
   const std::vector<LogRecord>& records = log_->records();
-  const bool is_there = records.size() >= kFirstStep && std::filesystem::exists(draft_);
+  const bool is_there = records.size() >= kFirstStep && has_files();
   if (is_there && text_of(records.front()) == identity) {
     found_ = Found::Same;
     continue_with(records);
@@ -95,11 +99,26 @@ ResultDraft::ResultDraft(const std::filesystem::path& result, const DraftShape& 
   }
 }
 
+bool ResultDraft::has_files() const {
+  if (!std::filesystem::exists(draft_)) return false;
+  std::error_code error;
+  return shape_.kept == 0 || std::filesystem::file_size(kept_path_, error) ==
+                                 KeptMaps::byte_size(shape_.maps, shape_.kept);
+}
+
+void ResultDraft::open_files() {
+  file_ = DraftFile(draft_, shape_, result_);
+  if (shape_.kept > 0) kept_ = KeptMaps(kept_path_, shape_.maps, result_);
+}
+
 void ResultDraft::begin(const std::string& identity) {
   std::error_code ignored;
-  std::filesystem::remove(draft_, ignored);  // makes room
+  for (const std::filesystem::path& old : {draft_, kept_path_}) {
+    std::filesystem::remove(old, ignored);  // makes room
+  }
   DraftFile::create(draft_, shape_, result_);
-  file_ = DraftFile(draft_, shape_, result_);
+  if (shape_.kept > 0) KeptMaps::create(kept_path_, shape_.maps, shape_.kept, result_);
+  open_files();
   const std::vector<LogRecord> records{record_of(identity), record_of(rest_text())};
   log_.emplace(log_path_, LogFraming::Lines, LogFlush::AtOnce, records);
 }
@@ -107,7 +126,7 @@ void ResultDraft::begin(const std::string& identity) {
 void ResultDraft::continue_with(const std::vector<LogRecord>& records) {
   try {
     restore(text_of(records[1]));
-    file_ = DraftFile(draft_, shape_, result_);
+    open_files();
     if (records.size() == kFirstStep) return;
     const Json last = parse_json<Json>(text_of(records.back()));
     progress_ = progress_in(last);
@@ -144,6 +163,7 @@ void ResultDraft::note(const BlockProgress& after) {
 
 void ResultDraft::write(const MapBlock& block, const BlockMaps& maps, const BlockProgress& after,
                         bool replaces) {
+  if (!maps.kept.empty()) kept_.write(block, maps.kept);
   if (replaces) {
     const FileDescriptor aside(aside_path_, O_RDWR | O_CREAT);
     if (!aside.ok()) throw write_error(result_);
@@ -160,6 +180,7 @@ void ResultDraft::write(const MapBlock& block, const BlockMaps& maps, const Bloc
 void ResultDraft::remove_others() const {
   std::error_code ignored;
   std::filesystem::remove(aside_path_, ignored);
+  std::filesystem::remove(kept_path_, ignored);
   std::filesystem::remove(log_path_, ignored);
 }
 

@@ -19,6 +19,10 @@ bool same(const ViewStack<T>& a, const ViewStack<T>& b) {
          (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+bool same(const DisparityField& a, const DisparityField& b) {
+  return same(a.disparity, b.disparity) && same(a.valid, b.valid);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -29,6 +33,9 @@ int main(int argc, char** argv) {
       {"disparity", same(a.field.disparity, b.field.disparity)},
       {"valid", same(a.field.valid, b.field.valid)},
       {"confidence", same(a.confidence, b.confidence)},
+      {"foreground", same(a.layered.foreground, b.layered.foreground)},
+      {"background", same(a.layered.background, b.layered.background)},
+      {"layers", same(a.layered.layers, b.layered.layers)},
       {"method", a.method == b.method},
       {"parameters", a.parameters == b.parameters},
       {"range", a.range == b.range},

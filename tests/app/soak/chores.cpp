@@ -89,7 +89,7 @@ void Chores::estimate_in_blocks() const {
   request.run.method = "epi_s";
   request.output = folder_ / "blocks.h5";
   request.input = "demo:edge";
-  request.memory = 40 << 20;
+  request.memory = {40 << 20, 40 << 20};
   const FinishedBlocks made =
       run_in_blocks(*scene_->light_field, find_estimator("epi_s"), request, Progress());
   require(made.provenance.method == "epi_s" && fs::exists(request.output), "no result of blocks");

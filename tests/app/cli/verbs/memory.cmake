@@ -17,18 +17,19 @@ function(expect_same name a b)
 endfunction()
 
 file(MAKE_DIRECTORY "${WORK}/made" "${WORK}/once" "${WORK}/killed")
-foreach(method epi_l epi_s st_av_l st_ch_l st_av_s st_ch_s plane_pm)
+foreach(method epi_l epi_s epi_c epi_two_layer st_av_l st_ch_l st_av_s st_ch_s plane_pm)
   expect("${method} at once" 0 ERR "" ARGS estimate ${method} lf.h5 -o once/${method}.h5 -q)
   expect("${method} in blocks" 0 OUT "${method} of " ARGS estimate ${method} lf.h5
          -o made/${method}.h5 --memory 40M -q)
   expect_same("${method} in blocks" once/${method}.h5 made/${method}.h5)
 endforeach()
-expect_files(made epi_l.h5 epi_s.h5 plane_pm.h5 st_av_l.h5 st_av_s.h5 st_ch_l.h5 st_ch_s.h5)
+expect_files(made epi_c.h5 epi_l.h5 epi_s.h5 epi_two_layer.h5 plane_pm.h5 st_av_l.h5 st_av_s.h5 st_ch_l.h5 st_ch_s.h5)
 
 # A method that is not cut: what does not fit goes to disk.
-expect("at once" 0 ARGS estimate epi_c lf.h5 -o once/epi_c.h5 -q)
-expect("on disk" 0 ARGS estimate epi_c lf.h5 -o made/epi_c.h5 --memory 3M -q)
-expect_same("on disk" once/epi_c.h5 made/epi_c.h5)
+expect("at once" 0 ARGS estimate epi_g lf.h5 -o once/epi_g.h5 -q)
+expect("on disk" 0 ERR "epi_g runs at once: what does not fit is put on disk" ARGS estimate epi_g lf.h5
+       -o made/epi_g.h5 --memory 3M)
+expect_same("on disk" once/epi_g.h5 made/epi_g.h5)
 
 expect("too little memory" 1 ERR "needs [0-9]+ MB of memory at least" ARGS estimate epi_s lf.h5
        -o none.h5 --memory 1M)
@@ -70,6 +71,11 @@ expect_continued(epi_s large.h5 once/large.h5 64M 3 6 12)
 run_cli(synthesize edge -o small.h5 --views 5x6 --size 96x90 -q)
 expect("at once" 0 ARGS estimate plane_pm small.h5 -o once/small.h5 -q)
 expect_continued(plane_pm small.h5 once/small.h5 3M 4 12 29)
+# While orientations are kept, while views are smoothed.
+expect("at once" 0 ARGS estimate epi_two_layer lf.h5 -o once/epi_two_layer.h5 -q)
+expect_continued(epi_two_layer lf.h5 once/epi_two_layer.h5 30M 3 20 50)
+# In the middle of orientations, denoising, replacement, sweeps.
+expect_continued(epi_c lf.h5 once/epi_c.h5 20M 3 15 60 90)
 
 # The samples stay in their file where they are large beside the memory.
 expect("at once" 0 ARGS estimate epi_l large.h5 -o once/epi_l.h5 -q)

@@ -52,7 +52,8 @@ LightField noisy(const LightField& lf) {
 
 DoubleLayers measure(const LightField& lf, int threads = 0, double view_scale = 1.8) {
   const TensorScales scales{0.8, 2, view_scale, 1, 10, 0.15};
-  return measure_double_layers(lf, scales, {{-3.5, 3.5}, 0.15}, lf.grid(), {}, Progress(threads));
+  return measure_double_layers(lf, scales, {{-3.5, 3.5}, 0.15}, {{{}, lf.grid()}, 0, lf.height()},
+                               Progress(threads));
 }
 
 struct Quality {
