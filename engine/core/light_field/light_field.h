@@ -5,6 +5,7 @@
 #include "engine/core/array/indices.h"
 #include "engine/core/array/view_stack.h"
 #include "engine/core/light_field/camera_grid.h"
+#include "engine/core/light_field/kept_beside.h"
 #include "engine/core/light_field/reading.h"
 
 #include <algorithm>
@@ -94,6 +95,8 @@ class LightField {
   /// Another for every light field that this program makes, kept when one is moved: for copies of
   /// the samples elsewhere, on a device, to tell whether they are still the same.
   [[nodiscard]] std::uint64_t identity() const { return identity_; }
+  /// What methods make of the samples and see in their place (even_brightness).
+  [[nodiscard]] KeptBeside& beside() const { return *beside_; }
   /// Whether samples are in a file that the system reads when they are looked at.
   [[nodiscard]] bool is_on_disk() const;
   /// Of such samples, has the system begin to read rows [first_row, end_row) of a view, without
@@ -128,6 +131,7 @@ class LightField {
   int width_ = 0;
   int channels_ = 1;
   std::uint64_t identity_ = 0;
+  std::unique_ptr<KeptBeside> beside_ = std::make_unique<KeptBeside>();
 };
 
 /// The grid that views cover.

@@ -50,9 +50,7 @@ bool have_notable_means(const LightField& lf) {
       lf.samples());
 }
 
-}  // namespace
-
-std::optional<EvenLightField> even_brightness(const LightField& lf, const Progress& progress) {
+std::optional<EvenLightField> make_even(const LightField& lf, const Progress& progress) {
   if (lf.grid().count() < 2 || lf.is_on_disk() || is_kept(lf) || !have_notable_means(lf)) return {};
   const auto blocks = has_many_views(lf.grid()) ? GainBlocks::OneOfFour : GainBlocks::All;
   const ViewGains gains = measure_view_gains(lf.samples(), lf.valid(), progress, blocks);
@@ -67,12 +65,24 @@ std::optional<EvenLightField> even_brightness(const LightField& lf, const Progre
                                     100 * difference)};
 }
 
+}  // namespace
+
+std::shared_ptr<const std::optional<EvenLightField>> even_brightness(const LightField& lf,
+                                                                     const Progress& progress) {
+  return lf.beside().get<std::optional<EvenLightField>>([&] {
+    std::optional<EvenLightField> even = make_even(lf, progress);
+    const std::size_t bytes = even ? even->light_field.byte_size() : 0;
+    return std::pair(std::move(even), bytes);
+  });
+}
+
 Estimator seeing_even_brightness(Estimator estimator) {
   ++estimator.info.revision;  // results of uneven views are others than the method's own
   estimator.run = [run = std::move(estimator.run)](
                       const LightField& light_field, const ParameterSet& values,
                       const RunOptions& options, const Progress& progress) {
-    const auto even = even_brightness(light_field, progress.limited_to(options.threads));
+    const auto kept = even_brightness(light_field, progress.limited_to(options.threads));
+    const std::optional<EvenLightField>& even = *kept;
     Estimate estimate = run(even ? even->light_field : light_field, values, options, progress);
     if (even) estimate.notes.push_back(even->note);
     return estimate;
@@ -81,8 +91,7 @@ Estimator seeing_even_brightness(Estimator estimator) {
   estimator.in_blocks = [blocks = std::move(estimator.in_blocks)](
                             const LightField& light_field, const ParameterSet& values,
                             const RunOptions& options, const Progress& progress) {
-    const auto even = std::make_shared<const std::optional<EvenLightField>>(
-        even_brightness(light_field, progress.limited_to(options.threads)));
+    const auto even = even_brightness(light_field, progress.limited_to(options.threads));
     if (!*even) return blocks(light_field, values, options, progress);
     BlockwiseRun run = blocks((*even)->light_field, values, options, progress);
     run.provenance.notes.push_back((*even)->note);

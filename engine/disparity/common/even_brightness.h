@@ -3,6 +3,7 @@
 
 #include "engine/disparity/common/estimator.h"
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,9 +20,10 @@ struct EvenLightField {
 
 /// A copy without the gains of the views (measure_view_gains), if one of them differs by more than
 /// 2 % from that of the centre view; nothing else. Nothing of light fields on disk, which would
-/// have to be read as a whole, nor of those that were read with kKeepBrightness. Throws Cancelled.
-[[nodiscard]] std::optional<EvenLightField> even_brightness(const LightField& light_field,
-                                                            const Progress& progress);
+/// have to be read as a whole, nor of those that were read with kKeepBrightness. Measured and
+/// copied once, and kept with the light field (LightField::beside). Throws Cancelled.
+[[nodiscard]] std::shared_ptr<const std::optional<EvenLightField>> even_brightness(
+    const LightField& light_field, const Progress& progress);
 
 /// The same method, which sees the views in one brightness: orientations of lines and differences
 /// between views, of which all methods are made, take a gain for structure. Its estimates say so

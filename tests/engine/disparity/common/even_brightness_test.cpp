@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/disparity/common/even_brightness.h"
 
+#include "engine/core/error.h"
 #include "engine/disparity/registry.h"
 #include "tests/engine/disparity/light_fields.h"
 #include "tests/test_main.h"
@@ -54,7 +55,8 @@ class EvenBrightnessTest : public QObject {
   }
 
   void gains_areTakenOut() {
-    const auto even = even_brightness(*uneven_, Progress());
+    const auto kept = even_brightness(*uneven_, Progress());
+    const std::optional<EvenLightField>& even = *kept;
 
     QVERIFY(even.has_value());
     QVERIFY2(even->note.find("evened out") != std::string::npos, even->note.c_str());
@@ -66,14 +68,35 @@ class EvenBrightnessTest : public QObject {
     }
   }
 
-  void viewsOfOneBrightness_stay() { QVERIFY(!even_brightness(*scene_.light_field, Progress())); }
+  // Live runs a method at every change of a parameter.
+  void evenViews_areMadeOnce_andCounted() {
+    const auto kept = even_brightness(*uneven_, Progress());
+
+    QCOMPARE(even_brightness(*uneven_, Progress()).get(), kept.get());
+    QCOMPARE(uneven_->beside().bytes(), (*kept)->light_field.byte_size());
+    QCOMPARE(scene_.light_field->beside().bytes(), std::size_t{0});
+  }
+
+  // What was begun and stopped is begun anew.
+  void stoppedMeasurement_isNotKept() {
+    const LightField other = uneven(*scene_.light_field);
+    std::stop_source stop;
+    stop.request_stop();
+    const Progress stopped(stop.get_token(), {}, 1);
+
+    QVERIFY_THROWS_EXCEPTION(Cancelled, (void)even_brightness(other, stopped));
+
+    QVERIFY(even_brightness(other, Progress())->has_value());
+  }
+
+  void viewsOfOneBrightness_stay() { QVERIFY(!*even_brightness(*scene_.light_field, Progress())); }
 
   void whoKeepsThem_hasThemLeft() {
     LightFieldInfo info = uneven_->info();
     info.reading.options = {{kKeepBrightness, true}};
     LightField copy = uneven(*scene_.light_field);
 
-    QVERIFY(!even_brightness(LightField(std::move(copy), std::move(info)), Progress()));
+    QVERIFY(!*even_brightness(LightField(std::move(copy), std::move(info)), Progress()));
   }
 
   // Without, EPI methods lose most: a gain is a slope of all lines.
