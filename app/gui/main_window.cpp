@@ -12,6 +12,7 @@
 #include "app/gui/frame/keyboard_home.h"
 #include "app/gui/frame/leave_guards.h"
 #include "app/gui/frame/messages.h"
+#include "app/gui/frame/painting_threads.h"
 #include "app/gui/frame/queued_post.h"
 #include "app/gui/layout.h"
 #include "app/gui/opening/result_opener.h"
@@ -19,6 +20,7 @@
 #include "app/gui/opening/scene_switcher.h"
 #include "app/gui/stage/overlay.h"
 #include "app/gui/stage/stage.h"
+#include "app/session/run/turns.h"
 #include "app/session/session.h"
 #include "widgets/canvas/view_canvas.h"
 
@@ -80,6 +82,8 @@ struct MainWindow::Core {
 MainWindow::MainWindow(QWidget* parent)
     : QMainWindow(parent), core_(std::make_unique<Core>(*this)) {
   const Workbench& bench = core_->bench;
+  ask_for_short_turns();
+  keep_painting_threads();
   setCentralWidget(&bench.frame);
   bench.frame.setStage(&bench.stage);
   show_jobs(bench.jobs, bench.frame, bench.messages);

@@ -4041,7 +4041,7 @@ s</translation>
     </message>
     <message>
         <source>Photographs of a gantry need the lens first.</source>
-        <translation>Fotos eines Kameraportals brauchen zuerst das Objektiv.</translation>
+        <translation>Fotos brauchen zuerst das kalibrierte Objektiv.</translation>
     </message>
 </context>
 <context>

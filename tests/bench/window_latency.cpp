@@ -41,7 +41,7 @@ void give_input(MainWindow& window, int number) {
 
 std::vector<double> latencies(MainWindow& window, const std::function<void(int)>& input,
                               const std::function<bool()>& has_ended) {
-  return bench::event_ages(window, input, has_ended, kScenePatience);
+  return bench::event_ages(window, {input, has_ended, kScenePatience, {}});
 }
 
 std::vector<double> latencies_during_run(MainWindow& window) {

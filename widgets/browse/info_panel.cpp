@@ -86,6 +86,7 @@ InfoPanel::InfoPanel(QWidget* parent)
 void InfoPanel::setInfo(const QString& title, const std::vector<InfoRow>& rows,
                         const QStringList& warnings) {
   title_->setFullText(title.isEmpty() ? tr("No light field") : title);
+  if (rows == rows_ && warnings == warnings_ && scroll_->widget()) return;
   rows_ = rows;
   warnings_ = warnings;
   rebuild();

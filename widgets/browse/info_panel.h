@@ -21,6 +21,7 @@ struct InfoRow {
   QString check;  ///< "checked against truth: …", drawn quietly below the value; may be empty.
   QString id{};   ///< "order": the value is the object "info.order"; may be empty.
   QAction* action = nullptr;  ///< A command that changes it, as a link below; may be null.
+  friend bool operator==(const InfoRow&, const InfoRow&) = default;
 };
 
 /// Facts of the scene, the conventions found with their checks, and warnings. Values wrap; what
@@ -31,7 +32,7 @@ class InfoPanel : public QWidget {
  public:
   explicit InfoPanel(QWidget* parent = nullptr);
 
-  /// An empty title says that there is no light field.
+  /// An empty title says that there is no light field. Costs nothing if all is as before.
   void setInfo(const QString& title, const std::vector<InfoRow>& rows, const QStringList& warnings);
   /// The command behind the button beside the title; it is disabled with the action.
   void setConventionsAction(QAction* action) { conventions_->setDefaultAction(action); }

@@ -10,6 +10,7 @@
 
 #include <QAction>
 #include <QClipboard>
+#include <QEvent>
 #include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -102,7 +103,7 @@ MetricTable::MetricTable(QWidget* parent)
   layout->addLayout(row);
   connect(copy_csv_, &QToolButton::clicked, this, &MetricTable::copyCsv);
   connect(copy_latex_, &QToolButton::clicked, this, &MetricTable::copyLatex);
-  setTable({}, {});
+  fill();
 }
 
 void MetricTable::setUpTable() {
@@ -140,28 +141,39 @@ void MetricTable::setUpTable() {
 
 void MetricTable::setTable(const std::vector<MetricColumn>& columns,
                            const std::vector<MetricRow>& rows) {
+  if (columns == columns_ && rows == rows_) return;
   columns_ = columns;
+  rows_ = rows;
+  fill();
+}
+
+void MetricTable::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange) stressBest();
+}
+
+void MetricTable::fill() {
   // Filling a table that sorts would move the rows while they are filled.
   const int sort_column = table_->horizontalHeader()->sortIndicatorSection();
   const Qt::SortOrder order = table_->horizontalHeader()->sortIndicatorOrder();
-  const bool is_same_shape = table_->columnCount() == static_cast<int>(columns.size());
+  const bool is_same_shape = table_->columnCount() == static_cast<int>(columns_.size());
   table_->setSortingEnabled(false);
   table_->clear();
-  table_->setColumnCount(static_cast<int>(columns.size()));
-  table_->setRowCount(static_cast<int>(rows.size()));
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    auto* header = new QTableWidgetItem(columns[i].label);
-    header->setToolTip(columns[i].help);
+  table_->setColumnCount(static_cast<int>(columns_.size()));
+  table_->setRowCount(static_cast<int>(rows_.size()));
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    auto* header = new QTableWidgetItem(columns_[i].label);
+    header->setToolTip(columns_[i].help);
     header->setTextAlignment((i == 0 ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     table_->setHorizontalHeaderItem(static_cast<int>(i), header);
-    table_->setColumnHidden(static_cast<int>(i), !columns[i].is_shown);
+    table_->setColumnHidden(static_cast<int>(i), !columns_[i].is_shown);
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) fillRow(static_cast<int>(i), rows[i]);
+  for (std::size_t i = 0; i < rows_.size(); ++i) fillRow(static_cast<int>(i), rows_[i]);
   stressBest();
   table_->horizontalHeader()->setSortIndicator(is_same_shape ? sort_column : -1, order);
   table_->setSortingEnabled(true);
   fitColumns();
-  const bool is_empty = rows.empty() || columns.empty();
+  const bool is_empty = rows_.empty() || columns_.empty();
   table_->setVisible(!is_empty);
   empty_->setVisible(is_empty);
   for (auto* button : {copy_csv_, copy_latex_, save_}) button->setEnabled(!is_empty);

@@ -24,12 +24,14 @@ struct MetricColumn {
   int decimals = 3;
   BestValue best = BestValue::None;
   bool is_shown = true;  ///< Else it stands in copied and saved tables only.
+  friend bool operator==(const MetricColumn&, const MetricColumn&) = default;
 };
 
 struct MetricRow {
   quint64 id = 0;
   /// One a column: a double, a string, or an invalid QVariant where the metric is absent.
   std::vector<QVariant> values;
+  friend bool operator==(const MetricRow&, const MetricRow&) = default;
 };
 
 /// Metrics of all results, sortable by any column (numbers as numbers, absent ones and NaN last),
@@ -41,6 +43,7 @@ class MetricTable : public QWidget {
  public:
   explicit MetricTable(QWidget* parent = nullptr);
 
+  /// Costs nothing if they are as before.
   void setTable(const std::vector<MetricColumn>& columns, const std::vector<MetricRow>& rows);
   /// Says why the table is empty, e.g. that there is no ground truth.
   void setEmptyText(const QString& text);
@@ -65,14 +68,19 @@ class MetricTable : public QWidget {
   /// "csv" or "tex" with the text to be written by the host.
   void saveRequested(const QString& suffix, const QString& text);
 
+ protected:
+  void changeEvent(QEvent* event) override;
+
  private:
   void setUpTable();
+  void fill();
   void fillRow(int row, const MetricRow& values);
   void fitColumns();
   void stressBest();
   void showMenu(const QPoint& position);
 
   std::vector<MetricColumn> columns_;
+  std::vector<MetricRow> rows_;
   QTableWidget* table_;
   QLabel* empty_;
   QToolButton* copy_csv_;

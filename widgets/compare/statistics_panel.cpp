@@ -76,6 +76,7 @@ void StatisticsPanel::addThreshold(QGridLayout& layout) {
   label->setToolTip(tip);
   values_[kBad]->setToolTip(tr("Visible judged pixels that are off by more than the threshold"));
   auto* row = new QHBoxLayout;
+  row->setSpacing(theme::kSpacing);
   row->addWidget(label);
   row->addWidget(threshold_);
   row->addStretch(1);

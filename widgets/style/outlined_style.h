@@ -6,7 +6,8 @@
 namespace episcope {
 
 /// The Fusion style, with frames of check boxes that are seen in a dark theme as well: Fusion draws
-/// them darker than the window, whatever that is. Tabs stand closer together.
+/// them darker than the window, whatever that is. Tabs stand closer together, and buttons of
+/// dialogs have no icons, which Fusion draws dark, too.
 class OutlinedStyle : public QProxyStyle {
   Q_OBJECT
 
@@ -17,6 +18,8 @@ class OutlinedStyle : public QProxyStyle {
                      const QWidget* widget = nullptr) const override;
   int pixelMetric(PixelMetric metric, const QStyleOption* option = nullptr,
                   const QWidget* widget = nullptr) const override;
+  int styleHint(StyleHint hint, const QStyleOption* option = nullptr,
+                const QWidget* widget = nullptr, QStyleHintReturn* data = nullptr) const override;
 };
 
 }  // namespace episcope

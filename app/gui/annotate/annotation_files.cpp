@@ -45,9 +45,9 @@ AnnotationFiles::AnnotationFiles(const Workbench& bench, AnnotationBar* bar)
   connect(&document_, &DocumentController::unsavedChanged, this, &AnnotationFiles::showState);
   session_.on_changed([this](Parts parts) {
     if (!parts.has(Part::Scene)) return;
-    std::erase_if(known_, [this](const auto& each) { return !session_.find_scene(each.first); });
+    std::erase_if(seen_, [this](std::uint64_t each) { return !session_.find_scene(each); });
     const QString path = place();
-    known_.try_emplace(session_.generation(), Known{path, stamp_of(path_of(path))});
+    if (seen_.insert(session_.generation()).second && !path.isEmpty()) known_.note(path_of(path));
     showState();
   });
   showState();
@@ -154,9 +154,7 @@ std::function<Scribbles()> AnnotationFiles::snapshot() {
 }
 
 bool AnnotationFiles::hasChangedOnDisk(const QString& path) const {
-  const auto known = known_.find(session_.generation());
-  return known != known_.end() && path == known->second.path && saving_ == 0 &&
-         stamp_of(path_of(path)) != known->second.stamp;
+  return saving_ == 0 && known_.has_changed(path_of(path));
 }
 
 void AnnotationFiles::saveTo(const QString& path, std::function<void()> then) {
@@ -189,7 +187,7 @@ void AnnotationFiles::reload(const QString& path) {
         document_.replace(document_from(*read.first, light_field->grid(), light_field->height(),
                                         light_field->width()),
                           true, path.toStdString());
-        known_[generation] = {path, read.second};
+        known_.note(path_of(path), read.second);
         bench_.messages.success(tr("Reloaded: %1").arg(path));
       });
 }
@@ -208,8 +206,8 @@ void AnnotationFiles::write(const QString& path, std::function<void()> then) {
       },
       [this, path, generation, state = document_.document()->state(),
        then = std::move(then)](const FileStamp& stamp) {
+        known_.note(path_of(path), stamp);
         if (generation == session_.generation()) {
-          known_[generation] = {path, stamp};
           document_.noteSaved(state, path.toStdString());
         }
         bench_.messages.written(path);

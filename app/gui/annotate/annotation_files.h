@@ -3,7 +3,7 @@
 
 #include "app/gui/bench/workbench.h"
 #include "app/gui/document/document_controller.h"
-#include "app/session/save/file_stamp.h"
+#include "app/session/save/known_files.h"
 #include "app/session/session.h"
 
 #include <QKeySequence>
@@ -14,7 +14,7 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
+#include <set>
 
 class QMessageBox;
 
@@ -70,12 +70,8 @@ class AnnotationFiles : public QObject {
   Session& session_;
   DocumentController& document_;
   AnnotationBar* bar_;
-  /// A file that is expected to be as it was when it was read or written here.
-  struct Known {
-    QString path;
-    FileStamp stamp;
-  };
-  std::map<std::uint64_t, Known> known_;  // of each open scene
+  KnownFiles known_;
+  std::set<std::uint64_t> seen_;  // open scenes whose files were noted
   int saving_ = 0;
   QPointer<QMessageBox> question_;
 };

@@ -93,7 +93,7 @@ void FileController::addOpenCommands() {
                        .text = tr("Open recent"),
                        .tip = tr("Reopens a recent light field"),
                        .section = section::kOpen,
-                       .enabled = [] { return !recent_inputs().isEmpty(); },
+                       .enabled = [this] { return !recent_menu_->isEmpty(); },
                        .submenu = recent_menu_});
   bench_.commands.add({.id = "file.demo",
                        .menu = Menu::File,

@@ -35,7 +35,6 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
   button->setArrowType(Qt::DownArrow);
   button->setAutoRaise(true);
   button->setFocusPolicy(Qt::NoFocus);
-  button->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(button);
   QObject::connect(menu, &QMenu::aboutToShow, &frame, [&frame, menu] {
     menu->clear();
@@ -46,8 +45,23 @@ QToolButton* make_list_of_tabs(Frame& frame, QWidget* parent) {
       action->setChecked(frame.panes().isSeen(pane_id(tab.id)));
     }
   });
-  button->setMenu(menu);
+  // No menu of the button's own, whose arrow would stand beside this one.
+  QObject::connect(button, &QToolButton::clicked, menu, [button, menu] {
+    menu->popup(button->mapToGlobal(QPoint(0, button->height())));
+  });
   return button;
+}
+
+// A tab comes to the front, at its place among those that are there.
+void put_in_book(QTabWidget& book, const std::vector<Tab>& tabs, const QString& id) {
+  int place = 0;
+  for (const Tab& each : tabs) {
+    if (each.id == id) {
+      book.setCurrentIndex(book.insertTab(place, each.widget, each.title));
+      return;
+    }
+    if (book.indexOf(each.widget) >= 0) ++place;
+  }
 }
 
 // The tabs, and below them those that the user puts there.
@@ -147,23 +161,19 @@ void Frame::setStage(QWidget* stage) {
 
 void Frame::addTab(const Tab& tab) {
   tabs_.push_back(tab);
-  const int place = book_->addTab(tab.widget, tab.title);
-  if (tab.waits) book_->setTabVisible(place, false);
   addPane(tab);
+  if (tab.waits) {
+    // Not among the others, invisible: behind an invisible last one, Qt scrolls too far.
+    tab.widget->setParent(side_);
+    tab.widget->hide();
+  } else {
+    book_->addTab(tab.widget, tab.title);
+  }
 }
 
-// A tab comes back at its place among those that are there.
 void Frame::addPane(const Tab& tab) {
-  panes_->add({pane_id(tab.id), tab.title, tab.widget, [this, id = tab.id] {
-                 int place = 0;
-                 for (const Tab& each : tabs_) {
-                   if (each.id == id) {
-                     book_->setCurrentIndex(book_->insertTab(place, each.widget, each.title));
-                     return;
-                   }
-                   if (book_->indexOf(each.widget) >= 0) ++place;
-                 }
-               }});
+  panes_->add({pane_id(tab.id), tab.title, tab.widget,
+               [this, id = tab.id] { put_in_book(*book_, tabs_, id); }});
 }
 
 const Tab* Frame::tabOf(const QWidget* widget) const {
@@ -209,7 +219,7 @@ void Frame::showTab(const QString& id) {
   setPanelsShown(true);
   if (found == tabs_.end()) return;
   if (panes_->isStacked(pane_id(id))) return panes_->stack(pane_id(id));
-  book_->setTabVisible(book_->indexOf(found->widget), true);
+  if (book_->indexOf(found->widget) < 0) return put_in_book(*book_, tabs_, id);
   book_->setCurrentWidget(found->widget);
 }
 

@@ -48,10 +48,10 @@ using ScenePtr = std::shared_ptr<const Scene>;
 
 ScenePtr read_as_told(const std::string& input, const LoadOptions& options,
                       const Progress& progress) {
-  // Which of the light fields of a folder is meant is for the user to say.
+  // Which of several light fields of a folder is meant is for the user to say.
   if (io::given_options(options.open).empty()) {
     const auto below = collection_at(input, options.open, options.cache_folder, progress);
-    if (!below.empty()) throw IsCollection(input, below.size());
+    if (below.size() > 1) throw IsCollection(input, below.size());
   }
   return std::make_shared<const Scene>(load_scene(input, options, progress));
 }

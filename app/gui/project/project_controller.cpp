@@ -82,7 +82,7 @@ QString ProjectController::file() const {
 
 void ProjectController::setFile(const QString& path) {
   autosave_.setProjectFile(path.toStdString());
-  stamp_ = stamp_of(path.toStdString());
+  known_.note(path.toStdString());
   bench_.commands.refresh();
 }
 
@@ -151,7 +151,7 @@ void ProjectController::saveAs(std::function<void()> then) {
 }
 
 void ProjectController::saveTo(const QString& path, std::function<void()> then) {
-  if (path != file() || stamp_of(path.toStdString()) == stamp_) {
+  if (!known_.has_changed(path.toStdString())) {
     write(path, std::move(then));
     return;
   }

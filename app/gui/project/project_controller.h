@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/bench/workbench.h"
-#include "app/session/save/file_stamp.h"
+#include "app/session/save/known_files.h"
 
 #include <QObject>
 #include <QString>
@@ -47,7 +47,7 @@ class ProjectController : public QObject {
 
   Workbench bench_;
   Autosave& autosave_;
-  FileStamp stamp_;            // of the file, as it was read or written last
+  KnownFiles known_;
   std::string saved_content_;  // what it holds
 };
 

@@ -13,6 +13,8 @@ namespace episcope {
 class KnownFiles {
  public:
   void note(const std::filesystem::path& file, const FileStamp& stamp);
+  /// As it is now; that there is none is noted as well.
+  void note(const std::filesystem::path& file) { note(file, stamp_of(file)); }
   /// Whether a file that was noted is there and another one now. False for other files.
   [[nodiscard]] bool has_changed(const std::filesystem::path& file) const;
 

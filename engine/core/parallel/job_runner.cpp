@@ -6,9 +6,11 @@
 #include <condition_variable>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <stop_token>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace episcope {
@@ -28,11 +30,29 @@ struct Job {
   JobRunner::OnProgress on_progress;
 };
 
-// The newest state of a job on its way to the owner: at most one closure is in transit.
-struct Mailbox {
-  std::mutex mutex;
-  ProgressState state;
-  bool is_posted = false;
+// The newest state of a job on its way to the owner. No lock: the owner would wait for a worker of
+// lower priority that was interrupted while it held it.
+class Mailbox {
+ public:
+  Mailbox() = default;
+  ~Mailbox() { delete newest_.load(); }
+  Mailbox(const Mailbox&) = delete;
+  Mailbox& operator=(const Mailbox&) = delete;
+
+  /// Whether it was empty: then somebody must be sent to empty it.
+  [[nodiscard]] bool put(const ProgressState& state) {
+    const std::unique_ptr<ProgressState> before(
+        newest_.exchange(std::make_unique<ProgressState>(state).release()));
+    return before == nullptr;
+  }
+  /// Precondition: `put` said so, and nobody else was sent.
+  [[nodiscard]] ProgressState take() {
+    const std::unique_ptr<ProgressState> newest(newest_.exchange(nullptr));
+    return std::move(*newest);
+  }
+
+ private:
+  std::atomic<ProgressState*> newest_{nullptr};
 };
 
 }  // namespace
@@ -79,18 +99,8 @@ void JobRunner::State::run(Job& job) {
   if (job.on_progress) {
     auto mailbox = std::make_shared<Mailbox>();
     listener = [this, mailbox, handler = job.on_progress](const ProgressState& state) {
-      const std::scoped_lock lock(mailbox->mutex);
-      mailbox->state = state;
-      if (std::exchange(mailbox->is_posted, true) || closed) return;
-      post([mailbox, handler] {
-        ProgressState newest;
-        {
-          const std::scoped_lock inner(mailbox->mutex);
-          mailbox->is_posted = false;
-          newest = mailbox->state;
-        }
-        handler(newest);
-      });
+      if (closed || !mailbox->put(state)) return;
+      post([mailbox, handler] { handler(mailbox->take()); });
     };
   }
   const Progress progress(job.requests.stop.get_token(), job.requests.finish.get_token(),

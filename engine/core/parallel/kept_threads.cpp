@@ -1,17 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "engine/core/parallel/kept_threads.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <thread>
 
 #include <pthread.h>
+#include <sys/resource.h>
 
 namespace episcope {
+namespace {
+
+// Of the calling thread, where threads have priorities of their own (Linux), else of the program.
+int priority() {
+  return getpriority(PRIO_PROCESS, 0);
+}
+
+}  // namespace
 
 class KeptThreads::Thread {
  public:
   Thread() : thread_([this](const std::stop_token& end) { serve(end); }) {}
+
+  // That of the thread that made it, for good: it could be lowered, but never raised again.
+  [[nodiscard]] int made_with_priority() const { return priority_; }
 
   void begin(const std::function<void()>& work) {
     const std::scoped_lock lock(mutex_);
@@ -48,6 +61,7 @@ class KeptThreads::Thread {
   std::condition_variable done_{};
   const std::function<void()>* work_ = nullptr;  // that is asked for or runs
   bool is_asked_ = false;
+  int priority_ = priority();
   std::jthread thread_;  // the last member: it uses the others
 };
 
@@ -62,22 +76,27 @@ class Idle {
     return *idle;
   }
 
+  // One of the caller's priority: work of a lowered thread must not take others' turns.
   [[nodiscard]] std::unique_ptr<KeptThreads::Thread> take() {
     {
       const std::scoped_lock lock(mutex_);
-      if (!threads_.empty()) {
-        auto thread = std::move(threads_.back());
-        threads_.pop_back();
+      const auto found =
+          std::ranges::find(threads_, priority(), &KeptThreads::Thread::made_with_priority);
+      if (found != threads_.end()) {
+        auto thread = std::move(*found);
+        threads_.erase(found);
         return thread;
       }
     }
     return std::make_unique<KeptThreads::Thread>();
   }
 
-  // One too many ends.
+  // One too many of a priority ends.
   void keep(std::unique_ptr<KeptThreads::Thread> thread) {
     const std::scoped_lock lock(mutex_);
-    if (threads_.size() < most_) threads_.push_back(std::move(thread));
+    const auto alike = std::ranges::count(threads_, thread->made_with_priority(),
+                                          &KeptThreads::Thread::made_with_priority);
+    if (static_cast<std::size_t>(alike) < most_) threads_.push_back(std::move(thread));
   }
 
  private:

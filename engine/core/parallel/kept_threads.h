@@ -12,8 +12,9 @@ namespace episcope {
 /// exist at once, also within the work of another.
 class KeptThreads {
  public:
-  /// Begins to run `work`, which must not throw, on `count` threads besides. It must live until
-  /// this is destroyed. Throws std::system_error where no thread can be made.
+  /// Begins to run `work`, which must not throw, on `count` threads besides, of the priority of the
+  /// calling thread. It must live until this is destroyed. Throws std::system_error where no thread
+  /// can be made.
   KeptThreads(int count, const std::function<void()>& work);
   /// Waits for the threads that have begun; those that have not will not begin.
   ~KeptThreads();

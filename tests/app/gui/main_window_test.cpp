@@ -13,7 +13,15 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTabWidget>
+#include <QThreadPool>
 #include <QToolBar>
+
+#include <sys/resource.h>
+
+#include <latch>
+#include <mutex>
+#include <set>
+#include <thread>
 
 namespace episcope::in_main_window_test {
 
@@ -26,6 +34,7 @@ class MainWindowTest : public QObject {
   void escape_cancelsTheRun();
   void largerWindow_givesItsRoomToTheView();
   void smallWindow_showsEveryButton();
+  void threadsThatDraw_haveThePriorityOfTheWindow();
 };
 
 void MainWindowTest::emptyWindow_saysWhatToDo() {
@@ -104,6 +113,33 @@ void MainWindowTest::smallWindow_showsEveryButton() {
     QVERIFY2(button && button->isVisible(), qPrintable(action->objectName()));
     QVERIFY2(bar->rect().contains(button->geometry()), qPrintable(action->objectName()));
   }
+}
+
+// Whoever gives them work: Qt's own would have that of the thread that needed them first.
+void MainWindowTest::threadsThatDraw_haveThePriorityOfTheWindow() {
+  const int own = getpriority(PRIO_PROCESS, 0);
+  if (own >= 19) QSKIP("nothing is lower");
+  WindowFixture f;
+  QThreadPool& pool = *QThreadPool::globalInstance();
+  const int count = pool.maxThreadCount();
+  std::latch all(count);
+  std::mutex mutex;
+  std::multiset<int> priorities;
+
+  std::jthread([&] {
+    setpriority(PRIO_PROCESS, 0, own + 1);
+    for (int i = 0; i < count; ++i) {
+      pool.start([&] {
+        all.arrive_and_wait();
+        const std::scoped_lock lock(mutex);
+        priorities.insert(getpriority(PRIO_PROCESS, 0));
+      });
+    }
+  }).join();
+  pool.waitForDone();
+
+  QCOMPARE(priorities.size(), static_cast<std::size_t>(count));
+  QCOMPARE(priorities.count(own), static_cast<std::size_t>(count));
 }
 
 }  // namespace episcope::in_main_window_test

@@ -19,8 +19,7 @@ constexpr auto kInterval = std::chrono::milliseconds(5);
 
 }  // namespace
 
-std::vector<double> event_ages(QObject& window, const std::function<void(int)>& input,
-                               const std::function<bool()>& has_ended, int patience_ms) {
+std::vector<double> event_ages(QObject& window, const Probe& probe) {
   std::vector<double> ages;
   std::atomic<bool> ends{false};
   std::jthread clock([&] {
@@ -29,7 +28,8 @@ std::vector<double> event_ages(QObject& window, const std::function<void(int)>& 
           &window,
           [&, number, posted = Clock::now()] {
             ages.push_back(Milliseconds(Clock::now() - posted).count());
-            if (number % kEventsPerInput == 0) input(number / kEventsPerInput);
+            if (probe.on_age) probe.on_age(ages.back());
+            if (number % kEventsPerInput == 0) probe.input(number / kEventsPerInput);
           },
           Qt::QueuedConnection);
       std::this_thread::sleep_for(kInterval);
@@ -39,10 +39,10 @@ std::vector<double> event_ages(QObject& window, const std::function<void(int)>& 
   QEventLoop loop;
   QTimer look;
   QObject::connect(&look, &QTimer::timeout, &loop, [&] {
-    if (has_ended()) loop.quit();
+    if (probe.has_ended()) loop.quit();
   });
   look.start(kInterval);
-  QTimer::singleShot(patience_ms, &loop, &QEventLoop::quit);
+  QTimer::singleShot(probe.patience_ms, &loop, &QEventLoop::quit);
   loop.exec();
   ends = true;
   clock.join();

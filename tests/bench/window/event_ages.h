@@ -14,10 +14,14 @@ namespace episcope::bench {
 /// after that, so that what the input costs is in the age of the next one.
 inline constexpr int kEventsPerInput = 4;
 
-/// Until `has_ended`, which is looked at between events. `input` gets a number that grows.
-[[nodiscard]] std::vector<double> event_ages(QObject& window, const std::function<void(int)>& input,
-                                             const std::function<bool()>& has_ended,
-                                             int patience_ms);
+struct Probe {
+  std::function<void(int)> input;      ///< Gets a number that grows.
+  std::function<bool()> has_ended;     ///< Looked at between events.
+  int patience_ms = 0;                 ///< Ends in any case after this.
+  std::function<void(double)> on_age;  ///< Told each age at once; may be empty.
+};
+
+[[nodiscard]] std::vector<double> event_ages(QObject& window, const Probe& probe);
 
 /// Below which a share of the values is.
 [[nodiscard]] double percentile(std::vector<double> values, double share);

@@ -37,7 +37,7 @@ void estimate_all(WindowFixture& f) {
     if (number % 5 == 0) f.window.bench().session.set_view({number / 5 % 27, number / 11 % 27});
     QTest::mouseMove(f.canvas(), {20 + number % 300, 30 + number % 200});
   };
-  const auto ages = event_ages(f.window, input, is_done, kHour_ms);
+  const auto ages = event_ages(f.window, {input, is_done, kHour_ms, {}});
   print("EPI_L, all views", clock);
   std::printf("events meanwhile: 95 %% %.1f, longest %.1f ms\n", percentile(ages, 0.95),
               percentile(ages, 1));

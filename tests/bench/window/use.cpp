@@ -35,7 +35,6 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t kMostResults = 6;
 constexpr std::size_t kLabels = 3;
 constexpr std::array kMethods = {"epi_l", "st_ch_l", "epi_s", "st_ch_s", "st_ch_g", "epi_g"};
-constexpr double kLate_ms = 50;
 
 /// Not QTest::mouseMove, which handles all events that wait: they would be part of the input.
 void move_mouse(QWidget& widget, QPoint to, Qt::MouseButtons buttons = {}) {
@@ -208,9 +207,13 @@ void measure_use(TimedApplication& application, double seconds, int strokes, boo
   user.paintBefore(strokes);
   application.begin();
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  const auto ages = event_ages(
-      f.window, [&](int number) { user.act(number); }, [&] { return Clock::now() > end; },
-      static_cast<int>(1000 * seconds) + 60'000);
+  const auto ages = event_ages(f.window, {.input = [&](int number) { user.act(number); },
+                                          .has_ended = [&] { return Clock::now() > end; },
+                                          .patience_ms = static_cast<int>(1000 * seconds) + 60'000,
+                                          .on_age =
+                                              [&](double age_ms) {
+                                                if (age_ms > kLate_ms) application.noteLate(age_ms);
+                                              }});
   report(ages, user);
   application.report();
   const Process process = this_process();

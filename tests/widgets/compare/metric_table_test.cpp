@@ -46,6 +46,24 @@ class MetricTableTest : public QObject {
   Q_OBJECT
 
  private slots:
+  void sameTable_isNotFilledAnew() {
+    MetricTable table;
+    table.setTable(columns(), rows());
+    const auto* inner = table.findChild<QTableWidget*>("metrics.table");
+    const QTableWidgetItem* before = inner->item(0, 0);
+    inner->item(0, 0)->setData(Qt::UserRole + 7, "marked");
+
+    table.setTable(columns(), rows());
+    QCOMPARE(inner->item(0, 0), before);
+    QCOMPARE(inner->item(0, 0)->data(Qt::UserRole + 7).toString(), QString("marked"));
+
+    auto changed = rows();
+    changed.front().values.front() = "another name";
+    table.setTable(columns(), changed);
+    QCOMPARE(inner->item(0, 0)->text(), QString("another name"));
+    QVERIFY(inner->item(0, 0)->data(Qt::UserRole + 7).isNull());
+  }
+
   void clickOnAHeader_sortsNumbersAsNumbersAndAbsentLast() {
     MetricTable table;
     table.resize(500, 300);

@@ -30,6 +30,7 @@ class OpeningTest : public QObject {
 
  private slots:
   void openedFile_isShown();
+  void folderOfASingleLightField_opensIt();
   void readAgain_showsWhatWasWrittenMeanwhile();
   void builtinScene_isEstimatedAtOnce();
   void builtinScenes_areChosenFromAList();
@@ -50,6 +51,21 @@ void OpeningTest::openedFile_isShown() {
 
   QCOMPARE(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture);
   QVERIFY2(f.window.windowTitle().contains("edge"), qPrintable(f.window.windowTitle()));
+}
+
+// As on the command line; one of several is chosen from a list (collection_window_test).
+void OpeningTest::folderOfASingleLightField_opensIt() {
+  WindowFixture f;
+  const QString file = f.path("deeper/down/lf.h5");
+  QDir().mkpath(f.path("deeper/down"));
+  QVERIFY(QFile::rename(f.writeScene("edge", WindowFixture::smallOptions()), file));
+
+  f.window.bench().opener.open(f.path("deeper"));
+
+  QTRY_VERIFY_WITH_TIMEOUT(f.window.bench().session.scene() != nullptr, kScenePatience);
+  QCOMPARE(QString::fromStdString(f.window.bench().session.light_field()->info().source), file);
+  QTRY_COMPARE_WITH_TIMEOUT(f.window.bench().stage.canvas()->state(), ViewCanvas::State::Picture,
+                            kPatience);
 }
 
 void OpeningTest::readAgain_showsWhatWasWrittenMeanwhile() {

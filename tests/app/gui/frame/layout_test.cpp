@@ -13,6 +13,7 @@
 #include <QPointer>
 #include <QScreen>
 #include <QSettings>
+#include <QTabBar>
 #include <QTabWidget>
 
 namespace episcope::in_layout_test {
@@ -46,6 +47,7 @@ class LayoutTest : public QObject {
   void panels_canBeHidden_andTheViewGetsTheirRoom();
   void fullScreen_isEnteredAndLeft();
   void everyTab_fitsTheSideOfASmallScreen();
+  void tabThatComesLate_isSeenAmongTheOthers();
 };
 
 void LayoutTest::message_movesNothing() {
@@ -98,6 +100,22 @@ void LayoutTest::everyTab_fitsTheSideOfASmallScreen() {
   for (int i = 0; i < tabs->count(); ++i) {
     const int least = tabs->widget(i)->minimumSizeHint().width();
     QVERIFY2(least <= 380, qPrintable(QString("%1: %2").arg(tabs->tabText(i)).arg(least)));
+  }
+}
+
+// With an invisible tab behind it, Qt would move the others out of sight.
+void LayoutTest::tabThatComesLate_isSeenAmongTheOthers() {
+  WindowFixture f;
+  f.openSmall();
+  const auto* bar = f.window.findChild<QTabWidget*>("tabs")->tabBar();
+
+  for (const char* tab : {"tab.sweep", "tab.errors", "tab.measure", "tab.capture"}) {
+    f.trigger(tab);
+    QCoreApplication::processEvents();
+
+    QVERIFY2(bar->rect().contains(bar->tabRect(bar->currentIndex())), tab);
+    QVERIFY2(bar->tabRect(0).left() <= 0, tab);  // no gap before the first
+    QVERIFY2(bar->tabRect(bar->count() - 1).right() > bar->width() / 2, tab);
   }
 }
 

@@ -268,6 +268,25 @@ class JobRunnerTest : public QObject {
     QCOMPARE(fractions, std::vector<double>{1.0});
   }
 
+  // The owner may handle it while the job is still within the call that told it.
+  void progress_mayBeHandledBeforePostReturns() {
+    std::vector<double> told;
+    std::atomic<bool> has_ended{false};
+    {
+      JobRunner runner([](const std::function<void()>& closure) { closure(); });
+      (void)runner.start<int>(
+          [](const Progress& progress) {
+            for (const double fraction : {0.25, 0.5, 0.75}) progress.report(fraction);
+            return 1;
+          },
+          [&](Outcome<int>) { has_ended = true; },
+          [&](const ProgressState& state) { told.push_back(state.fraction); });
+      QTRY_VERIFY(has_ended);
+    }
+
+    QCOMPARE(told, std::vector<double>({0.25, 0.5, 0.75}));
+  }
+
   void progress_comesBeforeTheOutcome() {
     Inbox inbox;
     JobRunner runner(inbox.post());

@@ -3,6 +3,7 @@
 
 #include "tests/test_main.h"
 
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,6 +32,23 @@ std::set<std::thread::id> threads_of_a_round(int count) {
   const KeptThreads others(count, work);
   work();
   return ids;
+}
+
+// The priorities of three threads of a round that a thread begins, itself included.
+std::multiset<int> priorities_of_a_round() {
+  std::mutex mutex;
+  std::multiset<int> priorities;
+  std::latch all(3);
+  const std::function<void()> work = [&] {
+    {
+      const std::scoped_lock lock(mutex);
+      priorities.insert(getpriority(PRIO_PROCESS, 0));
+    }
+    all.arrive_and_wait();
+  };
+  const KeptThreads others(2, work);
+  work();
+  return priorities;
 }
 
 }  // namespace
@@ -75,6 +93,21 @@ class KeptThreadsTest : public QObject {
       QCOMPARE(ended.load(), begun.load());
       QVERIFY(begun <= 3);
     }
+  }
+
+  void thread_hasThePriorityOfWhoBegins() {
+    const int own = getpriority(PRIO_PROCESS, 0);
+    if (own >= 19) QSKIP("nothing is lower");
+    const auto before = priorities_of_a_round();
+    std::multiset<int> of_lowered;
+    std::jthread([&] {
+      setpriority(PRIO_PROCESS, 0, own + 1);
+      of_lowered = priorities_of_a_round();
+    }).join();
+
+    QCOMPARE(before, std::multiset<int>({own, own, own}));
+    QCOMPARE(of_lowered, std::multiset<int>({own + 1, own + 1, own + 1}));
+    QCOMPARE(priorities_of_a_round(), before);
   }
 
   void childProcess_hasThreadsToo() {
