@@ -91,6 +91,7 @@ bool should_run_in_blocks(const LightField& lf, const Estimator& estimator,
 
 FinishedBlocks run_in_blocks(const LightField& lf, const Estimator& estimator,
                              const BlockRequest& request, const Progress& progress) {
+  return_freed_memory();
   progress.step("identifying the samples");
   const std::uint64_t hash = lf.sample_hash();
   const Progress limited = progress.limited_to(request.run.options.threads);

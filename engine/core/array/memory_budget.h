@@ -18,6 +18,10 @@ namespace episcope {
 /// Bytes of memory that this process has in use, with what it shares with others.
 [[nodiscard]] std::size_t used_memory();
 
+/// From now on arrays of a megabyte and more go back to the system as soon as they are freed.
+/// Otherwise the allocator keeps what it has grown used to: twice what a run in blocks needs.
+void return_freed_memory();
+
 /// The budget in bytes: as set, else two thirds of what is free now.
 [[nodiscard]] std::size_t memory_budget();
 
