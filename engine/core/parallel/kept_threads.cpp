@@ -80,11 +80,12 @@ class Idle {
   [[nodiscard]] std::unique_ptr<KeptThreads::Thread> take() {
     {
       const std::scoped_lock lock(mutex_);
-      const auto found =
-          std::ranges::find(threads_, priority(), &KeptThreads::Thread::made_with_priority);
-      if (found != threads_.end()) {
+      // The one used last.
+      const auto found = std::ranges::find(threads_.rbegin(), threads_.rend(), priority(),
+                                           &KeptThreads::Thread::made_with_priority);
+      if (found != threads_.rend()) {
         auto thread = std::move(*found);
-        threads_.erase(found);
+        threads_.erase(std::prev(found.base()));
         return thread;
       }
     }
