@@ -4,6 +4,8 @@
 #include "tests/engine/io/synthetic_scene.h"
 #include "tests/test_main.h"
 
+#include <algorithm>
+
 namespace episcope::in_turned_truth_test {
 
 using namespace episcope::test;
